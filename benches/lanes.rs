@@ -1,14 +1,14 @@
 //! How evenly a search over all layouts is shared out, counted in team moves and not timed: the moves of the busiest
 //! share of a wave over the mean, and how long so many workers wait for one another at the ends of waves.
 
-use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::search::{Bounds, Search};
 
 const WORKERS: [usize; 4] = [2, 8, 32, 128];
 
 /// The waves of a search, as they are seen.
 #[derive(Default)]
-struct Shared {
+struct WaveCount {
     waves: u64,
     /// Most shares in one wave: parts of the tree that have nothing in common.
     shares: usize,
@@ -25,9 +25,9 @@ fn ratio(of: u64, to: u64) -> f64 {
     of as f64 / to as f64
 }
 
-fn search(bounds: &Bounds) -> Shared {
+fn search(bounds: &Bounds) -> WaveCount {
     let mut search = Search::new(bounds).expect("bounds that can be searched");
-    let mut shared = Shared::default();
+    let mut shared = WaveCount::default();
     let mut level_of_last = None;
     let mut has_more = true;
     while has_more {
@@ -55,8 +55,8 @@ fn main() {
     println!("The busiest share of a wave over the mean, and how much of their time workers wait");
     println!("    N  walls  waves  shares  moves made  typical  worst   {WORKERS:?} workers wait");
     for (robots, max_walls) in [(4, 3), (4, 4), (5, 3), (3, 6)] {
-        let shared = search(&Bounds::new(Observed::REPAIRED, robots, max_walls));
-        let Shared { waves, shares, made, ref busiest, spans } = shared;
+        let shared = search(&Bounds::new(Subject::REPAIRED, robots, max_walls));
+        let WaveCount { waves, shares, made, ref busiest, spans } = shared;
         let (typical, worst) = (busiest[busiest.len() / 2], busiest[busiest.len() - 1]);
         print!(
             "  {robots:>3} {max_walls:>6} {waves:>6} {shares:>7} {made:>11} {typical:>8.3} {worst:>6.2}  "

@@ -17,7 +17,7 @@ use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
     Parameters, Particle, Point, Range, Residual, Signal, Swarm, closed_form, linear, locate, locate_from,
 };
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use self::common::{group, measure};
 
@@ -28,9 +28,9 @@ const NOISE_DB: f64 = 1.0;
 /// Positions of one sample.
 const POSITIONS: u32 = 200;
 
-struct Found;
+struct FixWork;
 
-impl common::Work for Found {
+impl common::Work for FixWork {
     fn parts(&self) -> u32 {
         POSITIONS
     }
@@ -39,7 +39,7 @@ impl common::Work for Found {
 /// The distances that robots at random places measure.
 fn measured(signal: &Signal) -> Vec<[Range; 3]> {
     let robot = |number: u32| {
-        let mut oracle = Seeded::new(0, number.into());
+        let mut oracle = SeededOracle::new(0, number.into());
         let mut part = || f64::from(oracle.pick(1 << 31)) / f64::from(1_u32 << 31);
         let at = Point::new(20.0 * part(), 20.0 * part());
         ANCHORS.map(|anchor| {
@@ -118,13 +118,13 @@ fn main() {
 
     let mut swarms = group(&mut criterion, "swarm of 30 particles, 20 iterations");
     let ours = measure(&mut swarms, BenchmarkId::from_parameter("tautline"), || {
-        let mut oracle = Seeded::new(1, 0);
+        let mut oracle = SeededOracle::new(1, 0);
         for (ranges, &around) in robots.iter().zip(&starts) {
             let mut particles = [Particle::UNUSED; PARTICLES];
             let swarm = Swarm::start(ranges, around, Parameters::CONTRACTING, &mut particles, &mut oracle);
             black_box(swarm.expect("ranges").run(&mut oracle));
         }
-        Found
+        FixWork
     });
     let theirs = measure(&mut swarms, BenchmarkId::from_parameter("argmin"), || {
         for (ranges, around) in robots.iter().zip(&starts) {
@@ -139,7 +139,7 @@ fn main() {
                 Executor::new(problem, solver).configure(|state| state.max_iters(20)).run().expect("a run");
             black_box(run.state().get_best_cost());
         }
-        Found
+        FixWork
     });
     swarms.finish();
     rows.push(("swarm, 30 particles, 20 iterations", ours, "argmin", theirs.micros));
@@ -153,7 +153,7 @@ fn main() {
             for ranges in &robots {
                 black_box(locate(ranges, residual, &signal, None).expect("ranges").best().at);
             }
-            Found
+            FixWork
         });
         let theirs = measure(&mut least, BenchmarkId::from_parameter("levenberg-marquardt"), || {
             for ranges in &robots {
@@ -161,14 +161,14 @@ fn main() {
                 let problem = Problem { ranges: *ranges, residual, at: Vector2::new(start.x_m, start.y_m) };
                 black_box(LevenbergMarquardt::new().minimize(problem).0.at);
             }
-            Found
+            FixWork
         });
         let one = measure(&mut least, BenchmarkId::from_parameter("tautline, one minimum"), || {
             for ranges in &robots {
                 let start = linear(ranges).expect("a triangle");
                 black_box(locate_from(start, ranges, residual, &signal, None).expect("ranges").at);
             }
-            Found
+            FixWork
         });
         least.finish();
         rows.push((name, ours, "levenberg-marquardt", theirs.micros));

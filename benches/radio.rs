@@ -10,20 +10,20 @@ use std::num::NonZeroU32;
 
 use criterion::{BenchmarkId, Criterion};
 use tautline_field::radio::{Area, Channel, Faults, Field, Model, Network, Radio, broadcast};
-use tautline_kernel::net::{Heard, NodeId};
+use tautline_kernel::net::{NodeId, Reception};
 use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Surroundings};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use self::common::{Cost, Work, group, measure};
 
 /// The work of a flood.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Flooded {
+struct FloodWork {
     reached: u32,
     receptions: u32,
 }
 
-impl Work for Flooded {
+impl Work for FloodWork {
     fn parts(&self) -> u32 {
         self.receptions
     }
@@ -35,7 +35,7 @@ const RANGE_M: f64 = 25.0;
 fn field(nodes: u32) -> Field {
     let side_m = 300.0 * (f64::from(nodes) / 1100.0).sqrt();
     let area = Area::new(side_m, side_m).expect("an area");
-    Field::random(area, Vec::new(), nodes as usize, &mut Seeded::new(1, 0)).expect("a field")
+    Field::random(area, Vec::new(), nodes as usize, &mut SeededOracle::new(1, 0)).expect("a field")
 }
 
 fn rule() -> Rule {
@@ -43,22 +43,22 @@ fn rule() -> Rule {
     Rule::new(Scheme::Flooding, range_um, 100_000_000)
 }
 
-fn flood(field: &Field) -> Flooded {
-    let chance = &mut Seeded::new(2, 0);
+fn flood(field: &Field) -> FloodWork {
+    let chance = &mut SeededOracle::new(2, 0);
     let radio = Radio::new(RANGE_M, Model::Disc).expect("a radio");
     let network = Network::new(field, radio, chance).expect("a network");
     let flooded = broadcast(&network, &rule(), Channel::Ideal, &Faults::NONE, NodeId(0), chance);
     let (report, _) = flooded.expect("a source");
-    Flooded { reached: report.reached, receptions: report.air.heard as u32 }
+    FloodWork { reached: report.reached, receptions: report.air.heard as u32 }
 }
 
 /// As [`flood`], with a look at every node for every sender.
-fn flood_naively(field: &Field) -> Flooded {
-    let (rule, chance) = (rule(), &mut Seeded::new(2, 0));
+fn flood_naively(field: &Field) -> FloodWork {
+    let (rule, chance) = (rule(), &mut SeededOracle::new(2, 0));
     let mut nodes: Vec<Node> =
         (0..field.nodes().len() as u32).map(|id| Node::new(NodeId(id), NodeId(0))).collect();
     let mut queue = BinaryHeap::from([Reverse((0, 0))]);
-    let mut flooded = Flooded { reached: 1, receptions: 0 };
+    let mut flooded = FloodWork { reached: 1, receptions: 0 };
     while let Some(Reverse((now_ns, sender))) = queue.pop() {
         let sent = if sender == 0 { nodes[0].originate() } else { nodes[sender].expire(now_ns) };
         let (Some(notice), from) = (sent, field.nodes()[sender]) else { continue };
@@ -67,7 +67,7 @@ fn flood_naively(field: &Field) -> Flooded {
             let apart_m = (x * x + y * y).sqrt();
             if apart_m <= RANGE_M && to != sender {
                 flooded.receptions += 1;
-                let heard = Heard { message: notice, distance_um: (apart_m * 1e6) as u32, now_ns };
+                let heard = Reception { message: notice, distance_um: (apart_m * 1e6) as u32, now_ns };
                 if let Reaction::Armed { at_ns } = node.receive(&rule, heard, Surroundings::none, chance) {
                     flooded.reached += 1;
                     queue.push(Reverse((at_ns, to)));
@@ -79,7 +79,7 @@ fn flood_naively(field: &Field) -> Flooded {
 }
 
 /// Ours and the naive way.
-fn against_all_pairs(criterion: &mut Criterion) -> [(u32, [Cost<Flooded>; 2]); 2] {
+fn against_all_pairs(criterion: &mut Criterion) -> [(u32, [Cost<FloodWork>; 2]); 2] {
     let mut group = group(criterion, "against a look at all nodes");
     [1_100, 5_000].map(|nodes| {
         let field = field(nodes);
@@ -94,7 +94,7 @@ fn against_all_pairs(criterion: &mut Criterion) -> [(u32, [Cost<Flooded>; 2]); 2
 }
 
 /// Floods at one density, with more and more nodes.
-fn by_size(criterion: &mut Criterion) -> [(u32, Cost<Flooded>); 5] {
+fn by_size(criterion: &mut Criterion) -> [(u32, Cost<FloodWork>); 5] {
     let mut group = group(criterion, "flood");
     [1_100, 3_300, 10_000, 33_000, 100_000].map(|nodes| {
         let field = field(nodes);
@@ -112,7 +112,7 @@ fn main() {
     println!("    nodes  receptions  flood  all pairs  ratio");
     for (nodes, [ours, naive]) in naive {
         let receptions = ours.work.receptions;
-        let millis = |cost: &Cost<Flooded>| cost.micros * f64::from(receptions) / 1e3;
+        let millis = |cost: &Cost<FloodWork>| cost.micros * f64::from(receptions) / 1e3;
         let (ours, naive) = (millis(&ours), millis(&naive));
         println!("  {nodes:>7} {receptions:>11} {ours:>6.3} {naive:>10.3} {:>6.1}", naive / ours);
     }

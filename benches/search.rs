@@ -10,7 +10,7 @@ use criterion::{BenchmarkId, Criterion};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use tautline_kernel::chain::Rule;
 use tautline_kernel::ground::{Edge, Step};
-use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
@@ -24,12 +24,12 @@ const BREACHES: [Breach; 3] = [Breach::Contact, Breach::Crowding, Breach::Covera
 
 /// The work of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-struct Searched {
+struct SearchWork {
     runs: u64,
     moves: u64,
 }
 
-impl Work for Searched {
+impl Work for SearchWork {
     fn parts(&self) -> u32 {
         u32::try_from(self.moves).expect("not so many moves")
     }
@@ -38,13 +38,13 @@ impl Work for Searched {
 /// The published rule in the paper's area, with the breaches of [`BREACHES`] looked for.
 fn bounds(robots: usize, max_walls: u32) -> Bounds {
     let invariants = BREACHES.map(Invariant::Without).to_vec();
-    Bounds { invariants, ..Bounds::new(Observed::PUBLISHED, robots, max_walls) }
+    Bounds { invariants, ..Bounds::new(Subject::PUBLISHED, robots, max_walls) }
 }
 
-fn search_within(bounds: &Bounds, threads: &ThreadPool) -> Searched {
+fn search_within(bounds: &Bounds, threads: &ThreadPool) -> SearchWork {
     let found = threads.install(|| search(bounds, &mut unwatched)).expect("bounds that can be searched");
     assert!(found.complete);
-    Searched { runs: found.runs, moves: found.moves }
+    SearchWork { runs: found.runs, moves: found.moves }
 }
 
 fn threads(count: usize) -> ThreadPool {
@@ -62,14 +62,14 @@ enum Copies {
 
 /// The runs of [`search`], depth first over plain chains: each team move is made for every way in which some of the
 /// edges that nobody knows are walls.
-fn search_naively(bounds: &Bounds, copies: Copies) -> Searched {
+fn search_naively(bounds: &Bounds, copies: Copies) -> SearchWork {
     let chain = PlainChain::new(Rule::PUBLISHED, bounds.robots, bounds.base, bounds.area);
-    let mut searched = Searched::default();
+    let mut searched = SearchWork::default();
     follow(chain, bounds.max_walls, copies, &mut searched);
     searched
 }
 
-fn follow(mut chain: PlainChain, mut walls: u32, copies: Copies, searched: &mut Searched) {
+fn follow(mut chain: PlainChain, mut walls: u32, copies: Copies, searched: &mut SearchWork) {
     loop {
         let (intent, _) = chain.plan(u64::MAX).expect("no limit");
         if matches!(intent, PlainIntent::Explored | PlainIntent::Exhausted) {
@@ -125,7 +125,7 @@ fn settle(
     chain: &mut PlainChain,
     intent: &PlainIntent,
     is_open: impl FnMut(Edge) -> bool,
-    searched: &mut Searched,
+    searched: &mut SearchWork,
 ) -> bool {
     let before = chain.cells().to_vec();
     chain.settle(intent, is_open);
@@ -136,7 +136,7 @@ fn settle(
 }
 
 /// The fastest of `times` runs, too long for Criterion's many.
-fn fastest(times: u32, run: impl Fn() -> Searched) -> Cost<Searched> {
+fn fastest(times: u32, run: impl Fn() -> SearchWork) -> Cost<SearchWork> {
     let costs = (0..times).map(|_| {
         let start = Instant::now();
         let work = run();
@@ -147,7 +147,10 @@ fn fastest(times: u32, run: impl Fn() -> Searched) -> Cost<Searched> {
 
 /// Ours and the naive searches, four robots with at most 2, 3 and 4 walls. Each of the longer ones is measured between
 /// two of the others, so that all meet the same machine.
-fn against_naive_searches(criterion: &mut Criterion, thread: &ThreadPool) -> [(u32, [Cost<Searched>; 3]); 3] {
+fn against_naive_searches(
+    criterion: &mut Criterion,
+    thread: &ThreadPool,
+) -> [(u32, [Cost<SearchWork>; 3]); 3] {
     let mut group = group(criterion, "against naive searches");
     let few = bounds(4, 2);
     let id = BenchmarkId::from_parameter;
@@ -165,7 +168,7 @@ fn against_naive_searches(criterion: &mut Criterion, thread: &ThreadPool) -> [(u
                 fastest(1, || search_naively(&bounds, Copies::AtForks)),
             ]
         });
-        let best = |best: [Cost<Searched>; 3], round: [Cost<Searched>; 3]| {
+        let best = |best: [Cost<SearchWork>; 3], round: [Cost<SearchWork>; 3]| {
             let mut round = round.into_iter();
             best.map(|best| round.next().filter(|cost| cost.micros < best.micros).unwrap_or(best))
         };
@@ -180,10 +183,10 @@ fn against_naive_searches(criterion: &mut Criterion, thread: &ThreadPool) -> [(u
 
 /// Everything looked for that a hunt looks for, by the number of robots and the most walls: under the published rule
 /// and the repaired one.
-fn hunts(criterion: &mut Criterion, thread: &ThreadPool) -> [(u32, u32, [Cost<Searched>; 2]); 7] {
+fn hunts(criterion: &mut Criterion, thread: &ThreadPool) -> [(u32, u32, [Cost<SearchWork>; 2]); 7] {
     let mut group = group(criterion, "hunt");
     [(2, 12), (3, 4), (4, 3), (5, 2), (6, 2), (7, 1), (8, 1)].map(|(robots, max_walls)| {
-        let rules = [("published", Observed::PUBLISHED), ("repaired", Observed::REPAIRED)];
+        let rules = [("published", Subject::PUBLISHED), ("repaired", Subject::REPAIRED)];
         let costs = rules.map(|(rule, observed)| {
             let bounds = Bounds::new(observed, robots as usize, max_walls);
             let id = BenchmarkId::new(format!("{rule}, {robots}"), max_walls);
@@ -194,8 +197,8 @@ fn hunts(criterion: &mut Criterion, thread: &ThreadPool) -> [(u32, u32, [Cost<Se
 }
 
 /// Four robots and at most 4 walls, on one thread and on two.
-fn on_more_threads() -> [(usize, Cost<Searched>); 2] {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 4);
+fn on_more_threads() -> [(usize, Cost<SearchWork>); 2] {
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 4);
     let costs = [1, 2].map(|count| {
         let threads = threads(count);
         (count, fastest(3, || search_within(&bounds, &threads)))
@@ -216,7 +219,7 @@ fn main() {
     println!("                                      naive, copies         ratio to the leaner");
     println!("  walls     runs      moves  search  always  at forks  (at least 10 is asked for)");
     for (max_walls, [ours, naive, leaner]) in naive {
-        let Searched { runs, moves } = ours.work;
+        let SearchWork { runs, moves } = ours.work;
         let ratio = naive.micros.min(leaner.micros) / ours.micros;
         let [ours, naive, leaner] = [ours, naive, leaner].map(|cost| 1.0 / cost.micros);
         println!(
@@ -239,7 +242,7 @@ fn main() {
     println!("\nThe same on more threads, N = 4, 4 walls");
     println!("  threads     runs      moves   rate");
     for (threads, cost) in threads {
-        let Searched { runs, moves } = cost.work;
+        let SearchWork { runs, moves } = cost.work;
         println!("  {threads:>7} {runs:>8} {moves:>10} {:>6.2}", 1.0 / cost.micros);
     }
 }

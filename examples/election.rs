@@ -3,9 +3,9 @@
 //! message arrives next is open at every step.
 
 use tautline_kernel::choice::Oracle;
-use tautline_proofs::clause::{Check, Clause, Named};
+use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::Verdict::{Holds, Refuted};
-use tautline_proofs::decide::{EveryState, Refused, Seen};
+use tautline_proofs::decide::{Depiction, EveryState, MethodError};
 use tautline_proofs::engine::states::System;
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::ledger;
@@ -29,7 +29,7 @@ struct Ring {
 struct Election(Smaller);
 
 /// A robot hears a number.
-struct Heard {
+struct Reception {
     robot: usize,
     number: usize,
     passes_on: bool,
@@ -39,7 +39,7 @@ impl World for Election {
     type State = Ring;
     /// The robots that a number has reached.
     type Plan = Vec<usize>;
-    type Event = Heard;
+    type Event = Reception;
     type Demand = &'static str;
 
     fn plan(&self, ring: &mut Ring, _: &[u8]) -> Option<Vec<usize>> {
@@ -53,7 +53,7 @@ impl World for Election {
         reached: &Vec<usize>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Heard {
+    ) -> Reception {
         let robot = reached[world.pick(reached.len() as u32) as usize];
         let number = ring.under_way[robot].remove(0);
         let passes_on = number > robot || number < robot && matches!(self.0, Smaller::PassOn);
@@ -61,7 +61,7 @@ impl World for Election {
             ring.under_way[(robot + 1) % ROBOTS].push(number);
         }
         ring.leads[robot] |= number == robot;
-        Heard { robot, number, passes_on }
+        Reception { robot, number, passes_on }
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
@@ -101,14 +101,14 @@ static ORDERS: EveryState<Smaller, Election> = EveryState {
     most_steps: 10_000,
     covers: &["a number goes on", "a number stops", "an end"],
     tell: |_, step| {
-        let Heard { robot, number, .. } = step.event;
+        let Reception { robot, number, .. } = step.event;
         let now = if step.state.leads[robot] { ", and leads" } else { "" };
         format!("{robot} hears {number}{now}.")
     },
 };
 
-const OURS: Named<Smaller> = Named::new("swallows", Smaller::Swallow);
-const POLITE: Named<Smaller> = Named::new("passes everything on", Smaller::PassOn);
+const OURS: NamedRule<Smaller> = NamedRule::new("swallows", Smaller::Swallow);
+const POLITE: NamedRule<Smaller> = NamedRule::new("passes everything on", Smaller::PassOn);
 
 /// The promises.
 static CLAUSES: [Clause; 1] = [Clause {
@@ -117,11 +117,11 @@ static CLAUSES: [Clause; 1] = [Clause {
     checks: &[&Check::new(OURS, &ORDERS, Holds, &[POLITE]), &Check::new(POLITE, &ORDERS, Refuted, &[])],
 }];
 
-fn main() -> Result<(), Refused> {
-    let rows = ledger::decide_all(&ledger::register(&[&CLAUSES]).map_err(Refused::new)?)?;
+fn main() -> Result<(), MethodError> {
+    let rows = ledger::decide_all(&ledger::register(&[&CLAUSES]).map_err(MethodError::new)?)?;
     print!("{}", ledger::table(&rows));
     for evidence in rows.iter().filter_map(|row| row.decision.counterexample.as_ref()) {
-        if let Seen::Story(story) = &evidence.seen {
+        if let Depiction::Story(story) = &evidence.seen {
             print!("\n{}:\n{story}", evidence.demand);
         }
     }

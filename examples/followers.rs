@@ -7,8 +7,8 @@ use std::error::Error;
 use std::path::Path;
 
 use tautline_kernel::ground::{Cell, Side};
-use tautline_proofs::clause::{Check, Clause, Named};
-use tautline_proofs::decide::Seen;
+use tautline_proofs::clause::{Check, Clause, NamedRule};
+use tautline_proofs::decide::Depiction;
 use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
@@ -71,9 +71,12 @@ static SETTING: Setting<'_, Followers> = Setting {
 };
 
 const WRITTEN: Followers = Followers { leader: Cell::new(1, 0), is_eager: false, most_walls: 3 };
-const OURS: Named<Followers> = Named::new("repaired", Followers { leader: Cell::new(0, 0), ..WRITTEN });
-const EAGER: Named<Followers> = Named::new("follows at once", Followers { is_eager: true, ..OURS.rule });
-const ENDLESS: Named<Followers> = Named::new("never gives up", Followers { most_walls: 9, ..OURS.rule });
+const OURS: NamedRule<Followers> =
+    NamedRule::new("repaired", Followers { leader: Cell::new(0, 0), ..WRITTEN });
+const EAGER: NamedRule<Followers> =
+    NamedRule::new("follows at once", Followers { is_eager: true, ..OURS.rule });
+const ENDLESS: NamedRule<Followers> =
+    NamedRule::new("never gives up", Followers { most_walls: 9, ..OURS.rule });
 
 /// The promises.
 pub static CLAUSES: [Clause; 3] = [
@@ -81,8 +84,8 @@ pub static CLAUSES: [Clause; 3] = [
         id: "FOLLOW-1",
         sentence: "The robots MUST stay at most two steps apart.",
         checks: &[
-            &Check::new(Named::new("written", WRITTEN), &Keeps(&SETTING, 0), Refuted, &[]),
-            &Check::new(OURS, &Keeps(&SETTING, 0), Holds, &[Named::new("as written", WRITTEN)]),
+            &Check::new(NamedRule::new("written", WRITTEN), &Keeps(&SETTING, 0), Refuted, &[]),
+            &Check::new(OURS, &Keeps(&SETTING, 0), Holds, &[NamedRule::new("as written", WRITTEN)]),
         ],
     },
     Clause {
@@ -100,7 +103,7 @@ pub static CLAUSES: [Clause; 3] = [
 /// The smallest run that breaks a check which is registered as refuted.
 fn counterexample(rows: &[Row]) -> Option<&Run> {
     rows.iter().find_map(|row| match &row.decision.counterexample.as_ref()?.seen {
-        Seen::Robots(run) => Some(&**run),
+        Depiction::Robots(run) => Some(&**run),
         _ => None,
     })
 }

@@ -3,8 +3,8 @@
 //! once.
 
 use tautline_kernel::choice::Oracle;
-use tautline_proofs::clause::{AnyCheck, Named};
-use tautline_proofs::decide::{Memory, Refused};
+use tautline_proofs::clause::{AnyCheck, NamedRule};
+use tautline_proofs::decide::{Cache, MethodError};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Outcome, require};
 use tautline_proofs::step_checks;
@@ -43,16 +43,16 @@ fn one_may_be_wrong(merge: &Merge, oracle: &mut dyn Oracle) -> Outcome {
 }
 
 step_checks! { Merge;
-    believes_two_of_three: one_may_be_wrong, Named::new("the median", median as Merge), readings,
+    believes_two_of_three: one_may_be_wrong, NamedRule::new("the median", median as Merge), readings,
         covers ["all are right", "one is wrong"], unwind 4, mutants {
             the_mean: "the mean" => mean as Merge,
             the_largest: "the largest" => largest as Merge,
         };
 }
 
-fn main() -> Result<(), Refused> {
+fn main() -> Result<(), MethodError> {
     let check = &believes_two_of_three::CHECK;
-    let decision = check.decide(&mut Memory::default(), &mut unwatched)?;
+    let decision = check.decide(&mut Cache::default(), &mut unwatched)?;
     println!(
         "{check:?}: {}, {} cases",
         decision.verdict.word(),

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Edge;
 use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::decide::{Evidence, Seen};
+use tautline_proofs::decide::{Depiction, Evidence};
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
@@ -67,15 +67,19 @@ pub(super) fn shown(check: &dyn AnyCheck, evidence: &Evidence) -> Result<Shown, 
     let Evidence { choices, demand, seen } = evidence;
     let demand = *demand;
     Ok(match seen {
-        Seen::Choices | Seen::Story(_) => {
+        Depiction::Choices | Depiction::Story(_) => {
             Shown::Choices { demand, choices: choices.once.clone(), again: choices.again.clone() }
         }
-        Seen::Robots(run) => {
+        Depiction::Robots(run) => {
             let layout = setup(check, run)?.map_or_else(String::new, |setup| setup.layout.to_string());
             Shown::Run { demand, walls: run.walls.len(), steps: run.frames.len(), layout }
         }
-        Seen::Agents(course) => Shown::Course { demand, turns: course.turns.len(), drawing: drawn(course)? },
-        Seen::Messages { events, chart } => Shown::Chart { demand, events: *events, chart: chart.clone() },
+        Depiction::Agents(course) => {
+            Shown::Course { demand, turns: course.turns.len(), drawing: drawn(course)? }
+        }
+        Depiction::Messages { events, chart } => {
+            Shown::Chart { demand, events: *events, chart: chart.clone() }
+        }
     })
 }
 
@@ -83,12 +87,12 @@ pub(super) fn shown(check: &dyn AnyCheck, evidence: &Evidence) -> Result<Shown, 
 pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<String, Halt> {
     let (id, rule, demand) = (clause.id, check.rule(), evidence.demand);
     Ok(match &evidence.seen {
-        Seen::Story(story) => format!("{id} as {rule}: not so: {demand}.\n{story}"),
-        Seen::Choices => {
+        Depiction::Story(story) => format!("{id} as {rule}: not so: {demand}.\n{story}"),
+        Depiction::Choices => {
             let choices = listed(&evidence.choices.once);
             format!("{id} as {rule}: not so: {demand}. The choices that lead there: {choices}\n")
         }
-        Seen::Robots(run) => {
+        Depiction::Robots(run) => {
             let head = format!(
                 "{id} as {rule}: the smallest counterexample in {}×{} cells has {} ({}) and {}.\n\n",
                 run.area.width(),
@@ -102,8 +106,8 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
                 None => head,
             }
         }
-        Seen::Agents(course) => format!("{id} as {rule}: not so: {demand}.\n\n{}", drawn(course)?),
-        Seen::Messages { events, chart } => {
+        Depiction::Agents(course) => format!("{id} as {rule}: not so: {demand}.\n\n{}", drawn(course)?),
+        Depiction::Messages { events, chart } => {
             format!("{id} as {rule}: the shortest run that breaks it has {events} events.\n\n{chart}")
         }
     })

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_field::draw;
 use tautline_field::position::{
-    Advice, Anchors, Errors, Found, Measured, Place, Power, Report, Setting, Solver, refused,
+    Advice, Anchors, Errors, FixReport, Measurements, Place, Power, Report, Setting, Solver, refused,
 };
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
@@ -133,7 +133,7 @@ pub(super) struct Fixes<'a> {
     noise_db: f64,
     exponent: f64,
     #[serde(rename = "fixes")]
-    found: &'a [Found],
+    found: &'a [FixReport],
 }
 
 impl Locate {
@@ -207,7 +207,7 @@ impl Locate {
             return Err(needless(option, "the positions of measurements are found").into());
         }
         let [picture] = self.force.files([&self.svg], [file.to_path_buf()])?;
-        let measured = Measured::read(file, signal, self.power_dbm)?;
+        let measured = Measurements::read(file, signal, self.power_dbm)?;
         let found = measured.locate(self.solver, self.rule(), signal, self.seed.unwrap_or(0))?;
         if let Some(mut picture) = picture {
             let title = format!("Positions by {}", self.solver.word());
@@ -289,7 +289,7 @@ fn advice(advice: &Advice) -> String {
     )
 }
 
-fn positions(found: &[Found]) -> String {
+fn positions(found: &[FixReport]) -> String {
     let mut columns = TextTable::new(
         [Column::left(Width::Fit)]
             .into_iter()
@@ -298,7 +298,7 @@ fn positions(found: &[Found]) -> String {
     );
     columns.row(["fix", "x, m", "y, m", "± rms, m", "dilution", "residual", ""]);
     let told = |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}"));
-    for Found { fix, positions } in found {
+    for FixReport { fix, positions } in found {
         for (number, place) in positions.iter().enumerate() {
             let Place { x_m, y_m, rms_m, dilution, residual, flags, .. } = place;
             let or = if number == 0 { Vec::new() } else { vec!["or here"] };

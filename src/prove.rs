@@ -13,9 +13,9 @@ use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::clause::Clause;
-use tautline_proofs::decide::Seen;
-use tautline_proofs::engine::states::Room;
-use tautline_proofs::ledger::{self, Hear, Heard, Limits, PATIENCE_S, Row, table};
+use tautline_proofs::decide::Depiction;
+use tautline_proofs::engine::states::MemoryLimit;
+use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
 use super::evidence::{self, Shown, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
@@ -134,23 +134,24 @@ impl Prove {
         }
         let checks = ledger::checks(&clauses);
         let threads = rayon::current_num_threads() as u64;
-        let room = self.memory.map_or(Room::unbounded(), |Bytes(bytes)| Room::of(bytes, threads));
+        let room =
+            self.memory.map_or(MemoryLimit::unbounded(), |Bytes(bytes)| MemoryLimit::of(bytes, threads));
         let limits = Limits { room: Arc::new(room), patience_s: self.patience.get() };
         let room = &*limits.room;
         let bar = progress::bar("proving", 1);
         let start = Instant::now();
         let is_single = checks.len() == 1;
         let (seen, patience) = (bar.clone(), self.patience);
-        let hear: Hear = Arc::new(move |heard: Heard<'_>| match heard {
-            Heard::Search(progress) if is_single => progress::show(&seen, progress),
-            Heard::Search(_) => ControlFlow::Continue(()),
-            Heard::Done { clause, jobs, of } => {
+        let hear: Hear = Arc::new(move |heard: News<'_>| match heard {
+            News::Search(progress) if is_single => progress::show(&seen, progress),
+            News::Search(_) => ControlFlow::Continue(()),
+            News::Done { clause, jobs, of } => {
                 seen.set_length(of as u64);
                 seen.set_position(jobs as u64);
                 seen.set_message(format!("{jobs} of {of}, the last of {clause}"));
                 ControlFlow::Continue(())
             }
-            Heard::Unended { clause } => {
+            News::Unended { clause } => {
                 tracing::warn!("a step of {clause} has not ended within {patience} s");
                 ControlFlow::Continue(())
             }
@@ -213,7 +214,7 @@ impl Prove {
     }
 }
 
-fn too_small(room: &Room) -> String {
+fn too_small(room: &MemoryLimit) -> String {
     format!(
         "A search over states would have taken more than {} KiB: its check is open, or its mutant was not rejected.\n\
          Give more with --memory: one search gets three quarters of it.\n",
@@ -226,7 +227,7 @@ fn is_undecided(row: &Row) -> bool {
 }
 
 /// Which rows were cut off, and what can be done about it; nothing if none were.
-fn unfinished(rows: &[Row], room: &Room) -> String {
+fn unfinished(rows: &[Row], room: &MemoryLimit) -> String {
     let mut text = if room.was_too_small() { too_small(room) } else { String::new() };
     if rows.iter().any(is_undecided) {
         text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, or it \
@@ -236,7 +237,7 @@ fn unfinished(rows: &[Row], room: &Room) -> String {
 }
 
 /// The rows as a CI shows them.
-fn findings(rows: &[Row], room: &Room) -> Result<Vec<Case>, Halt> {
+fn findings(rows: &[Row], room: &MemoryLimit) -> Result<Vec<Case>, Halt> {
     let found = rows.iter().map(|row| {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
@@ -295,8 +296,8 @@ fn stored(
     let Some(evidence) = &decision.counterexample else { return Ok(None) };
     let path = refutation::path(folder, clause, number);
     let run = match &evidence.seen {
-        Seen::Robots(run) => evidence::setup(check, run)?.zip(evidence::breach(run)),
-        Seen::Choices | Seen::Story(_) | Seen::Agents(_) | Seen::Messages { .. } => None,
+        Depiction::Robots(run) => evidence::setup(check, run)?.zip(evidence::breach(run)),
+        Depiction::Choices | Depiction::Story(_) | Depiction::Agents(_) | Depiction::Messages { .. } => None,
     };
     let file = match run {
         Some((setup, breach)) => trace::store_at(&path, &setup, breach, replaceable)?.0,

@@ -11,7 +11,7 @@ use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Area;
 use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::decide::{Evidence, Seen};
+use tautline_proofs::decide::{Depiction, Evidence};
 use tautline_proofs::judge::chain::{Exhibit, judge, judges};
 use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
@@ -349,15 +349,15 @@ impl Replay {
     /// Whether a judge who shares no code with the rule accepts it; where there is none for the clause, none does.
     fn is_judged(&self, clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<bool, Halt> {
         match &evidence.seen {
-            Seen::Robots(run) => match setup(check, run)? {
+            Depiction::Robots(run) => match setup(check, run)? {
                 Some(setup) if judges(clause.id) => {
                     self.judge_chain(&exhibit(&setup, clause.id, &run.frames))
                 }
                 Some(_) | None => Ok(false),
             },
-            Seen::Agents(course) => self.judge_floor(&of_course(clause.id, course)),
+            Depiction::Agents(course) => self.judge_floor(&of_course(clause.id, course)),
             // A judge of rescues would be asked here.
-            Seen::Choices | Seen::Story(_) | Seen::Messages { .. } => Ok(false),
+            Depiction::Choices | Depiction::Story(_) | Depiction::Messages { .. } => Ok(false),
         }
     }
 
@@ -399,7 +399,7 @@ fn store_page(
     story: &str,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    if let Seen::Robots(run) = &evidence.seen
+    if let Depiction::Robots(run) = &evidence.seen
         && let Some(setup) = setup(check, run)?
     {
         let report = setup.play(&mut |_| Ok(()))?;

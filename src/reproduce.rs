@@ -11,8 +11,8 @@ use indicatif::ProgressBar;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_papers::shards::{deal_table, restored, table_part};
-use tautline_papers::tables::parameter::{Given, Values};
-use tautline_papers::tables::{About, Asked, Entry, Made, Observer, TABLES, find};
+use tautline_papers::tables::parameter::{TableOption, Values};
+use tautline_papers::tables::{Description, Entry, Experiment, Observer, Report, TABLES, find};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 use tautline_sim::atomic_file::AtomicFile;
@@ -117,7 +117,7 @@ impl Wanted {
     }
 
     /// Deals the jobs of the table out among shards.
-    fn deal(&self, asked: &dyn Asked, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
+    fn deal(&self, asked: &dyn Experiment, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
         if self.csv.is_some() || self.pictures.iter().any(|(_, path)| path.is_some()) {
             let remedy = "leave them out, and give tautline merge a --picture and --csv";
             return Err(Diagnostic::usage("a plan has no pictures and no values", remedy).into());
@@ -166,7 +166,7 @@ impl Files {
 }
 
 /// Stores a table in its files, and tells of it.
-pub(super) fn tell(made: &dyn Made, files: Files, format: Format, out: &mut Output) -> Result<Exit, Halt> {
+pub(super) fn tell(made: &dyn Report, files: Files, format: Format, out: &mut Output) -> Result<Exit, Halt> {
     for (name, mut file) in files.pictures {
         file.draw(made.picture(&name))?;
         out.keep(file);
@@ -201,7 +201,7 @@ impl FromArgMatches for Wanted {
         let missing = || Error::raw(ErrorKind::MissingSubcommand, "an id of a table is missing");
         let (id, matches) = matches.subcommand().ok_or_else(missing)?;
         let table = find(id).ok_or_else(missing)?;
-        let given = |option: Given| match option.values {
+        let given = |option: TableOption| match option.values {
             Values::None => matches.get_flag(option.name).then(|| (option.name.to_owned(), Vec::new())),
             Values::One | Values::Word(_) | Values::List | Values::Repeated => {
                 let texts = matches.get_many::<String>(option.name)?;
@@ -245,7 +245,7 @@ fn subcommand(table: &'static dyn Entry) -> Command {
     ]);
     command = ForceArgs::augment_args(command);
     // What is said of the table comes last: options that are flattened in say something, too.
-    let About { help, more, examples, .. } = table.about();
+    let Description { help, more, examples, .. } = table.about();
     let examples = examples.iter().map(|example| format!("\n  tautline reproduce {example}"));
     let examples = "Examples:".to_owned() + &examples.collect::<String>();
     let command = FormatArgs::augment_args(command).about(help).after_help(examples);
@@ -253,7 +253,7 @@ fn subcommand(table: &'static dyn Entry) -> Command {
 }
 
 /// An option of a table. Values are checked as they are read, so that what is wrong is told of the option.
-fn argument(table: &'static dyn Entry, option: Given, default: Vec<String>) -> Arg {
+fn argument(table: &'static dyn Entry, option: TableOption, default: Vec<String>) -> Arg {
     let name = option.name;
     let argument = Arg::new(name).long(name).help(option.about);
     if option.values == Values::None {

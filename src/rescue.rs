@@ -18,7 +18,7 @@ use crate::value_parser::chosen;
 use tautline_field::draw::{self, field::picture};
 use tautline_field::radio::{ChannelName, FREE_SPACE};
 use tautline_field::rescue::{
-    Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
+    Assignments, CallTimes, Event, LogEntry, Ordinal, Report, RobotFailures, SchemeName, Setting, Summary,
     rescue, seconds, trace,
 };
 use tautline_field::stats::Estimate;
@@ -205,7 +205,7 @@ pub(super) struct Rescued<'a> {
     summary: &'a Summary,
     /// What happened, of one rescue alone.
     #[serde(skip_serializing_if = "Option::is_none")]
-    events: Option<&'a [Logged]>,
+    events: Option<&'a [LogEntry]>,
 }
 
 /// How many seeds: [`Seeds`] has at most [`MAX_RESCUES`].
@@ -419,7 +419,7 @@ fn table(setting: &Setting, summary: &Summary) -> String {
         rows.push((fate("still to come"), of_all(still_to_come)));
     }
     if setting.failing > 0 {
-        let RobotsFailed { on_their_way, not_on_their_way, after_the_last_arrival } = summary.robots_failed;
+        let RobotFailures { on_their_way, not_on_their_way, after_the_last_arrival } = summary.robots_failed;
         let robots = on_their_way + not_on_their_way + after_the_last_arrival;
         let failed =
             |words: &str, count: u32| (format!("robots failed {words}"), format!("{count} of {robots}"));
@@ -471,8 +471,9 @@ fn none_broken() -> String {
 const CALLS_TOLD: u32 = 3;
 
 /// What happened, event by event. Of more calls that come to nothing the first and the last are told.
-fn story(log: &[Logged]) -> String {
-    let calls = |logged: &Logged| if let Event::Calls { wfr, .. } = logged.event { Some(wfr) } else { None };
+fn story(log: &[LogEntry]) -> String {
+    let calls =
+        |logged: &LogEntry| if let Event::Calls { wfr, .. } = logged.event { Some(wfr) } else { None };
     let mut text = "\nseconds\n".to_owned();
     for run in log.chunk_by(|one, other| calls(one).is_some() && calls(other).is_some()) {
         let mut left = BTreeMap::<Ordinal, u32>::new();
@@ -506,7 +507,8 @@ mod tests {
     fn calls_that_come_to_nothing_are_folded_wfr_by_wfr() {
         let call = |wfr: usize, epoch| Event::Calls { wfr: Ordinal(wfr - 1), node: 7, epoch };
         let told = |events: &[Event]| {
-            let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
+            let log: Vec<LogEntry> =
+                (0..).zip(events).map(|(at_ns, &event)| LogEntry { at_ns, event }).collect();
             let text = story(&log);
             let words =
                 |line: &str| line.trim_start().split_once("  ").map(|(_, words)| words.trim().to_owned());

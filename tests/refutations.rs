@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use tautline_proofs::clause::Clause;
-use tautline_proofs::decide::{Evidence, Memory, Verdict};
+use tautline_proofs::decide::{Cache, Evidence, Verdict};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::ledger;
 use tautline_sim::atomic_file::Replaceable;
@@ -14,7 +14,7 @@ use tautline_sim::counterexample::refutation::{self, path, replay};
 /// What refutes the checks that are registered as refuted, but for those that take long to decide: the clause, the
 /// number of its check, and the counterexample.
 fn refutations() -> Vec<(&'static Clause, usize, Evidence)> {
-    let mut memory = Memory::default();
+    let mut memory = Cache::default();
     let checks =
         ledger::clauses().flat_map(|clause| (0..clause.checks.len()).map(move |check| (clause, check)));
     let refuted = checks.filter(|&(clause, check)| {

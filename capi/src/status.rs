@@ -2,7 +2,7 @@
 
 use core::ffi::{CStr, c_char};
 
-use tautline_kernel::chain::{Damaged, End, Refused};
+use tautline_kernel::chain::{Damage, End, SetupError};
 
 /// The status of a call: 0 or more if it did what it is for, less than 0 if it refused to.
 #[repr(i32)]
@@ -110,27 +110,27 @@ impl TautlineStatus {
     }
 }
 
-impl From<Refused> for TautlineStatus {
-    fn from(refused: Refused) -> Self {
+impl From<SetupError> for TautlineStatus {
+    fn from(refused: SetupError) -> Self {
         match refused {
-            Refused::TooFewRobots { .. } => Self::TooFewRobots,
-            Refused::TooManyRobots { .. } => Self::TooManyRobots,
-            Refused::BaseOutside { .. } => Self::BaseOutside,
+            SetupError::TooFewRobots { .. } => Self::TooFewRobots,
+            SetupError::TooManyRobots { .. } => Self::TooManyRobots,
+            SetupError::BaseOutside { .. } => Self::BaseOutside,
         }
     }
 }
 
-impl From<Damaged> for TautlineStatus {
-    fn from(damaged: Damaged) -> Self {
+impl From<Damage> for TautlineStatus {
+    fn from(damaged: Damage) -> Self {
         match damaged {
-            Damaged::Byte(_) => Self::DamagedByte,
-            Damaged::Length { .. } => Self::DamagedLength,
-            Damaged::TakenBack { .. } => Self::DamagedTakenBack,
-            Damaged::OutOfContact { .. } => Self::DamagedOutOfContact,
-            Damaged::Crowded => Self::DamagedCrowded,
-            Damaged::NotHome { .. } => Self::DamagedNotHome,
-            Damaged::OtherStep { .. } => Self::DamagedOtherStep,
-            Damaged::OtherWorld { .. } => Self::DamagedOtherWorld,
+            Damage::Byte(_) => Self::DamagedByte,
+            Damage::Length { .. } => Self::DamagedLength,
+            Damage::TakenBack { .. } => Self::DamagedTakenBack,
+            Damage::OutOfContact { .. } => Self::DamagedOutOfContact,
+            Damage::Crowded => Self::DamagedCrowded,
+            Damage::NotHome { .. } => Self::DamagedNotHome,
+            Damage::OtherStep { .. } => Self::DamagedOtherStep,
+            Damage::OtherWorld { .. } => Self::DamagedOtherWorld,
         }
     }
 }

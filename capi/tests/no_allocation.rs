@@ -12,12 +12,12 @@ use tautline_capi::{
     tautline_chain_begin, tautline_chain_hear, tautline_chain_plan, tautline_chain_settle,
 };
 
-struct Counted;
+struct CountingAllocator;
 
 static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
 
 // SAFETY: everything is left to the system's allocator.
-unsafe impl GlobalAlloc for Counted {
+unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
         // SAFETY: the caller's promise.
@@ -31,7 +31,7 @@ unsafe impl GlobalAlloc for Counted {
 }
 
 #[global_allocator]
-static ALLOCATOR: Counted = Counted;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 unsafe extern "C" fn open(_: *mut c_void, _: TautlineCell, _: TautlineCell) -> i32 {
     1

@@ -8,8 +8,8 @@ mod meeting;
 mod solver;
 mod trials;
 
-pub use measured::{Found, Measured, Place, Power};
-pub use solver::{PARTICLES, Solved, Solver};
+pub use measured::{FixReport, Measurements, Place, Power};
+pub use solver::{PARTICLES, Solution, Solver};
 pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot, distances};
 
 use tautline_kernel::position::Refusal;

@@ -16,7 +16,7 @@ mod network;
 mod problem;
 mod queue;
 
-pub use air::{Air, Channel, Faults, Protocol, Shared, run};
+pub use air::{Air, Channel, Faults, Protocol, SharedChannel, run};
 pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
 pub use chance::Chance;
 pub(crate) use chance::checked_deviation;

@@ -21,13 +21,13 @@ mod timers;
 pub mod trace;
 mod world;
 
-pub use event::{Event, Logged, Millimetres, Ordinal};
+pub use event::{Event, LogEntry, Millimetres, Ordinal};
 pub use judge::Violation;
 pub use problem::Problem;
 pub use report::{Fate, Fix, Journey, Report, Spread};
 pub use setting::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
 pub use summary::seconds;
-pub use summary::{Assignments, Broken, RobotsFailed, Summary};
+pub use summary::{Assignments, ClauseViolation, RobotFailures, Summary};
 pub use world::rescue;
 
 #[cfg(test)]
@@ -36,7 +36,7 @@ mod tests {
     use tautline_kernel::mrc::{Condition, Rule};
     use tautline_kernel::net::NodeId;
     use tautline_kernel::notice::{self, Scheme};
-    use tautline_proofs::engine::Seeded;
+    use tautline_proofs::engine::SeededOracle;
     use tautline_proofs::mrc::Demand;
 
     use super::scenario::{Caller, Place, Scenario};
@@ -139,8 +139,8 @@ mod tests {
 
     /// A rescue under a rule that is wrong in one thing.
     fn under(rule: Rule, setting: &Setting, seed: u64) -> Report {
-        let scenario = setting.lay_out(&mut Seeded::new(seed, 0)).expect("a scenario");
-        Scenario { rule, ..scenario }.rescue(&mut Seeded::new(seed, 1)).expect("a rescue")
+        let scenario = setting.lay_out(&mut SeededOracle::new(seed, 0)).expect("a scenario");
+        Scenario { rule, ..scenario }.rescue(&mut SeededOracle::new(seed, 1)).expect("a rescue")
     }
 
     #[test]
@@ -260,7 +260,8 @@ mod tests {
             });
             nodes.filter(|(one, other)| (one.x_m - other.x_m).hypot(one.y_m - other.y_m) > 25.0).count()
         };
-        let of_scenario = |setting: &Setting| setting.lay_out(&mut Seeded::new(0, 0)).expect("a scenario");
+        let of_scenario =
+            |setting: &Setting| setting.lay_out(&mut SeededOracle::new(0, 0)).expect("a scenario");
         let plain = Setting { shadowing_db: 0.0, ..setting.clone() };
         assert_eq!(lies_beyond(&of_scenario(&plain)), 0);
         assert!(lies_beyond(&of_scenario(&setting)) > 1_000);
@@ -282,7 +283,7 @@ mod tests {
     #[test]
     fn a_robot_has_the_shadows_of_the_node_at_which_it_was_last() {
         let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
-        let scenario = setting.lay_out(&mut Seeded::new(0, 0)).expect("a scenario");
+        let scenario = setting.lay_out(&mut SeededOracle::new(0, 0)).expect("a scenario");
         let place = NodeId(9);
         let at = scenario.field.nodes()[9];
         let mut links = scenario.network.links(place).peekable();
@@ -311,7 +312,7 @@ mod tests {
         let nodes = nodes.iter().map(|&(x_m, y_m)| Point { x_m, y_m }).collect();
         let field = Field::new(area, vec![], nodes).expect("a field");
         let radio = Radio::new(25.0, Model::Disc).expect("a radio");
-        let network = Network::new(&field, radio, &mut Seeded::new(0, 0)).expect("a network");
+        let network = Network::new(&field, radio, &mut SeededOracle::new(0, 0)).expect("a network");
         let range_um = std::num::NonZeroU32::new(25_000_000).expect("a range");
         let second = |at: u64| at * 1_000_000_000;
         Scenario {
@@ -342,7 +343,7 @@ mod tests {
     #[test]
     fn the_nearest_robot_comes_from_node_to_node_and_only_it() {
         let report = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, None)], &[])
-            .rescue(&mut Seeded::new(0, 0))
+            .rescue(&mut SeededOracle::new(0, 0))
             .expect("a rescue");
         assert_eq!(report.fates, [Fate::Served { by: 1, visits: 1 }]);
         let who = |event: Event| {
@@ -360,7 +361,7 @@ mod tests {
     fn when_the_robot_on_its_way_fails_the_lease_lapses_and_another_comes_but_not_as_published() {
         let fate = |rule: Rule| {
             let scenario = row(rule, &ROW, &[(85.0, None), (60.0, Some(20))], &[]);
-            let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let report = scenario.rescue(&mut SeededOracle::new(0, 0)).expect("a rescue");
             (report.fates[0], breaks(&report, Demand::IsServed))
         };
         assert_eq!(fate(Rule::REPAIRED), (Fate::Served { by: 0, visits: 1 }, false));
@@ -375,7 +376,7 @@ mod tests {
         let of_either = |rule: Rule, is_end: fn(&Event) -> bool| {
             let mut fates = [[(2, 25)], [(4, 25)]].map(|failing| {
                 let scenario = row(rule, &nodes, &[(85.0, None)], &failing);
-                let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+                let report = scenario.rescue(&mut SeededOracle::new(0, 0)).expect("a rescue");
                 (report.fates[0], events(&report).iter().any(is_end))
             });
             fates.sort_by_key(|&(_, has_ended)| has_ended);
@@ -392,7 +393,7 @@ mod tests {
         let outcome = |rule: Rule| {
             let mut scenario = row(rule, &ROW, &[(60.0, None)], &[]);
             scenario.wfrs[0].pauses_ns = vec![100_000_000_000];
-            let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let report = scenario.rescue(&mut SeededOracle::new(0, 0)).expect("a rescue");
             let journeys: Vec<(usize, f64)> =
                 report.journeys.iter().map(|journey| (journey.event, journey.moved_m.round())).collect();
             let found = [Demand::AsksAnew, Demand::IsServed]
@@ -414,7 +415,7 @@ mod tests {
             let mut scenario = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, Some(100))], &[]);
             scenario.wfrs[0].pauses_ns = vec![100_000_000_000];
             scenario.broadcast.conditions = conditions;
-            let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let report = scenario.rescue(&mut SeededOracle::new(0, 0)).expect("a rescue");
             let spreads: Vec<u32> = report.spreads.iter().map(|spread| spread.reached).collect();
             (report.fates, spreads)
         };
@@ -426,7 +427,8 @@ mod tests {
     #[test]
     fn whom_nobody_can_reach_or_has_heard_of_is_told_apart() {
         let alone = row(Rule::REPAIRED, &ROW, &[(150.0, None)], &[]);
-        let fates = |scenario: Scenario| scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue").fates;
+        let fates =
+            |scenario: Scenario| scenario.rescue(&mut SeededOracle::new(0, 0)).expect("a rescue").fates;
         assert_eq!(fates(alone), [Fate::CutOff]);
         let dead = row(Rule::REPAIRED, &ROW, &[(60.0, Some(0))], &[]);
         assert_eq!(fates(dead), [Fate::CutOff]);

@@ -6,7 +6,7 @@ use tautline_field::tan::{End, Equipment, Journey, Site, Tree, hops, shortest_m}
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Count, Rule, Scheme};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 const LAKES: [Obstacle; 2] = [
     Obstacle { west_m: 60.0, north_m: 50.0, east_m: 110.0, south_m: 90.0 },
@@ -19,12 +19,12 @@ struct World {
     network: Network,
     radio: Radio,
     wfr: NodeId,
-    chance: Seeded,
+    chance: SeededOracle,
 }
 
 impl World {
     fn new(nodes: usize, obstacles: &[Obstacle], model: Model, seed: u64) -> Self {
-        let mut chance = Seeded::new(seed, 0);
+        let mut chance = SeededOracle::new(seed, 0);
         let area = Area::new(200.0, 200.0).expect("an area");
         let field = Field::random(area, obstacles.to_vec(), nodes, &mut chance).expect("a field");
         let robot = field.place(&mut chance).expect("a place");

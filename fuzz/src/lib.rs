@@ -24,9 +24,9 @@ use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, SmallGrid};
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame as frame_of};
-use tautline_proofs::chain::search::{Bounds, Found, Search, search};
+use tautline_proofs::chain::search::{Bounds, Findings, Search, search};
 use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::engine::{Seeded, Tape};
+use tautline_proofs::engine::{SeededOracle, Tape};
 use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
 use tautline_sim::counterexample::judge_input::exhibit;
@@ -257,7 +257,7 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
     let rule = one_of(&mut oracle, &[Rule::REPAIRED, Rule::PUBLISHED]);
     let robots = one_of(&mut oracle, &teams);
     let walls_percent = oracle.pick(40) + 1;
-    let mut random = Seeded::new(oracle.pick(256).into(), oracle.pick(256).into());
+    let mut random = SeededOracle::new(oracle.pick(256).into(), oracle.pick(256).into());
     let range = robots as i16 - 1;
     let area = Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).expect("it has cells");
     let grid = HeapGrid::new(area);
@@ -284,7 +284,7 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
 }
 
 /// The hunt of the target: two robots are the smallest team, and the whole hunt takes less than reading a file.
-static HUNT: LazyLock<(Bounds, Found)> = LazyLock::new(|| {
+static HUNT: LazyLock<(Bounds, Findings)> = LazyLock::new(|| {
     let bounds = hunt::bounds(RuleName::Published.observed(), 2, 1, None).expect("two robots fit");
     let whole = search(&bounds, &mut unwatched).expect("two robots fit");
     (bounds, whole)
@@ -331,7 +331,7 @@ fn hunted() -> Asked<'static> {
 }
 
 /// The findings of a hunt that goes on from a file with these bytes.
-fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
+fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Findings> {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
     match Saved::new(file.path(), &hunted(), bounds).search(bounds) {

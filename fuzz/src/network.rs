@@ -4,7 +4,7 @@
 use std::num::NonZeroU32;
 
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::net::{Heard, NodeId, Notice};
+use tautline_kernel::net::{NodeId, Notice, Reception};
 use tautline_kernel::notice::{
     Condition, Conditions, Count, Node, Reaction, Rule, Scheme, Stage, Surroundings, words,
 };
@@ -30,7 +30,7 @@ struct Letter {
 
 /// An observer's note of a node and its latest event.
 #[derive(Clone, Copy, Default)]
-struct Noted {
+struct Note {
     event: u32,
     /// Of the senders heard before the node forwarded or fell silent the first with the least hop count, and that.
     nearest: Option<(NodeId, u16)>,
@@ -44,7 +44,7 @@ struct Spread {
     links: Vec<Vec<(NodeId, u32)>>,
     nodes: Vec<Node>,
     unreached: Vec<Vec<u64>>,
-    noted: Vec<Noted>,
+    noted: Vec<Note>,
     under_way: Vec<Letter>,
     /// Whether something was lost, or came twice.
     is_disturbed: bool,
@@ -115,7 +115,7 @@ impl Spread {
         }
         let nodes = (0..count as u32).map(|id| Node::new(NodeId(id), NodeId(0))).collect();
         let unreached = links.iter().map(|near| vec![0; words(near.len())]).collect();
-        let (noted, under_way) = (vec![Noted::default(); count], Vec::new());
+        let (noted, under_way) = (vec![Note::default(); count], Vec::new());
         Self { rule, links, nodes, unreached, noted, under_way, is_disturbed: false }
     }
 
@@ -156,7 +156,7 @@ impl Spread {
         let ids = |near: &[(NodeId, u32)]| near.iter().map(|&(id, _)| id).collect::<Vec<_>>();
         let (neighbours, of_sender) = (ids(&self.links[to]), ids(&self.links[notice.sender.0 as usize]));
         let unreached = &mut self.unreached[to][..];
-        let heard = Heard { message: notice, distance_um, now_ns: bytes.pick(256).into() };
+        let heard = Reception { message: notice, distance_um, now_ns: bytes.pick(256).into() };
         let reaction = self.nodes[to].receive(
             &self.rule,
             heard,
@@ -176,7 +176,7 @@ impl Spread {
         }
         let (noted, is_numbered) = (&mut self.noted[to], self.rule.has(Condition::NumberedEvents));
         if noted.event == 0 || is_numbered && notice.call.epoch.0 > noted.event {
-            *noted = Noted { event: notice.call.epoch.0, ..Noted::default() };
+            *noted = Note { event: notice.call.epoch.0, ..Note::default() };
         } else if is_numbered && notice.call.epoch.0 < noted.event {
             return;
         }

@@ -22,14 +22,14 @@ mod team;
 mod unfold;
 mod walk;
 
-pub use barrier::{Barrier, Heard};
+pub use barrier::{Barrier, ByteEffect};
 pub use habit::{Habit, Habits};
-pub use message::{Damaged, Message, Outcome};
+pub use message::{Damage, Message, Outcome};
 pub use plan::{Kind, Plan};
-pub use reform::{Parts, Reforming, Unformed};
+pub use reform::{Parts, ReformError, Reformation};
 pub use rule::{Budget, Condition, Conditions, High, Move, Pursuit, Role, Rule};
 pub use settle::World;
-pub use team::{Chain, End, Intent, Refused, Settled, area};
+pub use team::{Chain, End, Intent, MoveOutcome, SetupError, area};
 pub use unfold::goes_on;
 
 /// The longest chain, base included: its area is 511×511 cells.

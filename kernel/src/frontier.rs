@@ -22,4 +22,4 @@ pub use pairs::{Pair, Scratch, Seeker};
 pub use place::{HALF, Occupancy, Place, SIDE, Threshold, clamped, taken_for};
 pub use robot::{Next, Other, Robot, Sight, Slot, Stance, View};
 pub use rule::{Condition, Conditions, Otherwise, Rule, Ties};
-pub use search::{Found, Reached};
+pub use search::{SearchCell, Target};

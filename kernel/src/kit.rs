@@ -21,9 +21,9 @@ mod team;
 mod tether;
 mod ways;
 
-pub use message::{Damaged, FIELDS, Message};
-pub use refused::{NotNow, Refused};
+pub use message::{Damage, FIELDS, Message};
+pub use refused::{Misuse, SetupError};
 pub use rule::{Answers, Condition, Conditions, Fallback, Filter, Records, Rule, Runs};
 pub use stance::{Reach, Stance, touch};
-pub use talk::{Letter, NUMBERS, Phase, Sent, Talk};
+pub use talk::{Letter, NUMBERS, Outbox, Phase, Talk};
 pub use team::{Kit, MAX_ROBOTS, Next, Robot, Sight};

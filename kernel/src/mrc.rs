@@ -14,6 +14,6 @@ mod wfr;
 
 pub use message::{Bid, Downward, Resb, Upward, Word};
 pub use relay::{Hop, Relay};
-pub use robot::{Request, Robot, RobotTimer, Served, Task};
+pub use robot::{Request, Robot, RobotTimer, ServiceBit, Task};
 pub use rule::{Condition, Conditions, Rule};
-pub use wfr::{Phase, Sent, Wfr, WfrTimer};
+pub use wfr::{Mail, Phase, Wfr, WfrTimer};

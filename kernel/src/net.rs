@@ -56,7 +56,7 @@ pub struct Notice {
 /// A message as it is heard.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Heard<M> {
+pub struct Reception<M> {
     /// The message.
     pub message: M,
     /// D: how far off the sender seems to be, by the strength of its signal, in micrometres.

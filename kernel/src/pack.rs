@@ -20,9 +20,9 @@ mod team;
 
 pub use chart::{Chart, Status};
 pub use flood::Scratch;
-pub use rule::{Condition, Conditions, Rule, Unfit};
+pub use rule::{Condition, Conditions, RangeError, Rule};
 pub use sight::{Sight, Window};
-pub use team::{End, Made, Past, Refused, Team, is_connected};
+pub use team::{End, MoveKind, Past, SetupError, Team, is_connected};
 
 /// The most robots of a team.
 pub const MAX_ROBOTS: usize = 32;

@@ -30,7 +30,7 @@ pub use bound::{Precision, bound};
 pub use closed::closed_form;
 pub use linear::{Layout, linear};
 pub use locate::{Estimate, Fix, Flags, Residual, locate, locate_from};
-pub use place::{Area, Point, Symmetric};
+pub use place::{Area, Point, SymmetricMatrix};
 pub use range::{Range, Refusal, check, check_meeting, do_meet, most_error};
 pub use signal::Signal;
 pub use swarm::{Draws, Inertia, Order, Parameters, Particle, Swarm};

@@ -1,10 +1,10 @@
 //! A chain's own numbers between two moves, the robots for which a full cell is shut, and what a barrier hears.
 
-use tautline_kernel::chain::{Barrier, Chain, Condition, Damaged, Heard, Intent, Message, Rule};
+use tautline_kernel::chain::{Barrier, ByteEffect, Chain, Condition, Damage, Intent, Message, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, EdgeMark, Grid, Side, SmallGrid, Step};
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 fn grid(columns: i16, rows: i16) -> SmallGrid {
     let area = Area::new(Cell::new(0, 0), Cell::new(columns - 1, rows - 1)).expect("cells");
@@ -19,7 +19,7 @@ fn a_full_cell_is_shut_for_the_leader_and_for_followers_by_a_condition_of_its_ow
         grid.put_edge(EdgeMark::Open, edge);
     }
     let [leader, follower] = [Condition::FullForLeader, Condition::FullForFollower];
-    let (mut drawn, base, mut entered) = (Drawn(1), Cell::new(4, 4), [0; 2]);
+    let (mut drawn, base, mut entered) = (Congruence(1), Cell::new(4, 4), [0; 2]);
     for _ in 0..60_000 {
         let mut team = [base; ROBOTS];
         for robot in 1..ROBOTS {
@@ -83,7 +83,7 @@ fn is_admitted(rule: Rule, grid: &SmallGrid, team: &[Cell], steps: &[Step]) -> b
 fn a_team_move_is_admitted_if_each_of_the_conditions_says_so() {
     const ROBOTS: usize = 4;
     let area = grid(9, 9).area();
-    let (mut drawn, base) = (Drawn(4), Cell::new(4, 4));
+    let (mut drawn, base) = (Congruence(4), Cell::new(4, 4));
     let mut told = [0; 2];
     for round in 0..4000 {
         let condition = Condition::ALL[round % Condition::ALL.len()];
@@ -212,7 +212,7 @@ fn a_plan_that_no_follower_has_to_move_for_costs_one_look_for_each_of_them() {
 
 #[test]
 fn a_reel_tells_in_how_many_moves_it_gains() {
-    let (mut drawn, mut told) = (Drawn(2), 0);
+    let (mut drawn, mut told) = (Congruence(2), 0);
     for _ in 0..40 {
         let is_wall: [bool; 50] = core::array::from_fn(|_| drawn.pick(4) == 0);
         let mut expected = None;
@@ -267,17 +267,17 @@ fn a_barrier_tells_of_every_byte_which_team_move_it_is_about() {
                 let (message, about, is_answer) =
                     (byte & 0b1_1111, u32::from(byte >> 5 & 0b11), byte >> 7 == 1);
                 let expected = if !is_message(message) {
-                    Err(Damaged::Byte(message))
+                    Err(Damage::Byte(message))
                 } else if from == robot || !(1..ROBOTS).contains(&from) {
-                    Ok(Heard::Foreign)
+                    Ok(ByteEffect::Foreign)
                 } else if about == turn % 4 {
-                    Ok(Heard::New)
+                    Ok(ByteEffect::New)
                 } else if about == (turn + 1) % 4 {
-                    Ok(Heard::Early)
+                    Ok(ByteEffect::Early)
                 } else if about == (turn + 3) % 4 && turn > 0 && !is_answer {
-                    Ok(Heard::Late(own(turn - 1) | (about as u8) << 5 | 1 << 7))
+                    Ok(ByteEffect::Late(own(turn - 1) | (about as u8) << 5 | 1 << 7))
                 } else {
-                    Ok(Heard::Foreign)
+                    Ok(ByteEffect::Foreign)
                 };
                 let mut heard = barrier;
                 assert_eq!(
@@ -285,12 +285,12 @@ fn a_barrier_tells_of_every_byte_which_team_move_it_is_about() {
                     expected,
                     "{robot} hears {byte:08b} from {from} in {turn}"
                 );
-                if expected == Ok(Heard::New) {
-                    assert_eq!(heard.hear(from, byte), Ok(Heard::Again));
+                if expected == Ok(ByteEffect::New) {
+                    assert_eq!(heard.hear(from, byte), Ok(ByteEffect::Again));
                     let other = byte ^ 1;
                     if is_message(other & 0b1_1111) {
-                        assert_eq!(heard.hear(from, other), Err(Damaged::OtherStep { robot: from + 1 }));
-                        assert_eq!(heard.hear(from, byte), Ok(Heard::Again));
+                        assert_eq!(heard.hear(from, other), Err(Damage::OtherStep { robot: from + 1 }));
+                        assert_eq!(heard.hear(from, byte), Ok(ByteEffect::Again));
                     }
                 }
             }
@@ -298,7 +298,7 @@ fn a_barrier_tells_of_every_byte_which_team_move_it_is_about() {
             assert_eq!((said, barrier.again()), (own(turn) | ((turn % 4) as u8) << 5, Some(said)));
             for from in (1..ROBOTS).filter(|&from| from != robot) {
                 assert_eq!(barrier.pass(), None);
-                assert_eq!(barrier.hear(from, from as u8 | ((turn % 4) as u8) << 5), Ok(Heard::New));
+                assert_eq!(barrier.hear(from, from as u8 | ((turn % 4) as u8) << 5), Ok(ByteEffect::New));
             }
             let mut messages = [1, 2, 3, 0];
             messages[robot - 1] = own(turn);

@@ -9,31 +9,31 @@ use tautline_kernel::{chain, kit, pack};
 #[test]
 fn errors_say_what_would_be_right() {
     let said: [(&dyn Error, &str); 16] = [
-        (&chain::Damaged::Byte(0xff), "byte 0xff is no message of the chain"),
+        (&chain::Damage::Byte(0xff), "byte 0xff is no message of the chain"),
         (
-            &chain::Damaged::Length { bytes: 6, sent: 7 },
+            &chain::Damage::Length { bytes: 6, sent: 7 },
             "there are 6 messages, the team sent 7: keep all of them, in their order",
         ),
         (
-            &chain::Refused::TooFewRobots { robots: 1 },
+            &chain::SetupError::TooFewRobots { robots: 1 },
             "1 robots are no chain: it needs at least 2, the base counted",
         ),
         (
-            &chain::Refused::TooManyRobots { robots: 9, most: 8 },
+            &chain::SetupError::TooManyRobots { robots: 9, most: 8 },
             "9 robots are too many: this chain holds at most 8, the base counted",
         ),
-        (&kit::Damaged::Flag(4), "4 is no flag of a message: flags are 0 to 3"),
-        (&kit::Damaged::Covered(2), "a side is 0 or 1, and not 2"),
-        (&kit::Damaged::Overfull, "an acknowledgement has no node and no sides"),
-        (&kit::NotNow::Decides, "the robot may not decide now: ask `may_decide` before"),
-        (&kit::NotNow::Looks, "the robot looks at no side: `looked` comes after `Next::Looks`"),
-        (&kit::NotNow::Drives, "the robot does not drive: `arrived` comes after `Next::Drives`"),
-        (&pack::Refused::Robots(0), "no robots are no pack"),
-        (&pack::Refused::Robots(33), "33 robots are too many for a pack: it has at most 32"),
-        (&pack::Refused::Together(Cell::new(3, -4)), "two robots of a pack are in the cell 3,-4"),
-        (&pack::Refused::Apart(2, 5), "the pack is not connected: links join 2 of its 5 robots"),
-        (&pack::Unfit::Sight, "a robot of a pack sees from 1 to 31 cells far"),
-        (&pack::Unfit::Range, "robots of a pack hear each other 3 cells far or more"),
+        (&kit::Damage::Flag(4), "4 is no flag of a message: flags are 0 to 3"),
+        (&kit::Damage::Covered(2), "a side is 0 or 1, and not 2"),
+        (&kit::Damage::Overfull, "an acknowledgement has no node and no sides"),
+        (&kit::Misuse::Decides, "the robot may not decide now: ask `may_decide` before"),
+        (&kit::Misuse::Looks, "the robot looks at no side: `looked` comes after `Next::Looks`"),
+        (&kit::Misuse::Drives, "the robot does not drive: `arrived` comes after `Next::Drives`"),
+        (&pack::SetupError::Robots(0), "no robots are no pack"),
+        (&pack::SetupError::Robots(33), "33 robots are too many for a pack: it has at most 32"),
+        (&pack::SetupError::Together(Cell::new(3, -4)), "two robots of a pack are in the cell 3,-4"),
+        (&pack::SetupError::Apart(2, 5), "the pack is not connected: links join 2 of its 5 robots"),
+        (&pack::RangeError::Sight, "a robot of a pack sees from 1 to 31 cells far"),
+        (&pack::RangeError::Range, "robots of a pack hear each other 3 cells far or more"),
     ];
     for (error, words) in said {
         assert_eq!(error.to_string(), words);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use proptest::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Status, Ties, TinyMap,
+    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, Ties, TinyMap,
     View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
@@ -83,7 +83,7 @@ fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) 
         .filter(|&(number, _)| number != robot)
         .map(|(_, robot)| other(robot))
         .collect();
-    let (mut reached, mut queue) = ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
+    let (mut reached, mut queue) = ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
     let (mut rounds, mut pairs) = (0, vec![None; pairs]);
     let mut scratch =
         Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };

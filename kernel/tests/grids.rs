@@ -10,7 +10,7 @@ use tautline_kernel::ground::{
     Step, Steps, TinyGrid,
 };
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 const SIDES: Steps = Steps::ALL.without(Step::Stay);
 
@@ -34,7 +34,7 @@ fn flooded(grid: &impl Grid, sources: impl Iterator<Item = Cell>, avoid: Avoid) 
 }
 
 /// A random area of at most so many columns and rows.
-fn area(drawn: &mut Drawn, columns: i16, rows: i16) -> Area {
+fn area(drawn: &mut Congruence, columns: i16, rows: i16) -> Area {
     let mut below = |most: i16| 1 + drawn.pick(most as u32) as i16;
     let (width, height) = (below(columns), below(rows));
     let first = Cell::new(below(9) - 5, below(9) - 5);
@@ -42,7 +42,7 @@ fn area(drawn: &mut Drawn, columns: i16, rows: i16) -> Area {
 }
 
 /// Walls and virtual obstacles by chance, and few or many cells left to explore.
-fn fill(drawn: &mut Drawn, grid: &mut impl Grid) {
+fn fill(drawn: &mut Congruence, grid: &mut impl Grid) {
     let (walls, obstacles, explored) = (drawn.pick(45), drawn.pick(20), drawn.pick(2));
     for edge in grid.area().edges() {
         if drawn.pick(100) < walls {
@@ -61,7 +61,7 @@ fn fill(drawn: &mut Drawn, grid: &mut impl Grid) {
     grid.take(CellMark::Explored, cell);
 }
 
-fn pick(drawn: &mut Drawn, area: Area) -> Cell {
+fn pick(drawn: &mut Congruence, area: Area) -> Cell {
     let (x, y) = (drawn.pick(area.width() as u32), drawn.pick(area.height() as u32));
     Cell::new(area.first().x + x as i16, area.first().y + y as i16)
 }
@@ -121,7 +121,7 @@ fn agrees<G: Grid>(grid: &mut G, at: Cell) {
 /// `rounds` random grids of at most so many columns and rows, each asked of some cells inside and of all just outside
 /// it.
 fn agree<G: Grid>(columns: i16, rows: i16, rounds: u32, new: impl Fn(Area) -> Option<G>) {
-    let mut drawn = Drawn(11);
+    let mut drawn = Congruence(11);
     for _ in 0..rounds {
         let area = area(&mut drawn, columns, rows);
         let mut grid = new(area).expect("it fits");

@@ -3,11 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Outcome, Plan, Pursuit, Rule, World};
+use tautline_kernel::chain::{Chain, Damage, Intent, Kind, Message, Outcome, Plan, Pursuit, Rule, World};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 const ROBOTS: usize = 5;
 const BASE: Cell = Cell::new(3, 3);
@@ -29,7 +29,7 @@ fn objection(
     plan: &Plan<ROBOTS>,
     messages: &[u8],
     mute: Option<usize>,
-) -> Option<Damaged> {
+) -> Option<Damage> {
     let mut met: Vec<(Edge, bool)> = Vec::new();
     for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| mute != Some(robot)) {
         let message = match Message::decode(byte) {
@@ -42,7 +42,7 @@ fn objection(
             (Kind::Backtrack, World::Changing) => message.outcome != Outcome::Arrived,
         };
         if message.step != plan.steps()[robot] || !can_be {
-            return Some(Damaged::OtherStep { robot: robot + 1 });
+            return Some(Damage::OtherStep { robot: robot + 1 });
         }
         let Some(edge) = crossed(chain, plan, robot) else { continue };
         if plan.kind == Kind::Backtrack && world == World::Lasting {
@@ -60,7 +60,7 @@ fn objection(
             by_another
         };
         if known.is_some_and(|known| known != is_blocked) {
-            return Some(Damaged::OtherWorld { robot: robot + 1 });
+            return Some(Damage::OtherWorld { robot: robot + 1 });
         }
         met.push((edge, is_blocked));
     }
@@ -99,7 +99,7 @@ fn hears(chain: &Team, world: World, plan: &Plan<ROBOTS>, messages: &[u8], mute:
 fn what_is_heard_of_a_team_move_is_what_came_of_it() {
     let area = Area::new(Cell::new(0, 0), Cell::new(6, 6)).expect("cells");
     let epochs = Rule { pursuit: Pursuit::Epochs, ..Rule::REEL };
-    let (mut drawn, mut refused, mut walls_back) = (Drawn(3), 0, 0);
+    let (mut drawn, mut refused, mut walls_back) = (Congruence(3), 0, 0);
     for round in 0..24 {
         let world = if round % 3 == 0 { World::Lasting } else { World::Changing };
         let rule = if round % 2 == 0 { Rule::REEL } else { epochs };
@@ -140,7 +140,7 @@ fn what_is_heard_of_a_team_move_is_what_came_of_it() {
                 assert!(hears(&before, world, &plan, &changed, Some(robot)));
             }
             let few = before.clone().hear(&plan, &messages[1..]);
-            assert_eq!(few, Err(Damaged::Length { bytes: robots - 2, sent: robots - 1 }));
+            assert_eq!(few, Err(Damage::Length { bytes: robots - 2, sent: robots - 1 }));
             let is_blocked = |byte: &u8| Message::decode(*byte).expect("its own").outcome == Outcome::Blocked;
             if plan.kind == Kind::Backtrack && messages.iter().any(is_blocked) {
                 walls_back += 1;

@@ -8,7 +8,7 @@ use tautline_kernel::position::{
     check, check_meeting, closed_form, linear, locate, locate_from,
 };
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 const RESIDUALS: [Residual; 2] = [Residual::Metres, Residual::Decibels];
 
@@ -16,16 +16,16 @@ fn signal(noise_db: f64) -> Signal {
     Signal::new(Propagation::FREE_SPACE, noise_db).expect("a noise")
 }
 
-fn between(drawn: &mut Drawn, least: f64, greatest: f64) -> f64 {
+fn between(drawn: &mut Congruence, least: f64, greatest: f64) -> f64 {
     least + (greatest - least) * f64::from(drawn.pick(1 << 20)) / f64::from(1 << 20)
 }
 
-fn place(drawn: &mut Drawn, most_m: f64) -> Point {
+fn place(drawn: &mut Congruence, most_m: f64) -> Point {
     Point::new(between(drawn, -most_m, most_m), between(drawn, -most_m, most_m))
 }
 
 /// Three to five anchors, and distances that need not fit each other.
-fn wild(drawn: &mut Drawn) -> Vec<Range> {
+fn wild(drawn: &mut Congruence) -> Vec<Range> {
     let count = 3 + drawn.pick(3);
     (0..count).map(|_| Range::new(place(drawn, 30.0), between(drawn, 1.0, 40.0))).collect()
 }
@@ -54,7 +54,7 @@ fn estimates(fix: &Fix) -> Vec<&Estimate> {
 
 #[test]
 fn every_estimate_is_a_minimum_and_tells_its_cost() {
-    let (mut drawn, signal) = (Drawn(7), signal(3.0));
+    let (mut drawn, signal) = (Congruence(7), signal(3.0));
     let mut on_the_rim = 0;
     for _ in 0..400 {
         let ranges = wild(&mut drawn);
@@ -96,7 +96,7 @@ fn every_estimate_is_a_minimum_and_tells_its_cost() {
 
 #[test]
 fn steps_from_a_place_lead_to_the_minimum_that_they_are_near_to() {
-    let (mut drawn, signal) = (Drawn(11), signal(1.0));
+    let (mut drawn, signal) = (Congruence(11), signal(1.0));
     for _ in 0..200 {
         let at = place(&mut drawn, 20.0);
         let anchors: Vec<Point> = (0..4).map(|_| place(&mut drawn, 30.0)).collect();
@@ -177,7 +177,7 @@ fn a_step_as_long_as_the_last_one_may_be_is_the_last() {
 
 #[test]
 fn two_minima_are_told_if_their_costs_differ_by_less_than_3_84_times_the_variance() {
-    let mut drawn = Drawn(3);
+    let mut drawn = Congruence(3);
     let mut told = 0;
     for _ in 0..60 {
         let anchors = [0.0, 11.0, 24.0].map(|along| Point::new(along, between(&mut drawn, -2.0, 2.0)));
@@ -208,7 +208,7 @@ fn two_minima_are_told_if_their_costs_differ_by_less_than_3_84_times_the_varianc
 
 #[test]
 fn a_mirror_image_is_told_without_noise_too() {
-    let mut drawn = Drawn(11);
+    let mut drawn = Congruence(11);
     for round in 0..100 {
         // Also where rounding makes costs differ by more than other layouts cost, and where anchors are a hundredth of
         // a millimetre apart.
@@ -226,7 +226,7 @@ fn a_mirror_image_is_told_without_noise_too() {
 
 #[test]
 fn positions_have_no_unit_of_their_own() {
-    let mut drawn = Drawn(5);
+    let mut drawn = Congruence(5);
     for _ in 0..150 {
         let ranges = wild(&mut drawn);
         let spread = place(&mut drawn, 20.0);
@@ -267,7 +267,7 @@ fn positions_have_no_unit_of_their_own() {
 
 #[test]
 fn anchors_on_a_line_are_on_one_wherever_it_is() {
-    let mut drawn = Drawn(9);
+    let mut drawn = Congruence(9);
     for (x, y) in [(0.0, 0.0), (1e6, 0.0), (0.0, 1e6), (-3e5, 0.0), (0.0, -3e5), (4e7, -5e7)] {
         for _ in 0..20 {
             let along = place(&mut drawn, 1.0);
@@ -300,7 +300,7 @@ fn anchors_a_millimetre_apart_are_at_two_places() {
 
 #[test]
 fn circles_meet_up_to_four_standard_deviations_and_to_the_rounding_of_numbers() {
-    let mut drawn = Drawn(13);
+    let mut drawn = Congruence(13);
     for noise_db in [0.0, 1.0, 6.0] {
         let signal = signal(noise_db);
         let most = (4.0 * signal.relative_error()).exp();
@@ -348,7 +348,7 @@ fn a_line_is_told_in_one_direction_and_anchors_spread_alike_have_the_axes() {
     assert_eq!(along(&[(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)]), Point::new(1.0, 0.0));
     // From the diagonal that leads up to the left, round by the right, to the one that leads down to the right, which
     // is not.
-    let mut drawn = Drawn(19);
+    let mut drawn = Congruence(19);
     for round in 0..200 {
         let to = match round {
             0 => Point::new(1.0, -1.0),
@@ -382,7 +382,7 @@ fn a_direction_of_which_rounding_leaves_nothing_is_not_told() {
 
 #[test]
 fn a_swarm_tells_the_cost_of_its_best_position() {
-    let mut drawn = Drawn(17);
+    let mut drawn = Congruence(17);
     for _ in 0..20 {
         let ranges = wild(&mut drawn);
         let mut particles = [Particle::UNUSED; 6];

@@ -3,7 +3,7 @@
 use core::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{Call, Epoch, Heard, NodeId, Notice};
+use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Condition, Count, Node, Reaction, Rule, Scheme, Surroundings};
 
 const SOURCE: NodeId = NodeId(0);
@@ -33,9 +33,9 @@ fn fresh() -> Node {
     Node::new(NodeId(9), SOURCE)
 }
 
-fn heard(sender: u32, hops: u16) -> Heard<Notice> {
+fn heard(sender: u32, hops: u16) -> Reception<Notice> {
     let message = Notice { call: Call { wfr: SOURCE, epoch: Epoch(1) }, sender: NodeId(sender), hops };
-    Heard { message, distance_um: 0, now_ns: 0 }
+    Reception { message, distance_um: 0, now_ns: 0 }
 }
 
 fn hear(node: &mut Node, rule: &Rule, sender: u32, hops: u16) -> Reaction {

@@ -6,11 +6,11 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Side, Step};
 use tautline_kernel::pack::{
-    Condition, MAX_ROBOTS, Made, Past, Refused, Rule, Scratch, Status, Team, Unfit, is_connected,
+    Condition, MAX_ROBOTS, MoveKind, Past, RangeError, Rule, Scratch, SetupError, Status, Team, is_connected,
 };
 
 use crate::floors::{Map, area, free_cell, gain, is_within, obstacles, unknown};
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 /// A pack on a floor, with all that its caller keeps.
 struct World {
@@ -67,7 +67,7 @@ impl World {
     }
 
     /// A team move with its steps, and a look round; `None` at the end.
-    fn go(&mut self) -> Option<(Made, Vec<Step>)> {
+    fn go(&mut self) -> Option<(MoveKind, Vec<Step>)> {
         let mut steps = [Step::Stay; MAX_ROBOTS];
         let mut memory = Scratch {
             reached: &mut self.reached,
@@ -139,7 +139,7 @@ fn bounds(world: &World, map: &Map) -> usize {
 
 #[test]
 fn a_robot_goes_where_the_gain_is_greatest_for_the_way_and_each_step_brings_it_nearer() {
-    let (mut drawn, mut noted) = (Drawn(4), 0);
+    let (mut drawn, mut noted) = (Congruence(4), 0);
     for (sight_cells, range_cells, density) in
         [(1, 3, 20), (2, 3, 10), (3, 8, 30), (6, 4, 15), (20, 60, 25), (4, 30, 35)]
     {
@@ -154,7 +154,7 @@ fn a_robot_goes_where_the_gain_is_greatest_for_the_way_and_each_step_brings_it_n
                 let (map, from) = (world.map.clone(), world.team.cells()[0]);
                 aim = aim.filter(|&aim| map.is_frontier(aim));
                 let Some((made, _)) = world.go() else { break };
-                assert_eq!(made, Made::Spread, "nobody is in its way");
+                assert_eq!(made, MoveKind::Spread, "nobody is in its way");
                 let next = world.team.aims().next().flatten();
                 if aim.is_some() {
                     assert_eq!(next, aim, "a robot keeps its aim");
@@ -175,7 +175,7 @@ fn a_robot_goes_where_the_gain_is_greatest_for_the_way_and_each_step_brings_it_n
 
 #[test]
 fn robots_choose_one_after_the_other_cells_that_have_a_link_and_share_what_is_to_be_seen() {
-    let mut drawn = Drawn(5);
+    let mut drawn = Congruence(5);
     let (mut choices, mut swapped) = (0, 0);
     for (sight_cells, range_cells, density) in
         [(1, 3, 10), (2, 4, 10), (3, 5, 15), (6, 4, 15), (20, 60, 25), (4, 30, 30)]
@@ -197,7 +197,7 @@ fn robots_choose_one_after_the_other_cells_that_have_a_link_and_share_what_is_to
                     .map(|aim| aim.filter(|&aim| has_spread && map.is_frontier(aim)))
                     .collect();
                 let Some((made, _)) = world.go() else { break };
-                has_spread = made == Made::Spread;
+                has_spread = made == MoveKind::Spread;
                 if !has_spread {
                     continue;
                 }
@@ -231,7 +231,7 @@ fn a_way_of_any_length_is_the_shortest_one() {
         World::new(Rule::REPAIRED.within(1, 200).expect("a rule"), floor, BTreeSet::new(), &[start]);
     let mut moves = 0;
     while let Some((made, _)) = world.go() {
-        assert_eq!(made, Made::Spread, "it goes its own way");
+        assert_eq!(made, MoveKind::Spread, "it goes its own way");
         moves += 1;
     }
     assert_eq!(moves, 149 + 298, "the last cell at each end is seen from the one before it");
@@ -239,7 +239,7 @@ fn a_way_of_any_length_is_the_shortest_one() {
 
 #[test]
 fn memory_that_has_served_a_billion_floods_serves_on() {
-    let mut drawn = Drawn(6);
+    let mut drawn = Congruence(6);
     let floor = area((0, 0), 15, 12);
     let obstacles = obstacles(&mut drawn, floor, 20);
     let start = free_cell(&mut drawn, floor, &obstacles);
@@ -247,7 +247,7 @@ fn memory_that_has_served_a_billion_floods_serves_on() {
         let rule = Rule::REPAIRED.within(2, 5).expect("a rule");
         let mut world = World::new(rule, floor, obstacles.clone(), &[start]);
         world.rounds = rounds;
-        let moves: Vec<(Made, Vec<Step>)> = std::iter::from_fn(|| world.go()).collect();
+        let moves: Vec<(MoveKind, Vec<Step>)> = std::iter::from_fn(|| world.go()).collect();
         (moves, world.rounds)
     };
     let (first, floods) = moves(0);
@@ -265,7 +265,10 @@ fn a_rule_has_a_sight_of_1_to_31_cells_and_a_range_of_3_or_more() {
     for sight_cells in 0..40 {
         let within = Rule::REPAIRED.within(sight_cells, 3);
         let sight = within.map(|rule| u16::from(rule.sight().radius_cells()));
-        assert_eq!(sight, if (1..=31).contains(&sight_cells) { Ok(sight_cells) } else { Err(Unfit::Sight) });
+        assert_eq!(
+            sight,
+            if (1..=31).contains(&sight_cells) { Ok(sight_cells) } else { Err(RangeError::Sight) }
+        );
         let Ok(rule) = within else { continue };
         let far = sight_cells as i16;
         let disc = area((-far, -far), 2 * far + 1, 2 * far + 1);
@@ -274,7 +277,7 @@ fn a_rule_has_a_sight_of_1_to_31_cells_and_a_range_of_3_or_more() {
     }
     for range_cells in [0, 1, 2, 3, 4, u16::MAX] {
         let range = Rule::REPAIRED.within(1, range_cells).map(|rule| rule.range_cells());
-        assert_eq!(range, if range_cells < 3 { Err(Unfit::Range) } else { Ok(range_cells) });
+        assert_eq!(range, if range_cells < 3 { Err(RangeError::Range) } else { Ok(range_cells) });
     }
 }
 
@@ -296,7 +299,7 @@ fn links_join_robots_by_all_four_corners_or_by_midpoints() {
 
 #[test]
 fn robots_are_connected_if_links_lead_from_one_to_all() {
-    let (mut drawn, mut connected) = (Drawn(7), 0);
+    let (mut drawn, mut connected) = (Congruence(7), 0);
     for round in 0..600 {
         let rule = Rule::REPAIRED.within(1, 3 + round % 6).expect("a rule");
         let robots = 1 + drawn.pick(MAX_ROBOTS as u32);
@@ -315,7 +318,7 @@ fn robots_are_connected_if_links_lead_from_one_to_all() {
         connected += u32::from(is_one);
         assert_eq!(is_connected(&rule, &cells), is_one, "{cells:?}");
         let refused = Team::new(rule, &cells).err();
-        assert_eq!(refused, (!is_one).then_some(Refused::Apart(joined.len(), cells.len())), "{cells:?}");
+        assert_eq!(refused, (!is_one).then_some(SetupError::Apart(joined.len(), cells.len())), "{cells:?}");
         assert!(Team::new(rule.without(Condition::Connect), &cells).is_ok());
     }
     assert!((150..450).contains(&connected), "{connected}");
@@ -327,11 +330,11 @@ fn a_pack_has_1_to_32_robots_each_in_a_cell_of_its_own() {
     for robots in [0, 1, 2, 31, 32, 33] {
         let refused = Team::new(Rule::REPAIRED, &row(robots)).err();
         let count = robots as usize;
-        assert_eq!(refused, (!(1..=32).contains(&count)).then_some(Refused::Robots(count)));
+        assert_eq!(refused, (!(1..=32).contains(&count)).then_some(SetupError::Robots(count)));
     }
     let mut cells = row(5);
     cells[4] = cells[2];
-    assert_eq!(Team::new(Rule::REPAIRED, &cells).err(), Some(Refused::Together(Cell::new(2, 0))));
+    assert_eq!(Team::new(Rule::REPAIRED, &cells).err(), Some(SetupError::Together(Cell::new(2, 0))));
 }
 
 /// Whether cells that share sides lead from one to all.
@@ -345,7 +348,12 @@ fn is_one_piece(cells: &[Cell]) -> bool {
 }
 
 /// Free cells side by side, as many as there are robots.
-fn starts(drawn: &mut Drawn, floor: Area, obstacles: &BTreeSet<Cell>, robots: usize) -> Option<Vec<Cell>> {
+fn starts(
+    drawn: &mut Congruence,
+    floor: Area,
+    obstacles: &BTreeSet<Cell>,
+    robots: usize,
+) -> Option<Vec<Cell>> {
     let mut starts = vec![free_cell(drawn, floor, obstacles)];
     while starts.len() < robots {
         let beside = starts.iter().flat_map(|cell| Side::ALL.map(|side| cell.beyond(side)));
@@ -359,7 +367,7 @@ fn starts(drawn: &mut Drawn, floor: Area, obstacles: &BTreeSet<Cell>, robots: us
 
 #[test]
 fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
-    let mut drawn = Drawn(8);
+    let mut drawn = Congruence(8);
     let mut made = BTreeMap::<&str, u32>::new();
     let (mut followed, mut led_again) = (0, 0);
     for round in 0..400 {
@@ -399,8 +407,8 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
             let moved: Vec<usize> = (0..robots).filter(|&robot| steps[robot] != Step::Stay).collect();
             assert!(!moved.is_empty(), "somebody goes");
             let name = match kind {
-                Made::Spread => "spread",
-                Made::Led(leader) => {
+                MoveKind::Spread => "spread",
+                MoveKind::Led(leader) => {
                     followed += moved.iter().filter(|&&robot| robot != leader).count();
                     led_again += u32::from(was_back && !before.is_empty());
                     // If the robots went their own ways before, that of the leader was the shortest.
@@ -416,11 +424,11 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
                     }
                     "led"
                 }
-                Made::TakenBack => {
+                MoveKind::TakenBack => {
                     assert_eq!(before.pop().as_deref(), Some(to), "the last team move is taken back");
                     "taken back"
                 }
-                Made::Marched => {
+                MoveKind::Marched => {
                     assert!(is_one_piece(&from) && is_one_piece(to), "{from:?} to {to:?}");
                     // One robot goes ahead, and the others each into a cell that was left.
                     let new: Vec<&Cell> = to.iter().filter(|cell| !from.contains(cell)).collect();
@@ -429,10 +437,10 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
                     "marched"
                 }
             };
-            if kind != Made::TakenBack {
+            if kind != MoveKind::TakenBack {
                 before.push(from);
             }
-            (has_spread, was_back) = (kind == Made::Spread, kind == Made::TakenBack);
+            (has_spread, was_back) = (kind == MoveKind::Spread, kind == MoveKind::TakenBack);
             *made.entry(name).or_default() += 1;
         }
         let left = distances(&world.map, world.team.cells()[0]);

@@ -11,7 +11,7 @@ use tautline_kernel::position::{
     bound, check, check_meeting, closed_form, linear, locate,
 };
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
 
@@ -24,7 +24,7 @@ fn ranges(anchors: &[Point], at: Point) -> Vec<Range> {
 }
 
 /// Ranges from a place in the square, each wrong by at most a third.
-fn wrong(drawn: &mut Drawn) -> Vec<Range> {
+fn wrong(drawn: &mut Congruence) -> Vec<Range> {
     let mut part = || f64::from(drawn.pick(1 << 20)) / f64::from(1 << 20);
     let at = Point::new(20.0 * part(), 20.0 * part());
     let anchors =
@@ -32,7 +32,7 @@ fn wrong(drawn: &mut Drawn) -> Vec<Range> {
     anchors.collect()
 }
 
-fn swarm(ranges: &[Range], parameters: Parameters, oracle: &mut Drawn) -> Point {
+fn swarm(ranges: &[Range], parameters: Parameters, oracle: &mut Congruence) -> Point {
     let around = closed_form(ranges).expect("anchors that stand well");
     let mut particles = [Particle::UNUSED; 30];
     Swarm::start(ranges, around, parameters, &mut particles, oracle).expect("ranges").run(oracle)
@@ -47,7 +47,7 @@ fn results_are_the_same_bits_at_every_optimisation_level_and_on_every_machine() 
             digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
         }
     };
-    let mut drawn = Drawn(1);
+    let mut drawn = Congruence(1);
     let area = Area::new(SQUARE[0], Point::new(20.0, 20.0));
     for round in 0..200 {
         let ranges = wrong(&mut drawn);
@@ -129,11 +129,11 @@ fn what_gives_no_position_is_refused_by_every_way() {
         assert_eq!(linear(&ranges), Err(refusal));
         assert_eq!(locate(&ranges, Residual::Metres, &signal(1.0), None), Err(refusal));
         let mut particles = [Particle::UNUSED; 3];
-        let swarm = Swarm::start(&ranges, at, Parameters::FALLING, &mut particles, &mut Drawn(1));
+        let swarm = Swarm::start(&ranges, at, Parameters::FALLING, &mut particles, &mut Congruence(1));
         assert_eq!(swarm.err(), Some(refusal));
         assert!(refusal.to_string().contains("anchor") && !refusal.remedy().is_empty(), "{refusal}");
     }
-    let swarm = Swarm::start(&good, at, Parameters::FALLING, &mut [], &mut Drawn(1));
+    let swarm = Swarm::start(&good, at, Parameters::FALLING, &mut [], &mut Congruence(1));
     assert_eq!(swarm.err(), Some(Refusal::NoParticle));
     let zero = with(1, |range| range.distance_m = 0.0);
     assert_eq!(locate(&zero, Residual::Decibels, &signal(1.0), None), Err(Refusal::Zero { anchor: 1 }));
@@ -302,7 +302,7 @@ fn the_covariance_in_decibels_is_the_bound_and_in_metres_never_below_it() {
 #[test]
 fn the_corrected_order_comes_nearer_to_the_optimum_than_the_printed_one() {
     let mean_m = |order: Order| {
-        let mut drawn = Drawn(5);
+        let mut drawn = Congruence(5);
         let mut sum = 0.0;
         for _ in 0..300 {
             let ranges = wrong(&mut drawn);
@@ -368,7 +368,7 @@ fn goes_with(way: Way, ranges: &[Range], motion: Motion) -> bool {
 
 #[test]
 fn a_way_that_prefers_a_direction_does_not_go_with_its_anchors() {
-    let drawn = wrong(&mut Drawn(1));
+    let drawn = wrong(&mut Congruence(1));
     let east: Way = |ranges| Point::new(by_metres(ranges).x_m + 1.0, by_metres(ranges).y_m);
     let north: Way = |ranges| Point::new(by_metres(ranges).x_m, by_metres(ranges).y_m.abs());
     let still = Motion { degrees: 0.0, is_mirrored: false, to: Point::default() };
@@ -418,14 +418,14 @@ proptest! {
             }
         }
         let mut particles = [Particle::UNUSED; 4];
-        if let Ok(swarm) = Swarm::start(&ranges, Point::default(), Parameters::FALLING, &mut particles, &mut Drawn(2)) {
-            prop_assert!(swarm.run(&mut Drawn(3)).is_finite());
+        if let Ok(swarm) = Swarm::start(&ranges, Point::default(), Parameters::FALLING, &mut particles, &mut Congruence(2)) {
+            prop_assert!(swarm.run(&mut Congruence(3)).is_finite());
         }
     }
 
     #[test]
     fn positions_are_moved_turned_and_mirrored_with_their_anchors(seed in any::<u64>(), motion in motions()) {
-        let ranges = wrong(&mut Drawn(seed));
+        let ranges = wrong(&mut Congruence(seed));
         for way in [by_metres, by_decibels, by_equations] {
             prop_assert!(goes_with(way, &ranges, motion), "{:?}", ranges);
         }
@@ -448,7 +448,7 @@ proptest! {
 
     #[test]
     fn the_best_of_a_swarm_never_worsens(seed in any::<u64>(), is_published in any::<bool>()) {
-        let mut drawn = Drawn(seed);
+        let mut drawn = Congruence(seed);
         let order = if is_published { Order::Published } else { Order::Corrected };
         let ranges = wrong(&mut drawn);
         let mut particles = [Particle::UNUSED; 5];

@@ -1,11 +1,11 @@
 //! A chain that has lost a robot: what it tells while the two parts take their moves back, and once they are in
 //! contact.
 
-use tautline_kernel::chain::{Chain, Damaged, Intent, Rule, Unformed};
+use tautline_kernel::chain::{Chain, Damage, Intent, ReformError, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, SmallGrid};
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 const BASE: Cell = Cell::new(4, 4);
 
@@ -28,7 +28,7 @@ fn reforms(chain: &Team, robot: usize, log: &[u8]) -> bool {
     if let Some(entry) = chain.last_open().filter(|_| robot <= movers) {
         let sent = (entry as usize + 1) * movers;
         let short = parts.clone().take_back(&log[..sent - movers]);
-        assert_eq!(short, Err(Damaged::Length { bytes: sent - movers, sent }));
+        assert_eq!(short, Err(Damage::Length { bytes: sent - movers, sent }));
     }
     let mut was_away = false;
     loop {
@@ -46,7 +46,7 @@ fn reforms(chain: &Team, robot: usize, log: &[u8]) -> bool {
             // It can come home as long as there is something from before to take back.
             assert_eq!((team.can_come_home(), team.come_home(parts).is_some()), (took, took));
             let again = team.reform(2, &[]).err();
-            assert_eq!(again == Some(Unformed::NoWayHome), took && before.len() > 2, "{again:?}");
+            assert_eq!(again == Some(ReformError::NoWayHome), took && before.len() > 2, "{again:?}");
             was_away |= took;
             // Once it has moved, it takes that back first.
             let mut team = team;
@@ -55,7 +55,7 @@ fn reforms(chain: &Team, robot: usize, log: &[u8]) -> bool {
                 assert!(!team.can_come_home());
             }
         } else {
-            assert_eq!(then.err(), Some(Unformed::Apart));
+            assert_eq!(then.err(), Some(ReformError::Apart));
         }
         if !took {
             assert!(before.iter().all(|&cell| cell == BASE), "{before:?}");
@@ -68,7 +68,7 @@ fn reforms(chain: &Team, robot: usize, log: &[u8]) -> bool {
 #[test]
 fn the_parts_of_a_chain_come_together_or_home() {
     let area = Area::new(Cell::new(0, 0), Cell::new(8, 8)).expect("cells");
-    let (mut drawn, mut away) = (Drawn(5), 0);
+    let (mut drawn, mut away) = (Congruence(5), 0);
     for round in 0..30 {
         let robots = 3 + round % 3;
         let grid = SmallGrid::new(area.around(BASE, robots as u16 - 1).expect("inside")).expect("it fits");
@@ -87,7 +87,7 @@ fn the_parts_of_a_chain_come_together_or_home() {
                 away += u32::from(reforms(&chain, robot, &log));
             }
             for robot in [0, 1, robots + 1] {
-                assert_eq!(chain.reform(robot, &log).err(), Some(Unformed::NoRobot { robot, robots }));
+                assert_eq!(chain.reform(robot, &log).err(), Some(ReformError::NoRobot { robot, robots }));
             }
         }
     }
@@ -99,6 +99,6 @@ fn a_base_and_one_robot_are_too_few_to_lose_one() {
     let grid =
         || SmallGrid::new(Area::new(Cell::new(3, 3), Cell::new(5, 5)).expect("cells")).expect("it fits");
     let [two, three] = [2, 3].map(|robots| Team::new(Rule::REEL, robots, BASE, grid()).expect("a chain"));
-    assert_eq!(two.reform(2, &[]).err(), Some(Unformed::TooFew));
+    assert_eq!(two.reform(2, &[]).err(), Some(ReformError::TooFew));
     assert!(three.reform(2, &[]).is_ok());
 }

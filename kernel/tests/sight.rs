@@ -8,11 +8,11 @@ use tautline_kernel::ground::{Cell, Side};
 use tautline_kernel::pack::{Chart, Sight, Status, Window};
 
 use crate::floors::{Map, area, free_cell, gain, is_clear, is_within, obstacles, unknown};
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 #[test]
 fn a_robot_sees_the_cells_to_which_a_straight_way_is_free() {
-    let mut drawn = Drawn(1);
+    let mut drawn = Congruence(1);
     for (sight_cells, density) in
         (1..=12).flat_map(|far| [0, 8, 25, 60].map(|density| (far, density))).chain([(31, 3), (30, 15)])
     {
@@ -51,7 +51,7 @@ fn a_robot_sees_the_cells_to_which_a_straight_way_is_free() {
 
 #[test]
 fn a_map_knows_what_was_put_in_it_and_nothing_outside() {
-    let mut drawn = Drawn(2);
+    let mut drawn = Congruence(2);
     for (width, height) in [(1, 1), (3, 70), (63, 2), (64, 3), (65, 3), (128, 2), (200, 4)] {
         let floor = area((-90, -3), width, height);
         let mut map = unknown(floor);
@@ -85,7 +85,7 @@ fn a_map_knows_what_was_put_in_it_and_nothing_outside() {
 
 #[test]
 fn a_gain_counts_the_unknown_cells_that_would_be_seen_and_that_nobody_else_goes_to_see() {
-    let mut drawn = Drawn(3);
+    let mut drawn = Congruence(3);
     for sight_cells in [1, 2, 3, 5, 8, 20, 31] {
         let sight = Sight::new(sight_cells).expect("it sees");
         for (width, known) in [(130, 5), (128, 50), (130, 50), (128, 90), (30, 60)] {
@@ -100,7 +100,7 @@ fn a_gain_counts_the_unknown_cells_that_would_be_seen_and_that_nobody_else_goes_
                 let mut near =
                     || Cell::new(-44 + drawn.pick(width as u32 + 8) as i16, 1 + drawn.pick(68) as i16);
                 let (cell, one, other) = (near(), near(), near());
-                let by = |by: u32, drawn: &mut Drawn| drawn.pick(2 * by + 1) as i16 - by as i16;
+                let by = |by: u32, drawn: &mut Congruence| drawn.pick(2 * by + 1) as i16 - by as i16;
                 let close = Cell::new(
                     cell.x + by(2 * u32::from(sight_cells), &mut drawn),
                     cell.y + by(2 * u32::from(sight_cells), &mut drawn),

@@ -9,7 +9,7 @@ use tautline_kernel::floor::COMPASS;
 use tautline_kernel::frontier::{Map, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 const MIDDLE: Cell = Cell::new(1, 1);
 
@@ -51,7 +51,7 @@ fn is_inside(cell: Cell) -> bool {
 }
 
 /// A random tree on 3×3 cells, with the depth of each cell; if it begins at the rim, `deep` below a root outside.
-fn tree(drawn: &mut Drawn, label: Label, deep: u32) -> BTreeMap<Cell, Note> {
+fn tree(drawn: &mut Congruence, label: Label, deep: u32) -> BTreeMap<Cell, Note> {
     let root = Cell::new(drawn.pick(3) as i16, drawn.pick(3) as i16);
     let out = Side::ALL.into_iter().find(|&side| deep > 0 && !is_inside(root.beyond(side)));
     let first = Note::default().of_tree(label, out).at_depth(if out.is_some() { deep } else { 0 });
@@ -70,7 +70,7 @@ fn tree(drawn: &mut Drawn, label: Label, deep: u32) -> BTreeMap<Cell, Note> {
 
 #[test]
 fn children_restore_what_the_sensor_of_their_parent_stored() {
-    let (mut drawn, mut restored, mut roots) = (Drawn(1), 0, 0);
+    let (mut drawn, mut restored, mut roots) = (Congruence(1), 0, 0);
     let (greater, old, less) = (label(0), label(1), label(2));
     for round in 0..2000 {
         let floor = tree(&mut drawn, old, 3 * (round % 2));
@@ -139,7 +139,7 @@ fn children_restore_what_the_sensor_of_their_parent_stored() {
 
 #[test]
 fn an_agent_that_restores_acts_on_what_is_restored() {
-    let (mut drawn, mut restored) = (Drawn(1), 0);
+    let (mut drawn, mut restored) = (Congruence(1), 0);
     let [old, less] = [label(1), label(2)];
     for round in 0..300 {
         let floor = tree(&mut drawn, old, 3 * (round % 2));
@@ -186,7 +186,7 @@ fn an_agent_that_finds_a_sensor_where_it_missed_one_goes_back() {
 fn two_maps_joined_know_what_either_knows_and_no_explored_cell_is_an_obstacle() {
     let area = Area::new(Cell::new(-3, 2), Cell::new(4, 8)).expect("an area");
     let cells: Vec<Cell> = (1..10).flat_map(|y| (-4..6).map(move |x| Cell::new(x, y))).collect();
-    let mut drawn = Drawn(5);
+    let mut drawn = Congruence(5);
     for _ in 0..200 {
         let mut maps = [TinyMap::new(area).expect("56 cells"); 2];
         let mut told: [BTreeMap<Cell, Status>; 2] = [const { BTreeMap::new() }; 2];

@@ -12,8 +12,10 @@ pub mod pool;
 mod rows;
 pub mod team;
 
-pub use self::parameters::{Cells, Deadlock, Links, Moves, Null, Parameters, Search, Unfit, Weights};
+pub use self::parameters::{
+    Cells, Deadlock, Links, Moves, Null, ParameterError, Parameters, Search, Weights,
+};
 pub use self::rows::{
     CATALOGUE, COVERED, COVERED_SHARED, FULL_SEARCH, RIVALS, ROOKER_BIRK, SCATTER, SHARED, fault, rival,
 };
-pub use self::team::{Over, Team};
+pub use self::team::{Standstill, Team};

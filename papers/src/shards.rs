@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_proofs::plural::counted;
 
-use crate::tables::{Asked, find};
+use crate::tables::{Experiment, find};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::resumable::{Facts, Resumable, written};
 use tautline_sim::shards::{Done, Of, Plan};
@@ -24,13 +24,13 @@ struct Deal {
 /// How far a shard is.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Far {
+struct ShardProgress {
     /// Of its jobs, in their order.
     results: Vec<Box<RawValue>>,
 }
 
 struct Jobs<'a> {
-    asked: &'a (dyn Asked + 'a),
+    asked: &'a (dyn Experiment + 'a),
     all: Vec<String>,
     results: Vec<Box<RawValue>>,
 }
@@ -49,7 +49,7 @@ fn read<'a, T: Deserialize<'a>>(value: &'a RawValue) -> Result<T, Diagnostic> {
 ///
 /// # Errors
 /// [`Halt`] if its settings cannot be measured.
-pub fn deal_table(id: &str, asked: &dyn Asked) -> Result<(Of, Box<RawValue>, usize), Halt> {
+pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Of, Box<RawValue>, usize), Halt> {
     let (settings, jobs) = (raw(asked.settings()?)?, asked.jobs()?.len());
     Ok((Of::Table { id: id.to_owned() }, written(&Deal { settings, jobs })?, jobs))
 }
@@ -58,7 +58,7 @@ pub fn deal_table(id: &str, asked: &dyn Asked) -> Result<(Of, Box<RawValue>, usi
 ///
 /// # Errors
 /// A [`Diagnostic`] if it is none of a table.
-pub fn restored(plan: &Plan) -> Result<Box<dyn Asked>, Diagnostic> {
+pub fn restored(plan: &Plan) -> Result<Box<dyn Experiment>, Diagnostic> {
     let none =
         || Diagnostic::usage("this plan is none of a table", "run it with the command that planned it");
     let Of::Table { id } = &plan.of else { return Err(none()) };
@@ -72,14 +72,14 @@ pub fn restored(plan: &Plan) -> Result<Box<dyn Asked>, Diagnostic> {
 /// [`Halt`] if the plan has no such shard, or it was never there.
 pub fn table_part<'a>(
     plan: &Plan,
-    asked: &'a dyn Asked,
+    asked: &'a dyn Experiment,
     shard: u32,
     far: Option<&RawValue>,
 ) -> Result<Box<dyn Resumable + 'a>, Halt> {
     plan.check_shard(shard)?;
     let (first, of) = (shard as usize - 1, plan.shards as usize);
     let jobs: Vec<String> = asked.jobs()?.into_iter().skip(first).step_by(of).collect();
-    let results = far.map(read::<Far>).transpose()?.map_or(Vec::new(), |far| far.results);
+    let results = far.map(read::<ShardProgress>).transpose()?.map_or(Vec::new(), |far| far.results);
     if results.len() > jobs.len() {
         let what = format!("shard {shard} has {}, and kept are more", counted(jobs.len(), "job"));
         return Err(Diagnostic::usage(what, "remove its file, and run it again").into());
@@ -91,12 +91,12 @@ pub fn table_part<'a>(
 ///
 /// # Errors
 /// [`Halt`] if they do not fit their plan, or a shard has done less than it was dealt.
-pub fn merge_table(plan: &Plan, asked: &dyn Asked, shards: &[Done]) -> Result<Vec<String>, Halt> {
+pub fn merge_table(plan: &Plan, asked: &dyn Experiment, shards: &[Done]) -> Result<Vec<String>, Halt> {
     let deal: Deal = read(&plan.deal)?;
     for (number, shard) in (1..).zip(shards) {
         shard.check(table_part(plan, asked, number, Some(&shard.far)))?;
     }
-    let fars = shards.iter().map(|shard| read::<Far>(&shard.far)).collect::<Result<Vec<_>, _>>()?;
+    let fars = shards.iter().map(|shard| read::<ShardProgress>(&shard.far)).collect::<Result<Vec<_>, _>>()?;
     let mut shards: Vec<_> = fars.into_iter().map(|far| far.results.into_iter()).collect();
     let of = shards.len();
     let next = |job: usize| {
@@ -120,7 +120,7 @@ impl Resumable for Jobs<'_> {
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        written(&Far { results: self.results.clone() })
+        written(&ShardProgress { results: self.results.clone() })
     }
 
     fn is_done(&self) -> bool {

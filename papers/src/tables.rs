@@ -46,7 +46,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tautline_proofs::engine::tree::Progress;
 
-pub use self::entry::{Asked, Entry, Made};
+pub use self::entry::{Entry, Experiment, Report};
 use self::parameter::{Parameter, Settings};
 use tautline_field::radio::Problem;
 use tautline_kernel::ground::Cell;
@@ -91,12 +91,12 @@ pub trait Table: fmt::Debug + Sync + 'static {
     /// A part of the work, independent of all others.
     type Job: Serialize + DeserializeOwned + Send + Sync;
     /// The result of a job.
-    type Measured: Serialize + DeserializeOwned + Send;
+    type Sample: Serialize + DeserializeOwned + Send;
     /// The whole table. Its members follow `schema_version` and `id` in the JSON.
-    type Merged: JsonSchema + Serialize;
+    type Summary: JsonSchema + Serialize;
 
     /// Its name, and what a person is told of it.
-    fn about(&self) -> About;
+    fn about(&self) -> Description;
 
     /// Its settings, as a person gives them, in the order in which a help text has them.
     fn parameters(&self) -> Vec<Parameter<Self::Settings>> {
@@ -128,21 +128,21 @@ pub trait Table: fmt::Debug + Sync + 'static {
         settings: &Self::Settings,
         job: &Self::Job,
         observer: &dyn Observer,
-    ) -> Result<Self::Measured, Halt>;
+    ) -> Result<Self::Sample, Halt>;
 
     /// The table from the results of all jobs, in their order.
     ///
     /// # Errors
     /// [`Halt`] if there is none.
-    fn merge(&self, settings: &Self::Settings, results: Results<Self>) -> Result<Self::Merged, Halt>;
+    fn merge(&self, settings: &Self::Settings, results: Results<Self>) -> Result<Self::Summary, Halt>;
 
     /// The table for people. Ends with a newline.
     ///
     /// # Errors
     /// [`Halt`] if what is drawn in it cannot be found again.
-    fn text(&self, settings: &Self::Settings, merged: &Self::Merged) -> Result<String, Halt>;
+    fn text(&self, settings: &Self::Settings, merged: &Self::Summary) -> Result<String, Halt>;
 
-    /// The picture with this place among those that [`About`] names, as SVG.
+    /// The picture with this place among those that [`Description`] names, as SVG.
     ///
     /// # Errors
     /// [`Halt`] if there is nothing to draw.
@@ -150,20 +150,20 @@ pub trait Table: fmt::Debug + Sync + 'static {
         &self,
         _picture: usize,
         _settings: &Self::Settings,
-        _merged: &Self::Merged,
+        _merged: &Self::Summary,
     ) -> Result<String, Halt> {
         Ok(String::new())
     }
 
     /// Whether a clause is broken that was to hold.
-    fn is_broken(&self, _merged: &Self::Merged) -> bool {
+    fn is_broken(&self, _merged: &Self::Summary) -> bool {
         false
     }
 }
 
 /// A table's name, and what a person is told of it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct About {
+pub struct Description {
     /// Its name.
     pub id: &'static str,
     /// A line about it, for the list of all tables.
@@ -180,14 +180,14 @@ pub struct About {
     pub pictures: &'static [(&'static str, &'static str)],
 }
 
-impl About {
+impl Description {
     /// Nothing, which a table fills in.
     const NOTHING: Self =
         Self { id: "", shows: "", help: "", more: "", examples: &[], doing: "", pictures: &[] };
 }
 
 /// Jobs of a table with their results, in their order.
-pub type Results<T> = Vec<(<T as Table>::Job, <T as Table>::Measured)>;
+pub type Results<T> = Vec<(<T as Table>::Job, <T as Table>::Sample)>;
 
 /// How the jobs of a table share the threads.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -237,7 +237,7 @@ pub fn measure<T: Table>(
     table: &T,
     settings: &T::Settings,
     observer: &dyn Observer,
-) -> Result<T::Merged, Halt> {
+) -> Result<T::Summary, Halt> {
     let jobs = table.jobs(settings)?;
     observer.begin(jobs.iter().map(|job| table.parts(job)).sum());
     let measure = |job: T::Job| {

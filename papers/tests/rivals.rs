@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
-use tautline_papers::rivals::full::{Found, best};
+use tautline_papers::rivals::full::{BestMoves, best};
 use tautline_papers::rivals::joint::{Joint, Score};
 use tautline_papers::rivals::{CATALOGUE, COVERED, rival};
 use tautline_papers::rivals::{
-    Cells, Deadlock, Links, Moves, Null, Parameters, Search, Team, Unfit, Weights, full, pool,
+    Cells, Deadlock, Links, Moves, Null, ParameterError, Parameters, Search, Team, Weights, full, pool,
 };
 use tautline_sim::explore::{Limits, Report, RuleId, Setup, Stopped, explore, run, team};
 use tautline_sim::layout::{Generator, Layout};
@@ -64,7 +64,7 @@ fn full_search_finds_what_plain_enumeration_finds_ties_and_faults_included() {
             Team::new(parameters, robots, Cell::new(4, 4), layout.size().area(), seed).expect("a team");
         while let Some(joint) = team.joint() {
             let (score, all) = enumerated(&joint);
-            let Found { score: found, ties, steps } = best(&joint, &mut dice).expect("few robots");
+            let BestMoves { score: found, ties, steps } = best(&joint, &mut dice).expect("few robots");
             assert_eq!((found, ties), (score, all.len() as u64), "{joint:?}");
             assert!(all.contains(&steps.into_iter().map(Step::place).collect::<Vec<_>>()), "{joint:?}");
             faulty += u32::from(score.faults > 0);
@@ -129,9 +129,15 @@ fn what_does_not_fit_is_refused_with_its_reason() {
     insta::assert_snapshot!(refused(Parameters::POOL, 1), @"there is no team of 1, the base counted");
     for wrong in [f64::NAN, f64::INFINITY, -1e9] {
         let weights = Weights { distance: wrong, new_cell: 0.0 };
-        assert!(matches!(Parameters { weights, ..Parameters::FULL }.check(8), Err(Unfit::Weight { .. })));
+        assert!(matches!(
+            Parameters { weights, ..Parameters::FULL }.check(8),
+            Err(ParameterError::Weight { .. })
+        ));
         let weights = Weights { distance: 1.0, new_cell: wrong };
-        assert!(matches!(Parameters { weights, ..Parameters::POOL }.check(8), Err(Unfit::Weight { .. })));
+        assert!(matches!(
+            Parameters { weights, ..Parameters::POOL }.check(8),
+            Err(ParameterError::Weight { .. })
+        ));
     }
     let setup = |name, rule, robots| {
         let layout = layout("open:23x23", 0);

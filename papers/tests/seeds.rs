@@ -13,13 +13,13 @@ const SEEDS: u64 = 6;
 
 /// An option that a run is told besides, if any.
 #[derive(Clone, Copy, PartialEq, Debug)]
-enum Told {
+enum RunOption {
     Nothing,
     Miss,
     Extra(&'static Extra),
 }
 
-impl Told {
+impl RunOption {
     fn all() -> impl Iterator<Item = Self> {
         [Self::Nothing, Self::Miss].into_iter().chain(Extra::ALL.map(Self::Extra))
     }
@@ -49,7 +49,7 @@ impl Told {
 
 /// A run with this seed: whether it is said to draw anything, and all that came of it. `None` if the rule cannot be
 /// told that.
-fn run(scheme: Scheme, rule: &Rule, told: Told, layout: &Layout, seed: u64) -> Option<(bool, String)> {
+fn run(scheme: Scheme, rule: &Rule, told: RunOption, layout: &Layout, seed: u64) -> Option<(bool, String)> {
     let limits = Limits { max_moves: NonZeroU32::new(60), ..Limits::default() };
     let mut asked = Asked { robots: Some(4), seed, limits, ..Asked::new(scheme, rule.name) };
     told.tell(&mut asked);
@@ -68,7 +68,9 @@ fn run(scheme: Scheme, rule: &Rule, told: Told, layout: &Layout, seed: u64) -> O
 fn each_scheme_says_what_its_seed_draws() {
     for scheme in CATALOGUE.schemes() {
         let mut seen: Vec<&Drawn> = Vec::new();
-        for (rule, told) in scheme.rules.iter().flat_map(|rule| Told::all().map(move |told| (rule, told))) {
+        for (rule, told) in
+            scheme.rules.iter().flat_map(|rule| RunOption::all().map(move |told| (rule, told)))
+        {
             // An open area has most ways that are as good; obstacles make messages matter, and walls the order of
             // robots.
             for layout in ["open:7x6", "cells:7x6:0.2", "walls:7x6:0.2"] {
@@ -81,10 +83,10 @@ fn each_scheme_says_what_its_seed_draws() {
                 let differ = runs.iter().any(|(_, other)| other != first);
                 assert!(*draws || !differ, "{} ({}), {told:?}: a seed has an effect", scheme.name, rule.name);
                 let by = scheme.drawn.iter().filter(|drawn| match drawn.by {
-                    By::Every => told == Told::Nothing,
-                    By::Miss => told == Told::Miss,
-                    By::Told(extra) => told == Told::Extra(extra),
-                    By::Rule(name) => name == rule.name && told == Told::Nothing,
+                    By::Every => told == RunOption::Nothing,
+                    By::Miss => told == RunOption::Miss,
+                    By::Told(extra) => told == RunOption::Extra(extra),
+                    By::Rule(name) => name == rule.name && told == RunOption::Nothing,
                 });
                 seen.extend(by.filter(|_| differ));
             }
@@ -101,7 +103,7 @@ fn of_a_scheme_in_which_every_run_draws_no_rule_is_without_chance() {
     let open = Layout::open(7, 6).expect("a layout");
     for scheme in CATALOGUE.schemes().filter(of_every) {
         for rule in scheme.rules {
-            let run = |seed| run(scheme, rule, Told::Nothing, &open, seed).expect("a run").1;
+            let run = |seed| run(scheme, rule, RunOption::Nothing, &open, seed).expect("a run").1;
             assert!((1..SEEDS).any(|seed| run(seed) != run(0)), "{} ({})", scheme.name, rule.name);
         }
     }

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 use tautline_papers::tables::parameter::Values;
-use tautline_papers::tables::{Asked, Entry, Made, TABLES, find};
+use tautline_papers::tables::{Entry, Experiment, Report, TABLES, find};
 
 /// Values that make any table quick.
 const SMALL: [(&str, &[&str]); 10] = [
@@ -23,7 +23,7 @@ const SMALL: [(&str, &[&str]); 10] = [
     ("topologies", &["3"]),
 ];
 
-fn small(table: &dyn Entry) -> Box<dyn Asked + '_> {
+fn small(table: &dyn Entry) -> Box<dyn Experiment + '_> {
     let has = |name: &str| table.options().iter().any(|(option, _)| option.name == name);
     let given = SMALL.iter().filter(|(name, _)| has(name));
     let given: Vec<(String, Vec<String>)> = given
@@ -33,7 +33,7 @@ fn small(table: &dyn Entry) -> Box<dyn Asked + '_> {
 }
 
 /// Everything that a person or a program is given of it.
-fn told(table: &dyn Entry, made: &dyn Made) -> Vec<String> {
+fn told(table: &dyn Entry, made: &dyn Report) -> Vec<String> {
     let pictures = table.about().pictures.iter().map(|&(name, _)| match made.picture(name) {
         Ok(picture) => picture,
         Err(halt) => format!("{halt:?}"),

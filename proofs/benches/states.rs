@@ -11,10 +11,10 @@ use std::time::Instant;
 use stateright::{Checker, Model, Property};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::Rule;
-use tautline_proofs::engine::states::{Bits, Found, Limits, System, search};
+use tautline_proofs::engine::states::{Bits, Findings, Limits, System, search};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::mrc::space::{self, Until};
-use tautline_proofs::mrc::{Demand, Faults, Leases, Lossy, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Setting};
 
 use self::model::Rescue;
 
@@ -142,7 +142,7 @@ const SETTING: Setting = Setting {
     events: 2,
     max_hops: 2,
     faults: Faults::any(1),
-    lossy: Lossy::All,
+    lossy: LossKind::All,
     leases: Leases::UntilCalled,
 };
 
@@ -194,7 +194,7 @@ fn main() {
         let each = bytes / ours.0;
         println!("  {name:6} {:>9} {mine:>6.2} {other:>11.2} {:>6.1} {each:>6}", ours.0, mine / other);
     }
-    let Found { states, steps, .. } = ants();
+    let Findings { states, steps, .. } = ants();
     println!(
         "\nSPIN counts one state and one transition more for the start of ants.pml: {states} states, {steps} steps"
     );

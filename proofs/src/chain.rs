@@ -26,4 +26,4 @@ mod three;
 mod walk;
 mod whole;
 
-pub use observed::{Deception, Observed};
+pub use observed::{Deception, Subject};

@@ -4,21 +4,21 @@
 
 use std::fmt;
 
-use crate::decide::{Answer, Desk, Evidence, Memory, Method, Played, Refused, Verdict};
-use crate::engine::states::Room;
+use crate::decide::{Answer, Cache, Context, Evidence, Method, MethodError, RefutationPlay, Verdict};
+use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Watch;
-use crate::engine::{Choices, Unfit, Until};
+use crate::engine::{Choices, ScriptError, Until};
 
 /// A rule with the name that the ledger prints: "published", "repaired", "robust", or what is wrong with it.
 #[derive(Clone, Copy, Debug)]
-pub struct Named<R> {
+pub struct NamedRule<R> {
     /// The name.
     pub name: &'static str,
     /// The rule.
     pub rule: R,
 }
 
-impl<R> Named<R> {
+impl<R> NamedRule<R> {
     /// `rule` under this name.
     pub const fn new(name: &'static str, rule: R) -> Self {
         Self { name, rule }
@@ -28,22 +28,22 @@ impl<R> Named<R> {
 /// One way to decide a clause about rules of type `R`.
 pub struct Check<R: 'static> {
     /// The rule it is about.
-    pub about: Named<R>,
+    pub about: NamedRule<R>,
     /// How it is decided.
     pub method: &'static dyn Method<R>,
     /// The verdict that must come out.
     pub expected: Verdict,
     /// Rules for which the check must fail.
-    pub mutants: &'static [Named<R>],
+    pub mutants: &'static [NamedRule<R>],
 }
 
 impl<R> Check<R> {
     /// A check of `about`.
     pub const fn new(
-        about: Named<R>,
+        about: NamedRule<R>,
         method: &'static dyn Method<R>,
         expected: Verdict,
-        mutants: &'static [Named<R>],
+        mutants: &'static [NamedRule<R>],
     ) -> Self {
         Self { about, method, expected, mutants }
     }
@@ -124,24 +124,28 @@ pub trait AnyCheck: Sync {
     /// The answer about its own rule.
     ///
     /// # Errors
-    /// [`Refused`] if its method cannot begin.
-    fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
+    /// [`MethodError`] if its method cannot begin.
+    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
 
     /// The verdict on the mutant with this number; open if there is none. One violation is enough, unless the decision
     /// is to tell of more.
     ///
     /// # Errors
-    /// [`Refused`] if its method cannot begin.
-    fn decide_mutant(&self, number: usize, until: Until, desk: &mut Desk<'_, '_>)
-    -> Result<Verdict, Refused>;
+    /// [`MethodError`] if its method cannot begin.
+    fn decide_mutant(
+        &self,
+        number: usize,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Verdict, MethodError>;
 
     /// Decides it, and whether its mutants are rejected, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
     ///
     /// # Errors
-    /// [`Refused`] if its method cannot begin.
-    fn decide(&self, memory: &mut Memory, watch: Watch<'_>) -> Result<Decision, Refused> {
-        let mut desk = Desk { memory, watch, room: Room::any() };
+    /// [`MethodError`] if its method cannot begin.
+    fn decide(&self, memory: &mut Cache, watch: Watch<'_>) -> Result<Decision, MethodError> {
+        let mut desk = Context { memory, watch, room: MemoryLimit::any() };
         let mut decision = Decision::of(self.decide_own(&mut desk)?);
         for (number, name) in self.mutants().into_iter().enumerate() {
             decision.add(name, self.decide_mutant(number, Until::Violation, &mut desk)?);
@@ -152,8 +156,8 @@ pub trait AnyCheck: Sync {
     /// Plays `choices` by the rule of the check.
     ///
     /// # Errors
-    /// [`Unfit`] if they are no refutation.
-    fn replay(&self, choices: &Choices) -> Result<Played, Unfit>;
+    /// [`ScriptError`] if they are no refutation.
+    fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 }
 
 impl<R: Sync> AnyCheck for Check<R> {
@@ -189,7 +193,7 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.method.family(&self.mutants.get(number)?.rule)
     }
 
-    fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         self.method.decide(&self.about.rule, Until::Exhausted, desk)
     }
 
@@ -197,13 +201,13 @@ impl<R: Sync> AnyCheck for Check<R> {
         &self,
         number: usize,
         until: Until,
-        desk: &mut Desk<'_, '_>,
-    ) -> Result<Verdict, Refused> {
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Verdict, MethodError> {
         let Some(mutant) = self.mutants.get(number) else { return Ok(Verdict::Open) };
         Ok(self.method.decide(&mutant.rule, until, desk)?.verdict)
     }
 
-    fn replay(&self, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         self.method.replay(&self.about.rule, choices)
     }
 }

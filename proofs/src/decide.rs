@@ -6,9 +6,9 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 
-use crate::engine::states::{self, Limits, Room, Step, System, steps};
+use crate::engine::states::{self, Limits, MemoryLimit, Step, System, steps};
 use crate::engine::tree::Watch;
-use crate::engine::{self, Choices, Outcome, Replay, Script, Stop, Tally, Unfit, Until};
+use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
 use crate::run::Run;
 
@@ -45,12 +45,12 @@ pub struct Evidence {
     /// The demand that is not met, or what is not so.
     pub demand: &'static str,
     /// The counterexample for a person.
-    pub seen: Seen,
+    pub seen: Depiction,
 }
 
 /// A counterexample as a person sees it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Seen {
+pub enum Depiction {
     /// Its choices alone.
     Choices,
     /// The events, in lines.
@@ -70,7 +70,7 @@ pub enum Seen {
 
 /// A refutation that was played.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Played {
+pub struct RefutationPlay {
     /// From how many each choice was made, in the order of the choices.
     pub of: Vec<u32>,
     /// The evidence for the verdict.
@@ -109,7 +109,7 @@ impl Answer {
         let evidence = tally.violation.map(|(once, demand)| Evidence {
             choices: Choices { once, again: Vec::new() },
             demand,
-            seen: Seen::Choices,
+            seen: Depiction::Choices,
         });
         Self { given_up: tally.given_up, ..Self::new(evidence, is_whole, shown, tally.cases) }
     }
@@ -117,28 +117,28 @@ impl Answer {
 
 /// Why a method cannot begin.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Refused(String);
+pub struct MethodError(String);
 
-impl Refused {
+impl MethodError {
     /// With this reason.
     pub fn new(reason: impl fmt::Display) -> Self {
         Self(reason.to_string())
     }
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for MethodError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
 }
 
-impl std::error::Error for Refused {}
+impl std::error::Error for MethodError {}
 
 /// Results by their questions: one search may answer several checks.
 #[derive(Default)]
-pub struct Memory(Vec<Box<dyn Any>>);
+pub struct Cache(Vec<Box<dyn Any>>);
 
-impl Memory {
+impl Cache {
     /// The result for `key`; if there is none, that of `find`, which is kept.
     ///
     /// # Errors
@@ -162,20 +162,20 @@ impl Memory {
     }
 }
 
-impl fmt::Debug for Memory {
+impl fmt::Debug for Cache {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Memory of {} answers", self.0.len())
     }
 }
 
 /// A method's surroundings.
-pub struct Desk<'a, 'w> {
+pub struct Context<'a, 'w> {
     /// Results found before.
-    pub memory: &'a mut Memory,
+    pub memory: &'a mut Cache,
     /// Hears of searches, and may end them: the check is left open then.
     pub watch: Watch<'w>,
     /// The memory that searches over states may take. Where it does not suffice, the check is left open.
-    pub room: &'a Room,
+    pub room: &'a MemoryLimit,
 }
 
 /// A way to decide a clause about rules of type `R`: a scheme's own, or a stranger's.
@@ -192,7 +192,7 @@ pub trait Method<R>: Sync {
     }
 
     /// A name for the question that it asks an engine about `rule`, if another check may ask the same one: checks with
-    /// the same name are decided one after the other, with one [`Memory`].
+    /// the same name are decided one after the other, with one [`Cache`].
     fn family(&self, _: &R) -> Option<String> {
         None
     }
@@ -200,14 +200,14 @@ pub trait Method<R>: Sync {
     /// Looks for a counterexample to `rule`.
     ///
     /// # Errors
-    /// [`Refused`] if it cannot begin.
-    fn decide(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
+    /// [`MethodError`] if it cannot begin.
+    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
 
     /// Makes the choices of a counterexample to `rule` again.
     ///
     /// # Errors
-    /// [`Unfit`] if they are none.
-    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit>;
+    /// [`ScriptError`] if they are none.
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 }
 
 /// A body: one case of a clause about `rule`, made by the choices that the oracle answers.
@@ -217,7 +217,7 @@ pub type Body<R> = fn(rule: &R, oracle: &mut dyn Oracle) -> Outcome;
 pub type Range = fn() -> String;
 
 /// Every answer to every choice of a body.
-pub struct Exhaustive<R> {
+pub struct EveryAnswer<R> {
     /// The body.
     pub body: Body<R>,
     /// The range of its choices.
@@ -227,7 +227,7 @@ pub struct Exhaustive<R> {
 }
 
 /// Many random answers to the choices of a body.
-pub struct Sampled<R> {
+pub struct RandomAnswers<R> {
     /// The body.
     pub body: Body<R>,
     /// How many times.
@@ -241,7 +241,7 @@ pub struct Sampled<R> {
 /// The seed of every sampled check.
 const SEED: u64 = 0;
 
-impl<R: Sync> Method<R> for Exhaustive<R> {
+impl<R: Sync> Method<R> for EveryAnswer<R> {
     fn engine(&self) -> &'static str {
         "exhaustive"
     }
@@ -250,17 +250,17 @@ impl<R: Sync> Method<R> for Exhaustive<R> {
         (self.range)()
     }
 
-    fn decide(&self, rule: &R, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let tally = engine::exhaust(|oracle| (self.body)(rule, oracle));
         Ok(Answer::of_tally(tally, self.covers, self.shows()))
     }
 
-    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         replay(self.body, rule, choices)
     }
 }
 
-impl<R: Sync> Method<R> for Sampled<R> {
+impl<R: Sync> Method<R> for RandomAnswers<R> {
     fn engine(&self) -> &'static str {
         "sampled"
     }
@@ -273,34 +273,37 @@ impl<R: Sync> Method<R> for Sampled<R> {
         Verdict::Unrefuted
     }
 
-    fn decide(&self, rule: &R, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let tally = engine::sample(self.runs, SEED, |oracle| (self.body)(rule, oracle));
         Ok(Answer::of_tally(tally, self.covers, self.shows()))
     }
 
-    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         replay(self.body, rule, choices)
     }
 }
 
 /// Makes the choices of a violation of a body again.
-fn replay<R>(body: Body<R>, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+fn replay<R>(body: Body<R>, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);
     let outcome = body(rule, &mut replay);
     let of = replay.asked().to_vec();
     let misfit = (0..).zip(of.iter().zip(&answers)).find(|&(_, (of, answer))| answer >= of);
     if let Some((at, (&of, _))) = misfit {
-        return Err(Unfit::None { at, of });
+        return Err(ScriptError::None { at, of });
     }
-    let Err(Stop::Violated(demand)) = outcome else { return Err(Unfit::Unbroken) };
+    let Err(Stop::Violated(demand)) = outcome else { return Err(ScriptError::Unbroken) };
     if of.len() < answers.len() {
-        return Err(Unfit::Over { at: of.len() });
+        return Err(ScriptError::Over { at: of.len() });
     }
     if !replay.matches() {
-        return Err(Unfit::Unbroken);
+        return Err(ScriptError::Unbroken);
     }
-    Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand, seen: Seen::Choices } })
+    Ok(RefutationPlay {
+        of,
+        evidence: Evidence { choices: choices.clone(), demand, seen: Depiction::Choices },
+    })
 }
 
 /// Every state of a system, in every order: what happens is found by an engine, and what is demanded stands in the
@@ -322,8 +325,10 @@ pub struct EveryState<R: 'static, S: System> {
 
 impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
     /// The events in `run` of `system`, in lines.
-    fn story(&self, system: &S, run: &states::Run<&'static str>) -> Seen {
-        let Some(mut state) = (self.starts)(system).into_iter().nth(run.start) else { return Seen::Choices };
+    fn story(&self, system: &S, run: &states::Run<&'static str>) -> Depiction {
+        let Some(mut state) = (self.starts)(system).into_iter().nth(run.start) else {
+            return Depiction::Choices;
+        };
         let mut lines = String::new();
         for &number in run.steps.iter().chain(run.round()) {
             let Some(step) = steps(system, &state).nth(number as usize) else { break };
@@ -331,7 +336,7 @@ impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
             lines.push('\n');
             state = step.state;
         }
-        Seen::Story(lines)
+        Depiction::Story(lines)
     }
 }
 
@@ -349,7 +354,7 @@ where
     }
 
     /// The choices are the number of the start, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let system = (self.system)(rule);
         let limits = Limits { most_steps: self.most_steps.into(), room: desk.room };
         let found = states::search(&system, (self.starts)(&system), limits);
@@ -365,14 +370,14 @@ where
         Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
     }
 
-    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let system = (self.system)(rule);
         let mut script = Script::new(choices);
         let mut starts = (self.starts)(&system);
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&system, (number, starts.swap_remove(number)), |_| true)?;
         let seen = self.story(&system, &run);
-        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
     }
 }
 
@@ -392,9 +397,9 @@ mod tests {
 
     #[test]
     fn what_never_ends_leaves_an_exhaustive_check_open_and_is_counted() {
-        let (memory, watch) = (&mut Memory::default(), &mut unwatched);
-        let mut desk = Desk { memory, watch, room: Room::any() };
-        let method = Exhaustive { body: ends, range, covers: &["an end"] };
+        let (memory, watch) = (&mut Cache::default(), &mut unwatched);
+        let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+        let method = EveryAnswer { body: ends, range, covers: &["an end"] };
         let mut found = |rule| {
             let answer = method.decide(&rule, Until::Exhausted, &mut desk).expect("a body can be decided");
             (answer.verdict, answer.cases, answer.given_up)

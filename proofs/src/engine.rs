@@ -1,7 +1,7 @@
 //! Engines: ways to answer every choice. They know no scheme, and of the kernel only its choices.
 //!
 //! A *body* is one case of a clause; the same body is a bounded proof under [`exhaust`], a property under a [`Tape`]
-//! that proptest or a fuzzer wrote, a random test under [`Seeded`], a regression under [`Replay`], and a Kani harness.
+//! that proptest or a fuzzer wrote, a random test under [`SeededOracle`], a regression under [`Replay`], and a Kani harness.
 //! A [`Game`](tree::Game) is a team in layouts that are decided as it meets them; a [`System`](states::System) has
 //! states that many ways lead to; [`Lots`](lots::Lots) are looked at each by itself. What was found by any of them is a
 //! list of [`Choices`], which anyone can make again.
@@ -17,9 +17,9 @@ pub mod watchdog;
 pub mod world;
 
 pub use bodies::{
-    Outcome, Replay, Seeded, Stop, Tally, Tape, assume, cover, exhaust, outcomes, require, sample,
+    Outcome, Replay, SeededOracle, Stop, Tally, Tape, assume, cover, exhaust, outcomes, require, sample,
 };
-pub use script::{Choices, Script, Unfit};
+pub use script::{Choices, Script, ScriptError};
 
 /// How far an engine goes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -11,7 +11,7 @@ use crate::decide::Verdict;
 use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, pack, position, tan};
 
 pub use composition::{Theorem, theorems};
-pub use jobs::{Hear, Heard, Limits, PATIENCE_S, Undecided, decide, decide_all};
+pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all};
 
 /// The clauses of each room.
 #[cfg(feature = "rooms")]
@@ -38,25 +38,25 @@ pub fn clauses() -> impl Iterator<Item = &'static Clause> {
 
 /// Two clauses of one id.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Twice(pub &'static str);
+pub struct DuplicateClause(pub &'static str);
 
-impl fmt::Display for Twice {
+impl fmt::Display for DuplicateClause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "there are two clauses {}: give each an id of its own", self.0)
     }
 }
 
-impl std::error::Error for Twice {}
+impl std::error::Error for DuplicateClause {}
 
 /// The clauses of `rooms`, of which no two have one id.
 ///
 /// # Errors
-/// [`Twice`] if two have.
-pub fn register(rooms: &[&'static [Clause]]) -> Result<Vec<&'static Clause>, Twice> {
+/// [`DuplicateClause`] if two have.
+pub fn register(rooms: &[&'static [Clause]]) -> Result<Vec<&'static Clause>, DuplicateClause> {
     let clauses: Vec<&Clause> = rooms.iter().copied().flatten().collect();
     for (place, clause) in clauses.iter().enumerate() {
         if clauses[..place].iter().any(|before| before.id == clause.id) {
-            return Err(Twice(clause.id));
+            return Err(DuplicateClause(clause.id));
         }
     }
     Ok(clauses)
@@ -74,7 +74,7 @@ pub struct Row {
     /// The decision.
     pub decision: Decision,
     /// Why nothing came of the check, or of one of its mutants; then it is open, or the mutant is not rejected.
-    pub undecided: Option<Undecided>,
+    pub undecided: Option<Indecision>,
     /// The time that it took, with its mutants, added up over threads.
     pub seconds: f64,
 }
@@ -197,7 +197,10 @@ mod tests {
 
     #[test]
     fn two_clauses_of_one_id_are_refused() {
-        assert_eq!(register(&[&tan::clauses::CLAUSES, &tan::clauses::CLAUSES]).err(), Some(Twice("TAN-1")));
+        assert_eq!(
+            register(&[&tan::clauses::CLAUSES, &tan::clauses::CLAUSES]).err(),
+            Some(DuplicateClause("TAN-1"))
+        );
     }
 
     #[test]

@@ -9,11 +9,11 @@ mod within;
 
 use tautline_kernel::mrc::Rule;
 
-pub use state::{Action, Actor, Demand, Faults, Leases, Lossy, Message, ROBOTS, Setting, State, WFRS};
+pub use state::{Action, Actor, Demand, Faults, Leases, LossKind, Message, ROBOTS, Setting, State, WFRS};
 
 /// How a message is misread where it arrives.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Misread {
+pub enum Misreading {
     /// A path node takes all robots for one.
     OneRobot,
     /// A path node takes all calls of a WFR for one.
@@ -22,21 +22,21 @@ pub enum Misread {
 
 /// Robots and WFRs that are observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Observed {
+pub struct Subject {
     /// The rule that they follow.
     pub rule: Rule,
     /// How they misread what they hear, as a mutant does.
-    pub misread: Option<Misread>,
+    pub misread: Option<Misreading>,
 }
 
-impl Observed {
+impl Subject {
     /// Robots and WFRs that follow `rule`.
     pub const fn rescuing(rule: Rule) -> Self {
         Self { rule, misread: None }
     }
 
     /// The repaired rule, misreading.
-    pub const fn misreading(misread: Misread) -> Self {
+    pub const fn misreading(misread: Misreading) -> Self {
         Self { rule: Rule::REPAIRED, misread: Some(misread) }
     }
 }

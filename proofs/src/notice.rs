@@ -10,14 +10,14 @@ use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};
 
 /// The nodes of a network that is observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Observed {
+pub struct Subject {
     /// The conditions that they follow.
     pub conditions: Conditions,
     /// Whether k = ∞ is taken for k = 1, as a mutant does.
     pub takes_endless_for_one: bool,
 }
 
-impl Observed {
+impl Subject {
     /// As published.
     pub const PUBLISHED: Self = Self { conditions: Conditions::PUBLISHED, takes_endless_for_one: false };
 

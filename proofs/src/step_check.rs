@@ -55,9 +55,9 @@ macro_rules! step_checks {
 
             pub(crate) const CHECK: $crate::clause::Check<$rule> = $crate::clause::Check::new(
                 $about,
-                &$crate::decide::Exhaustive { body: $body, range: $range, covers: &$covers },
+                &$crate::decide::EveryAnswer { body: $body, range: $range, covers: &$covers },
                 $crate::decide::Verdict::Holds,
-                &[$($crate::clause::Named::new($what, $wrong)),*],
+                &[$($crate::clause::NamedRule::new($what, $wrong)),*],
             );
 
             #[cfg(test)]
@@ -68,7 +68,7 @@ macro_rules! step_checks {
                 #[test]
                 fn holds_exhaustively_and_rejects_its_mutants() {
                     use $crate::clause::AnyCheck;
-                    let mut memory = $crate::decide::Memory::default();
+                    let mut memory = $crate::decide::Cache::default();
                     let decision = CHECK.decide(&mut memory, &mut $crate::engine::tree::unwatched);
                     let decision = decision.expect("a body can be decided");
                     assert!(decision.is_as_registered(&CHECK), "{}: {decision:?}", CHECK.bound());

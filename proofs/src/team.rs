@@ -18,9 +18,9 @@ use tautline_kernel::ground::Cell;
 
 pub use self::ground::{Ground, Map, Which};
 pub use self::keeps::Keeps;
-pub use self::rule::{Act, Body, Cover, Demand, Moved, Rule, Scene, TeamState, View};
-pub use self::world::{Event, Part, Playing};
-use crate::decide::Refused;
+pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep, View};
+pub use self::world::{Event, Part, TeamWorld};
+use crate::decide::MethodError;
 use crate::engine::Until;
 use crate::engine::tree::{Limits, Tree};
 
@@ -158,14 +158,14 @@ impl<'a, R: Rule> Setting<'a, R> {
     }
 
     /// The cells in which robots may be placed, for each way to place them.
-    fn placed(&self, places: &Places<R>, rule: &R, map: &Map) -> Result<Vec<Vec<Cell>>, Refused> {
+    fn placed(&self, places: &Places<R>, rule: &R, map: &Map) -> Result<Vec<Vec<Cell>>, MethodError> {
         let robots = self.robots;
         let is_apart = match places {
             Places::None => return Ok(vec![Vec::new()]),
             Places::At(cells) => {
                 let cells = cells(rule);
                 if cells.len() != robots {
-                    return Err(Refused::new(format_args!(
+                    return Err(MethodError::new(format_args!(
                         "{robots} robots are placed in {} cells",
                         cells.len()
                     )));
@@ -176,7 +176,7 @@ impl<'a, R: Rule> Setting<'a, R> {
                     } else {
                         "outside of the area"
                     };
-                    return Err(Refused::new(format_args!("a robot starts in {outside}, {why}")));
+                    return Err(MethodError::new(format_args!("a robot starts in {outside}, {why}")));
                 }
                 return Ok(vec![cells]);
             }
@@ -203,10 +203,10 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// Every scene in which a run begins: of every layout that is decided before, with every start and goal.
     ///
     /// # Errors
-    /// [`Refused`] if the area, the number of robots or the number of layouts is too large, or a robot starts outside.
-    pub fn starts(&self, rule: &R) -> Result<Vec<Scene<R>>, Refused> {
+    /// [`MethodError`] if the area, the number of robots or the number of layouts is too large, or a robot starts outside.
+    pub fn starts(&self, rule: &R) -> Result<Vec<Scene<R>>, MethodError> {
         if !(1..=MOST_ROBOTS).contains(&self.robots) {
-            return Err(Refused::new(format_args!(
+            return Err(MethodError::new(format_args!(
                 "a team has 1 to {MOST_ROBOTS} robots, not {}",
                 self.robots
             )));
@@ -237,35 +237,35 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// alone, so a run goes on until it has broken all of them.
     ///
     /// # Errors
-    /// [`Refused`] if there is not one start, or the limits are beyond what can be searched.
+    /// [`MethodError`] if there is not one start, or the limits are beyond what can be searched.
     pub fn search(
         &'a self,
         rule: &R,
         until: Until,
         wanted: &[Promise],
-    ) -> Result<Tree<Playing<'a, R>>, Refused> {
+    ) -> Result<Tree<TeamWorld<'a, R>>, MethodError> {
         let playing = self.playing(rule, wanted)?;
         let max_walls = self.ground.walls.most_met() + self.ground.obstacles.most_met();
-        Tree::new(playing, &Limits { max_walls, budget_moves: None, until }).map_err(Refused::new)
+        Tree::new(playing, &Limits { max_walls, budget_moves: None, until }).map_err(MethodError::new)
     }
 
     /// A team that follows `rule` in it; of its demands those are looked at that are `wanted`, or all if none is.
     ///
     /// # Errors
-    /// [`Refused`] as of [`Self::starts`], or if there is no start.
-    pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<Playing<'a, R>, Refused> {
+    /// [`MethodError`] as of [`Self::starts`], or if there is no start.
+    pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
         let starts = self.starts(rule)?;
         let start =
-            starts.into_iter().next().ok_or_else(|| Refused::new("there is no layout to start in"))?;
+            starts.into_iter().next().ok_or_else(|| MethodError::new("there is no layout to start in"))?;
         let all = || (0..self.demands.len()).map(Promise).collect();
         let wanted = if wanted.is_empty() { all() } else { wanted.to_vec() };
-        Ok(Playing { setting: self, rule: rule.clone(), wanted, start })
+        Ok(TeamWorld { setting: self, rule: rule.clone(), wanted, start })
     }
 
     /// A team that follows `rule` from these cells, to these goals if there are any, in a layout of any size that
     /// answers for itself. All its demands are looked at.
-    pub fn in_layout(&'a self, rule: &R, starts: &[Cell], goals: Vec<Cell>) -> Playing<'a, R> {
+    pub fn in_layout(&'a self, rule: &R, starts: &[Cell], goals: Vec<Cell>) -> TeamWorld<'a, R> {
         let wanted = (0..self.demands.len()).map(Promise).collect();
-        Playing { setting: self, rule: rule.clone(), wanted, start: Self::scene(rule, starts, goals, None) }
+        TeamWorld { setting: self, rule: rule.clone(), wanted, start: Self::scene(rule, starts, goals, None) }
     }
 }

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Edge, SmallGrid};
-use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::areas::{Areas, Found, search};
+use tautline_proofs::chain::Subject;
+use tautline_proofs::chain::areas::{Areas, Findings, search};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
 
@@ -16,17 +16,17 @@ const CROWDING: Invariant = Invariant::Without(Breach::Crowding);
 /// Cells, walls and team moves.
 type Size = (usize, usize, usize);
 
-fn areas(observed: Observed, robots: usize, max_cells: u32, max_walls: u32) -> Areas {
+fn areas(observed: Subject, robots: usize, max_cells: u32, max_walls: u32) -> Areas {
     let invariants = Invariant::OF_RUNS.to_vec();
     Areas { observed, robots, max_cells, max_walls, budget_moves: None, invariants }
 }
 
-fn found(areas: &Areas) -> Found {
+fn found(areas: &Areas) -> Findings {
     search(areas, &mut |_| ControlFlow::Continue(())).expect("so few robots fit")
 }
 
 /// The smallest run that breaks `invariant`, and the columns and rows of its area.
-fn smallest(found: &Found, invariant: Invariant) -> Option<([usize; 2], Size)> {
+fn smallest(found: &Findings, invariant: Invariant) -> Option<([usize; 2], Size)> {
     let known = found.broken.iter().find(|known| known.found.broken == invariant)?;
     let (area, walls) = (known.bounds.area, known.bounds.run(&known.found).walls.len());
     let cells = area.width() * area.height();
@@ -84,7 +84,7 @@ fn plainly(cells: i16, max_walls: u32) -> [Option<Size>; 2] {
 
 #[test]
 fn the_smallest_areas_are_those_that_plain_runs_find() {
-    let found = found(&areas(Observed::PUBLISHED, 4, 10, 13));
+    let found = found(&areas(Subject::PUBLISHED, 4, 10, 13));
     let all: Vec<[Option<Size>; 2]> = (1..=9).map(|cells| plainly(cells, 12)).collect();
     assert_eq!(all[..8], [[None; 2]; 8]);
     assert_eq!(all[8], [Some((9, 4, 8)), None]);
@@ -100,15 +100,15 @@ fn what_remains_is_broken_in_few_cells_too() {
         let all = Areas { invariants: vec![invariant], ..areas(observed, robots, 9, 12) };
         smallest(&found(&all), invariant)
     };
-    assert_eq!(least(Observed::REPAIRED, 3, Invariant::Exhausts), Some(([3, 3], (9, 3, 32))));
-    assert_eq!(least(Observed::REPAIRED, 4, Invariant::AnyOrder), Some(([4, 2], (8, 1, 7))));
-    assert_eq!(least(Observed::REEL, 4, Invariant::AnyOrder), None);
+    assert_eq!(least(Subject::REPAIRED, 3, Invariant::Exhausts), Some(([3, 3], (9, 3, 32))));
+    assert_eq!(least(Subject::REPAIRED, 4, Invariant::AnyOrder), Some(([4, 2], (8, 1, 7))));
+    assert_eq!(least(Subject::REEL, 4, Invariant::AnyOrder), None);
 }
 
 #[test]
 fn a_clause_is_looked_for_in_runs_that_break_another_one_too() {
     let missed = Invariant::Without(Breach::Completeness);
-    let all = Areas { invariants: vec![missed, Invariant::Exhausts], ..areas(Observed::PUBLISHED, 3, 9, 12) };
+    let all = Areas { invariants: vec![missed, Invariant::Exhausts], ..areas(Subject::PUBLISHED, 3, 9, 12) };
     let found = found(&all);
     // One run breaks both.
     for invariant in all.invariants {
@@ -118,14 +118,14 @@ fn a_clause_is_looked_for_in_runs_that_break_another_one_too() {
 
 #[test]
 fn a_search_over_areas_that_is_ended_says_up_to_how_many_cells_it_came() {
-    let all = areas(Observed::PUBLISHED, 4, 10, 13);
+    let all = areas(Subject::PUBLISHED, 4, 10, 13);
     let whole = found(&all);
     let ended = found(&Areas { budget_moves: Some(whole.moves() / 2), ..all });
     assert!(!ended.is_complete && ended.moves() < whole.moves(), "{ended:?}");
     assert_eq!(ended.cells, Some(9));
     let covered = |area: &&_| whole.searched.contains(area);
     assert_eq!(ended.searched.iter().filter(covered).count(), ended.searched.len() - 1);
-    let stopped = search(&areas(Observed::PUBLISHED, 4, 10, 13), &mut |found| match found.cells {
+    let stopped = search(&areas(Subject::PUBLISHED, 4, 10, 13), &mut |found| match found.cells {
         Some(7) => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     });

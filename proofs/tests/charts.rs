@@ -6,7 +6,7 @@ use tautline_kernel::mrc::{Condition, Rule};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::mrc::chart::chart;
 use tautline_proofs::mrc::space::{Until, search};
-use tautline_proofs::mrc::{Demand, Faults, Leases, Lossy, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Setting};
 
 const NO_FAULT: Faults = Faults::any(0);
 
@@ -18,7 +18,7 @@ const LEAST: Setting = Setting {
     events: 1,
     max_hops: 1,
     faults: NO_FAULT,
-    lossy: Lossy::All,
+    lossy: LossKind::All,
     leases: Leases::UntilCalled,
 };
 
@@ -62,7 +62,7 @@ fn without_a_time_out_a_lost_notice_strands_a_wfr() {
 #[test]
 fn a_lost_resb_strands_a_robot_and_a_wfr() {
     let faults = Faults { in_all: 1, losses: 1, ..NO_FAULT };
-    let setting = Setting { faults, lossy: Lossy::Resb, ..LEAST };
+    let setting = Setting { faults, lossy: LossKind::Resb, ..LEAST };
     assert_snapshot!("lost_resb", flaw(setting, Demand::IsServed));
 }
 

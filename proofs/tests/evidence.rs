@@ -1,14 +1,14 @@
 //! Choices refute a clause as they were found, and no others do.
 
 use tautline_proofs::clause::AnyCheck;
-use tautline_proofs::decide::{Evidence, Memory, Played, Verdict};
+use tautline_proofs::decide::{Cache, Evidence, RefutationPlay, Verdict};
 use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::engine::{Choices, Unfit};
+use tautline_proofs::engine::{Choices, ScriptError};
 use tautline_proofs::ledger;
 
 /// The evidence of the checks that are registered as refuted and take no long time.
 fn refuted() -> Vec<(&'static dyn AnyCheck, Evidence)> {
-    let mut memory = Memory::default();
+    let mut memory = Cache::default();
     let is_short =
         |id: &str| ["CHAIN-14", "BRICKS-5", "BRICKS-6", "NOTICE-4", "NOTICE-5", "MRC-2"].contains(&id);
     let clauses = ledger::clauses().filter(|clause| is_short(clause.id));
@@ -24,7 +24,7 @@ fn refuted() -> Vec<(&'static dyn AnyCheck, Evidence)> {
 fn other_choices_refute_something_or_are_refused() {
     for (check, evidence) in refuted() {
         let choices = evidence.choices.clone();
-        let Played { of, evidence: again } = check.replay(&choices).expect("what was found");
+        let RefutationPlay { of, evidence: again } = check.replay(&choices).expect("what was found");
         assert_eq!((again.choices.clone(), again.demand), (choices.clone(), evidence.demand));
         let all = choices.once.len() + choices.again.len();
         assert_eq!(of.len(), all);
@@ -34,7 +34,7 @@ fn other_choices_refute_something_or_are_refused() {
                 *other.once.iter_mut().chain(&mut other.again).nth(at).expect("a choice") = value;
                 check.replay(&other).map(|played| played.evidence.choices.clone() == other)
             };
-            assert_eq!(other(of).map_err(Unfit::at), Err(Some(at)), "a choice that there is not");
+            assert_eq!(other(of).map_err(ScriptError::at), Err(Some(at)), "a choice that there is not");
             let near = [(other(0), 0), (other(of - 1), of - 1)];
             for (replayed, value) in near {
                 assert_ne!(replayed, Ok(false), "choice {at}, {value}: it is played as another");

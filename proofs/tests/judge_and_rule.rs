@@ -11,9 +11,9 @@ use tautline_proofs::judge::chain::{Exhibit, Move, Objection, Place, Repairs, ju
 use tautline_proofs::run::Frame;
 
 /// Answers that a linear congruence makes of the ones before.
-struct Drawn(u64);
+struct Congruence(u64);
 
-impl Oracle for Drawn {
+impl Oracle for Congruence {
     fn pick(&mut self, below: u32) -> u32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (((self.0 >> 32) * u64::from(below)) >> 32) as u32
@@ -59,7 +59,7 @@ fn area(columns: i16, rows: i16) -> Area {
 #[test]
 fn the_judge_admits_the_team_moves_that_the_rule_admits() {
     const ROBOTS: usize = 13;
-    let (mut drawn, area, base) = (Drawn(1), area(5, 5), Cell::new(2, 2));
+    let (mut drawn, area, base) = (Congruence(1), area(5, 5), Cell::new(2, 2));
     let does_not_break = "the last move does not break the clause";
     let mut told = [[0; 2]; 2];
     for round in 0..60 {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use tautline_kernel::ground::Cell;
-use tautline_proofs::decide::{Memory, Seen, Verdict};
+use tautline_proofs::decide::{Cache, Depiction, Verdict};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::judge::floor::{Exhibit, Judgement, Objection, Place, Turn, judge};
@@ -34,13 +34,13 @@ fn written_down(clause: &str, course: &Course) -> Exhibit {
 /// Exhibits that refute BRICKS-5 and BRICKS-6 with sensors missed, and BRICKS-6 without: a run that ends too early, and
 /// one that goes round.
 fn exhibits() -> Vec<Exhibit> {
-    let mut memory = Memory::default();
+    let mut memory = Cache::default();
     let mut exhibits = Vec::new();
     for clause in ledger::clauses().filter(|clause| ["BRICKS-5", "BRICKS-6"].contains(&clause.id)) {
         for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
             let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
             match decision.counterexample.map(|evidence| evidence.seen) {
-                Some(Seen::Agents(course)) => exhibits.push(written_down(clause.id, &course)),
+                Some(Depiction::Agents(course)) => exhibits.push(written_down(clause.id, &course)),
                 other => panic!("no run of agents: {other:?}"),
             }
         }
@@ -160,7 +160,7 @@ fn a_cell_is_due_if_it_is_connected_with_a_start() {
 }
 
 /// A clause, how many agents, their turns, how long the round is, and what the judge says.
-type Said = (&'static str, usize, &'static [(usize, Place, bool)], usize, &'static str);
+type Ruling = (&'static str, usize, &'static [(usize, Place, bool)], usize, &'static str);
 
 #[test]
 fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
@@ -170,7 +170,7 @@ fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
     };
     let no_clause_needs_it = "a counterexample needs an agent and its turns";
     let not_round = "the last turns do not come back to where they began, or leave an agent out";
-    let cases: [Said; 16] = [
+    let cases: [Ruling; 16] = [
         ("BRICKS-5", 1, &[], 0, no_clause_needs_it),
         ("BRICKS-5", 0, &[(0, MIDDLE, false)], 0, no_clause_needs_it),
         ("BRICKS-5", 1, &[(0, MIDDLE, false)], 2, no_clause_needs_it),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
 use tautline_kernel::ground::{Cell, SmallGrid, Step};
-use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::frame;
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::search::{Bounds, Counterexample, search};
@@ -55,9 +55,9 @@ fn counterexamples() -> Vec<Exhibit> {
     let exhausting =
         |observed| Bounds { invariants: vec![Invariant::Exhausts], ..Bounds::new(observed, 3, 3) };
     let bounds = [
-        Bounds::new(Observed::PUBLISHED, 4, 4),
-        exhausting(Observed::PUBLISHED),
-        exhausting(Observed::REPAIRED),
+        Bounds::new(Subject::PUBLISHED, 4, 4),
+        exhausting(Subject::PUBLISHED),
+        exhausting(Subject::REPAIRED),
     ];
     bounds.iter().flat_map(found).collect()
 }
@@ -100,7 +100,7 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
 }
 
 /// The whole run of three robots in the open, as a counterexample to `clause`.
-fn open_run(observed: Observed, clause: &str) -> Exhibit {
+fn open_run(observed: Subject, clause: &str) -> Exhibit {
     let bounds = Bounds::new(observed, 3, 0);
     let grid = SmallGrid::new(bounds.area).expect("five cells wide");
     let mut chain = Chain::<_, 3>::new(observed.rule, 3, bounds.base, grid).expect("it fits");
@@ -117,7 +117,7 @@ fn open_run(observed: Observed, clause: &str) -> Exhibit {
 
 #[test]
 fn a_run_that_ends_with_everything_explored_breaks_nothing() {
-    for (observed, clause) in [(Observed::PUBLISHED, "CHAIN-13"), (Observed::REPAIRED, "CHAIN-14")] {
+    for (observed, clause) in [(Subject::PUBLISHED, "CHAIN-13"), (Subject::REPAIRED, "CHAIN-14")] {
         let mut exhibit = open_run(observed, clause);
         let what = "the end of the run does not break the clause";
         assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));

@@ -2,10 +2,10 @@
 //! whatever the log says, a backtrack crosses only sides that are known to be open, and ends where neighbours in the
 //! chain are in contact and, as repaired, no three robots are in one cell.
 
-use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Plan, Rule};
+use tautline_kernel::chain::{Chain, Damage, Intent, Kind, Message, Plan, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, EdgeMark, Grid, SmallGrid, Step};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 type Team = Chain<SmallGrid, 8>;
 
@@ -71,9 +71,9 @@ fn tamper(team: &Team, log: &[u8], of: std::ops::Range<usize>, truth: &Plan<8>) 
             let mut changed = log.to_vec();
             changed[place] = byte;
             match team.clone().plan(&changed) {
-                Err(Damaged::OtherWorld { .. }) => count.other_world += 1,
-                Err(Damaged::OutOfContact { .. }) => count.out_of_contact += 1,
-                Err(Damaged::Crowded) => count.crowded += 1,
+                Err(Damage::OtherWorld { .. }) => count.other_world += 1,
+                Err(Damage::OutOfContact { .. }) => count.out_of_contact += 1,
+                Err(Damage::Crowded) => count.crowded += 1,
                 Err(_) => count.otherwise_refused += 1,
                 Ok(Intent::Go(plan)) => {
                     assert_eq!(plan.kind, Kind::Backtrack);
@@ -96,7 +96,7 @@ fn whatever_the_log_says_a_backtrack_is_safe() {
     let mut of_the_entry = Count::default();
     let mut of_earlier_ones = Count::default();
     for seed in 0..30 {
-        let mut world = Seeded::new(11, seed);
+        let mut world = SeededOracle::new(11, seed);
         let robots = 3 + world.pick(4) as usize;
         let rule = if world.flip() { Rule::PUBLISHED } else { Rule::REPAIRED };
         let walls_percent = 5 + world.pick(25);
@@ -142,14 +142,14 @@ fn each_kind_of_damage_is_told() {
     let (east, south, west, blocked_east) = (0, 1, 2, 8);
     assert_eq!(log, [blocked_east, west]);
     assert_eq!(plan(&team, &log), Ok(()));
-    assert_eq!(plan(&team, &[blocked_east, east]), Err(Damaged::OtherWorld { robot: 2 }));
-    assert_eq!(plan(&team, &[blocked_east, south]), Err(Damaged::OtherWorld { robot: 2 }));
-    assert_eq!(plan(&team, &[blocked_east, 16 | west]), Err(Damaged::TakenBack { robot: 2 }));
-    assert_eq!(plan(&team, &[blocked_east]), Err(Damaged::Length { bytes: 1, sent: 2 }));
-    assert_eq!(plan(&team, &[blocked_east, 255]), Err(Damaged::Byte(255)));
+    assert_eq!(plan(&team, &[blocked_east, east]), Err(Damage::OtherWorld { robot: 2 }));
+    assert_eq!(plan(&team, &[blocked_east, south]), Err(Damage::OtherWorld { robot: 2 }));
+    assert_eq!(plan(&team, &[blocked_east, 16 | west]), Err(Damage::TakenBack { robot: 2 }));
+    assert_eq!(plan(&team, &[blocked_east]), Err(Damage::Length { bytes: 1, sent: 2 }));
+    assert_eq!(plan(&team, &[blocked_east, 255]), Err(Damage::Byte(255)));
     assert_eq!(go_on(&mut team, &mut log), Kind::Backtrack);
     assert_eq!(plan(&team, &log), Ok(()));
-    assert_eq!(plan(&team, &[east, log[1], log[2]]), Err(Damaged::NotHome { robot: 2 }));
+    assert_eq!(plan(&team, &[east, log[1], log[2]]), Err(Damage::NotHome { robot: 2 }));
 }
 
 #[test]
@@ -177,5 +177,5 @@ fn a_listener_refuses_what_does_not_fit_and_is_as_it_was() {
             }
         }
     }
-    assert_eq!(team.hear(&plan, &[]), Err(Damaged::Length { bytes: 0, sent: 2 }));
+    assert_eq!(team.hear(&plan, &[]), Err(Damage::Length { bytes: 0, sent: 2 }));
 }

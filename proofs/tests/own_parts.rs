@@ -3,11 +3,11 @@
 //! fairness. Where a question can be asked of a tree and of the states, both say the same.
 
 use tautline_kernel::ground::{Cell, Side};
-use tautline_proofs::decide::{Answer, Desk, Memory as Known, Method, Seen, Verdict};
-use tautline_proofs::engine::states::{self, Room};
+use tautline_proofs::decide::{Answer, Cache as Known, Context, Depiction, Method, Verdict};
+use tautline_proofs::engine::states::{self, MemoryLimit};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::world::play;
-use tautline_proofs::engine::{Outcome, Seeded, Stop, Until};
+use tautline_proofs::engine::{Outcome, SeededOracle, Stop, Until};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{
     Act, Demand, Ground, Keeps, Map, Moves, Places, Promise, Rule, Scene, Senses, Setting, Strategy, View,
@@ -19,7 +19,7 @@ fn decided<R: Rule + PartialEq + 'static>(
     setting: &'static Setting<'static, R>,
     demand: usize,
 ) -> Answer {
-    let mut desk = Desk { memory: &mut Known::default(), watch: &mut unwatched, room: Room::any() };
+    let mut desk = Context { memory: &mut Known::default(), watch: &mut unwatched, room: MemoryLimit::any() };
     let keeps = Keeps(setting, demand);
     let answer = keeps.decide(rule, Until::Exhausted, &mut desk).expect("it can be decided");
     if let Some(found) = &answer.counterexample {
@@ -39,7 +39,7 @@ fn verdict<R: Rule + PartialEq + 'static>(
 
 fn run(answer: Answer) -> Run {
     match answer.counterexample.map(|found| found.seen) {
-        Some(Seen::Robots(run)) => *run,
+        Some(Depiction::Robots(run)) => *run,
         _ => panic!("robots that move"),
     }
 }
@@ -304,7 +304,7 @@ fn a_world_is_a_body() {
     let outcome = |rule: Walk, seed: u64| -> Outcome {
         let playing = LANE.playing(&rule, &[Promise(0)]).expect("it can be played");
         let starts = LANE.starts(&rule).expect("they can be made");
-        let mut answers = Seeded::new(seed, 0);
+        let mut answers = SeededOracle::new(seed, 0);
         let start = starts[seed as usize % starts.len()].clone();
         play(&playing, start, 50, &mut answers, |promise| playing.demand(promise).words)
     };

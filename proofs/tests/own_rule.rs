@@ -2,9 +2,9 @@
 //! occurs, a run that neither ends nor comes back, an area that is too large.
 
 use tautline_kernel::ground::{Cell, Side};
-use tautline_proofs::decide::{Answer, Desk, Memory, Method, Refused, Seen, Verdict};
+use tautline_proofs::decide::{Answer, Cache, Context, Depiction, Method, MethodError, Verdict};
 use tautline_proofs::engine::Until;
-use tautline_proofs::engine::states::Room;
+use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::{Waves, unwatched};
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Promise, Rule, Scene, Setting, View, Which};
 
@@ -43,19 +43,20 @@ impl Rule for Walk {
     }
 }
 
-type Of = Demand<'static, Walk>;
+type WalkDemand = Demand<'static, Walk>;
 
-const fn layouts(size: (i16, i16), demands: &'static [Of]) -> Setting<'static, Walk> {
+const fn layouts(size: (i16, i16), demands: &'static [WalkDemand]) -> Setting<'static, Walk> {
     let ground = Ground::open(size.0, size.1).walls(Which::Met(2));
     let setting = Setting::new("robot", ground, 1, Places::At(|_: &Walk| vec![Cell::new(0, 0)]));
     Setting { longest_run: 50, demands, ..setting }
 }
 
-const STAYS: Of = Demand::always("ROBOT-1", "it stays in its row", &|moved| moved.after.cell(0).y == 0);
-const ENDS: Of = Demand::never_endless("ROBOT-2", "its run ends");
-const LEAVES: Of = Demand::at_the_end("ROBOT-3", "it left", &|scene| scene.cell(0).x > 0);
-const NOTHING: Of = Demand::always("WALK-1", "it makes no team move", &|_| false);
-const ARRIVES: Of = Demand::at_the_end("WALK-2", "it arrives", &|scene| scene.cell(0).x == 3);
+const STAYS: WalkDemand =
+    Demand::always("ROBOT-1", "it stays in its row", &|moved| moved.after.cell(0).y == 0);
+const ENDS: WalkDemand = Demand::never_endless("ROBOT-2", "its run ends");
+const LEAVES: WalkDemand = Demand::at_the_end("ROBOT-3", "it left", &|scene| scene.cell(0).x > 0);
+const NOTHING: WalkDemand = Demand::always("WALK-1", "it makes no team move", &|_| false);
+const ARRIVES: WalkDemand = Demand::at_the_end("WALK-2", "it arrives", &|scene| scene.cell(0).x == 3);
 
 static ROW: Setting<'static, Walk> = layouts((4, 1), &[STAYS, ENDS, LEAVES]);
 static PATROL: Setting<'static, Walk> = layouts((4, 1), &[STAYS]);
@@ -73,15 +74,15 @@ static STILL_AND_ENDS: Setting<'static, Walk> =
     layouts((4, 1), &[Demand::always("ROBOT-4", "it stays where it is", &|moved| !moved.has_moved(0)), ENDS]);
 
 /// A question about a demand: its layouts and its number.
-type Asked = (&'static Setting<'static, Walk>, usize);
+type Question = (&'static Setting<'static, Walk>, usize);
 
-fn decided(rule: Walk, (layouts, demand): Asked) -> Result<Answer, Refused> {
-    let memory = &mut Memory::default();
-    let mut desk = Desk { memory, watch: &mut unwatched, room: Room::any() };
+fn decided(rule: Walk, (layouts, demand): Question) -> Result<Answer, MethodError> {
+    let memory = &mut Cache::default();
+    let mut desk = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
     Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut desk)
 }
 
-fn verdict(rule: Walk, asked: Asked) -> Verdict {
+fn verdict(rule: Walk, asked: Question) -> Verdict {
     decided(rule, asked).expect("it can be decided").verdict
 }
 
@@ -111,7 +112,9 @@ fn a_run_that_comes_back_breaks_what_demands_an_end_and_is_over_where_nothing_do
     let endless = decided(Walk::Patrols, (&ROW, 1)).expect("it can be decided");
     assert_eq!(endless.verdict, Verdict::Refuted);
     // East once, and then there and back, with a wall at either end.
-    let Some(Seen::Robots(run)) = endless.counterexample.map(|found| found.seen) else { panic!("a run") };
+    let Some(Depiction::Robots(run)) = endless.counterexample.map(|found| found.seen) else {
+        panic!("a run")
+    };
     assert_eq!(run.frames.len(), 1 + 8);
     let patrol = decided(Walk::Patrols, (&PATROL, 0)).expect("it can be decided");
     assert_eq!((patrol.verdict, patrol.given_up), (Verdict::Holds, 0));

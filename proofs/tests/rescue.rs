@@ -14,8 +14,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Condition, Rule, Task};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::engine::{Outcome, require, sample};
-use tautline_proofs::mrc::space::{Found, Until, search};
-use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
+use tautline_proofs::mrc::space::{Findings, Until, search};
+use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, LossKind, Setting, State};
 
 use self::model::Rescue;
 
@@ -27,14 +27,14 @@ const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faul
         events,
         max_hops,
         faults,
-        lossy: Lossy::All,
+        lossy: LossKind::All,
         leases: Leases::UntilCalled,
     }
 }
 
 const ENOUGH: Limits<'_> = Limits::steps(200_000_000);
 
-fn found(setting: &Setting) -> Found {
+fn found(setting: &Setting) -> Findings {
     search(setting, Until::Exhausted, ENOUGH)
 }
 

@@ -3,22 +3,22 @@
 use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
-use tautline_kernel::chain::Refused;
-use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Found, Position, Search, Unsearchable, search};
+use tautline_kernel::chain::SetupError;
+use tautline_proofs::chain::Subject;
+use tautline_proofs::chain::search::{Bounds, Findings, Position, Search, Unsearchable, search};
 use tautline_proofs::engine::tree::{self, Progress, unwatched};
 
 fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }
 
-fn found(bounds: &Bounds) -> Found {
+fn found(bounds: &Bounds) -> Findings {
     search(bounds, &mut unwatched).expect("four robots fit")
 }
 
 #[test]
 fn a_search_comes_out_the_same_on_any_number_of_threads() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 3);
     let whole = found(&bounds);
     assert!(whole.complete);
     assert_eq!(whole.levels.len(), 4);
@@ -31,7 +31,7 @@ fn a_search_comes_out_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_budget_cuts_the_same_runs_off_on_any_number_of_threads() {
-    let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Observed::PUBLISHED, 4, 3) };
+    let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Subject::PUBLISHED, 4, 3) };
     let whole = found(&bounds(None));
     for budget in [0, 1, 100, 20_000, whole.moves - 1000] {
         let cut = on_threads(1, || found(&bounds(Some(budget))));
@@ -43,7 +43,7 @@ fn a_budget_cuts_the_same_runs_off_on_any_number_of_threads() {
 
 #[test]
 fn a_search_left_anywhere_and_taken_up_again_comes_out_the_same() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 3);
     let whole = found(&bounds);
     let mut positions = Vec::new();
     let mut undisturbed = Search::new(&bounds).expect("four robots fit");
@@ -63,14 +63,14 @@ fn a_search_left_anywhere_and_taken_up_again_comes_out_the_same() {
 
 #[test]
 fn a_finished_search_goes_on_with_more_walls() {
-    let (few, more) = (Bounds::new(Observed::REPAIRED, 3, 2), Bounds::new(Observed::REPAIRED, 3, 4));
+    let (few, more) = (Bounds::new(Subject::REPAIRED, 3, 2), Bounds::new(Subject::REPAIRED, 3, 4));
     let mut search = Search::new(&few).expect("three robots fit");
     while search.wave() {}
     let position = search.position();
     let mut again = Search::at(&more, &position).expect("more walls");
     while again.wave() {}
     assert_eq!(again.found(), found(&more));
-    let fewer = Search::at(&Bounds::new(Observed::REPAIRED, 3, 1), &position);
+    let fewer = Search::at(&Bounds::new(Subject::REPAIRED, 3, 1), &position);
     assert_eq!(fewer.err(), Some(Unsearchable::Search(tree::Unsearchable::Beyond { walls: 2 })));
 }
 
@@ -88,7 +88,7 @@ fn with_lanes(position: &Position, lanes: Vec<Value>) -> Position {
 
 #[test]
 fn a_position_of_another_search_is_refused() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 2);
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 2);
     let mut search = Search::new(&bounds).expect("four robots fit");
     while lanes(&search.position()).len() < 3 {
         assert!(search.wave(), "a search has many lanes somewhere");
@@ -98,7 +98,7 @@ fn a_position_of_another_search_is_refused() {
         let refused = Search::at(bounds, position).err();
         refused == Some(Unsearchable::Search(tree::Unsearchable::Foreign))
     };
-    assert!(foreign(&Bounds::new(Observed::PUBLISHED, 5, 2), &position));
+    assert!(foreign(&Bounds::new(Subject::PUBLISHED, 5, 2), &position));
     let mut start = lanes(&position);
     start[0] = json!({"answers": [], "fixed": 0, "next": "advance"});
     assert!(!foreign(&bounds, &with_lanes(&position, start)), "the start is a place in every tree");
@@ -114,7 +114,7 @@ fn a_position_of_another_search_is_refused() {
 
 #[test]
 fn every_lane_is_another_part_of_the_tree_and_none_is_empty() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 3);
     let whole = found(&bounds);
     let mut search = Search::new(&bounds).expect("four robots fit");
     let mut most = 0;
@@ -153,7 +153,7 @@ fn no_wave_waits_for_one_share() {
     assert!(is_even(&[64]) && is_even(&[64, 64, 40]) && !is_even(&[64, 64, 15]));
     let workers = [2, 8, 32];
     let (mut made, mut spans) = (0, [0; 3]);
-    let mut search = Search::new(&Bounds::new(Observed::REPAIRED, 4, 3)).expect("four robots fit");
+    let mut search = Search::new(&Bounds::new(Subject::REPAIRED, 4, 3)).expect("four robots fit");
     let (mut most, mut level_of_last) = (0, None);
     let mut has_more = true;
     while has_more {
@@ -183,14 +183,14 @@ fn a_wave_takes_as_long_as_its_last_worker() {
 
 #[test]
 fn bounds_that_cannot_be_searched_are_refused() {
-    let refused = |robots, max_walls| Search::new(&Bounds::new(Observed::REPAIRED, robots, max_walls)).err();
+    let refused = |robots, max_walls| Search::new(&Bounds::new(Subject::REPAIRED, robots, max_walls)).err();
     assert_eq!(
         refused(2, 13),
         Some(Unsearchable::Search(tree::Unsearchable::TooManyWalls { max_walls: 13, edges: 12 }))
     );
     assert_eq!(refused(2, 12), None);
-    assert!(matches!(refused(1, 0), Some(Unsearchable::Team(Refused::TooFewRobots { robots: 1 }))));
-    assert!(matches!(refused(65, 0), Some(Unsearchable::Team(Refused::TooManyRobots { .. }))));
+    assert!(matches!(refused(1, 0), Some(Unsearchable::Team(SetupError::TooFewRobots { robots: 1 }))));
+    assert!(matches!(refused(65, 0), Some(Unsearchable::Team(SetupError::TooManyRobots { .. }))));
 }
 
 /// Of a hunt that is worth dealing out.
@@ -198,7 +198,7 @@ const DEALT: usize = 8;
 
 #[test]
 fn the_shards_of_a_search_count_what_one_search_counts() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 3);
     let whole = found(&bounds);
     for shards in [1, 3, DEALT] {
         let deal = Search::new(&bounds).expect("four robots fit").deal(shards);
@@ -233,7 +233,7 @@ fn the_shards_of_a_search_count_what_one_search_counts() {
 /// has to a half.
 #[test]
 fn a_search_is_dealt_out_evenly_and_as_the_plan_tells() {
-    let cases = [(Observed::PUBLISHED, 4, 4), (Observed::REPAIRED, 3, 5), (Observed::REEL, 4, 3)];
+    let cases = [(Subject::PUBLISHED, 4, 4), (Subject::REPAIRED, 3, 5), (Subject::REEL, 4, 3)];
     for (observed, robots, walls) in cases {
         let bounds = Bounds::new(observed, robots, walls);
         let deal = Search::new(&bounds).expect("so many robots fit").deal(DEALT);
@@ -254,7 +254,7 @@ fn a_search_is_dealt_out_evenly_and_as_the_plan_tells() {
 
 #[test]
 fn a_shard_that_has_not_searched_what_it_was_dealt_is_none_of_the_deal() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let bounds = Bounds::new(Subject::PUBLISHED, 4, 3);
     let deal = Search::new(&bounds).expect("four robots fit").deal(2);
     let mut search = Search::shard(&bounds, &deal, 0).expect("a shard");
     for _ in 0..3 {
@@ -279,7 +279,7 @@ fn a_shard_that_has_not_searched_what_it_was_dealt_is_none_of_the_deal() {
 /// Each call has a budget of its own, and all of them come to what one search comes to.
 #[test]
 fn a_budget_counts_what_was_made_since_the_search_was_taken_up() {
-    let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Observed::REPAIRED, 4, 3) };
+    let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Subject::REPAIRED, 4, 3) };
     let whole = found(&bounds(None));
     let budget = whole.moves / 3 + 1;
     let mut search = Search::new(&bounds(Some(budget))).expect("four robots fit");

@@ -15,9 +15,9 @@ const STARTS: [(i16, i16); 4] = [(1, 0), (5, 4), (1, 4), (3, 3)];
 const ORDER: [u8; 27] = [0, 0, 3, 3, 3, 3, 3, 3, 1, 3, 3, 3, 0, 2, 2, 2, 2, 3, 3, 3, 3, 3, 0, 0, 1, 1, 1];
 
 /// Nothing is missed.
-struct Seeing;
+struct ClearSight;
 
-impl Oracle for Seeing {
+impl Oracle for ClearSight {
     fn pick(&mut self, _: u32) -> u32 {
         0
     }
@@ -123,7 +123,7 @@ fn fails(rule: Rule) -> Vec<usize> {
     settle(&mut floor, &cells);
     let mut failed = Vec::new();
     for (number, agent) in ORDER.into_iter().map(usize::from).enumerate() {
-        (_, cells[agent]) = act(rule, &mut floor, &mut agents[agent], cells[agent], &mut Seeing);
+        (_, cells[agent]) = act(rule, &mut floor, &mut agents[agent], cells[agent], &mut ClearSight);
         failed.extend((!floor.is_claim_true()).then_some(number + 1));
         assert!(floor.are_trees_whole(), "after {} actions", number + 1);
     }
@@ -147,7 +147,7 @@ fn an_agent_that_has_founded_as_many_trees_as_there_are_labels_founds_no_more_an
     agent.founded = Label::TREES;
     settle(&mut floor, &[cell]);
     for _ in 0..100 {
-        let (done, next) = act(Rule::TREE, &mut floor, &mut agent, cell, &mut Seeing);
+        let (done, next) = act(Rule::TREE, &mut floor, &mut agent, cell, &mut ClearSight);
         assert!(matches!(done.next, Next::Goes(_) | Next::Explores(_)), "{done:?}");
         cell = next;
     }

@@ -9,16 +9,16 @@ use std::thread;
 use std::time::Duration;
 
 use tautline_kernel::choice::Oracle;
-use tautline_proofs::clause::{AnyCheck, Check, Clause, Named};
+use tautline_proofs::clause::{AnyCheck, Check, Clause, NamedRule};
 use tautline_proofs::decide::{
-    Answer, Desk, EveryState, Exhaustive, Method, Played, Refused, Sampled, Verdict,
+    Answer, Context, EveryAnswer, EveryState, Method, MethodError, RandomAnswers, RefutationPlay, Verdict,
 };
 use tautline_proofs::engine::lots::{self, Look, Lots};
 use tautline_proofs::engine::states::System;
 use tautline_proofs::engine::tree::{self, Game, unwatched};
 use tautline_proofs::engine::world::{Turn, World};
-use tautline_proofs::engine::{Choices, Outcome, Unfit, Until, assume};
-use tautline_proofs::ledger::{Hear, Heard, Limits, Row, Undecided, checks, decide};
+use tautline_proofs::engine::{Choices, Outcome, ScriptError, Until, assume};
+use tautline_proofs::ledger::{Hear, Indecision, Limits, News, Row, checks, decide};
 
 /// A rule by what it does in one of its steps.
 #[derive(Clone, Copy)]
@@ -82,13 +82,13 @@ fn body(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     Ok("an end")
 }
 
-static EXHAUSTIVE: Exhaustive<Rule> = Exhaustive { body, range, covers: &[] };
-static SAMPLED: Sampled<Rule> = Sampled { body, runs: STEPS as u64, range, covers: &[] };
+static EXHAUSTIVE: EveryAnswer<Rule> = EveryAnswer { body, range, covers: &[] };
+static SAMPLED: RandomAnswers<Rule> = RandomAnswers { body, runs: STEPS as u64, range, covers: &[] };
 
 /// A counter, or a team that counts its team moves.
-struct Counting(Rule);
+struct Counter(Rule);
 
-impl World for Counting {
+impl World for Counter {
     type State = u32;
     type Plan = ();
     type Event = ();
@@ -108,7 +108,7 @@ impl World for Counting {
     }
 }
 
-impl System for Counting {
+impl System for Counter {
     type Part = u32;
 
     fn part(&self, &state: &u32, _: usize) -> u32 {
@@ -120,16 +120,16 @@ impl System for Counting {
     }
 }
 
-static STATES: EveryState<Rule, Counting> = EveryState {
+static STATES: EveryState<Rule, Counter> = EveryState {
     range,
-    system: |&rule| Counting(rule),
+    system: |&rule| Counter(rule),
     starts: |_| vec![0],
     most_steps: 1000,
     covers: &[],
     tell: |before, step| format!("{before} to {}", step.state),
 };
 
-impl Game for Counting {
+impl Game for Counter {
     type Frame = u32;
 
     fn start(&self) -> u32 {
@@ -158,10 +158,10 @@ impl Game for Counting {
 }
 
 /// So many lots in one stage.
-impl Lots for Counting {
+impl Lots for Counter {
     type Stage = ();
     type Lot = ();
-    type Look = Seen;
+    type Look = Glance;
     type Found = u64;
     type Error = Infallible;
 
@@ -177,12 +177,12 @@ impl Lots for Counting {
         1
     }
 
-    fn look(&self, (): (), (): &(), _: u64) -> Result<Seen, Infallible> {
+    fn look(&self, (): (), (): &(), _: u64) -> Result<Glance, Infallible> {
         self.0.step();
-        Ok(Seen)
+        Ok(Glance)
     }
 
-    fn add(&self, found: &mut u64, (): &(), _: Seen) -> Result<(), Infallible> {
+    fn add(&self, found: &mut u64, (): &(), _: Glance) -> Result<(), Infallible> {
         *found += 1;
         Ok(())
     }
@@ -190,9 +190,9 @@ impl Lots for Counting {
     fn cover(&self, _: &mut u64, (): ()) {}
 }
 
-struct Seen;
+struct Glance;
 
-impl Look for Seen {
+impl Look for Glance {
     fn steps(&self) -> u64 {
         1
     }
@@ -225,22 +225,22 @@ impl Method<Rule> for By {
         range()
     }
 
-    fn decide(&self, rule: &Rule, until: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &Rule, until: Until, _: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let cases = match self {
             Self::Tree => {
                 let limits = tree::Limits { max_walls: 0, budget_moves: None, until };
-                tree::search(Counting(*rule), &limits, &mut unwatched).map_err(Refused::new)?.moves
+                tree::search(Counter(*rule), &limits, &mut unwatched).map_err(MethodError::new)?.moves
             }
             Self::Lots => {
-                let Ok((lots, _)) = lots::search(&Counting(*rule), None, &mut |_| ControlFlow::Continue(()));
+                let Ok((lots, _)) = lots::search(&Counter(*rule), None, &mut |_| ControlFlow::Continue(()));
                 lots
             }
         };
         Ok(Answer::new(None, true, Verdict::Holds, cases))
     }
 
-    fn replay(&self, _: &Rule, _: &Choices) -> Result<Played, Unfit> {
-        Err(Unfit::Unbroken)
+    fn replay(&self, _: &Rule, _: &Choices) -> Result<RefutationPlay, ScriptError> {
+        Err(ScriptError::Unbroken)
     }
 }
 
@@ -267,8 +267,8 @@ fn decided(checked: Vec<Check<Rule>>, patience_s: u32) -> (Vec<Row>, Vec<&'stati
     let clause = Box::leak(Box::new(Clause { id, sentence, checks: checked.collect::<Vec<_>>().leak() }));
     let unended = Arc::new(Mutex::new(Vec::new()));
     let heard = Arc::clone(&unended);
-    let hear: Hear = Arc::new(move |told: Heard<'_>| {
-        if let Heard::Unended { clause } = told {
+    let hear: Hear = Arc::new(move |told: News<'_>| {
+        if let News::Unended { clause } = told {
             heard.lock().unwrap_or_else(PoisonError::into_inner).push(clause);
         }
         ControlFlow::Continue(())
@@ -280,7 +280,7 @@ fn decided(checked: Vec<Check<Rule>>, patience_s: u32) -> (Vec<Row>, Vec<&'stati
 }
 
 fn check(rule: Rule, method: &'static dyn Method<Rule>) -> Check<Rule> {
-    Check::new(Named::new("counting", rule), method, method.shows(), &[])
+    Check::new(NamedRule::new("counting", rule), method, method.shows(), &[])
 }
 
 #[test]
@@ -292,7 +292,7 @@ fn a_check_of_any_engine_is_open_if_a_step_does_not_end_and_the_others_are_decid
             decided(vec![check(Rule::Endless(slip), method), check(Rule::Sound, method)], 1);
         slip.release();
         let [endless, sound] = &rows[..] else { panic!("{rows:?}") };
-        assert_eq!(endless.undecided, Some(Undecided::Unended { mutant: None, seconds: 1 }), "{rows:?}");
+        assert_eq!(endless.undecided, Some(Indecision::Unended { mutant: None, seconds: 1 }), "{rows:?}");
         assert_eq!((endless.decision.verdict, endless.is_as_registered()), (Verdict::Open, false));
         assert_eq!((sound.undecided, sound.is_as_registered()), (None, true), "{rows:?}");
         assert_eq!(unended, ["COUNT-1"], "{}", method.engine());
@@ -313,7 +313,7 @@ fn steps_that_take_their_time_are_waited_for() {
 fn a_mutant_whose_step_does_not_end_is_not_rejected() {
     let _alone = alone();
     let slip = Slip::new();
-    let mutants = vec![Named::new("endless", Rule::Endless(slip))].leak();
+    let mutants = vec![NamedRule::new("endless", Rule::Endless(slip))].leak();
     let check = Check { mutants, ..check(Rule::Sound, &EXHAUSTIVE) };
     let (rows, _) = decided(vec![check], 1);
     slip.release();

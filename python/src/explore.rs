@@ -13,7 +13,7 @@ use tautline_sim::named_values::NamedValues;
 use tautline_sim::options::Options;
 
 use crate::diagnostic::{Kind, error, raised};
-use crate::layout::{Given, Pair};
+use crate::layout::{LayoutArgument, Pair};
 use crate::run::{Run, cell};
 
 /// The scheme of this name.
@@ -70,7 +70,7 @@ pub(crate) fn limits(py: Python<'_>, until: Option<u32>, max_moves: Option<NonZe
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn explore(
     py: Python<'_>,
-    layout: Given<'_>,
+    layout: LayoutArgument<'_>,
     scheme: &str,
     rule: &str,
     robots: Option<u64>,

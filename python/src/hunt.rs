@@ -68,9 +68,9 @@ impl Counterexample {
 }
 
 /// Stops a hunt when it is told to.
-struct Stopped<'a>(&'a AtomicBool);
+struct StopHunter<'a>(&'a AtomicBool);
 
-impl Hunter for Stopped<'_> {
+impl Hunter for StopHunter<'_> {
     fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
         if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
@@ -123,7 +123,7 @@ pub(crate) fn hunt(
     };
     let found = wait_for(py, |is_stopped| {
         asked.check(hunt)?;
-        hunt.hunt(&asked, &mut Stopped(is_stopped))
+        hunt.hunt(&asked, &mut StopHunter(is_stopped))
     })?;
     let found = found.map_err(|fault: Diagnostic| raised(py, &fault))?;
     let (verdict, complete) = (verdict(found.found.is_empty(), found.is_complete), found.is_complete);

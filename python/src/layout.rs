@@ -53,14 +53,14 @@ pub(crate) fn side(letter: char) -> Option<Side> {
 
 /// The layout of an argument that is one, or that describes one.
 #[derive(FromPyObject)]
-pub(crate) enum Given<'py> {
+pub(crate) enum LayoutArgument<'py> {
     /// A layout.
     Made(Bound<'py, Layout>),
     /// A file or a generator.
     Named(PathBuf),
 }
 
-impl Given<'_> {
+impl LayoutArgument<'_> {
     /// The layout and its name.
     pub(crate) fn load(&self, py: Python<'_>, seed: u64) -> PyResult<Layout> {
         match self {

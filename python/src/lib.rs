@@ -24,7 +24,7 @@ mod _native {
     #[pymodule_export]
     use crate::layout::Layout;
     #[pymodule_export]
-    use crate::rule::moved::Moved;
+    use crate::rule::moved::TeamMove;
     #[pymodule_export]
     use crate::rule::{OwnCounterexample, OwnHuntReport, hunt_rule};
     #[pymodule_export]

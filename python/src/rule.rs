@@ -23,11 +23,11 @@ use tautline_sim::explore::{Limits, Own, Report, Setup, run};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
 
-use self::game::{Asked, Questions, setting};
-use self::written::{Demand, Written};
+use self::game::{PythonRule, Questions, setting};
+use self::written::{Demand, RuleScript};
 use crate::diagnostic::{Kind, error, halted};
 use crate::hunt::verdict;
-use crate::run::{Made, Run};
+use crate::run::{RunSource, Run};
 use crate::wait::wait;
 
 /// The outcome of a hunt of a rule written in Python.
@@ -96,7 +96,7 @@ struct Plain {
 
 /// The outcome of a hunt before Python has it.
 struct Outcome {
-    found: tree::Found<Promise, (Frame, Option<Map>)>,
+    found: tree::Findings<Promise, (Frame, Option<Map>)>,
     counterexamples: Vec<Plain>,
 }
 
@@ -109,7 +109,7 @@ pub(crate) fn hunt_rule(
     budget: Option<u64>,
     patience_s: f64,
 ) -> PyResult<OwnHuntReport> {
-    let written = Arc::new(Written::read(&rule)?);
+    let written = Arc::new(RuleScript::read(&rule)?);
     let mut patience = written.patience(patience_s)?;
     let worker = Arc::clone(&written);
     let found = wait(
@@ -147,12 +147,12 @@ pub(crate) fn hunt_rule(
 }
 
 /// The search, and its counterexamples made again. On the thread that asks the rule.
-fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResult<Outcome> {
+fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyResult<Outcome> {
     written.begin(py)?;
     let limits = Bounds { max_walls: written.max_walls, budget_moves: budget, until: Until::Exhausted };
     let questions = Questions::of(written);
     let (demands, covers) = (questions.demands(written), questions.covers(written));
-    let (rule, setting) = (Asked(Arc::clone(written)), setting(written, &demands, &covers));
+    let (rule, setting) = (PythonRule(Arc::clone(written)), setting(written, &demands, &covers));
     let refused = |refused: &dyn std::fmt::Display| {
         error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size")
     };
@@ -188,11 +188,11 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
 
 /// The run of the rule in `layout`, as far as it breaks the demand with this number, written to a file and read again.
 fn stored(
-    written: &Written,
-    (setting, rule): (&Setting<'_, Asked>, &Asked),
+    written: &RuleScript,
+    (setting, rule): (&Setting<'_, PythonRule>, &PythonRule),
     layout: &Layout,
     demand: usize,
-) -> Result<(Made, Report), Halt> {
+) -> Result<(RunSource, Report), Halt> {
     let folder =
         tempfile::tempdir().map_err(|error| Diagnostic::usage(error, "make room for temporary files"))?;
     let path = folder.path().join("run.jsonl");
@@ -217,7 +217,7 @@ fn stored(
     let unread = |error| Diagnostic::in_file(&path, error, "make room for temporary files");
     let text = fs::read_to_string(&path).map_err(unread)?;
     match trace::open(&path, CATALOGUE)? {
-        Stored::Foreign(recorded) => Ok((Made::Recorded(Box::new(recorded), text), report)),
+        Stored::Foreign(recorded) => Ok((RunSource::Recorded(Box::new(recorded), text), report)),
         Stored::Known(_) => {
             let what = format!("{} is a scheme of tautline", written.scheme);
             Err(Diagnostic::usage(what, "give the rule's scheme another name").into())

@@ -33,14 +33,14 @@ const MAX_PANELS: u32 = 200;
 
 /// The data that make a run again.
 #[derive(Clone)]
-pub(crate) enum Made {
+pub(crate) enum RunSource {
     /// A rule of the catalogue.
     Known(Box<Setup>),
     /// A file with a rule that the catalogue does not have, and its text.
     Recorded(Box<Recorded>, String),
 }
 
-impl Made {
+impl RunSource {
     fn play(&self) -> &(dyn Play + Sync) {
         match self {
             Self::Known(setup) => &**setup,
@@ -52,7 +52,7 @@ impl Made {
 /// A run that is over.
 #[pyclass(frozen, module = "pytautline")]
 pub(crate) struct Run {
-    pub(crate) made: Made,
+    pub(crate) made: RunSource,
     /// The name by which its layout was loaded.
     pub(crate) name: String,
     pub(crate) report: Report,
@@ -62,7 +62,7 @@ pub(crate) struct Run {
 
 /// The head of every JSON object.
 #[derive(Serialize)]
-struct Versioned<T> {
+struct Document<T> {
     schema_version: u32,
     #[serde(flatten)]
     content: T,
@@ -78,7 +78,7 @@ impl Run {
     pub(crate) fn of(py: Python<'_>, setup: Setup, name: String, clause: Option<ClauseId>) -> PyResult<Self> {
         let report = wait_for(py, |is_stopped| setup.play(&mut |_| stopped(is_stopped)))?;
         let report = report.map_err(|halt| halted(py, &halt))?;
-        Ok(Self { made: Made::Known(Box::new(setup)), name, report, clause })
+        Ok(Self { made: RunSource::Known(Box::new(setup)), name, report, clause })
     }
 
     /// The run in a file, checked.
@@ -89,7 +89,7 @@ impl Run {
             Stored::Known(stored) => {
                 let (setup, clause) = (stored.setup.clone(), stored.clause);
                 let report = wait_for(py, |is_stopped| stored.replay(&mut |_| stopped(is_stopped)))?;
-                (Made::Known(Box::new(setup)), report.map_err(|halt| halted(py, &halt))?, clause)
+                (RunSource::Known(Box::new(setup)), report.map_err(|halt| halted(py, &halt))?, clause)
             }
             Stored::Foreign(run) => {
                 let unread =
@@ -97,7 +97,7 @@ impl Run {
                 let text = fs::read_to_string(path).map_err(unread)?;
                 let report = run.play(&mut |_| Ok(())).map_err(|halt| halted(py, &halt))?;
                 let clause = run.clause;
-                (Made::Recorded(Box::new(run), text), report, clause)
+                (RunSource::Recorded(Box::new(run), text), report, clause)
             }
         };
         Ok(Self { made, name, report, clause })
@@ -136,7 +136,7 @@ impl Run {
     /// Writes the trace.
     fn traced(&self, aside: AtomicFile) -> Result<AtomicFile, Halt> {
         match &self.made {
-            Made::Known(setup) => {
+            RunSource::Known(setup) => {
                 let mut writer = Writer::new(aside, setup, self.clause).map_err(Diagnostic::from)?;
                 let report = setup.play(&mut |made| {
                     writer.add(made);
@@ -144,7 +144,7 @@ impl Run {
                 })?;
                 Ok(writer.end(&report))
             }
-            Made::Recorded(_, text) => {
+            RunSource::Recorded(_, text) => {
                 let mut aside = aside;
                 aside.append(text);
                 Ok(aside)
@@ -316,7 +316,7 @@ impl Run {
     /// One JSON object in a line: what `tautline explore --format json` prints.
     fn json(&self) -> PyResult<String> {
         let content = Summary::new(self.play(), &self.name, &self.report);
-        let text = serde_json::to_string(&Versioned { schema_version: SCHEMA_VERSION, content });
+        let text = serde_json::to_string(&Document { schema_version: SCHEMA_VERSION, content });
         text.map(|text| text + "\n")
             .map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
     }
@@ -380,8 +380,8 @@ impl Run {
     #[pyo3(signature = (clause=None))]
     fn minimise(&self, py: Python<'_>, clause: Option<&str>) -> PyResult<Self> {
         let setup = match &self.made {
-            Made::Known(setup) => setup,
-            Made::Recorded(..) => {
+            RunSource::Known(setup) => setup,
+            RunSource::Recorded(..) => {
                 let what = "a run of a rule that is not in the catalogue";
                 return Err(error(
                     py,

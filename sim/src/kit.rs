@@ -12,7 +12,7 @@ use std::num::NonZeroU32;
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
-use tautline_kernel::kit::{Condition, Kit, Next, Refused, Rule, Sight, Stance, touch};
+use tautline_kernel::kit::{Condition, Kit, Next, Rule, SetupError, Sight, Stance, touch};
 
 use crate::layout::Layout;
 use crate::layout::generate;
@@ -104,20 +104,22 @@ pub trait Course {
 /// The run of a team in `layout`, a robot in each of `starts`.
 ///
 /// # Errors
-/// [`Refused`] if it cannot start so.
+/// [`SetupError`] if it cannot start so.
 pub fn course(
     rule: Rule,
     layout: &Layout,
     starts: &[Cell],
     pace: Pace,
     seed: u64,
-) -> Result<Box<dyn Course>, Refused> {
+) -> Result<Box<dyn Course>, SetupError> {
     let area = layout.size().area();
     let world = (layout, pace, seed);
     match (SmallGrid::new(area), MediumGrid::new(area)) {
         (Some(map), _) => Ok(Box::new(Run::<_, FEW_NODES>::new(rule, map, starts, world)?)),
         (None, Some(map)) => Ok(Box::new(Run::<_, MOST_NODES>::new(rule, map, starts, world)?)),
-        (None, None) => Err(Refused::TooManyNodes { nodes: area.width() * area.height(), most: MOST_NODES }),
+        (None, None) => {
+            Err(SetupError::TooManyNodes { nodes: area.width() * area.height(), most: MOST_NODES })
+        }
     }
 }
 
@@ -148,7 +150,7 @@ impl<G: Grid + Copy, const NODES: usize> Run<G, NODES> {
         map: G,
         starts: &[Cell],
         (layout, pace, seed): (&Layout, Pace, u64),
-    ) -> Result<Self, Refused> {
+    ) -> Result<Self, SetupError> {
         Ok(Self {
             kit: Kit::new(rule, map, starts)?,
             layout: layout.clone(),

@@ -20,13 +20,13 @@ pub const MOST_DEVIATIONS: f64 = 3.0;
 
 #[cfg(test)]
 mod tests {
-    use tautline_proofs::engine::{Seeded, Tape};
+    use tautline_proofs::engine::{SeededOracle, Tape};
 
     use super::*;
 
     #[test]
     fn deviations_have_their_mean_and_standard_deviation_and_an_end() {
-        let mut source = Seeded::new(2, 0);
+        let mut source = SeededOracle::new(2, 0);
         let drawn: Vec<f64> = (0..20_000).map(|_| deviation_db(4.0, &mut source)).collect();
         let mean = drawn.iter().sum::<f64>() / 20_000.0;
         let variance = drawn.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / 20_000.0;

@@ -12,7 +12,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Rule as Cells, Status};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_kernel::kit::Rule as Touch;
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, RuleId, Setup, Stopped, explore};
@@ -33,13 +33,16 @@ struct Counted {
 
 impl Counted {
     /// So many runs, each of team moves that it tells, with what it breaks; `None` where a team does not find room.
-    fn of(runs: u64, mut run: impl FnMut(&mut Seeded) -> Option<(String, u64, Result<(), Broken>)>) -> Self {
+    fn of(
+        runs: u64,
+        mut run: impl FnMut(&mut SeededOracle) -> Option<(String, u64, Result<(), Broken>)>,
+    ) -> Self {
         let mut counted = Self::default();
         for number in 0.. {
             if counted.runs == runs {
                 break;
             }
-            let Some((told, moves, judged)) = run(&mut Seeded::new(0, number)) else { continue };
+            let Some((told, moves, judged)) = run(&mut SeededOracle::new(0, number)) else { continue };
             counted.runs += 1;
             counted.moves += moves;
             if let Err((clause, how)) = judged {
@@ -55,16 +58,16 @@ impl Counted {
     }
 }
 
-fn between(oracle: &mut Seeded, least: u32, most: u32) -> u32 {
+fn between(oracle: &mut SeededOracle, least: u32, most: u32) -> u32 {
     least + oracle.pick(most - least + 1)
 }
 
-fn one_of<T: Copy>(oracle: &mut Seeded, all: &[T]) -> T {
+fn one_of<T: Copy>(oracle: &mut SeededOracle, all: &[T]) -> T {
     all[oracle.pick(all.len() as u32) as usize]
 }
 
 /// A random layout: its generator with its seed, and itself.
-fn drawn(oracle: &mut Seeded, kinds: &[&str], most: u32) -> (String, Layout) {
+fn drawn(oracle: &mut SeededOracle, kinds: &[&str], most: u32) -> (String, Layout) {
     let kind = one_of(oracle, kinds);
     let (columns, rows) = (between(oracle, 2, most), between(oracle, 2, most));
     let share = one_of(oracle, &["0", "0.05", "0.1", "0.2", "0.3", "0.4"]);
@@ -97,7 +100,12 @@ fn floor(layout: &Layout) -> Floor {
 }
 
 /// So many free cells: anywhere, or each beside one before it. `None` if there is no room.
-fn starts(oracle: &mut Seeded, layout: &Layout, robots: usize, are_together: bool) -> Option<Vec<Cell>> {
+fn starts(
+    oracle: &mut SeededOracle,
+    layout: &Layout,
+    robots: usize,
+    are_together: bool,
+) -> Option<Vec<Cell>> {
     let mut free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
     let mut starts: Vec<Cell> = Vec::new();
     while starts.len() < robots {

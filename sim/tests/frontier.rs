@@ -4,7 +4,7 @@ use crate::common::Unwatched;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::{RuleId, Setup, Stopped, explore};
@@ -133,7 +133,7 @@ fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
 }
 
 /// So many free cells, any of them.
-fn any_starts(layout: &Layout, robots: usize, oracle: &mut Seeded) -> Vec<Cell> {
+fn any_starts(layout: &Layout, robots: usize, oracle: &mut SeededOracle) -> Vec<Cell> {
     let mut free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
     let any = |_| {
         let number = oracle.pick(free.len() as u32) as usize;
@@ -152,7 +152,7 @@ fn end_of_runs_with_assignments_anew(layouts: u64) -> usize {
             for seed in 0..layouts {
                 let layout = generator.generate(seed).expect("a layout");
                 for robots in 2..=8 {
-                    let starts = any_starts(&layout, robots, &mut Seeded::new(seed, robots as u64));
+                    let starts = any_starts(&layout, robots, &mut SeededOracle::new(seed, robots as u64));
                     let mut team = Assigned::new(Assignment::HungarianAnew, &layout, &starts);
                     let ended = loop {
                         if let Err(ended) = team.advance() {

@@ -100,7 +100,7 @@ pub fn picture(title: &str, maps: &[Map<'_>]) -> String {
         if place > 0 && place % ROW == 0 {
             (x, y, row_height) = (MARGIN, y + row_height + MARGIN, 0);
         }
-        let drawn = Drawn::of(map, side);
+        let drawn = Picture::of(map, side);
         let _ = writeln!(body, "<g transform=\"translate({x},{y})\">{}</g>", drawn.body);
         x += drawn.width + MARGIN;
         width = width.max(x);
@@ -118,13 +118,13 @@ pub fn picture(title: &str, maps: &[Map<'_>]) -> String {
 }
 
 /// A part of the picture with its size, its corner at 0,0.
-struct Drawn {
+struct Picture {
     width: i32,
     height: i32,
     body: String,
 }
 
-impl Drawn {
+impl Picture {
     fn of(map: &Map<'_>, side: i32) -> Self {
         let (scale, (width, height)) = Scale::of(map, side);
         let caption = escaped(&map.caption);
@@ -250,13 +250,13 @@ fn way(look: usize, trail: &Trail, scale: Scale) -> String {
 }
 
 /// The meaning of the marks that there are, in one line.
-fn key(maps: &[Map<'_>]) -> Drawn {
+fn key(maps: &[Map<'_>]) -> Picture {
     let has = |is_drawn: &dyn Fn(&Map<'_>) -> bool| maps.iter().any(is_drawn);
     let has_end = |end: Terminus| {
         has(&|map| map.trails.iter().any(|trail| trail.end == end && !trail.places.is_empty()))
     };
     let end = |mark: &str| format!("<g class=\"trail-0\"><path class=\"terminus\" d=\"M6 0{mark}\"/></g>");
-    let mut key = Drawn { width: 0, height: LINE, body: String::new() };
+    let mut key = Picture { width: 0, height: LINE, body: String::new() };
     let marks = [
         (has(&|map| map.nodes > 0), "<path class=\"nodes\" d=\"M6 0h0\"/>".to_owned(), "node"),
         (

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use tautline_kernel::position::Point;
 
 use crate::position::analysis::Ellipse;
-use crate::position::{Found, Place, Spot};
+use crate::position::{FixReport, Place, Spot};
 use tautline_sim::draw::svg::{MARGIN, SERIES_STYLE, document, escaped, text_width};
 
 /// The longest side of the ground.
@@ -51,7 +51,7 @@ pub fn spots(title: &str, anchors: &[Point], spots: &[Spot]) -> String {
 }
 
 /// The picture of positions found in measurements.
-pub fn found(title: &str, anchors: &[Point], found: &[Found]) -> String {
+pub fn found(title: &str, anchors: &[Point], found: &[FixReport]) -> String {
     let places = || found.iter().flat_map(|found| &found.positions);
     let ground = Ground::of(anchors.iter().copied().chain(places().map(Place::at)));
     let mut body = ground.anchors(anchors);

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::field::{Map, Terminus, Trail};
 use crate::radio::Point;
-use crate::rescue::{Event, Fix, Journey, Logged, Ordinal, Report, SchemeName, Setting, seconds};
+use crate::rescue::{Event, Fix, Journey, LogEntry, Ordinal, Report, SchemeName, Setting, seconds};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film::{self, Again, Board, Film, Share};
 use tautline_sim::draw::page::line::{base36, word};
@@ -20,7 +20,7 @@ use tautline_sim::named_values::NamedValues;
 pub fn map(caption: String, report: &Report) -> Map<'_> {
     let trail = |(number, path): (Ordinal, &Vec<Fix>)| {
         let fails =
-            |logged: &Logged| matches!(logged.event, Event::RobotFails { robot, .. } if robot == number);
+            |logged: &LogEntry| matches!(logged.event, Event::RobotFails { robot, .. } if robot == number);
         let end = if report.log.iter().any(fails) { Terminus::Failed } else { Terminus::There };
         let places = path.iter().map(|fix| fix.at).collect();
         Trail { name: format!("robot {number}"), places, end }
@@ -148,7 +148,7 @@ fn lines(report: &Report) -> String {
     broken.sort_by_key(|violation| violation.at_ns);
     let mut broken = broken.into_iter().peekable();
     let (mut text, mut before, mut served) = ("-\n".to_owned(), 0, 0);
-    for (place, &Logged { at_ns, event }) in report.log.iter().enumerate() {
+    for (place, &LogEntry { at_ns, event }) in report.log.iter().enumerate() {
         let now = milliseconds(at_ns);
         let says = |kind: usize, from: usize, to: &str| format!(" s{MESSAGES}.{kind}:{from}>{to}");
         let caller = |wfr: Ordinal| robots + wfr.0;
@@ -180,7 +180,7 @@ fn lines(report: &Report) -> String {
         }
         // Writing to a string cannot fail.
         let _ = write!(text, "- +{}{words} ={served}", now - before);
-        text += &film::told(&Told { note: event.to_string(), broken: here });
+        text += &film::told(&LineDetails { note: event.to_string(), broken: here });
         text.push('\n');
         before = now;
     }
@@ -189,7 +189,7 @@ fn lines(report: &Report) -> String {
 
 /// A line's details beside its words.
 #[derive(Serialize)]
-struct Told {
+struct LineDetails {
     note: String,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     broken: Vec<(&'static str, Vec<String>)>,

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_kernel::position::{Point, Signal, Symmetric};
+use tautline_kernel::position::{Point, Signal, SymmetricMatrix};
 
 use crate::stats::decimals;
 
@@ -51,7 +51,7 @@ pub fn ellipse(middle: Point, covariance: &Matrix2<f64>) -> Ellipse {
 }
 
 /// A covariance of the kernel as a matrix.
-pub const fn matrix(covariance: &Symmetric) -> Matrix2<f64> {
+pub const fn matrix(covariance: &SymmetricMatrix) -> Matrix2<f64> {
     Matrix2::new(covariance.xx, covariance.xy, covariance.xy, covariance.yy)
 }
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::plural::counted;
 
 use super::Solver;
@@ -51,7 +51,7 @@ const MAX_BYTES: u64 = 16 << 20;
 
 /// The measurements of a file.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Measured {
+pub struct Measurements {
     file: PathBuf,
     text: String,
     fixes: Vec<Readings>,
@@ -68,7 +68,7 @@ struct Readings {
 
 /// The position of a fix.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Found {
+pub struct FixReport {
     /// The fix's name in the file.
     pub fix: String,
     /// The position; two if they cannot be told apart, the one that fits better first.
@@ -97,7 +97,7 @@ pub struct Place {
 /// Numbers are told to a hundredth of a millimetre.
 const PARTS: f64 = 1e5;
 
-impl Measured {
+impl Measurements {
     /// Reads a file of distances, or of levels where `power` says what these are at one metre; `signal` says how fast
     /// they fall.
     ///
@@ -231,19 +231,20 @@ impl Measured {
         rule: RuleName,
         signal: &Signal,
         seed: u64,
-    ) -> Result<Vec<Found>, Diagnostic> {
+    ) -> Result<Vec<FixReport>, Diagnostic> {
         let fixes = (0..).zip(&self.fixes);
         let found = |(number, readings): (u64, &Readings)| {
             let ranges = &readings.ranges;
-            let solved = check_meeting(ranges, signal)
-                .and_then(|()| solver.solve(rule, ranges, signal, None, &mut Seeded::new(seed, number)));
+            let solved = check_meeting(ranges, signal).and_then(|()| {
+                solver.solve(rule, ranges, signal, None, &mut SeededOracle::new(seed, number))
+            });
             let (at, fix) = solved.map_err(|refusal| self.refused(readings, refusal))?;
             let positions = match &fix {
                 None => vec![Place::bare(at)],
                 Some(Fix::One(one)) => vec![Place::of(one)],
                 Some(Fix::Two(one, other)) => vec![Place::of(one), Place::of(other)],
             };
-            Ok(Found { fix: readings.name.clone(), positions })
+            Ok(FixReport { fix: readings.name.clone(), positions })
         };
         fixes.map(found).collect()
     }

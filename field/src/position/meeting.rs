@@ -107,7 +107,7 @@ mod tests {
     use tautline_kernel::choice::Oracle;
     use tautline_kernel::net::Propagation;
     use tautline_kernel::position;
-    use tautline_proofs::engine::Seeded;
+    use tautline_proofs::engine::SeededOracle;
 
     use super::*;
 
@@ -115,7 +115,7 @@ mod tests {
     fn circles_meet_where_the_kernel_says_so_which_compares_every_two() {
         let mut refused = 0;
         for seed in 0..600 {
-            let dice = &mut Seeded::new(seed, 0);
+            let dice = &mut SeededOracle::new(seed, 0);
             let mut number = |below: u32| f64::from(dice.pick(below));
             let noise_db = [0.0, 0.1, 1.0, 6.0][seed as usize % 4];
             let signal = Signal::new(Propagation::FREE_SPACE, noise_db).expect("a signal");

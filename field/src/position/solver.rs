@@ -42,7 +42,7 @@ impl NamedValues for Solver {
 pub const PARTICLES: usize = 30;
 
 /// A position, and another one that fits as well.
-pub type Solved = (Point, Option<Fix>);
+pub type Solution = (Point, Option<Fix>);
 
 impl Solver {
     /// The position that the distances tell. The closed form alone is restricted to three anchors; a swarm begins about
@@ -57,7 +57,7 @@ impl Solver {
         signal: &Signal,
         area: Option<Area>,
         oracle: &mut impl Oracle,
-    ) -> Result<Solved, Refusal> {
+    ) -> Result<Solution, Refusal> {
         match self {
             Self::ClosedForm => Ok((closed_form(ranges)?, None)),
             Self::Pso => {
@@ -78,7 +78,7 @@ impl Solver {
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "as the other ways are")]
-fn fixed(fix: Fix) -> Result<Solved, Refusal> {
+fn fixed(fix: Fix) -> Result<Solution, Refusal> {
     Ok((fix.best().at, Some(fix)))
 }
 

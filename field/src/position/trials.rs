@@ -7,11 +7,11 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
     Area, Fix, Point, Range, Refusal, Residual, Signal, closed_form, linear, locate,
 };
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
-use super::solver::Solved;
+use super::solver::Solution;
 use crate::stats::{Estimate, decimals, quantile};
 use tautline_sim::diagnostic::{Halt, Watch};
 use tautline_sim::explore::RuleName;
@@ -88,7 +88,7 @@ pub struct Setting {
     pub at_m: Option<[f64; 2]>,
     /// How strength tells a distance.
     #[serde(flatten, serialize_with = "told")]
-    #[schemars(with = "Told")]
+    #[schemars(with = "SignalFields")]
     pub signal: Signal,
     /// How a position is found.
     pub solver: Solver,
@@ -104,13 +104,14 @@ pub struct Setting {
 
 /// A signal as it is printed.
 #[derive(JsonSchema, Serialize)]
-struct Told {
+struct SignalFields {
     noise_db: f64,
     exponent: f64,
 }
 
 fn told<S: Serializer>(signal: &Signal, serializer: S) -> Result<S::Ok, S::Error> {
-    Told { noise_db: signal.noise_db(), exponent: signal.propagation().exponent() }.serialize(serializer)
+    SignalFields { noise_db: signal.noise_db(), exponent: signal.propagation().exponent() }
+        .serialize(serializer)
 }
 
 /// The outcome of trials.
@@ -236,9 +237,9 @@ impl Setting {
         let exact = distances(
             self.anchors.places(),
             &self.signal,
-            self.place(&mut Seeded::new(self.seed, 0)),
+            self.place(&mut SeededOracle::new(self.seed, 0)),
             0.0,
-            &mut Seeded::new(0, 0),
+            &mut SeededOracle::new(0, 0),
         );
         if self.solver == Solver::ClosedForm {
             closed_form(&exact).map_err(super::refused)?;
@@ -292,19 +293,19 @@ impl Setting {
 
     /// The trial of this number, and the trace of the bound where it is.
     fn trial(&self, number: u64) -> (Option<f64>, Result<Trial, Refusal>) {
-        let mut oracle = Seeded::new(self.seed, number);
+        let mut oracle = SeededOracle::new(self.seed, number);
         let at = self.place(&mut oracle);
         let bound = bound(self.anchors.places(), at, &self.signal);
         (bound.map(|bound| bound.covariance.trace()), self.located(at, &mut oracle))
     }
 
-    fn located(&self, at: Point, oracle: &mut Seeded) -> Result<Trial, Refusal> {
+    fn located(&self, at: Point, oracle: &mut SeededOracle) -> Result<Trial, Refusal> {
         let (ranges, (found, fix)) = self.solved(at, oracle)?;
         let optimum = locate(&ranges, Residual::Metres, &self.signal, None)?.best().at;
         Ok(Trial { error_m: found.distance_m(at), optimum_m: found.distance_m(optimum), fix })
     }
 
-    fn solved(&self, at: Point, oracle: &mut Seeded) -> Result<(Vec<Range>, Solved), Refusal> {
+    fn solved(&self, at: Point, oracle: &mut SeededOracle) -> Result<(Vec<Range>, Solution), Refusal> {
         let ranges = distances(self.anchors.places(), &self.signal, at, self.signal.noise_db(), oracle);
         let area = self.inside.then(|| self.anchors.area());
         let solved = self.solver.solve(self.rule, &ranges, &self.signal, area, oracle)?;
@@ -326,7 +327,7 @@ impl Setting {
 
     fn spot(&self, at: Point) -> Spot {
         let found = |number: u64| {
-            let (_, (found, _)) = self.solved(at, &mut Seeded::new(self.seed, number)).ok()?;
+            let (_, (found, _)) = self.solved(at, &mut SeededOracle::new(self.seed, number)).ok()?;
             Some(found)
         };
         let found: Vec<Point> = (0..DRAWN).filter_map(found).collect();

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{Heard, NodeId, Propagation};
+use tautline_kernel::net::{NodeId, Propagation, Reception};
 
 use tautline_sim::noise::deviation_db;
 
@@ -23,7 +23,12 @@ pub trait Protocol {
     type Message: Copy;
 
     /// Node `at` hears a message. If its timer is to go off: when, in nanoseconds.
-    fn receive(&mut self, at: NodeId, heard: Heard<Self::Message>, chance: &mut dyn Oracle) -> Option<u64>;
+    fn receive(
+        &mut self,
+        at: NodeId,
+        heard: Reception<Self::Message>,
+        chance: &mut dyn Oracle,
+    ) -> Option<u64>;
 
     /// The timer of node `at` goes off: what it sends, if anything.
     fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Oracle) -> Option<Self::Message>;
@@ -52,12 +57,12 @@ pub enum Channel {
     /// Nothing.
     Ideal,
     /// A channel that carries one signal at a time.
-    Shared(Shared),
+    Shared(SharedChannel),
 }
 
 /// A channel that carries one signal at a time, and how it is shared.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Shared {
+pub struct SharedChannel {
     /// How long a message is on the air, in nanoseconds.
     pub airtime_ns: u32,
     /// From listening to sending, in nanoseconds: what begins in between goes unnoticed.
@@ -68,7 +73,7 @@ pub struct Shared {
     pub slots: u32,
 }
 
-impl Shared {
+impl SharedChannel {
     /// A sensor's radio of 250 kbit/s (IEEE 802.15.4 at 2.4 GHz) with a message of 31 bytes in all: 992 µs on the air,
     /// 192 µs to turn round, slots of 320 µs.
     pub const SENSOR: Self = Self { airtime_ns: 992_000, turnaround_ns: 192_000, slot_ns: 320_000, slots: 8 };
@@ -180,7 +185,7 @@ impl<P: Protocol> World<'_, P> {
         }
         self.air.heard += 1;
         let distance_um = self.faults.measured_um(link.distance_um, self.chance);
-        self.protocol.receive(link.to, Heard { message, distance_um, now_ns }, self.chance)
+        self.protocol.receive(link.to, Reception { message, distance_um, now_ns }, self.chance)
     }
 
     fn run_ideal(&mut self, network: &Network, begin: &[(NodeId, u64)]) {
@@ -234,7 +239,7 @@ struct Antenna {
 /// The nodes on a shared channel.
 struct Crowd<'a, M> {
     network: &'a Network,
-    shared: Shared,
+    shared: SharedChannel,
     queue: Queue<Event>,
     antennas: Vec<Antenna>,
     /// Messages that each node has yet to send, the one on the air first.
@@ -244,7 +249,7 @@ struct Crowd<'a, M> {
 }
 
 impl<'a, M: Copy> Crowd<'a, M> {
-    fn new(network: &'a Network, stations: usize, shared: Shared) -> Self {
+    fn new(network: &'a Network, stations: usize, shared: SharedChannel) -> Self {
         let idle = Antenna { signals: 0, hears: None, is_sending: false };
         Self {
             network,
@@ -335,7 +340,7 @@ impl<'a, M: Copy> Crowd<'a, M> {
 
 #[cfg(test)]
 mod tests {
-    use tautline_proofs::engine::{Seeded, Tape};
+    use tautline_proofs::engine::{SeededOracle, Tape};
 
     use super::*;
     use crate::radio::{Area, Field, Model, Point, Radio};
@@ -348,7 +353,7 @@ mod tests {
     impl Protocol for Talk {
         type Message = u32;
 
-        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Oracle) -> Option<u64> {
+        fn receive(&mut self, at: NodeId, heard: Reception<u32>, _: &mut dyn Oracle) -> Option<u64> {
             self.heard.push((at.0, heard.message, heard.now_ns));
             None
         }
@@ -366,7 +371,7 @@ mod tests {
         Network::new(&field, radio, &mut Tape(&[])).expect("a network")
     }
 
-    const SHARED: Shared = Shared { airtime_ns: 100, turnaround_ns: 10, slot_ns: 30, slots: 4 };
+    const SHARED: SharedChannel = SharedChannel { airtime_ns: 100, turnaround_ns: 10, slot_ns: 30, slots: 4 };
 
     fn talk(channel: Channel, faults: &Faults, begin: &[(u32, u64)]) -> (Air, Vec<(u32, u32, u64)>) {
         let begin: Vec<(NodeId, u64)> = begin.iter().map(|&(node, at)| (NodeId(node), at)).collect();
@@ -425,7 +430,7 @@ mod tests {
     impl Protocol for Stroll {
         type Message = u32;
 
-        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Oracle) -> Option<u64> {
+        fn receive(&mut self, at: NodeId, heard: Reception<u32>, _: &mut dyn Oracle) -> Option<u64> {
             self.heard.push((at.0, heard.message, heard.now_ns));
             None
         }
@@ -456,9 +461,9 @@ mod tests {
     }
 
     /// The traffic on the air, and who heard whom when.
-    type Strolled = (Result<Air, Problem>, Vec<(u32, u32, u64)>);
+    type StrollResult = (Result<Air, Problem>, Vec<(u32, u32, u64)>);
 
-    fn stroll(channel: Channel, begin: &[(NodeId, u64)]) -> Strolled {
+    fn stroll(channel: Channel, begin: &[(NodeId, u64)]) -> StrollResult {
         let mut stroll = Stroll { at: 0, heard: Vec::new() };
         let air = run(&row(3), channel, &Faults::NONE, &mut stroll, begin, &mut Tape(&[]));
         (air, stroll.heard)
@@ -492,7 +497,7 @@ mod tests {
             (0..50).map(|node| (NodeId(node), u64::from(node * node % 17) * 40)).collect();
         let faults = Faults::NONE.with_loss(Chance::new(0.3).expect("a probability"));
         let mut talk = Talk { heard: Vec::new() };
-        let source = &mut Seeded::new(5, 5);
+        let source = &mut SeededOracle::new(5, 5);
         let air =
             run(&network, Channel::Shared(SHARED), &faults, &mut talk, &begin, source).expect("known nodes");
         assert_eq!((air.sent, air.heard + air.collided + air.lost), (50, 98));
@@ -503,7 +508,7 @@ mod tests {
     #[test]
     fn noise_changes_the_distance_and_nothing_else() {
         let noisy = Faults::NONE.with_noise(6.0, Propagation::FREE_SPACE).expect("a noise");
-        let mut source = Seeded::new(1, 1);
+        let mut source = SeededOracle::new(1, 1);
         let measured: Vec<u32> = (0..1000).map(|_| noisy.measured_um(1_000_000, &mut source)).collect();
         let nearer = measured.iter().filter(|&&one| one < 1_000_000).count();
         assert!((400..600).contains(&nearer), "{nearer}");

@@ -1,7 +1,7 @@
 //! One event broadcast through a network by the kernel's rules [Jiang 2011, 3.2].
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{Epoch, Heard, NodeId, Notice};
+use tautline_kernel::net::{Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Stage, Surroundings, words};
 
 use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
@@ -120,7 +120,7 @@ impl Protocol for Broadcast<'_> {
     type Message = Notice;
 
     #[inline]
-    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Oracle) -> Option<u64> {
+    fn receive(&mut self, at: NodeId, heard: Reception<Notice>, chance: &mut dyn Oracle) -> Option<u64> {
         let (network, hellos) = (self.network, &mut self.hellos);
         let sender = heard.message.sender;
         let node = &mut self.nodes[at.0 as usize];
@@ -143,14 +143,14 @@ mod tests {
     use proptest::prelude::*;
     use tautline_kernel::net::Propagation;
     use tautline_kernel::notice::Count;
-    use tautline_proofs::engine::Seeded;
+    use tautline_proofs::engine::SeededOracle;
 
     use super::*;
-    use crate::radio::{Area, Chance, Field, Model, Radio, Shared};
+    use crate::radio::{Area, Chance, Field, Model, Radio, SharedChannel};
 
     fn network(nodes: usize, seed: u64) -> Network {
         let area = Area::new(300.0, 300.0).expect("an area");
-        let oracle = &mut Seeded::new(seed, 0);
+        let oracle = &mut SeededOracle::new(seed, 0);
         let field = Field::random(area, vec![], nodes, oracle).expect("a field");
         Network::new(&field, Radio::new(25.0, Model::Disc).expect("a radio"), oracle).expect("a network")
     }
@@ -195,9 +195,9 @@ mod tests {
             seed in any::<u64>(), nodes in 2_usize..600, scheme in 0..schemes().len(), loss in 0.0..0.6, is_shared: bool
         ) {
             let network = network(nodes, seed);
-            let mut chance = Seeded::new(seed, 1);
+            let mut chance = SeededOracle::new(seed, 1);
             let source = NodeId(chance.pick(nodes as u32));
-            let channel = if is_shared { Channel::Shared(Shared::SENSOR) } else { Channel::Ideal };
+            let channel = if is_shared { Channel::Shared(SharedChannel::SENSOR) } else { Channel::Ideal };
             let faults = Faults::NONE.with_loss(Chance::new(loss).expect("a probability"));
             let faults = faults.with_noise(loss * 10.0, cubed()).expect("a noise");
             let (report, states) =
@@ -214,7 +214,7 @@ mod tests {
             let network = network(nodes, seed);
             let source = NodeId(nodes as u32 / 2);
             for scheme in [Scheme::Farthest { k: None }, Scheme::Flooding] {
-                let chance = &mut Seeded::new(seed, 1);
+                let chance = &mut SeededOracle::new(seed, 1);
                 let (report, _) =
                     broadcast(&network, &rule(scheme), Channel::Ideal, &Faults::NONE, source, chance).expect("a source");
                 prop_assert_eq!(report.reached as usize, network.component(source));
@@ -225,7 +225,7 @@ mod tests {
         #[test]
         fn the_scalable_broadcast_reaches_everybody_connected(seed in any::<u64>(), nodes in 2_usize..600) {
             let network = network(nodes, seed);
-            let chance = &mut Seeded::new(seed, 1);
+            let chance = &mut SeededOracle::new(seed, 1);
             let (report, _) =
                 broadcast(&network, &rule(Scheme::Scalable), Channel::Ideal, &Faults::NONE, NodeId(0), chance)
                     .expect("a source");
@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn the_same_seed_makes_the_same_broadcast_on_every_machine() {
         let area = Area::new(300.0, 300.0).expect("an area");
-        let mut seeded = Seeded::new(7, 0);
+        let mut seeded = SeededOracle::new(7, 0);
         let field = Field::random(area, vec![], 700, &mut seeded).expect("a field");
         let model = Model::Shadowed { exponent: 3.0, deviation_db: 4.0 };
         let radio = Radio::new(25.0, model).expect("a radio");
@@ -245,8 +245,8 @@ mod tests {
         let faults = Faults::NONE.with_loss(Chance::new(0.1).expect("a probability"));
         let faults = faults.with_noise(2.0, cubed()).expect("a noise");
         let made = schemes().map(|scheme| {
-            let channel = Channel::Shared(Shared::SENSOR);
-            let chance = &mut Seeded::new(7, 1);
+            let channel = Channel::Shared(SharedChannel::SENSOR);
+            let chance = &mut SeededOracle::new(7, 1);
             let made =
                 broadcast(&network, &rule(scheme), channel, &faults, NodeId(5), chance).expect("a source");
             let Report { reached, rebroadcasts, air } = made.0;
@@ -276,7 +276,7 @@ mod tests {
                 Channel::Ideal,
                 &Faults::NONE,
                 source,
-                &mut Seeded::new(0, 0),
+                &mut SeededOracle::new(0, 0),
             )
         };
         assert_eq!(broadcast(NodeId(3)), Err(Problem::NoNode { node: 3, nodes: 3 }));

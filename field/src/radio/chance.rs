@@ -44,14 +44,14 @@ pub(crate) fn checked_deviation(deviation_db: f64) -> Result<f64, Problem> {
 
 #[cfg(test)]
 mod tests {
-    use tautline_proofs::engine::{Seeded, Tape};
+    use tautline_proofs::engine::{SeededOracle, Tape};
 
     use super::*;
 
     #[test]
     fn a_chance_happens_as_often_as_it_says() {
         let chance = Chance::new(0.1).expect("a probability");
-        let mut source = Seeded::new(1, 0);
+        let mut source = SeededOracle::new(1, 0);
         let happened = (0..100_000).filter(|_| chance.happens(&mut source)).count();
         assert!((9_500..10_500).contains(&happened), "{happened}");
         assert!(!Chance::new(0.999).expect("a probability").happens(&mut Tape(&[])));

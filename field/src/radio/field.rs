@@ -226,7 +226,7 @@ fn check(obstacles: &[Obstacle], nodes: usize) -> Result<(), Problem> {
 
 #[cfg(test)]
 mod tests {
-    use tautline_proofs::engine::{Seeded, Tape};
+    use tautline_proofs::engine::{SeededOracle, Tape};
 
     use super::*;
 
@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn random_nodes_are_outside_obstacles_and_the_same_for_the_same_answers() {
-        let draw = || Field::random(area(), vec![LAKE], 500, &mut Seeded::new(3, 4)).expect("a field");
+        let draw = || Field::random(area(), vec![LAKE], 500, &mut SeededOracle::new(3, 4)).expect("a field");
         assert_eq!(draw(), draw());
         let field = draw();
         assert_eq!(Field::new(area(), vec![LAKE], field.nodes().to_vec()), Ok(field));

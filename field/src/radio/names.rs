@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_sim::named_values::NamedValues;
 
-use super::{Channel, Shared};
+use super::{Channel, SharedChannel};
 
 /// The channel between the nodes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -28,7 +28,7 @@ impl ChannelName {
     pub const fn channel(self) -> Channel {
         match self {
             Self::Ideal => Channel::Ideal,
-            Self::Shared => Channel::Shared(Shared::SENSOR),
+            Self::Shared => Channel::Shared(SharedChannel::SENSOR),
         }
     }
 }

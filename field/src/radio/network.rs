@@ -137,7 +137,7 @@ impl Network {
         if pairs > MAX_PAIRS {
             return Err(Problem::TooDense { pairs, most: MAX_PAIRS });
         }
-        let mut upper = Upper::with_room(points.len(), pairs as usize / 2);
+        let mut upper = UpperLinks::with_room(points.len(), pairs as usize / 2);
         let mut buffer = vec![(0, 0.0); points.len()];
         for (node, &point) in (0..).zip(points) {
             let near = within(&grid, node, point, reach_m, &mut buffer);
@@ -250,12 +250,12 @@ fn within<'a>(
 }
 
 /// Links to larger numbers, node by node: half of a network.
-struct Upper {
+struct UpperLinks {
     ends: Vec<u32>,
     links: Vec<Link>,
 }
 
-impl Upper {
+impl UpperLinks {
     fn with_room(nodes: usize, links: usize) -> Self {
         Self { ends: Vec::with_capacity(nodes), links: Vec::with_capacity(links) }
     }
@@ -313,7 +313,7 @@ impl Upper {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use tautline_proofs::engine::{Seeded, Tape};
+    use tautline_proofs::engine::{SeededOracle, Tape};
 
     use super::*;
     use crate::radio::{Area, Obstacle};
@@ -352,7 +352,7 @@ mod tests {
             let lake = Obstacle {
                 west_m: width * 0.4, north_m: height * 0.4, east_m: width * 0.6, south_m: height * 0.5,
             };
-            let mut oracle = Seeded::new(seed, 0);
+            let mut oracle = SeededOracle::new(seed, 0);
             let field = Field::random(area, vec![lake], count, &mut oracle).expect("a field");
             let network = Network::new(&field, disc(range), &mut oracle).expect("a network");
             let (ours, naive) = (listed(&network), all_pairs(&field, range));
@@ -365,7 +365,7 @@ mod tests {
 
         #[test]
         fn shadows_are_the_same_both_ways_and_lists_ascend(seed in any::<u64>(), deviation_db in 0.0..8.0) {
-            let mut oracle = Seeded::new(seed, 0);
+            let mut oracle = SeededOracle::new(seed, 0);
             let area = Area::new(100.0, 100.0).expect("an area");
             let field = Field::random(area, vec![], 100, &mut oracle).expect("a field");
             let radio = Radio::new(20.0, Model::Shadowed { exponent: 3.0, deviation_db }).expect("a radio");
@@ -381,7 +381,7 @@ mod tests {
     #[test]
     fn without_deviation_shadows_are_a_disc() {
         let area = Area::new(300.0, 300.0).expect("an area");
-        let field = Field::random(area, vec![], 300, &mut Seeded::new(1, 1)).expect("a field");
+        let field = Field::random(area, vec![], 300, &mut SeededOracle::new(1, 1)).expect("a field");
         let plain = Radio::new(25.0, Model::Shadowed { exponent: 2.0, deviation_db: 0.0 }).expect("a radio");
         let [plain, disc] =
             [plain, disc(25.0)].map(|radio| Network::new(&field, radio, &mut Tape(&[])).expect("a network"));
@@ -414,7 +414,7 @@ mod tests {
         assert_eq!(shadowed(1.0, 0.0), Err(Problem::Exponent { exponent: 1.0 }));
         assert_eq!(shadowed(2.0, 20.5), Err(Problem::Deviation { deviation_db: 20.5 }));
         let area = Area::new(1.0, 1.0).expect("an area");
-        let crowd = Field::random(area, vec![], 20_000, &mut Seeded::new(0, 0)).expect("a field");
+        let crowd = Field::random(area, vec![], 20_000, &mut SeededOracle::new(0, 0)).expect("a field");
         let refused = Network::new(&crowd, disc(2.0), &mut Tape(&[]));
         assert_eq!(refused, Err(Problem::TooDense { pairs: 400_000_000, most: MAX_PAIRS }));
     }

@@ -130,7 +130,7 @@ impl fmt::Display for Event {
 /// When something happened.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Logged {
+pub struct LogEntry {
     /// In nanoseconds.
     pub at_ns: u64,
     /// The event.

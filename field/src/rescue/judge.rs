@@ -1,6 +1,6 @@
 //! The demands of the clauses MRC-1 to MRC-9, looked at after every turn of a run. Each clause is told once.
 
-use tautline_kernel::mrc::{Bid, Phase, Resb, Robot, Served, Task, Wfr};
+use tautline_kernel::mrc::{Bid, Phase, Resb, Robot, ServiceBit, Task, Wfr};
 use tautline_kernel::net::{Call, Epoch, NodeId, RobotId};
 use tautline_proofs::mrc::Demand;
 
@@ -34,12 +34,12 @@ pub(super) struct Judge {
 }
 
 /// A robot as the judge sees it.
-pub(super) struct Seen<'a> {
+pub(super) struct RobotView<'a> {
     pub(super) machine: &'a Robot<MAX_WFRS>,
     pub(super) has_failed: bool,
 }
 
-impl Seen<'_> {
+impl RobotView<'_> {
     /// The call of which the robot, if it lives, has the lease.
     const fn lease(&self) -> Option<Call> {
         match self.machine.task() {
@@ -95,10 +95,10 @@ impl Judge {
     }
 
     /// A robot has heard a call that is new to it.
-    pub(super) fn hears(&mut self, wfr: usize, served: Served, at_ns: u64) {
+    pub(super) fn hears(&mut self, wfr: usize, served: ServiceBit, at_ns: u64) {
         match served {
-            Served::No => {}
-            Served::Yes => self.tell(Demand::AsksAnew, wfr, at_ns),
+            ServiceBit::No => {}
+            ServiceBit::Yes => self.tell(Demand::AsksAnew, wfr, at_ns),
         }
     }
 
@@ -112,7 +112,7 @@ impl Judge {
         at_ns: u64,
     ) {
         // The least (HC, SN), said here anew, like the least (MHC, MID).
-        let open = || after.requests().filter(|request| request.served == Served::No);
+        let open = || after.requests().filter(|request| request.served == ServiceBit::No);
         let nearest =
             open().min_by_key(|request| (request.hops, request.call.wfr)).map(|request| request.call);
         let is_asking_on = |call: Call| matches!(before, Task::Asking { call: asked, .. } if asked == call);
@@ -167,7 +167,7 @@ impl Judge {
     }
 
     /// Looks at all robots and WFRs.
-    pub(super) fn look(&mut self, robots: &[Seen<'_>], wfrs: &[Wfr<MAX_ROBOTS>], at_ns: u64) {
+    pub(super) fn look(&mut self, robots: &[RobotView<'_>], wfrs: &[Wfr<MAX_ROBOTS>], at_ns: u64) {
         let place = |call: Call| wfrs.iter().position(|wfr| wfr.call().wfr == call.wfr);
         for (robot, seen) in robots.iter().enumerate() {
             let Some(call) = seen.lease() else { continue };
@@ -239,7 +239,7 @@ mod tests {
             judge.closes(number);
             judge.taken[0][number] = Some(wfr.call().epoch);
         }
-        judge.look(&[Seen { machine: &machine, has_failed }], &wfrs, 5);
+        judge.look(&[RobotView { machine: &machine, has_failed }], &wfrs, 5);
         judge.violations
     }
 

@@ -1,6 +1,6 @@
 //! The outcome of a rescue.
 
-use super::{Logged, Violation};
+use super::{LogEntry, Violation};
 use crate::radio::{Air, Field, Point};
 
 /// The spread of the first call for an event through the network.
@@ -74,7 +74,7 @@ pub struct Report {
     /// The clauses that were broken, each where it first was.
     pub violations: Vec<Violation>,
     /// The events, in order.
-    pub log: Vec<Logged>,
+    pub log: Vec<LogEntry>,
     /// Where each robot was, robot by robot: between two of these it went straight.
     pub paths: Vec<Vec<Fix>>,
     /// The field.

@@ -7,10 +7,10 @@ use std::ops::RangeInclusive;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::mrc::Demand;
 
-use super::{Event, Fate, Logged, Ordinal, Report, Setting, Violation, rescue};
+use super::{Event, Fate, LogEntry, Ordinal, Report, Setting, Violation, rescue};
 use crate::stats::{Estimate, rounded};
 use tautline_sim::diagnostic::{Diagnostic, Halt, Watch};
 
@@ -26,7 +26,7 @@ pub struct Summary {
     /// The fates of the events at the WFRs, counted over all rescues.
     pub assignments: Assignments,
     /// When robots failed, counted over all rescues.
-    pub robots_failed: RobotsFailed,
+    pub robots_failed: RobotFailures,
     /// RD: the sum of the distances that robots moved to WFRs over the sum of the shortest. None if nobody came.
     pub distance_ratio: Option<Estimate>,
     /// Seconds from the first call for an event to the first robot, of the events that were served: those of one rescue
@@ -35,7 +35,7 @@ pub struct Summary {
     /// Messages sent in a rescue.
     pub messages: Estimate,
     /// The clauses that were broken, in their order.
-    pub violations: Vec<Broken>,
+    pub violations: Vec<ClauseViolation>,
 }
 
 /// The fates of the events at the WFRs.
@@ -61,7 +61,7 @@ pub struct Assignments {
 
 /// When robots failed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
-pub struct RobotsFailed {
+pub struct RobotFailures {
     /// While they had set out for a WFR and had not come.
     pub on_their_way: u32,
     /// Not on their way, and before a robot came to a WFR for the last time, if one ever did.
@@ -72,7 +72,7 @@ pub struct RobotsFailed {
 
 /// A clause that was broken.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Broken {
+pub struct ClauseViolation {
     /// Its id.
     pub clause: &'static str,
     /// The violation, in words.
@@ -91,14 +91,14 @@ pub struct Broken {
 }
 
 /// The part of a rescue's outcome that is kept.
-struct Kept {
+struct RescueSample {
     seed: u64,
     reach: f64,
     reach_component: f64,
     rebroadcasts: f64,
     wfrs: u32,
     fates: Vec<Fate>,
-    robots_failed: RobotsFailed,
+    robots_failed: RobotFailures,
     moved_m: f64,
     shortest_m: f64,
     /// The sum of the waits of those that were served, and how many they are.
@@ -113,7 +113,7 @@ pub fn seconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / 1e9
 }
 
-impl Kept {
+impl RescueSample {
     fn of(seed: u64, nodes: usize, report: &Report) -> Self {
         let mean = |part: &dyn Fn(&super::Spread) -> f64| {
             report.spreads.iter().map(part).sum::<f64>() / f64::from(report.spreads.len() as u32)
@@ -129,7 +129,7 @@ impl Kept {
             rebroadcasts: mean(&|spread| f64::from(spread.rebroadcasts)),
             wfrs: report.wfrs.len() as u32,
             fates: report.fates.clone(),
-            robots_failed: RobotsFailed::of(&report.log),
+            robots_failed: RobotFailures::of(&report.log),
             moved_m,
             shortest_m,
             waits_s: (waits.sum(), f64::from(report.journeys.len() as u32)),
@@ -147,31 +147,31 @@ impl Summary {
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
     pub fn measure(setting: &Setting, seeds: RangeInclusive<u64>, watch: &Watch<'_>) -> Result<Self, Halt> {
         // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
-        setting.lay_out(&mut Seeded::new(*seeds.start(), 0)).map_err(Diagnostic::from)?;
+        setting.lay_out(&mut SeededOracle::new(*seeds.start(), 0)).map_err(Diagnostic::from)?;
         let one = |seed: u64| {
             let report = rescue(setting, seed).map_err(Diagnostic::from)?;
             watch()?;
-            Ok(Kept::of(seed, setting.nodes, &report))
+            Ok(RescueSample::of(seed, setting.nodes, &report))
         };
-        let kept: Vec<Kept> = seeds.into_par_iter().map(one).collect::<Result<_, Halt>>()?;
+        let kept: Vec<RescueSample> = seeds.into_par_iter().map(one).collect::<Result<_, Halt>>()?;
         Ok(Self::over(&kept))
     }
 
     /// That of one rescue alone.
     pub fn of(setting: &Setting, seed: u64, report: &Report) -> Self {
-        Self::over(&[Kept::of(seed, setting.nodes, report)])
+        Self::over(&[RescueSample::of(seed, setting.nodes, report)])
     }
 
-    fn over(kept: &[Kept]) -> Self {
-        let mean = |part: &dyn Fn(&Kept) -> f64| {
+    fn over(kept: &[RescueSample]) -> Self {
+        let mean = |part: &dyn Fn(&RescueSample) -> f64| {
             Estimate::of_values(&kept.iter().map(part).collect::<Vec<_>>()).unwrap_or(Estimate::NOTHING)
         };
-        let ratio = |pair: &dyn Fn(&Kept) -> (f64, f64)| {
+        let ratio = |pair: &dyn Fn(&RescueSample) -> (f64, f64)| {
             let pairs: Vec<(f64, f64)> = kept.iter().map(pair).filter(|&(_, under)| under > 0.0).collect();
             Estimate::of_ratio(&pairs)
         };
         let broken = |demand: Demand| {
-            let found = |one: &Kept| {
+            let found = |one: &RescueSample| {
                 let violation = one.violations.iter().find(|violation| violation.demand == demand)?;
                 Some((one.seed, *violation))
             };
@@ -180,14 +180,14 @@ impl Summary {
             let rescues = 1 + all.count() as u32;
             let (clause, broken) = (demand.clause(), demand.broken());
             let (wfr, event) = (Ordinal(wfr), Ordinal(event));
-            Some(Broken { clause, broken, rescues, seed, at_s: seconds(at_ns), wfr, event })
+            Some(ClauseViolation { clause, broken, rescues, seed, at_s: seconds(at_ns), wfr, event })
         };
         Self {
             reach: rounded(mean(&|one| one.reach), 1e4),
             reach_component: rounded(mean(&|one| one.reach_component), 1e4),
             rebroadcasts: rounded(mean(&|one| one.rebroadcasts), 1e2),
             assignments: kept.iter().fold(Assignments::default(), Assignments::and),
-            robots_failed: kept.iter().fold(RobotsFailed::default(), RobotsFailed::and),
+            robots_failed: kept.iter().fold(RobotFailures::default(), RobotFailures::and),
             distance_ratio: ratio(&|one| (one.moved_m, one.shortest_m)).map(|ratio| rounded(ratio, 1e4)),
             wait_s: ratio(&|one| one.waits_s).map(|wait| rounded(wait, 1e2)),
             messages: rounded(mean(&|one| one.messages), 1e2),
@@ -196,9 +196,9 @@ impl Summary {
     }
 }
 
-impl RobotsFailed {
-    fn of(log: &[Logged]) -> Self {
-        let arrives = |logged: &Logged| matches!(logged.event, Event::Arrives { .. });
+impl RobotFailures {
+    fn of(log: &[LogEntry]) -> Self {
+        let arrives = |logged: &LogEntry| matches!(logged.event, Event::Arrives { .. });
         let last = log.iter().rposition(arrives);
         let mut failed = Self::default();
         let mut on_their_way = BTreeSet::new();
@@ -230,7 +230,7 @@ impl RobotsFailed {
         failed
     }
 
-    const fn and(mut self, one: &Kept) -> Self {
+    const fn and(mut self, one: &RescueSample) -> Self {
         let Self { on_their_way, not_on_their_way, after_the_last_arrival } = one.robots_failed;
         self.on_their_way += on_their_way;
         self.not_on_their_way += not_on_their_way;
@@ -240,7 +240,7 @@ impl RobotsFailed {
 }
 
 impl Assignments {
-    fn and(mut self, one: &Kept) -> Self {
+    fn and(mut self, one: &RescueSample) -> Self {
         self.wfrs += one.wfrs;
         for fate in &one.fates {
             self.events += 1;
@@ -261,16 +261,16 @@ impl Assignments {
 mod tests {
     use super::*;
 
-    fn kept(seed: u64, fates: &[Fate], (moved_m, shortest_m): (f64, f64)) -> Kept {
+    fn kept(seed: u64, fates: &[Fate], (moved_m, shortest_m): (f64, f64)) -> RescueSample {
         let violation = Violation { demand: Demand::IsServed, at_ns: 1_500_000_000 * seed, wfr: 1, event: 2 };
-        Kept {
+        RescueSample {
             seed,
             reach: 0.5,
             reach_component: 1.0,
             rebroadcasts: 10.0,
             wfrs: 2,
             fates: fates.to_vec(),
-            robots_failed: RobotsFailed::default(),
+            robots_failed: RobotFailures::default(),
             moved_m,
             shortest_m,
             waits_s: (0.0, 0.0),
@@ -288,9 +288,10 @@ mod tests {
         let lets_go = |robot| Event::LetsGo { robot: Ordinal(robot), wfr, epoch: 1, at };
         let fails = |robot| Event::RobotFails { robot: Ordinal(robot), at };
         let counted = |events: &[Event]| {
-            let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
-            let RobotsFailed { on_their_way, not_on_their_way, after_the_last_arrival } =
-                RobotsFailed::of(&log);
+            let log: Vec<LogEntry> =
+                (0..).zip(events).map(|(at_ns, &event)| LogEntry { at_ns, event }).collect();
+            let RobotFailures { on_their_way, not_on_their_way, after_the_last_arrival } =
+                RobotFailures::of(&log);
             [on_their_way, not_on_their_way, after_the_last_arrival]
         };
         assert_eq!(counted(&[sets_out(1), fails(1), sets_out(2), arrives(2)]), [1, 0, 0]);
@@ -327,7 +328,7 @@ mod tests {
         assert_eq!((ratio.count, ratio.mean), (3, 1.1438), "183 m over 160 m");
         assert!(ratio.interval.is_some_and(|[low, high]| low < 1.1438 && 1.1438 < high));
         let words = Demand::IsServed.broken();
-        let first = Broken {
+        let first = ClauseViolation {
             clause: "MRC-5",
             broken: words,
             rescues: 3,

@@ -8,19 +8,19 @@ mod walking;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Hop, Phase, Relay, Robot, RobotTimer, Task, Wfr, WfrTimer};
-use tautline_kernel::net::{Call, Epoch, Heard, NodeId, RobotId};
+use tautline_kernel::net::{Call, Epoch, NodeId, Reception, RobotId};
 use tautline_kernel::tan::{Guide, Nav, ReqNav, Stage as Leg};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::acks::{ANSWER_WAIT_NS, Letter, Letters};
 use super::agenda::Agenda;
 use super::event::millimetres;
-use super::judge::{Judge, Seen};
+use super::judge::{Judge, RobotView};
 use super::pace;
 use super::rover::Rover;
 use super::scenario::Scenario;
 use super::timers::Timers;
-use super::{Event, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Ordinal, Problem, Report, Setting, Spread};
+use super::{Event, Journey, LogEntry, MAX_ROBOTS, MAX_WFRS, Ordinal, Problem, Report, Setting, Spread};
 use crate::radio::{Broadcast, Link, Protocol, run};
 use crate::tan::Signal;
 
@@ -35,8 +35,8 @@ const ROUTES: usize = MAX_ROBOTS * MAX_WFRS;
 /// # Errors
 /// A [`Problem`] if the setting makes none.
 pub fn rescue(setting: &Setting, seed: u64) -> Result<Report, Problem> {
-    let scenario = setting.lay_out(&mut Seeded::new(seed, 0))?;
-    scenario.rescue(&mut Seeded::new(seed, 1))
+    let scenario = setting.lay_out(&mut SeededOracle::new(seed, 0))?;
+    scenario.rescue(&mut SeededOracle::new(seed, 1))
 }
 
 impl Scenario {
@@ -129,7 +129,7 @@ struct World<'a> {
     happenings: Vec<Vec<Happening>>,
     journeys: Vec<Journey>,
     judge: Judge,
-    log: Vec<Logged>,
+    log: Vec<LogEntry>,
 }
 
 impl<'a> World<'a> {
@@ -201,7 +201,7 @@ impl<'a> World<'a> {
     }
 
     fn tell(&mut self, at_ns: u64, event: Event) {
-        self.log.push(Logged { at_ns, event });
+        self.log.push(LogEntry { at_ns, event });
     }
 
     fn has_failed(&self, at: NodeId) -> bool {
@@ -212,10 +212,10 @@ impl<'a> World<'a> {
     }
 
     fn look(&mut self, now_ns: u64) {
-        let seen: Vec<Seen<'_>> = self
+        let seen: Vec<RobotView<'_>> = self
             .rovers
             .iter()
-            .map(|rover| Seen { machine: &rover.machine, has_failed: rover.has_failed })
+            .map(|rover| RobotView { machine: &rover.machine, has_failed: rover.has_failed })
             .collect();
         self.judge.look(&seen, &self.wfrs, now_ns);
     }
@@ -316,7 +316,7 @@ impl<'a> World<'a> {
 impl Protocol for World<'_> {
     type Message = Message;
 
-    fn receive(&mut self, at: NodeId, heard: Heard<Message>, chance: &mut dyn Oracle) -> Option<u64> {
+    fn receive(&mut self, at: NodeId, heard: Reception<Message>, chance: &mut dyn Oracle) -> Option<u64> {
         if self.has_failed(at) {
             return None;
         }

@@ -119,7 +119,7 @@ fn hundredths(db: f64) -> i32 {
 
 #[cfg(test)]
 mod tests {
-    use tautline_proofs::engine::{Seeded, Tape};
+    use tautline_proofs::engine::{SeededOracle, Tape};
 
     use super::*;
     use crate::radio::{Area, Model, Obstacle};
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn noise_has_its_deviation() {
         let (field, ear) = (field(vec![]), ear(2.0));
-        let mut source = Seeded::new(1, 0);
+        let mut source = SeededOracle::new(1, 0);
         let mut strength = || {
             let heard = ear.strength(&field, Signal::plain(at(20.0, 0.0)), at(0.0, 0.0), AXIS, &mut source);
             f64::from(heard.expect("in range").0) - 1_002.0

@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{Heard, NodeId, Notice};
+use tautline_kernel::net::{NodeId, Notice, Reception};
 use tautline_kernel::notice::{Rule, Stage};
 use tautline_kernel::tan::Nav;
 
@@ -31,7 +31,7 @@ impl Tree {
         chance: &mut dyn Oracle,
     ) -> Result<Self, Problem> {
         let broadcast = Broadcast::new(network, rule, wfr);
-        let mut listening = Listening { broadcast, robot, least: None };
+        let mut listening = Listener { broadcast, robot, least: None };
         run(network, channel, faults, &mut listening, &[(wfr, 0)], chance)?;
         let nodes = (0..).map(NodeId).zip(listening.broadcast.nodes());
         let nav = |(id, node): (NodeId, &tautline_kernel::notice::Node)| {
@@ -59,17 +59,17 @@ impl Tree {
 }
 
 /// A broadcast with a robot that listens: of all that it hears, the least hop count counts, and the first of equals.
-struct Listening<'a> {
+struct Listener<'a> {
     broadcast: Broadcast<'a>,
     robot: NodeId,
     /// The robot's hops, and whom it has them from.
     least: Option<(u16, NodeId)>,
 }
 
-impl Protocol for Listening<'_> {
+impl Protocol for Listener<'_> {
     type Message = Notice;
 
-    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Oracle) -> Option<u64> {
+    fn receive(&mut self, at: NodeId, heard: Reception<Notice>, chance: &mut dyn Oracle) -> Option<u64> {
         if at != self.robot {
             return self.broadcast.receive(at, heard, chance);
         }

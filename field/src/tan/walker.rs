@@ -91,9 +91,9 @@ impl Equipment {
 
 /// Directions in which a robot does not go from where it is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Barred(u32);
+struct HeadingSet(u32);
 
-impl Barred {
+impl HeadingSet {
     const NONE: Self = Self(0);
 
     fn bar(&mut self, heading: Heading) {
@@ -132,7 +132,7 @@ pub struct Walker {
     equipment: Equipment,
     homing: Homing,
     facing: Heading,
-    barred: Barred,
+    barred: HeadingSet,
     trail: Trail,
 }
 
@@ -146,7 +146,7 @@ impl Walker {
         (parent, hops): (NodeId, u16),
     ) -> Self {
         let homing = Homing::new(wfr, robot, parent, hops, equipment.nearness, TRIES);
-        Self { equipment, homing, facing: Heading::FIRST, barred: Barred::NONE, trail: Trail::new(start) }
+        Self { equipment, homing, facing: Heading::FIRST, barred: HeadingSet::NONE, trail: Trail::new(start) }
     }
 
     /// The robot's action now. [`Order::Ask`] is for the caller, who sends the REQNAV and comes back with
@@ -193,7 +193,7 @@ impl Walker {
         let next = self.homing.hear(nav);
         if next != self.homing {
             self.homing = next;
-            self.barred = Barred::NONE;
+            self.barred = HeadingSet::NONE;
         }
     }
 
@@ -243,7 +243,7 @@ impl Walker {
         self.trail.go(to, self.facing, stride_m);
         let once_ns = gait.walk_ns(stride_m) + gait.measure_ns;
         if let Some(heard) = self.measure(field, signal, chance) {
-            self.barred = Barred::NONE;
+            self.barred = HeadingSet::NONE;
             self.homing = self.homing.measure(Some(heard));
             return once_ns;
         }
@@ -337,7 +337,7 @@ mod tests {
             matches!(walker.order(), Order::Ask(request) if request.node == GUIDE && request.robot == RobotId(7))
         );
         walker.hear(NAV);
-        assert_eq!(walker.barred, Barred::NONE, "a new signal may be anywhere");
+        assert_eq!(walker.barred, HeadingSet::NONE, "a new signal may be anywhere");
         walker
     }
 
@@ -405,7 +405,7 @@ mod tests {
             "the same signal again changes nothing"
         );
         walker.act(&field, Some(Signal::plain(node)), &mut Tape(&[]));
-        assert_eq!(walker.barred, Barred::NONE);
+        assert_eq!(walker.barred, HeadingSet::NONE);
     }
 
     #[test]

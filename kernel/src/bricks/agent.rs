@@ -83,7 +83,7 @@ impl Agent {
         let was = scan.here.mark;
         self.meet(rule, &mut scan.here.claim);
         let end = self.end_lap(rule, &mut scan);
-        let shuts = end.and_then(|end| if let Ended::Shut(side) = end { Some(side) } else { None });
+        let shuts = end.and_then(|end| if let LapOutcome::Shut(side) = end { Some(side) } else { None });
         if let Some(side) = shuts {
             scan.here.shut = scan.here.shut.with(Step::Cross(side));
             scan.open = scan.open.and(Ring::of(side).not());
@@ -154,12 +154,12 @@ impl Agent {
     }
 
     /// Closing: ends the lap if it is over, takes its claim back, and says what comes of it.
-    fn end_lap(&mut self, rule: Rule, scan: &mut Scan) -> Option<Ended> {
+    fn end_lap(&mut self, rule: Rule, scan: &mut Scan) -> Option<LapOutcome> {
         let lap = self.lap.filter(Lap::is_home)?;
         let first = lap.first;
         if scan.here.claim.is_none_or(|claim| claim.owner != self.id) {
             self.lap = None;
-            return Some(Ended::InVain(first));
+            return Some(LapOutcome::InVain(first));
         }
         let is_there = scan.reachable().has(first);
         let came_back = self.heading == first.opposite();
@@ -171,17 +171,17 @@ impl Agent {
         scan.here.claim = None;
         if lap.is_cut_short() && !lap.is_void {
             self.cut_short = self.cut_short.saturating_add(1);
-            return Some(Ended::CutShort);
+            return Some(LapOutcome::CutShort);
         }
         self.cut_short = 0;
         let is_shown = is_there && !came_back && !lap.is_void;
         let is_unchanged = !rule.has(Condition::SeenOnly) || scan.serials == lap.around;
         let can_shut = is_shown && is_unchanged && is_thin(scan, first) && scan.explored.has(first);
-        Some(if can_shut { Ended::Shut(first) } else { Ended::InVain(first) })
+        Some(if can_shut { LapOutcome::Shut(first) } else { LapOutcome::InVain(first) })
     }
 
     /// Navigation: what becomes of it.
-    fn choose(&mut self, rule: Rule, scan: &mut Scan, end: Option<Ended>) -> Next {
+    fn choose(&mut self, rule: Rule, scan: &mut Scan, end: Option<LapOutcome>) -> Next {
         let reachable = scan.reachable();
         let free = reachable.and(scan.closing.not());
         let side = if let Some(lap) = self.lap {
@@ -226,11 +226,11 @@ impl Agent {
     }
 
     /// The way on among explored cells, perhaps the first one of a lap.
-    fn go_round(&mut self, rule: Rule, scan: &mut Scan, free: Ring, end: Option<Ended>) -> Option<Side> {
+    fn go_round(&mut self, rule: Rule, scan: &mut Scan, free: Ring, end: Option<LapOutcome>) -> Option<Side> {
         let along = match end {
             // The next lap begins one move farther along the same material.
-            Some(Ended::InVain(first)) if free.has(first) => first,
-            Some(Ended::InVain(_) | Ended::CutShort | Ended::Shut(_)) | None => {
+            Some(LapOutcome::InVain(first)) if free.has(first) => first,
+            Some(LapOutcome::InVain(_) | LapOutcome::CutShort | LapOutcome::Shut(_)) | None => {
                 self.along(Hand::Left, scan, free)?
             }
         };
@@ -241,8 +241,8 @@ impl Agent {
             return least_crossed(scan, free);
         }
         let may_begin = match end {
-            None | Some(Ended::CutShort) => true,
-            Some(Ended::InVain(_) | Ended::Shut(_)) => false,
+            None | Some(LapOutcome::CutShort) => true,
+            Some(LapOutcome::InVain(_) | LapOutcome::Shut(_)) => false,
         };
         if may_begin && scan.here.claim.is_none() && blocks(rule, scan) && is_thin(scan, along) {
             scan.here.claim = Some(Claim { owner: self.id });
@@ -275,7 +275,7 @@ impl Agent {
 
 /// The outcome of a lap that is over, and which side it began with where that matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Ended {
+enum LapOutcome {
     /// The side is shut.
     Shut(Side),
     /// Nothing.

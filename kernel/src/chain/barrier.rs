@@ -6,7 +6,7 @@
 //! (CHAIN-20), and a robot that falls silent stops it where it is, in contact (CHAIN-19). No byte may be late by four
 //! team moves.
 
-use super::message::{Damaged, Message};
+use super::message::{Damage, Message};
 
 /// The place of the two bits of a byte that count team moves.
 const TURN_SHIFT: u32 = 5;
@@ -16,7 +16,7 @@ const ANSWER_BIT: u8 = 1 << 7;
 
 /// The effect of a byte.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Heard {
+pub enum ByteEffect {
     /// It is about this team move, and was missing.
     New,
     /// It is about this team move, and was known.
@@ -75,29 +75,29 @@ impl<const ROBOTS: usize> Barrier<ROBOTS> {
     /// Takes the `byte` that the robot in place `from` sent.
     ///
     /// # Errors
-    /// [`Damaged`] if it is no message, or another one than that robot has sent about this team move.
-    pub fn hear(&mut self, from: usize, byte: u8) -> Result<Heard, Damaged> {
+    /// [`Damage`] if it is no message, or another one than that robot has sent about this team move.
+    pub fn hear(&mut self, from: usize, byte: u8) -> Result<ByteEffect, Damage> {
         let (message, is_answer) = (byte & !(TURN_BITS | ANSWER_BIT), byte & ANSWER_BIT != 0);
         let byte = byte & !ANSWER_BIT;
         Message::decode(message)?;
         if from == self.own || from == 0 || from >= self.robots.min(ROBOTS) {
-            return Ok(Heard::Foreign);
+            return Ok(ByteEffect::Foreign);
         }
         let before = self.turn.wrapping_sub(1);
         if byte == Self::byte(before, message) {
-            let answer = |own| Heard::Late(Self::byte(before, own) | ANSWER_BIT);
-            return Ok(self.before.filter(|_| !is_answer).map_or(Heard::Foreign, answer));
+            let answer = |own| ByteEffect::Late(Self::byte(before, own) | ANSWER_BIT);
+            return Ok(self.before.filter(|_| !is_answer).map_or(ByteEffect::Foreign, answer));
         }
         if byte != Self::byte(self.turn, message) {
             let is_early = byte == Self::byte(self.turn.wrapping_add(1), message);
-            return Ok(if is_early { Heard::Early } else { Heard::Foreign });
+            return Ok(if is_early { ByteEffect::Early } else { ByteEffect::Foreign });
         }
         match self.messages[from].replace(message) {
-            None => Ok(Heard::New),
-            Some(known) if known == message => Ok(Heard::Again),
+            None => Ok(ByteEffect::New),
+            Some(known) if known == message => Ok(ByteEffect::Again),
             Some(known) => {
                 self.messages[from] = Some(known);
-                Err(Damaged::OtherStep { robot: from + 1 })
+                Err(Damage::OtherStep { robot: from + 1 })
             }
         }
     }

@@ -390,7 +390,7 @@ mod tests {
     use super::super::rule::{Budget, Move, Rule};
     use super::*;
     use crate::choice::Oracle;
-    use crate::choice::tests::Drawn;
+    use crate::choice::tests::Congruence;
     use crate::ground::{Area, CellMark, EdgeMark, MediumGrid, SmallGrid};
 
     /// So many columns and rows from 0,0.
@@ -461,7 +461,7 @@ mod tests {
     #[test]
     fn followers_take_the_steps_of_the_recursion() {
         const ROBOTS: usize = 8;
-        let mut drawn = Drawn(1);
+        let mut drawn = Congruence(1);
         let mut told = [0; 2];
         for round in 0..600 {
             let rule = if round % 2 == 0 { Rule::PUBLISHED } else { Rule::REPAIRED };

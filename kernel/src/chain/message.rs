@@ -31,7 +31,7 @@ pub struct Message {
 /// Why messages cannot be those of this team. Robots are numbered from 1, the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Damaged {
+pub enum Damage {
     /// A byte is no message.
     Byte(u8),
     /// It is not as long as the run.
@@ -71,7 +71,7 @@ pub enum Damaged {
     },
 }
 
-impl fmt::Display for Damaged {
+impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Byte(byte) => write!(f, "byte {byte:#04x} is no message of the chain"),
@@ -103,7 +103,7 @@ impl fmt::Display for Damaged {
     }
 }
 
-impl core::error::Error for Damaged {}
+impl core::error::Error for Damage {}
 
 const WALL_BIT: u8 = 1 << 3;
 const BACKTRACK_BIT: u8 = 1 << 4;
@@ -130,14 +130,14 @@ impl Message {
     /// The message in a byte.
     ///
     /// # Errors
-    /// [`Damaged`] if no message is encoded so.
-    pub fn decode(byte: u8) -> Result<Self, Damaged> {
-        let step = *Step::ALL.get(usize::from(byte & 0b111)).ok_or(Damaged::Byte(byte))?;
+    /// [`Damage`] if no message is encoded so.
+    pub fn decode(byte: u8) -> Result<Self, Damage> {
+        let step = *Step::ALL.get(usize::from(byte & 0b111)).ok_or(Damage::Byte(byte))?;
         let outcome = match byte & !0b111 {
             0 => Outcome::Arrived,
             WALL_BIT if step != Step::Stay => Outcome::Blocked,
             BACKTRACK_BIT => Outcome::TookBack,
-            _ => return Err(Damaged::Byte(byte)),
+            _ => return Err(Damage::Byte(byte)),
         };
         Ok(Self { step, outcome })
     }

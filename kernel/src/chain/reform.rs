@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use super::message::{Damaged, Message};
+use super::message::{Damage, Message};
 use super::past::Past;
 use super::reel::Reel;
 use super::team::{Chain, Stage};
@@ -14,7 +14,7 @@ use crate::ground::{Cell, Edge, EdgeMark, Grid, Step};
 /// Why a chain cannot re-form.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Unformed {
+pub enum ReformError {
     /// There is no such robot beside the base. Robots are numbered from 1, the base.
     NoRobot {
         /// The robot.
@@ -28,12 +28,12 @@ pub enum Unformed {
     /// shut its way back.
     NoWayHome,
     /// The log is not as long as the run.
-    Damaged(Damaged),
+    Damaged(Damage),
     /// The two parts are not in contact yet.
     Apart,
 }
 
-impl fmt::Display for Unformed {
+impl fmt::Display for ReformError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoRobot { robot, robots } => {
@@ -49,7 +49,7 @@ impl fmt::Display for Unformed {
     }
 }
 
-impl core::error::Error for Unformed {}
+impl core::error::Error for ReformError {}
 
 /// The two parts of a chain that has lost a robot, and how far each has taken its moves back in the log of then.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -66,13 +66,13 @@ pub struct Parts {
 
 /// A chain while it re-forms.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Reforming<G, const ROBOTS: usize> {
+pub struct Reformation<G, const ROBOTS: usize> {
     /// The robots that are left.
     chain: Chain<G, ROBOTS>,
     parts: Parts,
 }
 
-impl<G: Grid, const ROBOTS: usize> Reforming<G, ROBOTS> {
+impl<G: Grid, const ROBOTS: usize> Reformation<G, ROBOTS> {
     /// Where the robots that are left are, the base first.
     pub fn cells(&self) -> &[Cell] {
         self.chain.cells()
@@ -92,8 +92,8 @@ impl<G: Grid, const ROBOTS: usize> Reforming<G, ROBOTS> {
     /// the chain before the failure. Returns whether there was one.
     ///
     /// # Errors
-    /// [`Damaged`] if an entry of the log is no messages, or leads over a side that nobody is known to have crossed.
-    pub fn take_back(&mut self, log: &[u8]) -> Result<bool, Damaged> {
+    /// [`Damage`] if an entry of the log is no messages, or leads over a side that nobody is known to have crossed.
+    pub fn take_back(&mut self, log: &[u8]) -> Result<bool, Damage> {
         let Parts { mute, movers, ahead, behind } = self.parts;
         let (entry, part) = match (ahead, behind) {
             (Some(entry), _) => (entry, mute + 1..movers + 1),
@@ -104,13 +104,13 @@ impl<G: Grid, const ROBOTS: usize> Reforming<G, ROBOTS> {
         let mut cells = self.chain.cells;
         for robot in part {
             let sent = first + movers;
-            let byte = *log.get(first + robot - 1).ok_or(Damaged::Length { bytes: log.len(), sent })?;
+            let byte = *log.get(first + robot - 1).ok_or(Damage::Length { bytes: log.len(), sent })?;
             let place = if robot > mute { robot - 1 } else { robot };
             let back = Message::decode(byte)?.made().reverse();
             if let Step::Cross(side) = back
                 && !self.chain.grid.edge_has(EdgeMark::Open, Edge::new(cells[place], side))
             {
-                return Err(Damaged::OtherWorld { robot: robot + 1 });
+                return Err(Damage::OtherWorld { robot: robot + 1 });
             }
             cells[place] = cells[place].after(back);
         }
@@ -137,10 +137,10 @@ impl<G: Grid, const ROBOTS: usize> Reforming<G, ROBOTS> {
     /// what is needed to bring it home for that: see [`Chain::come_home`].
     ///
     /// # Errors
-    /// [`Unformed::Apart`] if it is not [formed](Reforming::is_formed).
-    pub fn formed(self) -> Result<(Chain<G, ROBOTS>, Parts), Unformed> {
+    /// [`ReformError::Apart`] if it is not [formed](Reformation::is_formed).
+    pub fn formed(self) -> Result<(Chain<G, ROBOTS>, Parts), ReformError> {
         if !self.is_formed() {
-            return Err(Unformed::Apart);
+            return Err(ReformError::Apart);
         }
         let is_home = self.parts.ahead.is_none() && self.parts.behind.is_none();
         let past = if is_home { Past::Home } else { Past::Since(0) };
@@ -153,20 +153,20 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// of that robot is not read.
     ///
     /// # Errors
-    /// [`Unformed`] if there is no such robot, too few are left, or the log does not lead home.
-    pub fn reform(self, robot: usize, log: &[u8]) -> Result<Reforming<G, ROBOTS>, Unformed> {
+    /// [`ReformError`] if there is no such robot, too few are left, or the log does not lead home.
+    pub fn reform(self, robot: usize, log: &[u8]) -> Result<Reformation<G, ROBOTS>, ReformError> {
         let (robots, sent) = (self.robots, self.sent());
         if !(2..=robots).contains(&robot) {
-            return Err(Unformed::NoRobot { robot, robots });
+            return Err(ReformError::NoRobot { robot, robots });
         }
         if robots < 3 {
-            return Err(Unformed::TooFew);
+            return Err(ReformError::TooFew);
         }
         if self.past != Past::Home {
-            return Err(Unformed::NoWayHome);
+            return Err(ReformError::NoWayHome);
         }
         if log.len() != sent {
-            return Err(Unformed::Damaged(Damaged::Length { bytes: log.len(), sent }));
+            return Err(ReformError::Damaged(Damage::Length { bytes: log.len(), sent }));
         }
         let mute = robot - 1;
         let mut cells = self.cells;
@@ -183,13 +183,13 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// Begins to bring a chain home that [can come home](Chain::can_come_home): it is to take back the moves from before, too.
     /// `None` if it cannot.
-    pub fn come_home(self, parts: Parts) -> Option<Reforming<G, ROBOTS>> {
+    pub fn come_home(self, parts: Parts) -> Option<Reformation<G, ROBOTS>> {
         self.can_come_home().then(|| self.parted(parts))
     }
 
     /// The chain in two parts, its log at the beginning.
-    fn parted(self, parts: Parts) -> Reforming<G, ROBOTS> {
+    fn parted(self, parts: Parts) -> Reformation<G, ROBOTS> {
         let chain = Self { moves: 0, last_open: None, stage: Stage::Gained, reel: Reel::NONE, ..self };
-        Reforming { chain, parts }
+        Reformation { chain, parts }
     }
 }

@@ -4,7 +4,7 @@
 
 use super::habit::{Habit, Habits};
 use crate::conditions;
-use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps, neighbours};
+use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps};
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
@@ -226,16 +226,7 @@ impl Rule {
         self.has(Condition::FullForFollower) && self.has(Condition::FullForLeader)
     }
 
-    /// Whether a follower's position `to` is in P_high: the robot ahead would have all its moves from there.
-    #[inline]
-    pub const fn is_high(&self, to: Cell, ahead: Move) -> bool {
-        match self.high {
-            High::Planned => neighbours(ahead.to(), to),
-            High::Present => neighbours(ahead.from, to),
-        }
-    }
-
-    /// The steps of a follower at `at` that lead into P_high.
+    /// The steps of a follower at `at` that lead into P_high: the robot ahead would have all its moves from there.
     #[inline]
     pub fn high_steps(&self, at: Cell, ahead: Move) -> Steps {
         match self.high {
@@ -248,6 +239,7 @@ impl Rule {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::neighbours;
 
     #[test]
     fn sets_of_steps_hold_the_steps_that_the_rule_admits_one_by_one() {
@@ -266,7 +258,8 @@ mod tests {
                     let own = |step| Move { from: at, step, known_open: false };
                     let admitted = Steps::ALL.filter(|step| rule.admits_ahead(own(step), ahead));
                     assert_eq!(rule.steps_ahead(at, ahead), admitted, "{rule:?} {ahead:?}");
-                    let high = Steps::ALL.filter(|step| rule.is_high(at.after(step), ahead));
+                    let low = if rule.high == High::Planned { ahead.to() } else { ahead.from };
+                    let high = Steps::ALL.filter(|step| neighbours(low, at.after(step)));
                     assert_eq!(rule.high_steps(at, ahead), high, "{rule:?} {ahead:?}");
                 }
             }

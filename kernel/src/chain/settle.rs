@@ -2,9 +2,9 @@
 //! they may appear (ours): then every side is tried, also one that the team has crossed before (CHAIN-22). A robot that
 //! has died does not go (CHAIN-21).
 
-use super::message::{Damaged, Message, Outcome};
+use super::message::{Damage, Message, Outcome};
 use super::plan::{Kind, Plan};
-use super::team::{Chain, Settled, Stage};
+use super::team::{Chain, MoveOutcome, Stage};
 use crate::ground::{CellMark, Edge, EdgeMark, Grid, Step};
 
 /// Whether walls stand for ever.
@@ -29,7 +29,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// Carries `plan` out. `is_open` answers for every edge that is crossed without being known, once each, in
     /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
-    pub fn settle(&mut self, plan: &Plan<ROBOTS>, is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
+    pub fn settle(&mut self, plan: &Plan<ROBOTS>, is_open: impl FnMut(Edge) -> bool) -> MoveOutcome<ROBOTS> {
         self.carry_out(plan, None, is_open)
     }
 
@@ -40,7 +40,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         plan: &Plan<ROBOTS>,
         mute: usize,
         is_open: impl FnMut(Edge) -> bool,
-    ) -> Settled<ROBOTS> {
+    ) -> MoveOutcome<ROBOTS> {
         self.carry_out(plan, mute.checked_sub(1), is_open)
     }
 
@@ -49,7 +49,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         plan: &Plan<ROBOTS>,
         mute: Option<usize>,
         mut is_open: impl FnMut(Edge) -> bool,
-    ) -> Settled<ROBOTS> {
+    ) -> MoveOutcome<ROBOTS> {
         let mut messages = [0; ROBOTS];
         let mut meets_wall_going_back = false;
         for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
@@ -84,7 +84,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         if !self.gained() {
             self.reel.went_on(self.cells[self.robots - 1]);
         }
-        Settled { messages, robots: self.robots }
+        MoveOutcome { messages, robots: self.robots }
     }
 
     /// The outcome of crossing `edge`.
@@ -109,8 +109,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
     ///
     /// # Errors
-    /// [`Damaged`] if they cannot be about this plan and this world; then nothing has changed.
-    pub fn hear(&mut self, plan: &Plan<ROBOTS>, messages: &[u8]) -> Result<(), Damaged> {
+    /// [`Damage`] if they cannot be about this plan and this world; then nothing has changed.
+    pub fn hear(&mut self, plan: &Plan<ROBOTS>, messages: &[u8]) -> Result<(), Damage> {
         self.take(plan, messages, None)
     }
 
@@ -119,14 +119,14 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     ///
     /// # Errors
     /// As of [`Chain::hear`].
-    pub fn hear_without(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: usize) -> Result<(), Damaged> {
+    pub fn hear_without(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: usize) -> Result<(), Damage> {
         self.take(plan, messages, mute.checked_sub(1))
     }
 
-    fn take(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> Result<(), Damaged> {
+    fn take(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> Result<(), Damage> {
         let movers = self.robots - 1;
         if messages.len() != movers {
-            return Err(Damaged::Length { bytes: messages.len(), sent: movers });
+            return Err(Damage::Length { bytes: messages.len(), sent: movers });
         }
         let edge = |robot: usize| match plan.steps[robot] {
             Step::Cross(side) if mute != Some(robot) => Some(Edge::new(self.cells[robot], side)),
@@ -138,7 +138,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             let is_back = outcome == Outcome::TookBack;
             let is_shut = outcome == Outcome::Blocked && self.world == World::Changing;
             if step != plan.steps[robot] || (is_back != (plan.kind == Kind::Backtrack) && !is_shut) {
-                return Err(Damaged::OtherStep { robot: robot + 1 });
+                return Err(Damage::OtherStep { robot: robot + 1 });
             }
             outcomes[robot] = outcome;
             let is_tried = !is_back || self.world == World::Changing;
@@ -151,7 +151,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 (1..robot).find(|&other| edge(other) == Some(crossed)).map(|other| outcomes[other])
             };
             if known.is_some_and(|known| known != outcome) {
-                return Err(Damaged::OtherWorld { robot: robot + 1 });
+                return Err(Damage::OtherWorld { robot: robot + 1 });
             }
         }
         let crossed: [Option<Edge>; ROBOTS] =

@@ -178,7 +178,7 @@ mod tests {
     use super::super::plan::{mark_occupied, unmark_occupied};
     use super::*;
     use crate::choice::Oracle;
-    use crate::choice::tests::Drawn;
+    use crate::choice::tests::Congruence;
     use crate::ground::{Area, Side, SmallGrid};
 
     const ROBOTS: usize = 5;
@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn what_is_solved_costs_least_of_all_that_is_admitted() {
-        let mut drawn = Drawn(1);
+        let mut drawn = Congruence(1);
         let area = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("cells");
         let mut told = [0; 2];
         for round in 0..400 {

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::MAX_ROBOTS;
 use super::habit::Habits;
-use super::message::{Damaged, Message, Outcome};
+use super::message::{Damage, Message, Outcome};
 use super::past::Past;
 use super::plan::{Kind, Plan, mark_occupied, unmark_occupied};
 use super::planner::{Looks, Planner};
@@ -17,7 +17,7 @@ use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 /// Why a chain cannot be set up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Refused {
+pub enum SetupError {
     /// A chain is a base and at least one robot.
     TooFewRobots {
         /// Robots asked for, base included.
@@ -37,7 +37,7 @@ pub enum Refused {
     },
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooFewRobots { robots } => {
@@ -51,7 +51,7 @@ impl fmt::Display for Refused {
     }
 }
 
-impl core::error::Error for Refused {}
+impl core::error::Error for SetupError {}
 
 /// How a run ended by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -77,12 +77,12 @@ pub enum Intent<const ROBOTS: usize> {
 /// The outcome of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Settled<const ROBOTS: usize> {
+pub struct MoveOutcome<const ROBOTS: usize> {
     pub(super) messages: [u8; ROBOTS],
     pub(super) robots: usize,
 }
 
-impl<const ROBOTS: usize> Settled<ROBOTS> {
+impl<const ROBOTS: usize> MoveOutcome<ROBOTS> {
     /// The messages of R_2 … R_N, encoded: what the log grows by.
     pub fn messages(&self) -> &[u8] {
         &self.messages[1..self.robots]
@@ -141,17 +141,17 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// the border.
     ///
     /// # Errors
-    /// [`Refused`] if the number of robots or the base does not fit.
-    pub fn new(rule: Rule, robots: usize, base: Cell, mut grid: G) -> Result<Self, Refused> {
+    /// [`SetupError`] if the number of robots or the base does not fit.
+    pub fn new(rule: Rule, robots: usize, base: Cell, mut grid: G) -> Result<Self, SetupError> {
         const { Self::CAPACITY };
         if robots < 2 {
-            return Err(Refused::TooFewRobots { robots });
+            return Err(SetupError::TooFewRobots { robots });
         }
         if robots > ROBOTS {
-            return Err(Refused::TooManyRobots { robots, most: ROBOTS });
+            return Err(SetupError::TooManyRobots { robots, most: ROBOTS });
         }
         if !grid.area().contains(base) {
-            return Err(Refused::BaseOutside { base });
+            return Err(SetupError::BaseOutside { base });
         }
         grid.put(CellMark::Explored, base);
         Ok(Self {
@@ -248,16 +248,16 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.grid == other.grid
     }
 
-    /// The team's intended move. `log` holds the messages of all team moves so far, as [`Settled::messages`] gave them.
+    /// The team's intended move. `log` holds the messages of all team moves so far, as [`MoveOutcome::messages`] gave them.
     ///
     /// The log is not trusted: a backtrack goes over sides that are known to be open, and ends where neighbours are in
     /// contact and no three robots in one cell. So a log that was changed may lead elsewhere than the true one, but never
     /// against CHAIN-1, CHAIN-2 and CHAIN-3.
     ///
     /// # Errors
-    /// [`Damaged`] if a backtrack needs the log, and it is not as long as the run, a byte needed is no message, or the
+    /// [`Damage`] if a backtrack needs the log, and it is not as long as the run, a byte needed is no message, or the
     /// messages are of a move that the team cannot have made.
-    pub fn plan(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
+    pub fn plan(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damage> {
         self.looks = Looks::new(self.rule.budget, self.robots);
         self.refused = false;
         if self.grid.is_explored() {
@@ -271,7 +271,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     }
 
     /// The paper's plan: the leader's, or a backtrack, or both in a new epoch.
-    fn plan_by_epochs(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
+    fn plan_by_epochs(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damage> {
         for is_fresh in [false, true] {
             if self.is_unfolding()
                 && let Some(steps) = unfold(&mut self.grid, &self.cells[..self.robots])
@@ -301,7 +301,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     }
 
     /// The reel's plan: see the module `reel`.
-    fn plan_by_reel(&mut self, log: &[u8], habits: Habits) -> Result<Intent<ROBOTS>, Damaged> {
+    fn plan_by_reel(&mut self, log: &[u8], habits: Habits) -> Result<Intent<ROBOTS>, Damage> {
         if self.gained() {
             self.stage = Stage::Seeking;
             self.reel = Reel::NONE;
@@ -372,11 +372,11 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     }
 
     /// The plan that takes log entry `entry` back.
-    fn backtrack(&mut self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damaged> {
+    fn backtrack(&mut self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damage> {
         let movers = self.robots - 1;
         let sent = self.sent();
         if log.len() != sent {
-            return Err(Damaged::Length { bytes: log.len(), sent });
+            return Err(Damage::Length { bytes: log.len(), sent });
         }
         let first = entry as usize * movers;
         let messages = log.get(first..first + movers).unwrap_or(&[]);
@@ -385,7 +385,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         for (robot, &byte) in (1..).zip(messages) {
             let message = Message::decode(byte)?;
             if message.outcome == Outcome::TookBack {
-                return Err(Damaged::TakenBack { robot: robot + 1 });
+                return Err(Damage::TakenBack { robot: robot + 1 });
             }
             let back = message.made().reverse();
             let met = match (message.outcome, message.step, back) {
@@ -394,12 +394,12 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 (_, _, Step::Stay) => None,
             };
             if met.is_some_and(|(side, mark)| !self.grid.edge_has(mark, Edge::new(cells[robot], side))) {
-                return Err(Damaged::OtherWorld { robot: robot + 1 });
+                return Err(Damage::OtherWorld { robot: robot + 1 });
             }
             steps[robot] = back;
             cells[robot] = cells[robot].after(back);
             if !self.rule.keeps_contact(cells[robot - 1], cells[robot]) {
-                return Err(Damaged::OutOfContact { robot: robot + 1 });
+                return Err(Damage::OutOfContact { robot: robot + 1 });
             }
         }
         let team = &cells[..self.robots];
@@ -407,7 +407,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
             unmark_occupied(&mut self.grid, team.iter().copied());
             if is_crowded {
-                return Err(Damaged::Crowded);
+                return Err(Damage::Crowded);
             }
         }
         let last_open = self.past.open_before(entry, log, movers);
@@ -415,7 +415,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.past == Past::Home
             && let Some(robot) = team.iter().position(|&cell| cell != cells[0])
         {
-            return Err(Damaged::NotHome { robot: robot + 1 });
+            return Err(Damage::NotHome { robot: robot + 1 });
         }
         Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open })
     }

@@ -7,7 +7,7 @@ use core::ops::ControlFlow;
 
 use super::map::{BY_NUMBER, Map, Status};
 use super::rule::{Condition, Rule};
-use super::search::{Found, Reached, Search, search};
+use super::search::{Search, SearchCell, Target, search};
 use crate::ground::{Area, Cell, Side};
 
 /// A robot and an unexplored cell that it could go to. What is less goes first.
@@ -38,7 +38,7 @@ struct Rank {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scratch<'a> {
     /// One for each cell.
-    pub reached: &'a mut [Reached],
+    pub reached: &'a mut [SearchCell],
     /// One for each cell.
     pub queue: &'a mut [Cell],
     /// Searches so far: it goes on from the last one with the same memory.
@@ -67,7 +67,7 @@ pub struct Seeker {
 
 impl Pair {
     /// The pair of `seeker` and the cell that it has found in `map`.
-    pub fn new<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: Found) -> Self {
+    pub fn new<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: Target) -> Self {
         Self { rank: rank(map, rule, seeker, &found), first: found.first }
     }
 
@@ -82,8 +82,8 @@ impl Pair {
     }
 
     /// The way to its cell.
-    pub fn found(&self) -> Found {
-        Found { cell: self.cell(), distance: self.rank.distance, first: self.first }
+    pub fn found(&self) -> Target {
+        Target { cell: self.cell(), distance: self.rank.distance, first: self.first }
     }
 }
 
@@ -99,7 +99,7 @@ fn inland(area: Area, cell: Cell) -> u16 {
     columns.min(rows)
 }
 
-fn rank<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: &Found) -> Rank {
+fn rank<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: &Target) -> Rank {
     let is_corner = rule.has(Condition::Corner);
     let unexplored = |side: &Side| map.status(found.cell.beyond(*side)) == Status::Unexplored;
     Rank {
@@ -173,7 +173,7 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
     /// others'; `None` if it reaches none.
     ///
     /// Pairs that are farther come later, so that cells are looked at level by level, no farther than it takes.
-    pub(super) fn found(&mut self) -> Option<Found> {
+    pub(super) fn found(&mut self) -> Option<Target> {
         let robots = self.others.len() + 1;
         let each = (self.pairs.len() / robots).min(robots);
         let (mut first, mut level) = (None, 0);
@@ -219,7 +219,7 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
     }
 
     /// Takes pairs out of the lists, the first one first, until it is the robot's own.
-    fn paired(&mut self, filled: usize) -> Option<Found> {
+    fn paired(&mut self, filled: usize) -> Option<Target> {
         let pairs = self.pairs.get_mut(..filled)?;
         while let Some(next) = pairs.iter().flatten().min_by_key(|pair| pair.rank).copied() {
             if next.rank.robot == number(self.own.cell) {

@@ -6,7 +6,7 @@ use super::map::{BY_NUMBER, Map, Status};
 use super::pairs::{Pairing, Scratch, Seeker};
 use super::place::Place;
 use super::rule::{Condition, Otherwise, Rule, Ties};
-use super::search::{Found, search};
+use super::search::{Target, search};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
@@ -155,11 +155,11 @@ impl<M: Map> Robot<M> {
     /// The next action, if the robot stands, where `way` leads to the unexplored cell that it is paired with, or is
     /// `None` if it reaches none: for a caller who knows the pairs of the whole team. [`Self::next`] finds them for one
     /// robot.
-    pub const fn follows(&self, way: Option<Found>, slot: Slot) -> Next {
+    pub const fn follows(&self, way: Option<Target>, slot: Slot) -> Next {
         match (way, slot) {
             (None, _) => Next::Done,
             (Some(_), Slot::Others) if self.waits => Next::Waits,
-            (Some(Found { cell: aim, first: side, .. }), Slot::Own | Slot::Others) => {
+            (Some(Target { cell: aim, first: side, .. }), Slot::Own | Slot::Others) => {
                 Next::Tries { side, aim }
             }
         }
@@ -197,7 +197,7 @@ impl<M: Map> Robot<M> {
 
     /// The way to the unexplored cell that it is paired with. The nearest pair comes first: so the robot that is nearest to an
     /// unexplored cell goes there, and none that stands can be in its way.
-    fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Found> {
+    fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Target> {
         let own = Seeker { cell: self.at, aim: self.aim };
         let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
         let others = others.iter().map(|other| Seeker { cell: other.cell, aim: other.aim });
@@ -206,16 +206,16 @@ impl<M: Map> Robot<M> {
     }
 
     /// Any of the first moves of the shortest ways to the nearest unexplored cells.
-    fn any_nearest(&self, scratch: &mut Scratch<'_>, oracle: &mut dyn Oracle) -> Option<Found> {
+    fn any_nearest(&self, scratch: &mut Scratch<'_>, oracle: &mut dyn Oracle) -> Option<Target> {
         let ways = BY_NUMBER.map(|side| {
             let cell = self.at.beyond(side);
             match self.map.status(cell) {
                 Status::Obstacle => None,
-                Status::Unexplored => Some(Found { cell, distance: 1, first: side }),
+                Status::Unexplored => Some(Target { cell, distance: 1, first: side }),
                 Status::Explored => {
                     let mut way = None;
                     search(&self.map, cell, u32::MAX, &mut scratch.parts().0, |found| {
-                        way = Some(Found { distance: found.distance + 1, first: side, ..found });
+                        way = Some(Target { distance: found.distance + 1, first: side, ..found });
                         ControlFlow::Break(())
                     });
                     way

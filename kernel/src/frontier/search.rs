@@ -8,14 +8,14 @@ use crate::ground::{Cell, Side};
 /// A search's record of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Reached {
+pub struct SearchCell {
     /// The search that has reached it last.
     round: u32,
     distance: u32,
     first: Side,
 }
 
-impl Reached {
+impl SearchCell {
     /// No search has reached it.
     pub const NEVER: Self = Self { round: 0, distance: 0, first: Side::East };
 }
@@ -23,7 +23,7 @@ impl Reached {
 /// The memory of one search.
 #[derive(Debug)]
 pub(super) struct Search<'a> {
-    pub(super) reached: &'a mut [Reached],
+    pub(super) reached: &'a mut [SearchCell],
     pub(super) queue: &'a mut [Cell],
     pub(super) rounds: &'a mut u32,
 }
@@ -31,7 +31,7 @@ pub(super) struct Search<'a> {
 /// An unexplored cell that a search has reached through explored ones.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Found {
+pub struct Target {
     /// The cell.
     pub cell: Cell,
     /// Moves to it.
@@ -47,16 +47,16 @@ pub(super) fn search<M: Map>(
     from: Cell,
     most: u32,
     memory: &mut Search<'_>,
-    mut tell: impl FnMut(Found) -> ControlFlow<()>,
+    mut tell: impl FnMut(Target) -> ControlFlow<()>,
 ) {
     let area = map.area();
     *memory.rounds = memory.rounds.wrapping_add(1);
     let round = *memory.rounds;
     let (mut head, mut tail) = (0, 0);
     let mut left = map.frontier();
-    let mut at = Found { cell: from, distance: 0, first: Side::East };
+    let mut at = Target { cell: from, distance: 0, first: Side::East };
     if let Some(reached) = area.place(from).and_then(|place| memory.reached.get_mut(place)) {
-        *reached = Reached { round, ..Reached::NEVER };
+        *reached = SearchCell { round, ..SearchCell::NEVER };
     }
     while at.distance < most && left > 0 {
         for side in BY_NUMBER {
@@ -72,8 +72,8 @@ pub(super) fn search<M: Map>(
                 continue;
             }
             let first = if at.distance == 0 { side } else { at.first };
-            *reached = Reached { round, distance: at.distance + 1, first };
-            let found = Found { cell, distance: at.distance + 1, first };
+            *reached = SearchCell { round, distance: at.distance + 1, first };
+            let found = Target { cell, distance: at.distance + 1, first };
             if status == Status::Unexplored {
                 left = left.saturating_sub(1);
                 if tell(found).is_break() {
@@ -87,7 +87,7 @@ pub(super) fn search<M: Map>(
         let Some(&cell) = memory.queue.get(head).filter(|_| head < tail) else { return };
         head += 1;
         let Some(reached) = area.place(cell).and_then(|place| memory.reached.get(place)) else { return };
-        at = Found { cell, distance: reached.distance, first: reached.first };
+        at = Target { cell, distance: reached.distance, first: reached.first };
     }
 }
 
@@ -100,13 +100,13 @@ mod tests {
     use crate::ground::Area;
 
     /// A map that counts how often it is asked.
-    struct Asked {
+    struct CountingMap {
         map: TinyMap,
         frontier: usize,
         times: Counter<u32>,
     }
 
-    impl Map for Asked {
+    impl Map for CountingMap {
         fn area(&self) -> Area {
             self.map.area()
         }
@@ -130,18 +130,18 @@ mod tests {
     }
 
     /// A corridor of eight cells, of which the first and the seventh are unexplored.
-    fn corridor() -> Asked {
+    fn corridor() -> CountingMap {
         let area = Area::new(Cell::new(0, 0), Cell::new(7, 0)).expect("an area");
         let mut map = TinyMap::new(area).expect("8 cells");
         for x in [1, 2, 3, 4, 5, 7] {
             map.explore(Cell::new(x, 0));
         }
-        Asked { map, frontier: usize::MAX, times: Counter::new(0) }
+        CountingMap { map, frontier: usize::MAX, times: Counter::new(0) }
     }
 
     /// The cells that are found within so many moves of the cell in this column: the column and the distance of each.
-    fn found(map: &Asked, column: i16, most: u32) -> ([(i16, u32); 4], usize) {
-        let (mut reached, mut queue, mut rounds) = ([Reached::NEVER; 8], [Cell::new(0, 0); 8], 0);
+    fn found(map: &CountingMap, column: i16, most: u32) -> ([(i16, u32); 4], usize) {
+        let (mut reached, mut queue, mut rounds) = ([SearchCell::NEVER; 8], [Cell::new(0, 0); 8], 0);
         let mut memory = Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds };
         let (mut cells, mut count) = ([(0, 0); 4], 0);
         search(map, Cell::new(column, 0), most, &mut memory, |found| {
@@ -173,7 +173,7 @@ mod tests {
     fn a_search_that_has_found_the_whole_frontier_looks_no_farther() {
         let all = corridor();
         assert_eq!(found(&all, 2, u32::MAX).1, 2);
-        let one = Asked { frontier: 1, ..corridor() };
+        let one = CountingMap { frontier: 1, ..corridor() };
         assert_eq!(found(&one, 2, u32::MAX), ([(0, 2), (0, 0), (0, 0), (0, 0)], 1));
         assert!(one.times.get() < all.times.get());
     }

@@ -45,7 +45,7 @@ pub enum Message {
 /// Why fields are no message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Damaged {
+pub enum Damage {
     /// No message has this flag.
     Flag(i16),
     /// A side is neither 0, not covered, nor 1, covered.
@@ -54,7 +54,7 @@ pub enum Damaged {
     Overfull,
 }
 
-impl fmt::Display for Damaged {
+impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Flag(flag) => write!(f, "{flag} is no flag of a message: flags are 0 to 3"),
@@ -64,7 +64,7 @@ impl fmt::Display for Damaged {
     }
 }
 
-impl core::error::Error for Damaged {}
+impl core::error::Error for Damage {}
 
 impl Message {
     /// The seven fields of this message with the number of its request.
@@ -83,26 +83,26 @@ impl Message {
     /// The message in these fields, and the number of its request.
     ///
     /// # Errors
-    /// [`Damaged`] if no message is encoded so.
-    pub fn decode(fields: [i16; FIELDS], rule: &Rule) -> Result<(Self, u8), Damaged> {
+    /// [`Damage`] if no message is encoded so.
+    pub fn decode(fields: [i16; FIELDS], rule: &Rule) -> Result<(Self, u8), Damage> {
         let [flag, x, y, covered @ ..] = fields;
-        let number = u8::try_from(flag.div_euclid(FLAGS)).map_err(|_| Damaged::Flag(flag))?;
+        let number = u8::try_from(flag.div_euclid(FLAGS)).map_err(|_| Damage::Flag(flag))?;
         let mut sides = Steps::NONE;
         for (side, field) in SIDES.into_iter().zip(covered) {
             match field {
                 0 => {}
                 1 => sides = sides.with(Step::Cross(side)),
-                _ => return Err(Damaged::Covered(field)),
+                _ => return Err(Damage::Covered(field)),
             }
         }
         let is_empty = (x, y) == (0, 0) && sides.is_empty();
-        let plain = |message| if is_empty { Ok(message) } else { Err(Damaged::Overfull) };
+        let plain = |message| if is_empty { Ok(message) } else { Err(Damage::Overfull) };
         let message = match flag.rem_euclid(FLAGS) {
             0 => Self::Request { node: Cell::new(x, y), sides },
             1 => plain(Self::Acknowledged)?,
             2 => Self::Response { next: Cell::new(x, y), sides },
             _ if rule.has(Condition::Flags) => plain(Self::ResponseAcknowledged)?,
-            _ => return Err(Damaged::Flag(flag)),
+            _ => return Err(Damage::Flag(flag)),
         };
         Ok((message, number))
     }
@@ -126,10 +126,10 @@ mod tests {
     #[test]
     fn what_is_no_message_is_refused() {
         let decode = |fields| Message::decode(fields, &Rule::REPAIRED);
-        assert_eq!(decode([-1, 0, 0, 0, 0, 0, 0]), Err(Damaged::Flag(-1)));
-        assert_eq!(decode([1024, 0, 0, 0, 0, 0, 0]), Err(Damaged::Flag(1024)));
-        assert_eq!(decode([0, 0, 0, 0, 2, 0, 0]), Err(Damaged::Covered(2)));
-        assert_eq!(decode([1, 0, 1, 0, 0, 0, 0]), Err(Damaged::Overfull));
-        assert_eq!(Message::decode([3, 0, 0, 0, 0, 0, 0], &Rule::PUBLISHED), Err(Damaged::Flag(3)));
+        assert_eq!(decode([-1, 0, 0, 0, 0, 0, 0]), Err(Damage::Flag(-1)));
+        assert_eq!(decode([1024, 0, 0, 0, 0, 0, 0]), Err(Damage::Flag(1024)));
+        assert_eq!(decode([0, 0, 0, 0, 2, 0, 0]), Err(Damage::Covered(2)));
+        assert_eq!(decode([1, 0, 1, 0, 0, 0, 0]), Err(Damage::Overfull));
+        assert_eq!(Message::decode([3, 0, 0, 0, 0, 0, 0], &Rule::PUBLISHED), Err(Damage::Flag(3)));
     }
 }

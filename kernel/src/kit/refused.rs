@@ -8,7 +8,7 @@ use crate::ground::Cell;
 /// Why a team cannot start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Refused {
+pub enum SetupError {
     /// A team has at least one robot, and no more than it holds.
     Robots {
         /// Robots asked for.
@@ -33,7 +33,7 @@ pub enum Refused {
     ShortReach(usize),
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Robots { robots, most } => {
@@ -63,12 +63,12 @@ impl fmt::Display for Refused {
     }
 }
 
-impl core::error::Error for Refused {}
+impl core::error::Error for SetupError {}
 
 /// A robot was told something that does not fit what it does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum NotNow {
+pub enum Misuse {
     /// It may not decide now: see [`Kit::may_decide`](super::Kit::may_decide).
     Decides,
     /// It looks at no side.
@@ -77,7 +77,7 @@ pub enum NotNow {
     Drives,
 }
 
-impl fmt::Display for NotNow {
+impl fmt::Display for Misuse {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Decides => "the robot may not decide now: ask `may_decide` before",
@@ -87,4 +87,4 @@ impl fmt::Display for NotNow {
     }
 }
 
-impl core::error::Error for NotNow {}
+impl core::error::Error for Misuse {}

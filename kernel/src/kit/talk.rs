@@ -63,9 +63,9 @@ pub struct Talk {
 }
 
 /// The messages sent at a time: an acknowledgement, a response, and a request of its own.
-pub type Sent = [Option<Letter>; 3];
+pub type Outbox = [Option<Letter>; 3];
 
-const NOTHING: Sent = [None; 3];
+const NOTHING: Outbox = [None; 3];
 
 impl Talk {
     /// The first of two robots, at the node `at`. It is the first to decide.
@@ -84,7 +84,7 @@ impl Talk {
     }
 
     /// The second of two robots, at the node `at`, and its request.
-    pub fn second(rule: Rule, at: Cell, sides: Steps) -> (Self, Sent) {
+    pub fn second(rule: Rule, at: Cell, sides: Steps) -> (Self, Outbox) {
         let mut talk = Self { is_second: true, has_turn: false, ..Self::first(rule, at) };
         let sent = talk.arrived(sides);
         (talk, sent)
@@ -116,7 +116,7 @@ impl Talk {
     }
 
     /// It has come to a node where `sides` count as covered.
-    pub fn arrived(&mut self, sides: Steps) -> Sent {
+    pub fn arrived(&mut self, sides: Steps) -> Outbox {
         if self.rule.has(Condition::Turn) && self.has_turn {
             // Nobody else has decided since it was told where the other one is.
             self.phase = Phase::Decides;
@@ -126,20 +126,20 @@ impl Talk {
     }
 
     /// It drives to `to`. `sides` says which sides of a node count as covered.
-    pub fn drives(&mut self, to: Cell, sides: impl Fn(Cell) -> Steps) -> Sent {
+    pub fn drives(&mut self, to: Cell, sides: impl Fn(Cell) -> Steps) -> Outbox {
         (self.phase, self.next) = (Phase::Drives, to);
         [None, self.pay(sides), None]
     }
 
     /// It stays. `sides` says which sides of a node count as covered.
-    pub fn stays(&mut self, sides: impl Fn(Cell) -> Steps) -> Sent {
+    pub fn stays(&mut self, sides: impl Fn(Cell) -> Steps) -> Outbox {
         self.phase = Phase::Stays;
         let paid = self.pay(&sides);
         [None, paid, self.ask_for_the_turn(sides)]
     }
 
     /// The messages sent when one arrives. `sides` says which sides of a node count as covered.
-    pub fn hears(&mut self, letter: Letter, sides: impl Fn(Cell) -> Steps) -> Sent {
+    pub fn hears(&mut self, letter: Letter, sides: impl Fn(Cell) -> Steps) -> Outbox {
         let Letter { number, message } = letter;
         match message {
             Message::Request { node, .. } => {

@@ -1,6 +1,6 @@
 //! A team of robots that keep in touch: their records, where they are, and whose turn it is (Peiris, sections 3 and 4).
 
-use super::refused::{NotNow, Refused};
+use super::refused::{Misuse, SetupError};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
 use super::sets::{first_robots, sets};
 use super::stance::{Reach, SEEN, Stance};
@@ -101,8 +101,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// A team that knows nothing of `map` but its border, a robot in each of `starts`.
     ///
     /// # Errors
-    /// [`Refused`] if it cannot start so.
-    pub fn new(rule: Rule, map: G, starts: &[Cell]) -> Result<Self, Refused>
+    /// [`SetupError`] if it cannot start so.
+    pub fn new(rule: Rule, map: G, starts: &[Cell]) -> Result<Self, SetupError>
     where
         G: Copy,
     {
@@ -111,24 +111,24 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let nodes = area.width() * area.height();
         let robots = starts.len();
         if robots == 0 || robots > ROBOTS {
-            return Err(Refused::Robots { robots, most: ROBOTS });
+            return Err(SetupError::Robots { robots, most: ROBOTS });
         }
         if nodes > NODES {
-            return Err(Refused::TooManyNodes { nodes, most: NODES });
+            return Err(SetupError::TooManyNodes { nodes, most: NODES });
         }
         if robots > 2 && rule.reach != Reach::PAPER && rule.has(Condition::Tether) {
-            return Err(Refused::ShortReach(robots));
+            return Err(SetupError::ShortReach(robots));
         }
         if let Some(&outside) = starts.iter().find(|&&start| !area.contains(start)) {
-            return Err(Refused::Outside(outside));
+            return Err(SetupError::Outside(outside));
         }
         let taken = (0..robots).find(|&place| starts[..place].contains(&starts[place]));
         if let Some(place) = taken.filter(|_| rule.has(Condition::Apart)) {
-            return Err(Refused::OneNode(starts[place]));
+            return Err(SetupError::OneNode(starts[place]));
         }
         let sure = |one: usize, other: usize| rule.reach.joins(starts[one], starts[other]);
         if sets::<ROBOTS>(first_robots(robots), sure).iter().skip(1).any(|&set| set != 0) {
-            return Err(Refused::OutOfContact(rule.reach));
+            return Err(SetupError::OutOfContact(rule.reach));
         }
         let robot = |place: usize| {
             let stance = Stance::Stands(starts.get(place).copied().unwrap_or(area.first()));
@@ -216,10 +216,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Begins the decision of `robot`. Where several sides are as good, `oracle` picks one.
     ///
     /// # Errors
-    /// [`NotNow`] if it may not decide now.
-    pub fn decide(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Result<Next, NotNow> {
+    /// [`Misuse`] if it may not decide now.
+    pub fn decide(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Result<Next, Misuse> {
         if !self.may_decide(robot) {
-            return Err(NotNow::Decides);
+            return Err(Misuse::Decides);
         }
         let heading = self.robots[robot].heading;
         Ok(match heading {
@@ -231,10 +231,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Takes what `robot` sees at the side that it looks at. Where several sides are as good, `oracle` picks the next.
     ///
     /// # Errors
-    /// [`NotNow`] if it looks at no side.
-    pub fn looked(&mut self, robot: usize, sight: Sight, oracle: &mut dyn Oracle) -> Result<Next, NotNow> {
+    /// [`Misuse`] if it looks at no side.
+    pub fn looked(&mut self, robot: usize, sight: Sight, oracle: &mut dyn Oracle) -> Result<Next, Misuse> {
         let Some(Task::Looks { side, left, why }) = self.robots().get(robot).map(|robot| robot.task) else {
-            return Err(NotNow::Looks);
+            return Err(Misuse::Looks);
         };
         let from = self.robots[robot].stance.to();
         let edge = Edge::new(from, side);
@@ -269,9 +269,9 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// `robot` has come to where it drove.
     ///
     /// # Errors
-    /// [`NotNow`] if it does not drive.
-    pub fn arrived(&mut self, robot: usize) -> Result<(), NotNow> {
-        let Some(Stance::Drives { to, .. }) = self.stance(robot) else { return Err(NotNow::Drives) };
+    /// [`Misuse`] if it does not drive.
+    pub fn arrived(&mut self, robot: usize) -> Result<(), Misuse> {
+        let Some(Stance::Drives { to, .. }) = self.stance(robot) else { return Err(Misuse::Drives) };
         self.robots[robot].stance = Stance::Stands(to);
         self.tell_of_change(robot);
         Ok(())
@@ -499,19 +499,19 @@ mod tests {
     fn a_team_that_cannot_start_is_refused() {
         let start = |starts: [Cell; 2]| Pair::new(Rule::REPAIRED, map(5, 1), &starts).err();
         let (first, last) = (Cell::new(0, 0), Cell::new(4, 0));
-        assert_eq!(start([first, last]), Some(Refused::OutOfContact(Reach::PAPER)));
-        assert_eq!(start([first, first]), Some(Refused::OneNode(first)));
-        assert_eq!(start([first, Cell::new(5, 0)]), Some(Refused::Outside(Cell::new(5, 0))));
+        assert_eq!(start([first, last]), Some(SetupError::OutOfContact(Reach::PAPER)));
+        assert_eq!(start([first, first]), Some(SetupError::OneNode(first)));
+        assert_eq!(start([first, Cell::new(5, 0)]), Some(SetupError::Outside(Cell::new(5, 0))));
         let small = Kit::<_, 1, 4>::new(Rule::REPAIRED, map(5, 1), &[first]).err();
-        assert_eq!(small, Some(Refused::TooManyNodes { nodes: 5, most: 4 }));
+        assert_eq!(small, Some(SetupError::TooManyNodes { nodes: 5, most: 4 }));
     }
 
     #[test]
     fn what_does_not_fit_is_not_heard() {
         let mut kit = pair(Rule::REPAIRED, [Cell::new(0, 0), Cell::new(1, 0)]);
-        assert_eq!(kit.decide(1, &mut First), Err(NotNow::Decides));
-        assert_eq!(kit.looked(0, Sight::Free, &mut First), Err(NotNow::Looks));
-        assert_eq!(kit.arrived(0), Err(NotNow::Drives));
-        assert_eq!(kit.arrived(7), Err(NotNow::Drives));
+        assert_eq!(kit.decide(1, &mut First), Err(Misuse::Decides));
+        assert_eq!(kit.looked(0, Sight::Free, &mut First), Err(Misuse::Looks));
+        assert_eq!(kit.arrived(0), Err(Misuse::Drives));
+        assert_eq!(kit.arrived(7), Err(Misuse::Drives));
     }
 }

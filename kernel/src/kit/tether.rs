@@ -42,13 +42,13 @@ const FIELDS: [Places; 25] = {
 
 /// The nodes that known paths within one field join with a node.
 #[derive(Clone, Copy)]
-pub(super) struct Near {
+pub(super) struct Zone {
     node: Cell,
     /// Those at most so many drives away.
     within: [Places; MAX_DRIVES + 1],
 }
 
-impl Near {
+impl Zone {
     /// The drives to `node`, if it is joined.
     pub(super) fn drives(&self, node: Cell) -> Option<u32> {
         let place = place_of(self.node, node)?;
@@ -65,7 +65,7 @@ impl Near {
 pub(super) struct Formation<const ROBOTS: usize> {
     pub(super) stances: [Stance; ROBOTS],
     pub(super) ends: [Cell; ROBOTS],
-    pub(super) near: [Near; ROBOTS],
+    pub(super) near: [Zone; ROBOTS],
     pub(super) count: usize,
 }
 
@@ -98,7 +98,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let near = core::array::from_fn(|robot| {
             let node = ends[robot];
             let is_alone = robot >= self.count.into() || !self.ties();
-            if is_alone { Near { node, within: [HERE; MAX_DRIVES + 1] } } else { self.near(node, None) }
+            if is_alone { Zone { node, within: [HERE; MAX_DRIVES + 1] } } else { self.near(node, None) }
         });
         Formation { stances, ends, near, count: self.count.into() }
     }
@@ -124,7 +124,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// The nodes joined with `node` by known paths, and by the one that `also` leads over.
-    pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Near {
+    pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Zone {
         let (mut east, mut south): (Places, Places) = (0, 0);
         for offset in offsets(IN_REACH | HERE) {
             let paths = self.paths(node.at_offset(offset.0, offset.1));
@@ -148,7 +148,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 *nodes |= joined;
             }
         }
-        Near { node, within }
+        Zone { node, within }
     }
 
     /// The bonds of `robot` to the others of this formation.

@@ -7,7 +7,7 @@ use crate::net::{Call, NodeId, Notice, RobotId};
 /// SBit: whether a robot still has to do with a call.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Served {
+pub enum ServiceBit {
     /// 0: it may ask for it.
     No,
     /// 1: it has heard whom the WFR has chosen, or has asked in vain.
@@ -21,7 +21,7 @@ pub struct Request {
     /// SN, and the newest epoch heard of it.
     pub call: Call,
     /// SBit.
-    pub served: Served,
+    pub served: ServiceBit,
     /// HC: hops from the robot to the WFR, the least heard under the epoch.
     pub hops: u16,
     /// ID: the robot's parent in the tree of the call.
@@ -161,7 +161,7 @@ impl<const CALLS: usize> Robot<CALLS> {
         let Notice { call, hops, sender } = notice;
         let hops = hops.saturating_add(1);
         let has_epochs = self.rule.has(Condition::Epochs);
-        let heard = Request { call, served: Served::No, hops, parent: sender };
+        let heard = Request { call, served: ServiceBit::No, hops, parent: sender };
         let Some(known) = self.record(call.wfr) else {
             self.add(heard);
             return self;
@@ -228,7 +228,7 @@ impl<const CALLS: usize> Robot<CALLS> {
         let by_identity = self.rule.has(Condition::LeastIdentity);
         let rank =
             |request: &&Request| (by_hops.then_some(request.hops), by_identity.then_some(request.call.wfr));
-        let open = self.requests().filter(|request| request.served == Served::No);
+        let open = self.requests().filter(|request| request.served == ServiceBit::No);
         let Some(request) = open.min_by_key(rank).copied() else { return (self, None) };
         self.task = Task::Asking { call: request.call, repeats_left: self.rule.repeats() };
         (self, Some(self.bid(&request)))
@@ -245,7 +245,7 @@ impl<const CALLS: usize> Robot<CALLS> {
 
     fn set_served(&mut self, wfr: NodeId) {
         if let Some(request) = self.record(wfr) {
-            request.served = Served::Yes;
+            request.served = ServiceBit::Yes;
         }
     }
 
@@ -258,7 +258,7 @@ impl<const CALLS: usize> Robot<CALLS> {
             Task::Asking { call, .. } | Task::Leased { call } => Some(call.wfr),
         };
         let may_go = |place: &Option<Request>| {
-            place.is_some_and(|request| request.served == Served::Yes && Some(request.call.wfr) != own)
+            place.is_some_and(|request| request.served == ServiceBit::Yes && Some(request.call.wfr) != own)
         };
         let empty = self.requests.iter().position(Option::is_none);
         let place = empty.or_else(|| self.requests.iter().position(may_go));
@@ -320,7 +320,7 @@ mod tests {
         for rule in [Rule::PUBLISHED, Rule::REPAIRED] {
             let (robot, sent) = after(rule, &heard);
             assert_eq!(word(sent), Some((8, 0, Word::Move { hops: 7 })));
-            assert!(robot.requests().map(|request| request.served).eq([Served::Yes, Served::No]));
+            assert!(robot.requests().map(|request| request.served).eq([ServiceBit::Yes, ServiceBit::No]));
         }
         let tie = [(9, 1), (8, 4), (7, 4), (6, 5)].map(|(wfr, hops)| notice(call(wfr, 0), hops, 3));
         let (robot, _) = tie
@@ -336,11 +336,11 @@ mod tests {
         let (robot, _) = after(Rule::REPAIRED, &served);
         for old in [notice(call(0, 3), 1, 10), notice(call(0, 2), 1, 10)] {
             let (robot, sent) = robot.receive(old);
-            assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(Served::Yes));
+            assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(ServiceBit::Yes));
             assert_eq!(sent, None);
         }
         let (robot, sent) = robot.receive(notice(call(0, 4), 6, 10));
-        assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(Served::No));
+        assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(ServiceBit::No));
         assert_eq!(word(sent), Some((0, 4, Word::Move { hops: 7 })));
     }
 
@@ -365,7 +365,7 @@ mod tests {
         let nobody = Downward::Resb(Resb { call: call(0, 1), robot: ME, chosen: None });
         let (robot, sent) = robot.receive(nobody);
         assert_eq!(word(sent), Some((1, 1, Word::Move { hops: 7 })));
-        assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(Served::Yes));
+        assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(ServiceBit::Yes));
     }
 
     #[test]

@@ -52,10 +52,10 @@ pub enum WfrTimer {
     Lease(Epoch),
 }
 
-/// A WFR's message.
+/// A WFR's mail: a message to send, or none.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Sent<const ROBOTS: usize> {
+pub enum Mail<const ROBOTS: usize> {
     /// Nothing.
     Nothing,
     /// A call, to be spread through the network.
@@ -135,40 +135,40 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
     }
 
     /// Something has happened: it calls for help. One that is waiting already goes on waiting.
-    pub fn raise(self) -> (Self, Sent<ROBOTS>) {
+    pub fn raise(self) -> (Self, Mail<ROBOTS>) {
         match self.phase {
             Phase::Idle => self.collect(),
             Phase::Rescued { .. } => self.renew(),
-            Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Leased { .. } => (self, Sent::Nothing),
+            Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Leased { .. } => (self, Mail::Nothing),
         }
     }
 
     /// A robot's message has arrived. What belongs to another WFR is ignored.
-    pub fn receive(mut self, message: Upward) -> (Self, Sent<ROBOTS>) {
+    pub fn receive(mut self, message: Upward) -> (Self, Mail<ROBOTS>) {
         let Upward { call, robot, word, .. } = message;
         let is_of_another_epoch = call.epoch != self.call.epoch && self.rule.has(Condition::Epochs);
         if call.wfr != self.call.wfr || is_of_another_epoch {
-            return (self, Sent::Nothing);
+            return (self, Mail::Nothing);
         }
         match (word, self.phase) {
             (Word::Move { hops }, _) => self.hear(Bid { hops, robot }),
             (Word::Accept, Phase::Offered { choice, .. }) if choice.robot == robot => {
                 self.phase = Phase::Leased { choice };
-                (self, Sent::Nothing)
+                (self, Mail::Nothing)
             }
             (Word::Decline, Phase::Offered { choice, .. })
                 if choice.robot == robot && self.rule.has(Condition::Renewal) =>
             {
                 self.renew()
             }
-            (Word::Accept | Word::Decline, _) => (self, Sent::Nothing),
+            (Word::Accept | Word::Decline, _) => (self, Mail::Nothing),
         }
     }
 
     /// A timer has gone off. One that no longer runs is ignored.
-    pub fn expire(mut self, timer: WfrTimer) -> (Self, Sent<ROBOTS>) {
+    pub fn expire(mut self, timer: WfrTimer) -> (Self, Mail<ROBOTS>) {
         if self.timer() != Some(timer) {
-            return (self, Sent::Nothing);
+            return (self, Mail::Nothing);
         }
         match self.phase {
             Phase::Collecting { best: Some(best) } => self.choose(best),
@@ -176,9 +176,9 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
                 self.phase = Phase::Offered { choice, repeats_left: repeats_left - 1 };
                 (self, self.tell(choice.robot, Some(choice.robot)))
             }
-            Phase::Collecting { best: None } if !self.rule.has(Condition::Renewal) => (self, Sent::Nothing),
+            Phase::Collecting { best: None } if !self.rule.has(Condition::Renewal) => (self, Mail::Nothing),
             Phase::Collecting { best: None } | Phase::Offered { .. } | Phase::Leased { .. } => self.renew(),
-            Phase::Idle | Phase::Rescued { .. } => (self, Sent::Nothing),
+            Phase::Idle | Phase::Rescued { .. } => (self, Mail::Nothing),
         }
     }
 
@@ -191,14 +191,14 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
         self
     }
 
-    fn hear(mut self, bid: Bid) -> (Self, Sent<ROBOTS>) {
+    fn hear(mut self, bid: Bid) -> (Self, Mail<ROBOTS>) {
         match self.phase {
-            Phase::Idle => (self, Sent::Nothing),
+            Phase::Idle => (self, Mail::Nothing),
             Phase::Collecting { best } => {
                 self.remember(bid.robot);
                 let best = best.map_or(bid, |best| self.better(best, bid));
                 self.phase = Phase::Collecting { best: Some(best) };
-                if self.rule.has(Condition::Window) { (self, Sent::Nothing) } else { self.choose(best) }
+                if self.rule.has(Condition::Window) { (self, Mail::Nothing) } else { self.choose(best) }
             }
             Phase::Offered { choice, .. } | Phase::Leased { choice } => {
                 if self.rule.has(Condition::ChoiceStands) {
@@ -228,7 +228,7 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
         }
     }
 
-    fn choose(mut self, choice: Bid) -> (Self, Sent<ROBOTS>) {
+    fn choose(mut self, choice: Bid) -> (Self, Mail<ROBOTS>) {
         self.phase = if self.rule.has(Condition::Consent) {
             Phase::Offered { choice, repeats_left: self.rule.repeats() }
         } else {
@@ -237,28 +237,28 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
         (self, self.tell_all(choice))
     }
 
-    fn answer(&self, robot: RobotId, chosen: Option<RobotId>) -> Sent<ROBOTS> {
-        if self.rule.has(Condition::AnswersAgain) { self.tell(robot, chosen) } else { Sent::Nothing }
+    fn answer(&self, robot: RobotId, chosen: Option<RobotId>) -> Mail<ROBOTS> {
+        if self.rule.has(Condition::AnswersAgain) { self.tell(robot, chosen) } else { Mail::Nothing }
     }
 
-    const fn tell(&self, robot: RobotId, chosen: Option<RobotId>) -> Sent<ROBOTS> {
-        Sent::One(Resb { call: self.call, robot, chosen })
+    const fn tell(&self, robot: RobotId, chosen: Option<RobotId>) -> Mail<ROBOTS> {
+        Mail::One(Resb { call: self.call, robot, chosen })
     }
 
-    fn tell_all(&self, choice: Bid) -> Sent<ROBOTS> {
+    fn tell_all(&self, choice: Bid) -> Mail<ROBOTS> {
         let chosen = Some(choice.robot);
-        Sent::All(self.asked.map(|asked| asked.map(|robot| Resb { call: self.call, robot, chosen })))
+        Mail::All(self.asked.map(|asked| asked.map(|robot| Resb { call: self.call, robot, chosen })))
     }
 
-    fn renew(mut self) -> (Self, Sent<ROBOTS>) {
+    fn renew(mut self) -> (Self, Mail<ROBOTS>) {
         self.call.epoch = self.call.epoch.next();
         self.collect()
     }
 
-    fn collect(mut self) -> (Self, Sent<ROBOTS>) {
+    fn collect(mut self) -> (Self, Mail<ROBOTS>) {
         self.phase = Phase::Collecting { best: None };
         self.asked = [None; ROBOTS];
-        (self, Sent::Notice(Notice { call: self.call, hops: 0, sender: self.call.wfr }))
+        (self, Mail::Notice(Notice { call: self.call, hops: 0, sender: self.call.wfr }))
     }
 }
 
@@ -277,12 +277,12 @@ mod tests {
         word(robot, 1, Word::Move { hops })
     }
 
-    fn after(rule: Rule, messages: &[Upward]) -> (Wfr<2>, Sent<2>) {
+    fn after(rule: Rule, messages: &[Upward]) -> (Wfr<2>, Mail<2>) {
         let called = Wfr::new(rule, ME).raise();
         messages.iter().fold(called, |(wfr, _), &message| wfr.receive(message))
     }
 
-    fn closed(wfr: Wfr<2>) -> (Wfr<2>, Sent<2>) {
+    fn closed(wfr: Wfr<2>) -> (Wfr<2>, Mail<2>) {
         wfr.expire(WfrTimer::Window(wfr.call().epoch))
     }
 
@@ -298,11 +298,11 @@ mod tests {
     fn the_window_s_best_is_the_least_hop_count_and_of_equal_ones_the_least_id() {
         for (bids, best) in [([bid(1, 4), bid(2, 3)], 2), ([bid(2, 3), bid(1, 3)], 1)] {
             let (wfr, sent) = after(Rule::REPAIRED, &bids);
-            assert_eq!(sent, Sent::Nothing, "the window is open");
+            assert_eq!(sent, Mail::Nothing, "the window is open");
             let (wfr, sent) = closed(wfr);
             assert!(matches!(wfr.phase(), Phase::Offered { choice, .. } if choice.robot == RobotId(best)));
             let told = bids.map(|bid| Some(resb(bid.robot.0, best)));
-            assert_eq!(sent, Sent::All(told));
+            assert_eq!(sent, Mail::All(told));
         }
     }
 
@@ -310,7 +310,7 @@ mod tests {
     fn a_window_without_a_move_makes_a_new_call() {
         let (wfr, sent) = closed(after(Rule::REPAIRED, &[]).0);
         let call = Call { wfr: ME, epoch: Epoch(2) };
-        assert_eq!(sent, Sent::Notice(Notice { call, hops: 0, sender: ME }));
+        assert_eq!(sent, Mail::Notice(Notice { call, hops: 0, sender: ME }));
         assert_eq!((wfr.call(), wfr.phase()), (call, Phase::Collecting { best: None }));
     }
 
@@ -321,17 +321,17 @@ mod tests {
         assert_eq!((wfr.call().epoch, wfr.asked().count()), (Epoch(2), 0));
         let (wfr, _) = wfr.receive(word(2, 2, Word::Move { hops: 5 }));
         let told = Resb { call: wfr.call(), ..resb(2, 2) };
-        assert_eq!(closed(wfr).1, Sent::All([Some(told), None]));
+        assert_eq!(closed(wfr).1, Mail::All([Some(told), None]));
     }
 
     #[test]
     fn the_next_event_is_a_new_call_once_a_robot_has_come_and_not_before() {
         for rule in [Rule::PUBLISHED, Rule::REPAIRED] {
             let (waiting, _) = after(rule, &[bid(1, 4)]);
-            assert_eq!(waiting.raise(), (waiting, Sent::Nothing));
+            assert_eq!(waiting.raise(), (waiting, Mail::Nothing));
             let (again, sent) = waiting.reach(RobotId(1)).raise();
             let call = Call { wfr: ME, epoch: Epoch(2) };
-            assert_eq!(sent, Sent::Notice(Notice { call, hops: 0, sender: ME }));
+            assert_eq!(sent, Mail::Notice(Notice { call, hops: 0, sender: ME }));
             assert_eq!((again.call(), again.phase()), (call, Phase::Collecting { best: None }));
         }
     }
@@ -339,20 +339,20 @@ mod tests {
     #[test]
     fn a_late_move_is_answered_with_the_choice_that_stands() {
         let (wfr, _) = closed(after(Rule::REPAIRED, &[bid(1, 4)]).0);
-        assert_eq!(wfr.receive(bid(2, 1)), (wfr, Sent::One(resb(2, 1))));
+        assert_eq!(wfr.receive(bid(2, 1)), (wfr, Mail::One(resb(2, 1))));
         let rescued = wfr.reach(RobotId(1));
         for robot in [1, 2] {
             let nobody = Resb { chosen: None, ..resb(robot, 1) };
-            assert_eq!(rescued.receive(bid(robot, 1)), (rescued, Sent::One(nobody)));
+            assert_eq!(rescued.receive(bid(robot, 1)), (rescued, Mail::One(nobody)));
         }
     }
 
     #[test]
     fn as_published_a_late_move_changes_the_choice() {
         let (wfr, sent) = after(Rule::PUBLISHED, &[bid(1, 4)]);
-        assert_eq!(sent, Sent::All([Some(resb(1, 1)), None]));
+        assert_eq!(sent, Mail::All([Some(resb(1, 1)), None]));
         let (_, sent) = wfr.receive(bid(2, 1));
-        assert_eq!(sent, Sent::All([Some(resb(1, 2)), Some(resb(2, 2))]));
+        assert_eq!(sent, Mail::All([Some(resb(1, 2)), Some(resb(2, 2))]));
     }
 
     #[test]
@@ -360,23 +360,23 @@ mod tests {
         let (wfr, _) = after(Rule::REPAIRED, &[bid(1, 4)]);
         let elsewhere = Call { wfr: NodeId(8), epoch: Epoch::FIRST };
         for stray in [word(2, 2, Word::Move { hops: 1 }), Upward { call: elsewhere, ..bid(2, 1) }] {
-            assert_eq!(wfr.receive(stray), (wfr, Sent::Nothing));
+            assert_eq!(wfr.receive(stray), (wfr, Mail::Nothing));
         }
         let (wfr, _) = closed(wfr);
         for stray in [word(1, 2, Word::Accept), word(2, 1, Word::Accept), word(2, 1, Word::Decline)] {
-            assert_eq!(wfr.receive(stray), (wfr, Sent::Nothing));
+            assert_eq!(wfr.receive(stray), (wfr, Mail::Nothing));
         }
         let idle = Wfr::<2>::new(Rule::REPAIRED, ME);
-        assert_eq!(idle.receive(bid(1, 1)), (idle, Sent::Nothing));
+        assert_eq!(idle.receive(bid(1, 1)), (idle, Mail::Nothing));
     }
 
     #[test]
     fn an_unanswered_choice_is_repeated_then_called_again_and_a_lapsed_lease_too() {
         let (wfr, _) = closed(after(Rule::REPAIRED, &[bid(1, 4), bid(2, 5)]).0);
         let (again, sent) = wfr.expire(wfr.timer().expect("a timer runs"));
-        assert_eq!(sent, Sent::One(resb(1, 1)));
+        assert_eq!(sent, Mail::One(resb(1, 1)));
         let (called, sent) = again.expire(again.timer().expect("a timer runs"));
-        assert!(matches!(sent, Sent::Notice(_)) && called.call().epoch == Epoch(2));
+        assert!(matches!(sent, Mail::Notice(_)) && called.call().epoch == Epoch(2));
         let (leased, _) = again.receive(word(1, 1, Word::Accept));
         assert_eq!(leased.timer(), Some(WfrTimer::Lease(Epoch::FIRST)));
         let (called, _) = leased.expire(WfrTimer::Lease(Epoch::FIRST));
@@ -392,9 +392,9 @@ mod tests {
         let answer = WfrTimer::Answer { epoch: Epoch::FIRST, repeats_left: 1 };
         assert_eq!(offered.timer(), Some(answer));
         let (again, sent) = offered.expire(answer);
-        assert_eq!((sent, again.timer()), (Sent::One(resb(1, 1)), None));
+        assert_eq!((sent, again.timer()), (Mail::One(resb(1, 1)), None));
         let (uncalled, _) = after(rule, &[]);
-        assert_eq!(closed(uncalled), (uncalled, Sent::Nothing));
+        assert_eq!(closed(uncalled), (uncalled, Mail::Nothing));
     }
 
     #[test]
@@ -402,14 +402,14 @@ mod tests {
         let rule = Rule::REPAIRED.without(Condition::LeastIdentity);
         for (first, second) in [(2, 1), (1, 2)] {
             let (_, sent) = closed(after(rule, &[bid(first, 3), bid(second, 3)]).0);
-            assert_eq!(sent, Sent::All([first, second].map(|robot| Some(resb(robot, first)))));
+            assert_eq!(sent, Mail::All([first, second].map(|robot| Some(resb(robot, first)))));
         }
     }
 
     #[test]
     fn a_robot_beyond_those_that_it_can_remember_is_chosen_all_the_same() {
         let (wfr, sent) = closed(after(Rule::REPAIRED, &[bid(1, 4), bid(2, 5), bid(3, 3)]).0);
-        assert_eq!(sent, Sent::All([Some(resb(1, 3)), Some(resb(2, 3))]));
-        assert_eq!(wfr.receive(bid(3, 3)), (wfr, Sent::One(resb(3, 3))));
+        assert_eq!(sent, Mail::All([Some(resb(1, 3)), Some(resb(2, 3))]));
+        assert_eq!(wfr.receive(bid(3, 3)), (wfr, Mail::One(resb(3, 3))));
     }
 }

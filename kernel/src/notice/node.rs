@@ -6,7 +6,7 @@
 use super::Surroundings;
 use super::rule::{Condition, Count, Rule, Scheme};
 use crate::choice::Oracle;
-use crate::net::{Call, Epoch, Heard, NodeId, Notice};
+use crate::net::{Call, Epoch, NodeId, Notice, Reception};
 
 /// How far a node is with an event.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -170,7 +170,7 @@ impl Node {
     pub fn receive<'a>(
         &mut self,
         rule: &Rule,
-        heard: Heard<Notice>,
+        heard: Reception<Notice>,
         around: impl FnOnce() -> Surroundings<'a>,
         chance: &mut dyn Oracle,
     ) -> Reaction {
@@ -199,7 +199,7 @@ impl Node {
     fn consider(
         &mut self,
         rule: &Rule,
-        heard: Heard<Notice>,
+        heard: Reception<Notice>,
         around: Surroundings<'_>,
         chance: &mut dyn Oracle,
     ) -> Reaction {
@@ -265,11 +265,11 @@ impl Node {
     fn begin(
         &mut self,
         rule: &Rule,
-        heard: Heard<Notice>,
+        heard: Reception<Notice>,
         mut around: Surroundings<'_>,
         chance: &mut dyn Oracle,
     ) -> Reaction {
-        let Heard { message: notice, distance_um, now_ns } = heard;
+        let Reception { message: notice, distance_um, now_ns } = heard;
         self.event = notice.call.epoch.0;
         self.parent = notice.sender;
         self.hops = notice.hops.saturating_add(1);
@@ -291,7 +291,7 @@ impl Node {
     }
 
     #[inline]
-    fn hear_again(&mut self, rule: &Rule, heard: Heard<Notice>, around: Surroundings<'_>) -> Reaction {
+    fn hear_again(&mut self, rule: &Rule, heard: Reception<Notice>, around: Surroundings<'_>) -> Reaction {
         let notice = heard.message;
         if self.phase == Phase::Forwarded {
             if notice.hops > self.hops {
@@ -322,7 +322,7 @@ impl Node {
 
     /// Whether with this NOTICE the node has heard enough not to forward.
     #[inline]
-    fn is_settled(&self, rule: &Rule, heard: Heard<Notice>, mut around: Surroundings<'_>) -> bool {
+    fn is_settled(&self, rule: &Rule, heard: Reception<Notice>, mut around: Surroundings<'_>) -> bool {
         match rule.scheme {
             // The first is not counted: k = 1 would else never forward.
             Scheme::Farthest { k } => k.is_some_and(|k| self.heard.count > k.get()),
@@ -388,7 +388,7 @@ mod tests {
     fn hear(node: &mut Node, rule: &Rule, notice: Notice, distance_um: u32) -> Reaction {
         node.receive(
             rule,
-            Heard { message: notice, distance_um, now_ns: 100 },
+            Reception { message: notice, distance_um, now_ns: 100 },
             Surroundings::none,
             &mut Seven,
         )
@@ -500,7 +500,7 @@ mod tests {
         let mut unreached = [0; words(3)];
         let mut hear = |sender, of_sender: &[NodeId]| {
             let around = Surroundings { neighbours: &own, of_sender, unreached: &mut unreached };
-            let reception = Heard { message: notice(sender, 0), distance_um: 0, now_ns: 0 };
+            let reception = Reception { message: notice(sender, 0), distance_um: 0, now_ns: 0 };
             node.receive(&rule, reception, || around, &mut Seven)
         };
         assert_eq!(hear(1, &[NodeId(2), NodeId(9)]), Reaction::Armed { at_ns: 7 });

@@ -41,14 +41,14 @@ pub struct Rule {
 /// Why robots cannot see or hear so far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Unfit {
+pub enum RangeError {
     /// A robot sees from 1 to [`Sight::MOST_CELLS`] cells far.
     Sight,
     /// Robots hear each other from [`Rule::LEAST_RANGE_CELLS`] cells on.
     Range,
 }
 
-impl fmt::Display for Unfit {
+impl fmt::Display for RangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Sight => write!(f, "a robot of a pack sees from 1 to {} cells far", Sight::MOST_CELLS),
@@ -59,7 +59,7 @@ impl fmt::Display for Unfit {
     }
 }
 
-impl core::error::Error for Unfit {}
+impl core::error::Error for RangeError {}
 
 impl Rule {
     /// R_s where nobody says otherwise; the paper gives none.
@@ -83,11 +83,11 @@ impl Rule {
     /// These conditions for robots that see and hear so far.
     ///
     /// # Errors
-    /// [`Unfit`] if robots cannot.
-    pub const fn within(self, sight_cells: u16, range_cells: u16) -> Result<Self, Unfit> {
-        let Some(sight) = Sight::new(sight_cells) else { return Err(Unfit::Sight) };
+    /// [`RangeError`] if robots cannot.
+    pub const fn within(self, sight_cells: u16, range_cells: u16) -> Result<Self, RangeError> {
+        let Some(sight) = Sight::new(sight_cells) else { return Err(RangeError::Sight) };
         if range_cells < Self::LEAST_RANGE_CELLS {
-            return Err(Unfit::Range);
+            return Err(RangeError::Range);
         }
         Ok(Self { sight, range_cells, ..self })
     }

@@ -34,7 +34,7 @@ pub trait Past {
 /// Why robots are no pack.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Refused {
+pub enum SetupError {
     /// There are no robots, or more than [`MAX_ROBOTS`].
     Robots(usize),
     /// Two robots are in this cell.
@@ -43,7 +43,7 @@ pub enum Refused {
     Apart(usize, usize),
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Robots(0) => f.write_str("no robots are no pack"),
@@ -58,7 +58,7 @@ impl fmt::Display for Refused {
     }
 }
 
-impl core::error::Error for Refused {}
+impl core::error::Error for SetupError {}
 
 /// Why there is no team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -73,7 +73,7 @@ pub enum End {
 /// The kind of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Made {
+pub enum MoveKind {
     /// Each robot goes its own way.
     Spread,
     /// This robot, counted from 0, leads, and the others go to it.
@@ -122,20 +122,20 @@ impl Team {
     /// Robots that start in these cells.
     ///
     /// # Errors
-    /// [`Refused`] if they are no pack.
-    pub fn new(rule: Rule, starts: &[Cell]) -> Result<Self, Refused> {
+    /// [`SetupError`] if they are no pack.
+    pub fn new(rule: Rule, starts: &[Cell]) -> Result<Self, SetupError> {
         let robots = starts.len();
         if !(1..=MAX_ROBOTS).contains(&robots) {
-            return Err(Refused::Robots(robots));
+            return Err(SetupError::Robots(robots));
         }
         let together =
             (1..).zip(starts).find(|&(after, start)| starts.iter().skip(after).any(|other| other == start));
         if let Some((_, &cell)) = together {
-            return Err(Refused::Together(cell));
+            return Err(SetupError::Together(cell));
         }
         let joined = joined(starts, |one, other| rule.links(one, other));
         if joined < robots && rule.has(Condition::Connect) {
-            return Err(Refused::Apart(joined, robots));
+            return Err(SetupError::Apart(joined, robots));
         }
         let mut cells = [Cell::default(); MAX_ROBOTS];
         cells.iter_mut().zip(starts).for_each(|(cell, &start)| *cell = start);
@@ -179,7 +179,7 @@ impl Team {
         past: &mut impl Past,
         memory: &mut Scratch<'_>,
         steps: &mut [Step; MAX_ROBOTS],
-    ) -> Result<Made, End> {
+    ) -> Result<MoveKind, End> {
         if self.rule.has(Condition::Lead) && is_side_by_side(self.cells()) {
             past.clear();
         }
@@ -192,7 +192,7 @@ impl Team {
                 (self.stage, self.back, self.was_home) = (Stage::Spread, 1, false);
             }
             let stage = self.stage;
-            let mut making = Making { team: self, chart, memory, steps };
+            let mut making = MovePlanner { team: self, chart, memory, steps };
             let made = match stage {
                 Stage::Spread => making.spread()?,
                 Stage::Lead { goal, .. } => making.lead(goal),
@@ -200,7 +200,7 @@ impl Team {
                 Stage::March { goal } => Some(making.march(goal).ok_or(End::Stuck)?),
             };
             let Some(made) = made else { continue };
-            if made != Made::TakenBack {
+            if made != MoveKind::TakenBack {
                 past.push(steps.get(..self.robots).unwrap_or_default());
             }
             return Ok(made);
@@ -238,16 +238,16 @@ impl Team {
 }
 
 /// A team move in the making.
-struct Making<'a, 'm, W> {
+struct MovePlanner<'a, 'm, W> {
     team: &'a mut Team,
     chart: &'a Chart<W>,
     memory: &'a mut Scratch<'m>,
     steps: &'a mut [Step; MAX_ROBOTS],
 }
 
-impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
+impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
     /// A team move in which each robot goes its own way; `None` if the team goes on otherwise.
-    fn spread(&mut self) -> Result<Option<Made>, End> {
+    fn spread(&mut self) -> Result<Option<MoveKind>, End> {
         for aim in &mut self.team.aims {
             *aim = aim.filter(|aim| self.chart.is_frontier(aim.cell));
         }
@@ -263,7 +263,7 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
             self.take_own_step(robot);
         }
         if self.steps.iter().any(|&step| step != Step::Stay) {
-            return Ok(Some(Made::Spread));
+            return Ok(Some(MoveKind::Spread));
         }
         let nearest = (0..self.team.robots)
             .filter_map(|robot| Some((self.team.aim(robot)?, robot)))
@@ -302,7 +302,7 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
     }
 
     /// A team move in which the leader goes on and the others go to it; `None` if nobody can go.
-    fn lead(&mut self, goal: Cell) -> Option<Made> {
+    fn lead(&mut self, goal: Cell) -> Option<MoveKind> {
         // A robot that is in the leader's way leads from there: it is nearer.
         let leader = self.hand_over(goal);
         self.take_own_step(leader);
@@ -326,7 +326,7 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
             }
         }
         if self.steps.iter().any(|&step| step != Step::Stay) {
-            return Some(Made::Led(leader));
+            return Some(MoveKind::Led(leader));
         }
         let moves = self.team.back;
         if self.team.rule.has(Condition::Double) {
@@ -359,7 +359,7 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
     }
 
     /// A team move that takes the last one back; `None` if the team goes on otherwise.
-    fn take_back(&mut self, goal: Cell, moves: u32, past: &mut impl Past) -> Result<Option<Made>, End> {
+    fn take_back(&mut self, goal: Cell, moves: u32, past: &mut impl Past) -> Result<Option<MoveKind>, End> {
         if !self.team.rule.has(Condition::Back) {
             return Err(End::Stuck);
         }
@@ -377,7 +377,7 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
                 self.team.aims = [None; MAX_ROBOTS];
             }
             self.team.stage = Stage::Back { goal, moves: moves - 1 };
-            return Ok(Some(Made::TakenBack));
+            return Ok(Some(MoveKind::TakenBack));
         }
         let is_home = moves > 0;
         if is_home && is_side_by_side(self.team.cells()) {
@@ -405,7 +405,7 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
     }
 
     /// A team move as a caterpillar.
-    fn march(&mut self, goal: Cell) -> Option<Made> {
+    fn march(&mut self, goal: Cell) -> Option<MoveKind> {
         let (head, side) = self.nearest(goal)?;
         let (length, path) = caterpillar(self.team.cells(), head);
         let mut left = *self.team.cells().get(head)?;
@@ -416,6 +416,6 @@ impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
             self.team.go(robot, side, self.steps).then_some(())?;
             left = from;
         }
-        Some(Made::Marched)
+        Some(MoveKind::Marched)
     }
 }

@@ -1,14 +1,14 @@
 //! How far a position can be trusted: the Cramér–Rao bound, the covariance of an estimate, and the dilution of precision.
 
 use super::normal::information;
-use super::{Point, Range, Residual, Signal, Symmetric};
+use super::{Point, Range, Residual, Signal, SymmetricMatrix};
 
 /// How exact a position is.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Precision {
     /// The covariance of the position, in m².
-    pub covariance: Symmetric,
+    pub covariance: SymmetricMatrix,
     /// The dilution of precision: the root mean square error over that of the distances, if all are alike.
     pub dilution: f64,
 }
@@ -55,7 +55,7 @@ pub(super) fn precision(
             let inverse = information(anchors.clone(), at, |_| 1.0).inverse()?;
             let error = signal.relative_error();
             // The outer products of what each distance moves, so that no rounding makes a variance negative.
-            let covariance = anchors.fold(Symmetric::default(), |sum, anchor| {
+            let covariance = anchors.fold(SymmetricMatrix::default(), |sum, anchor| {
                 let (x, y) = (at.x_m - anchor.x_m, at.y_m - anchor.y_m);
                 sum.plus(error * error, inverse.xx * x + inverse.xy * y, inverse.xy * x + inverse.yy * y)
             });

@@ -304,12 +304,12 @@ impl Landing {
 #[cfg(test)]
 mod tests {
     use super::super::normal::Normal;
-    use super::super::place::Symmetric;
+    use super::super::place::SymmetricMatrix;
     use super::*;
 
     /// A minimum so many metres to the east.
     fn minimum(x_m: f64, cost: f64) -> Landing {
-        let even = Symmetric { xx: 1.0, xy: 0.0, yy: 1.0 };
+        let even = SymmetricMatrix { xx: 1.0, xy: 0.0, yy: 1.0 };
         let normal = Normal { cost, matrix: even, curvature: even, downhill: (0.0, 0.0) };
         Landing { at: Point::new(x_m, 0.0), normal, steps: 0, is_outside: false, is_unsettled: false }
     }

@@ -1,15 +1,15 @@
 //! The normal equations of a position: how well it fits, and which step fits better.
 
 use super::range::LEAST_M;
-use super::{Point, Range, Residual, Symmetric};
+use super::{Point, Range, Residual, SymmetricMatrix};
 
 /// At one position: the sum of the squared residuals, the normal matrix JᵀJ, half of the sum's second derivatives, and Jᵀr, which
 /// leads downhill. Residuals in decibels are in units of [`Signal::decibels`](super::Signal::decibels).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Normal {
     pub(super) cost: f64,
-    pub(super) matrix: Symmetric,
-    pub(super) curvature: Symmetric,
+    pub(super) matrix: SymmetricMatrix,
+    pub(super) curvature: SymmetricMatrix,
     pub(super) downhill: (f64, f64),
 }
 
@@ -36,12 +36,12 @@ impl Normal {
     #[inline]
     fn sum(ranges: &[Range], at: Point, term: impl Fn(&Range, f64) -> Term) -> Self {
         let (mut cost, mut downhill, mut round) = (0.0, (0.0, 0.0), 0.0);
-        let (mut matrix, mut curvature) = (Symmetric::default(), Symmetric::default());
+        let (mut matrix, mut curvature) = (SymmetricMatrix::default(), SymmetricMatrix::default());
         for range in ranges {
             let (x, y) = (at.x_m - range.anchor.x_m, at.y_m - range.anchor.y_m);
             let term = term(range, not_less(x * x + y * y, LEAST_M * LEAST_M));
             let (x, y) = (x * term.factor, y * term.factor);
-            let outer = Symmetric { xx: x * x, xy: x * y, yy: y * y };
+            let outer = SymmetricMatrix { xx: x * x, xy: x * y, yy: y * y };
             cost += term.residual * term.residual;
             matrix = matrix.and(outer);
             curvature = curvature.and(outer.times(1.0 + term.outward));
@@ -58,7 +58,7 @@ impl Normal {
     /// trace is added to the diagonal; where one direction is not told, so much that the step stays finite.
     #[inline]
     pub(super) fn step(&self, damping: f64) -> (f64, f64) {
-        let by = |matrix: Symmetric, damping| matrix.damped(damping).solve(self.downhill);
+        let by = |matrix: SymmetricMatrix, damping| matrix.damped(damping).solve(self.downhill);
         let is_convex = self.curvature.xx > 0.0 && (damping == 0.0 || self.curvature.is_regular());
         let newton = if is_convex { by(self.curvature, damping) } else { None };
         let step = newton.or_else(|| by(self.matrix, damping));
@@ -113,8 +113,8 @@ pub(super) fn information(
     anchors: impl Iterator<Item = Point>,
     at: Point,
     weight: impl Fn(f64) -> f64,
-) -> Symmetric {
-    anchors.fold(Symmetric::default(), |matrix, anchor| {
+) -> SymmetricMatrix {
+    anchors.fold(SymmetricMatrix::default(), |matrix, anchor| {
         let (x, y) = (at.x_m - anchor.x_m, at.y_m - anchor.y_m);
         let squared_m = not_less(x * x + y * y, LEAST_M * LEAST_M);
         matrix.plus(weight(squared_m) / squared_m, x, y)

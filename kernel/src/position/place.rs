@@ -71,7 +71,7 @@ impl Area {
 /// A symmetric matrix of two rows: a covariance in m², or the normal matrix of a step.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Symmetric {
+pub struct SymmetricMatrix {
     /// Above, left.
     pub xx: f64,
     /// Beside the diagonal.
@@ -80,7 +80,7 @@ pub struct Symmetric {
     pub yy: f64,
 }
 
-impl Symmetric {
+impl SymmetricMatrix {
     /// This matrix with `weight` times the outer product of (x, y) added.
     pub(super) const fn plus(self, weight: f64, x: f64, y: f64) -> Self {
         Self { xx: self.xx + weight * x * x, xy: self.xy + weight * x * y, yy: self.yy + weight * y * y }

@@ -14,7 +14,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::pack::{Chart, Status};
 
-use crate::numbers::Drawn;
+use crate::numbers::Congruence;
 
 pub type Map = Chart<Vec<[u64; 2]>>;
 
@@ -29,11 +29,11 @@ pub fn area(first: (i16, i16), width: i16, height: i16) -> Area {
 }
 
 /// Each cell is an obstacle with a chance of `of_hundred` in a hundred.
-pub fn obstacles(drawn: &mut Drawn, area: Area, of_hundred: u32) -> BTreeSet<Cell> {
+pub fn obstacles(drawn: &mut Congruence, area: Area, of_hundred: u32) -> BTreeSet<Cell> {
     area.cells().filter(|_| drawn.pick(100) < of_hundred).collect()
 }
 
-pub fn free_cell(drawn: &mut Drawn, area: Area, obstacles: &BTreeSet<Cell>) -> Cell {
+pub fn free_cell(drawn: &mut Congruence, area: Area, obstacles: &BTreeSet<Cell>) -> Cell {
     let free: Vec<Cell> = area.cells().filter(|cell| !obstacles.contains(cell)).collect();
     free[drawn.pick(free.len() as u32) as usize]
 }

@@ -45,7 +45,7 @@ pub const MOST_NODES: u32 = 1_000_000;
 
 /// The solver's answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Solved {
+pub enum Solution {
     /// No plan is better than this one.
     Best(Plan),
     /// The conditions admit no plan.
@@ -70,15 +70,15 @@ struct Table<'a> {
 
 /// The best plan of the chain in `position`. Ties go to the earlier direction, the leader first. A chain of which not
 /// every robot has options has no plan.
-pub fn best(position: &Position<'_>) -> Solved {
+pub fn best(position: &Position<'_>) -> Solution {
     if position.cells.is_empty() || position.cells.len() != position.options.len() {
-        return Solved::Impossible;
+        return Solution::Impossible;
     }
     let table = Table::new(position);
     let leader = position.cells.len() - 1;
     let bound = table.values[leader].into_iter().max().unwrap_or(NONE);
     if bound == NONE {
-        return Solved::Impossible;
+        return Solution::Impossible;
     }
     let is_distinct = position.rule.has(Condition::Distinct);
     let mut search =
@@ -86,9 +86,9 @@ pub fn best(position: &Position<'_>) -> Solved {
     let is_done = search.descend(leader, None, 0);
     let plan = search.best;
     match (is_done, plan) {
-        (true, Some(plan)) => Solved::Best(plan),
-        (true, None) => Solved::Impossible,
-        (false, plan) => Solved::GaveUp { plan, bound },
+        (true, Some(plan)) => Solution::Best(plan),
+        (true, None) => Solution::Impossible,
+        (false, plan) => Solution::GaveUp { plan, bound },
     }
 }
 
@@ -280,7 +280,7 @@ mod tests {
             let position = Position { rule: &rules[case % rules.len()], cells: &cells, options: &options };
             let due = enumerated(&position);
             match best(&position) {
-                Solved::Best(plan) => {
+                Solution::Best(plan) => {
                     met += 1;
                     assert_eq!(due, Some(plan.value), "{position:?}");
                     let values = plan.steps.iter().zip(&options).skip(1);
@@ -289,11 +289,11 @@ mod tests {
                         values.map(|(step, option)| option.values[step.place()]).sum::<i64>()
                     );
                 }
-                Solved::Impossible => {
+                Solution::Impossible => {
                     impossible += 1;
                     assert_eq!(due, None, "{position:?}");
                 }
-                Solved::GaveUp { .. } => panic!("five robots are searched to the end: {position:?}"),
+                Solution::GaveUp { .. } => panic!("five robots are searched to the end: {position:?}"),
             }
         }
         assert!(met > 5000 && impossible > 0, "{met} {impossible}");

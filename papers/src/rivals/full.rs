@@ -18,7 +18,7 @@ const _: () =
 
 /// The best joint moves.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Found {
+pub struct BestMoves {
     /// How good they are.
     pub score: Score,
     /// How many there are.
@@ -28,7 +28,7 @@ pub struct Found {
 }
 
 /// The best of all joint moves. `None` if there are more robots than [`MOST_SEARCHED`] has.
-pub fn best(joint: &Joint, dice: &mut ChaCha8Rng) -> Option<Found> {
+pub fn best(joint: &Joint, dice: &mut ChaCha8Rng) -> Option<BestMoves> {
     if joint.robots.len() >= MOST_SEARCHED {
         return None;
     }
@@ -44,7 +44,7 @@ pub fn best(joint: &Joint, dice: &mut ChaCha8Rng) -> Option<Found> {
         let place = (set & group).trailing_zeros() as usize;
         space.steps[place % BITS]
     });
-    Some(Found { score, ties, steps: steps.collect() })
+    Some(BestMoves { score, ties, steps: steps.collect() })
 }
 
 /// All candidates as bits, those of a robot side by side, the cheapest lowest.

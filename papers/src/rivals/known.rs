@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 /// A side, as far as it is known.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Known {
+enum SideStatus {
     Nothing,
     Open,
     Wall,
@@ -20,7 +20,7 @@ pub(super) struct Map {
     is_explored: Vec<bool>,
     unexplored: usize,
     /// Row by row: the east side and the south side of each cell.
-    sides: Vec<[Known; 2]>,
+    sides: Vec<[SideStatus; 2]>,
     /// Row by row; [`FAR`] for cells from which none can be reached.
     distances: Vec<u32>,
     is_stale: bool,
@@ -37,7 +37,7 @@ impl Map {
             area,
             is_explored: vec![false; cells],
             unexplored: cells,
-            sides: vec![[Known::Nothing; 2]; cells],
+            sides: vec![[SideStatus::Nothing; 2]; cells],
             distances: vec![0; cells],
             is_stale: true,
         }
@@ -65,28 +65,28 @@ impl Map {
         true
     }
 
-    fn side(&self, edge: Edge) -> Known {
+    fn side(&self, edge: Edge) -> SideStatus {
         let is_inner = self.area.contains(edge.cell().beyond(edge.side()));
         let place = self.place(edge.cell()).filter(|_| is_inner);
-        place.map_or(Known::Wall, |place| self.sides[place][usize::from(edge.side() == Side::South)])
+        place.map_or(SideStatus::Wall, |place| self.sides[place][usize::from(edge.side() == Side::South)])
     }
 
     /// Whether `edge` is known to be a wall; all sides of the area are.
     pub(super) fn is_wall(&self, edge: Edge) -> bool {
-        self.side(edge) == Known::Wall
+        self.side(edge) == SideStatus::Wall
     }
 
     /// Whether `edge` is known to be open.
     pub(super) fn is_open(&self, edge: Edge) -> bool {
-        self.side(edge) == Known::Open
+        self.side(edge) == SideStatus::Open
     }
 
     /// Notes what a robot met that tried to cross `edge`; whether that is a new wall.
     pub(super) fn meet(&mut self, edge: Edge, is_open: bool) -> bool {
         let Some(place) = self.place(edge.cell()) else { return false };
         let side = &mut self.sides[place][usize::from(edge.side() == Side::South)];
-        let is_new = *side == Known::Nothing && !is_open;
-        *side = if is_open { Known::Open } else { Known::Wall };
+        let is_new = *side == SideStatus::Nothing && !is_open;
+        *side = if is_open { SideStatus::Open } else { SideStatus::Wall };
         self.is_stale |= is_new;
         is_new
     }

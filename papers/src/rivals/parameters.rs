@@ -193,26 +193,30 @@ impl Parameters {
     /// Whether `robots`, the base included, can explore so.
     ///
     /// # Errors
-    /// [`Unfit`].
-    pub fn check(&self, robots: usize) -> Result<(), Unfit> {
+    /// [`ParameterError`].
+    pub fn check(&self, robots: usize) -> Result<(), ParameterError> {
         if !(2..=MAX_ROBOTS).contains(&robots) {
-            return Err(Unfit::Robots(robots));
+            return Err(ParameterError::Robots(robots));
         }
         for (name, weight) in [("distance", self.weights.distance), ("new cell", self.weights.new_cell)] {
             // A weight that is no number is not within either.
             if weight.is_nan() || weight.abs() > MOST_WEIGHT {
-                return Err(Unfit::Weight { name, weight });
+                return Err(ParameterError::Weight { name, weight });
             }
         }
         let walkers = robots - 1;
         match (self.moves, self.cells) {
-            (Moves::Four, Cells::Distinct) if walkers > 4 => return Err(Unfit::NoFirstMove { walkers }),
+            (Moves::Four, Cells::Distinct) if walkers > 4 => {
+                return Err(ParameterError::NoFirstMove { walkers });
+            }
             (Moves::Four | Moves::Five, Cells::Distinct | Cells::Shared) => {}
         }
         match self.search {
-            Search::Full if robots > MOST_SEARCHED => Err(Unfit::TooMany { robots, moves: self.moves }),
-            Search::Pool(0) => Err(Unfit::EmptyPool),
-            Search::Pool(pool) if pool > MOST_POOLED => Err(Unfit::LargePool(pool)),
+            Search::Full if robots > MOST_SEARCHED => {
+                Err(ParameterError::TooMany { robots, moves: self.moves })
+            }
+            Search::Pool(0) => Err(ParameterError::EmptyPool),
+            Search::Pool(pool) if pool > MOST_POOLED => Err(ParameterError::LargePool(pool)),
             Search::Full | Search::Pool(_) => Ok(()),
         }
     }
@@ -235,7 +239,7 @@ fn parts(weight: f64) -> i64 {
 
 /// Why a team cannot explore with its parameters.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Unfit {
+pub enum ParameterError {
     /// There is no team of so many.
     Robots(usize),
     /// A weight that is no number, or too large.
@@ -263,7 +267,7 @@ pub enum Unfit {
     LargePool(u32),
 }
 
-impl Unfit {
+impl ParameterError {
     /// The field of a setup that does not fit.
     pub const fn field(&self) -> &'static str {
         match self {
@@ -289,7 +293,7 @@ impl Unfit {
     }
 }
 
-impl fmt::Display for Unfit {
+impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Robots(robots) => write!(f, "there is no team of {robots}, the base counted"),
@@ -317,4 +321,4 @@ impl fmt::Display for Unfit {
     }
 }
 
-impl std::error::Error for Unfit {}
+impl std::error::Error for ParameterError {}

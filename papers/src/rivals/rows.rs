@@ -12,7 +12,7 @@ use tautline_sim::explore::{
 };
 use tautline_sim::layout::{Layout, Problem};
 
-use super::{Cells, Deadlock, Links, Moves, Over, Parameters, Unfit};
+use super::{Cells, Deadlock, Links, Moves, ParameterError, Parameters, Standstill};
 
 /// Links by E_C.
 pub const COVERED: RuleId = RuleId::new("covered");
@@ -118,7 +118,7 @@ pub fn rival(
 }
 
 /// The fault of a team that does not fit.
-pub fn fault(unfit: &Unfit) -> Diagnostic {
+pub fn fault(unfit: &ParameterError) -> Diagnostic {
     Diagnostic::of_field(unfit.field(), unfit, unfit.remedy())
 }
 
@@ -129,9 +129,9 @@ impl Team for Rivals {
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
         self.0.advance(is_open).map_err(|over| match over {
-            Over::Explored => End::Explored,
-            Over::Enclosed => End::Exhausted,
-            Over::Stuck => End::Endless,
+            Standstill::Explored => End::Explored,
+            Standstill::Enclosed => End::Exhausted,
+            Standstill::Stuck => End::Endless,
         })
     }
 

@@ -7,7 +7,7 @@ use tautline_proofs::run::Frame;
 
 use super::joint::{Candidate, Joint};
 use super::known::Map;
-use super::parameters::{Deadlock, Moves, Parameters, Search, Unfit, Weights};
+use super::parameters::{Deadlock, Moves, ParameterError, Parameters, Search, Weights};
 use super::{full, pool};
 use tautline_sim::layout::generate::source;
 
@@ -27,7 +27,7 @@ pub struct Team {
 
 /// Why a team makes no team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Over {
+pub enum Standstill {
     /// Every cell is explored.
     Explored,
     /// The cells left cannot be reached: known walls are round them, or round the base.
@@ -41,14 +41,14 @@ impl Team {
     /// from `seed`.
     ///
     /// # Errors
-    /// [`Unfit`] if so many cannot explore so.
+    /// [`ParameterError`] if so many cannot explore so.
     pub fn new(
         parameters: Parameters,
         robots: usize,
         base: Cell,
         area: Area,
         seed: u64,
-    ) -> Result<Self, Unfit> {
+    ) -> Result<Self, ParameterError> {
         parameters.check(robots)?;
         let mut map = Map::new(area);
         map.explore(base);
@@ -96,15 +96,15 @@ impl Team {
     /// Makes one team move; `is_open` answers for the sides that are not known yet.
     ///
     /// # Errors
-    /// [`Over`] if there is none.
-    pub fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, Over> {
+    /// [`Standstill`] if there is none.
+    pub fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, Standstill> {
         if self.map.is_whole() {
-            return Err(Over::Explored);
+            return Err(Standstill::Explored);
         }
         if self.idle >= self.parameters.patience {
-            return Err(Over::Stuck);
+            return Err(Standstill::Stuck);
         }
-        let joint = self.joint().ok_or(Over::Enclosed)?;
+        let joint = self.joint().ok_or(Standstill::Enclosed)?;
         let moves = match self.parameters.moves {
             Moves::Four => &Step::ALL[..Step::Stay.place()],
             Moves::Five => &Step::ALL[..],

@@ -123,7 +123,7 @@ pub const BRICKS_IDEAL: Agents = Agents::of(
 #[derive(Clone, Copy, Debug)]
 pub struct Agents {
     figure: Figure,
-    about: About,
+    about: Description,
 }
 
 impl Agents {
@@ -132,7 +132,15 @@ impl Agents {
         let pictures = &[("svg", "Store a chart")];
         Self {
             figure,
-            about: About { id, shows, help, examples, doing: "exploring", pictures, ..About::NOTHING },
+            about: Description {
+                id,
+                shows,
+                help,
+                examples,
+                doing: "exploring",
+                pictures,
+                ..Description::NOTHING
+            },
         }
     }
 }
@@ -185,14 +193,14 @@ type Job = Run<(u16, u16)>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     layouts: u32,
     seed: u64,
     miss: f64,
     max_steps: u32,
     /// Point by point, each of all teams.
     pub lines: Vec<Line>,
-    paper: Vec<Printed>,
+    paper: Vec<PrintedFigure>,
 }
 
 /// A team at a point.
@@ -262,10 +270,10 @@ impl Outcome {
 impl Table for Agents {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Outcome; TEAMS.len()];
-    type Merged = Merged;
+    type Sample = [Outcome; TEAMS.len()];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
+    fn about(&self) -> Description {
         self.about
     }
 
@@ -277,7 +285,7 @@ impl Table for Agents {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let ((side, agents), seed) = (run.at, run.seed(settings.seed));
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
         let starts = vec![fit(layout.default_base())?; agents.into()];
@@ -285,7 +293,7 @@ impl Table for Agents {
         Ok(TEAMS.map(|team| team.way.run(&layout, &starts, chance, settings.max_steps)))
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let Settings { layouts, seed, max_steps } = *settings;
         let at = |(side, agents)| {
             let teams = TEAMS.into_iter().zip(of_teams(&results, (side, agents)));
@@ -293,14 +301,14 @@ impl Table for Agents {
         };
         let lines: Vec<Line> = self.figure.points().into_iter().flat_map(at).collect();
         let paper = printed::of(self.figure, &lines);
-        Ok(Merged { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, paper })
+        Ok(Summary { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, paper })
     }
 
-    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(printed::text(self.figure, merged))
     }
 
-    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(drawn::chart(self.figure, &merged.lines).svg())
     }
 }

@@ -5,7 +5,7 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::tan::{Heading, Scan};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::notice_fig5::RANGE_M;
 use super::prelude::*;
@@ -45,7 +45,7 @@ pub struct Job {
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     distance_m: f64,
     scans: u32,
     seed: u64,
@@ -134,7 +134,7 @@ impl Settings {
         let (ear, stand) = (self.ear(0.0)?, Stand::new(self.distance_m).map_err(usage)?);
         let angle = |steps: i32| {
             let degrees = 15 * steps;
-            let chance = &mut Seeded::new(self.seed, 0);
+            let chance = &mut SeededOracle::new(self.seed, 0);
             let level_db = stand.level_db(&ear, stand.node(f64::from(degrees)), Heading::FIRST, chance);
             Angle { degrees, level_db }
         };
@@ -150,11 +150,11 @@ fn distance(text: &str) -> Result<f64, String> {
 impl Table for AntennaFig4 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Noise;
-    type Merged = Merged;
+    type Sample = Noise;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "antenna-fig4",
             shows: "what a robot hears of a node all round with its directional antenna, and how far off the strongest \
                     direction is from the node's, by the noise",
@@ -178,7 +178,7 @@ impl Table for AntennaFig4 {
     fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Noise, Halt> {
         let Job { noise_db } = *job;
         let (ear, stand) = (settings.ear(noise_db)?, Stand::new(settings.distance_m).map_err(usage)?);
-        let chance = &mut Seeded::new(settings.seed, 1);
+        let chance = &mut SeededOracle::new(settings.seed, 1);
         let scans: Vec<(f64, f64)> = (0..settings.scans)
             .map(|_| {
                 let degrees = chance.pick(360);
@@ -193,13 +193,13 @@ impl Table for AntennaFig4 {
         Ok(Noise { noise_db, right: within(0.0), beside: within(15.0), degrees_off: rounded(off, 1e2) })
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let Settings { distance_m, scans, seed, .. } = *settings;
         let noises = results.into_iter().map(|(_, noise)| noise).collect();
-        Ok(Merged { distance_m, scans, seed, pattern: settings.pattern()?, noises })
+        Ok(Summary { distance_m, scans, seed, pattern: settings.pattern()?, noises })
     }
 
-    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let level = |angle: &Angle| match angle.level_db {
             Some(level_db) => format!("{level_db:.2}"),
             None => "nothing".to_owned(),
@@ -225,7 +225,7 @@ impl Table for AntennaFig4 {
         ))
     }
 
-    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let point = |angle: &Angle| Some(chart::Point::plain(angle.degrees.into(), angle.level_db?));
         let chart = LineChart::new(
             format!("What a robot hears of a node {} m off", merged.distance_m),

@@ -1,6 +1,8 @@
 //! The atlas of the chain: for each rule and number of robots, what becomes of all runs in all layouts within a bound
 //! on the walls met. All counts are exact.
 
+use std::fmt::Write;
+
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
@@ -48,17 +50,17 @@ type Job = (Sheet, RuleName);
 
 /// The findings of a search.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Searched {
+pub struct SearchResult {
     edges: u32,
     runs: u64,
     moves: u64,
     longest: u32,
-    broken: Vec<Broken>,
+    broken: Vec<ViolationCount>,
 }
 
 /// The whole atlas.
 #[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     /// Sheet by sheet, each under every rule.
     pub lines: Vec<Line>,
 }
@@ -130,7 +132,7 @@ pub struct Line {
     /// Team moves of the longest run.
     pub longest: u32,
     /// The clauses that the runs break.
-    pub broken: Vec<Broken>,
+    pub broken: Vec<ViolationCount>,
     /// Whether it was looked for runs that break CHAIN-14 and not CHAIN-13.
     pub looked_beyond: bool,
 }
@@ -141,7 +143,7 @@ fn as_string<S: serde::Serializer>(number: &u128, serializer: S) -> Result<S::Ok
 
 /// The runs that break a clause.
 #[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Broken {
+pub struct ViolationCount {
     /// Its id.
     pub clause: String,
     /// How many.
@@ -153,7 +155,7 @@ pub struct Broken {
     pub steps: usize,
 }
 
-impl Broken {
+impl ViolationCount {
     fn of(found: &Counterexample) -> Self {
         let between = |wall: &Edge| [wall.cell(), wall.cell().beyond(wall.side())];
         Self {
@@ -181,18 +183,18 @@ const BEYOND: &str = Invariant::Exhausts.clause();
 impl Table for Atlas {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Searched;
-    type Merged = Merged;
+    type Sample = SearchResult;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "atlas",
             shows: "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
                     how long, and how many break which clause",
             help: "What becomes of all runs in all layouts with few walls, by rule and number of robots",
             examples: &["atlas", "atlas --deep --format json"],
             doing: "searching",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -205,7 +207,12 @@ impl Table for Atlas {
         Ok(pairs(settings.depth.sheets(), RuleName::ALL).collect())
     }
 
-    fn measure(&self, _: &Settings, &(sheet, rule): &Job, observer: &dyn Observer) -> Result<Searched, Halt> {
+    fn measure(
+        &self,
+        _: &Settings,
+        &(sheet, rule): &Job,
+        observer: &dyn Observer,
+    ) -> Result<SearchResult, Halt> {
         let mut bounds = Bounds::new(rule.observed(), sheet.robots.into(), sheet.max_walls);
         if sheet.reach == Reach::Counted {
             bounds.invariants.push(Invariant::Exhausts);
@@ -217,27 +224,27 @@ impl Table for Atlas {
         }
         let edges = search.progress().edges;
         let found = search.found();
-        Ok(Searched {
+        Ok(SearchResult {
             edges,
             runs: found.runs,
             moves: found.moves,
             longest: found.longest,
-            broken: found.counterexamples.iter().map(Broken::of).collect(),
+            broken: found.counterexamples.iter().map(ViolationCount::of).collect(),
         })
     }
 
-    fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
-        let line = |((sheet, rule), searched): (Job, Searched)| {
-            let Searched { edges, runs, moves, longest, broken } = searched;
+    fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
+        let line = |((sheet, rule), searched): (Job, SearchResult)| {
+            let SearchResult { edges, runs, moves, longest, broken } = searched;
             let Sheet { robots, max_walls, reach } = sheet;
             let layouts = layouts(edges, max_walls);
             let looked_beyond = reach == Reach::Counted;
             Line { rule, robots, max_walls, edges, layouts, runs, moves, longest, broken, looked_beyond }
         };
-        Ok(Merged { lines: results.into_iter().map(line).collect() })
+        Ok(Summary { lines: results.into_iter().map(line).collect() })
     }
 
-    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let mut columns = Columns::of(&merged.lines)
             .right("N", Fit, |line| line.robots)
             .right("walls", Fit, |line| line.max_walls)
@@ -258,19 +265,19 @@ impl Table for Atlas {
             columns.text()
         );
         for Line { robots, rule, broken, .. } in &merged.lines {
-            for Broken { clause, walls, steps, .. } in broken {
+            for ViolationCount { clause, walls, steps, .. } in broken {
                 let between: Vec<String> =
                     walls.iter().map(|[one, other]| format!("{one}|{other}")).collect();
                 let (walls, moves) = (counted(walls.len(), "wall"), counted(*steps, "team move"));
                 let between = between.join(" ");
-                text += &format!("{robots} robots, {rule}: {clause}, {walls}, {moves}: {between}\n");
+                let _ = writeln!(text, "{robots} robots, {rule}: {clause}, {walls}, {moves}: {between}");
             }
         }
         Ok(text)
     }
 
     /// That some chain-reachable cells are missed is registered; all else the repaired rule must keep to.
-    fn is_broken(&self, merged: &Merged) -> bool {
+    fn is_broken(&self, merged: &Summary) -> bool {
         let repaired = merged.lines.iter().filter(|line| line.rule == RuleName::Repaired);
         repaired.flat_map(|line| &line.broken).any(|broken| broken.clause != BEYOND)
     }

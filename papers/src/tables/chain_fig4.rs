@@ -65,7 +65,7 @@ pub struct Run {
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     robots: u16,
     runs: Vec<Run>,
 }
@@ -97,11 +97,11 @@ impl Place {
 impl Table for ChainFig4 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Run;
-    type Merged = Merged;
+    type Sample = Run;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "chain-fig4",
             shows: "the trajectories of seven robots without and with obstacles, and what the runs take: minutes, metres, \
                     contacts",
@@ -155,12 +155,12 @@ impl Table for ChainFig4 {
         })
     }
 
-    fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let runs = results.into_iter().map(|(_, run)| run).collect();
-        Ok(Merged { robots: ROBOTS, runs })
+        Ok(Summary { robots: ROBOTS, runs })
     }
 
-    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Body { cell_mm, speed_mm, drift_per_mille, .. } = Body::NXT;
         let mut text = format!(
             "{ROBOTS} robots: cells of {} m, {speed_mm} mm/s, error {drift_per_mille} ‰ of the way\n\n",
@@ -203,12 +203,12 @@ impl Table for ChainFig4 {
         Ok(text)
     }
 
-    fn draw(&self, number: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, number: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         picture(merged, Place::ALL[number])
     }
 }
 
-fn picture(merged: &Merged, place: Place) -> Result<String, Halt> {
+fn picture(merged: &Summary, place: Place) -> Result<String, Halt> {
     let rule = RuleName::Published;
     let setup = place.setup(rule)?;
     let run = merged.runs.iter().find(|run| run.place == place && run.rule == rule);

@@ -45,7 +45,7 @@ type Job = u16;
 
 /// The result of one run.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Measured {
+pub struct Sample {
     team_moves: u32,
     bytes: u32,
     /// Team moves after which two neighbours are out of E_C.
@@ -57,7 +57,7 @@ pub struct Measured {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     settings: Settings,
     switch_ms: [u64; 2],
     lines: Vec<Line>,
@@ -82,11 +82,11 @@ struct Line {
 impl Table for ChainRadio {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Measured;
-    type Merged = Merged;
+    type Sample = Sample;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "chain-radio",
             shows: "a chain with two radios a robot against a scatternet of bridges, for three to eight robots: how long the bytes \
                     of a team move take, and how long a run waits for them",
@@ -95,7 +95,7 @@ impl Table for ChainRadio {
                    team move are the least that bridges need.",
             examples: &["chain-radio", "chain-radio --hop-ms 5 --format json"],
             doing: "sending",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -103,7 +103,7 @@ impl Table for ChainRadio {
         Ok(TEAMS.into())
     }
 
-    fn measure(&self, settings: &Settings, &robots: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
+    fn measure(&self, settings: &Settings, &robots: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
         let side = u64::from(2 * robots - 1);
         let (layout, base) = based(fit(Layout::open(side, side))?)?;
         let setup = Setup::new(&CHAIN, RuleName::Repaired, robots, layout, base);
@@ -127,18 +127,18 @@ impl Table for ChainRadio {
         let waiting_ms: Vec<u64> =
             std::iter::repeat_with(run).take(settings.runs as usize).map(|ms| ms + hops).collect();
         let (team_moves, driving_ms) = (report.steps, odometer.milliseconds);
-        Ok(Measured { team_moves, bytes: log.len() as u32, cut, driving_ms, waiting_ms })
+        Ok(Sample { team_moves, bytes: log.len() as u32, cut, driving_ms, waiting_ms })
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let lines = results
             .into_iter()
             .map(|(robots, measured)| Line::of(robots, &measured, settings.hop_ms))
             .collect();
-        Ok(Merged { settings: *settings, switch_ms: SWITCH_MS, lines })
+        Ok(Summary { settings: *settings, switch_ms: SWITCH_MS, lines })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let [least, most] = SWITCH_MS.map(|ms| ms / 1000);
         let mut text = format!(
             "Chains without walls, a hop {} ms, a switch {least} to {most} s; means of {} with 95 % intervals\n\n",
@@ -196,8 +196,8 @@ fn of_ms(ms: u64, unit_ms: f64) -> f64 {
 }
 
 impl Line {
-    fn of(robots: u16, measured: &Measured, hop_ms: u64) -> Self {
-        let Measured { team_moves, bytes, cut, driving_ms, waiting_ms } = measured;
+    fn of(robots: u16, measured: &Sample, hop_ms: u64) -> Self {
+        let Sample { team_moves, bytes, cut, driving_ms, waiting_ms } = measured;
         let dual_ms = u64::from(robots - 1) * hop_ms;
         let mean = |of: &dyn Fn(u64) -> f64| {
             mean(waiting_ms.iter().map(|&ms| of(ms))).map(|mean| rounded(mean, 100.0))

@@ -8,18 +8,18 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::csv::csv;
-use super::parameter::Given;
-use super::{About, Observer, Table, measure};
+use super::parameter::TableOption;
+use super::{Description, Observer, Table, measure};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::schema;
 
 /// A table of any types.
 pub trait Entry: fmt::Debug + Sync {
     /// Its name, and what a person is told of it.
-    fn about(&self) -> About;
+    fn about(&self) -> Description;
 
     /// Its options, in the order of its help, each with the texts that stand for it where it is not given.
-    fn options(&self) -> Vec<(Given, Vec<String>)>;
+    fn options(&self) -> Vec<(TableOption, Vec<String>)>;
 
     /// Whether `text` is a value of the option `name`.
     ///
@@ -34,17 +34,17 @@ pub trait Entry: fmt::Debug + Sync {
     ///
     /// # Errors
     /// A [`Diagnostic`] if a value is wrong.
-    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Diagnostic>;
+    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Experiment + 'a>, Diagnostic>;
 
-    /// The table with settings as [`Asked::settings`] gave them.
+    /// The table with settings as [`Experiment::settings`] gave them.
     ///
     /// # Errors
     /// A [`Diagnostic`] if they are none.
-    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Diagnostic>;
+    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Experiment + 'a>, Diagnostic>;
 }
 
 /// A table with its settings.
-pub trait Asked: Sync {
+pub trait Experiment: Sync {
     /// Its settings as JSON.
     ///
     /// # Errors
@@ -67,17 +67,17 @@ pub trait Asked: Sync {
     ///
     /// # Errors
     /// [`Halt`] if they are not those of all jobs.
-    fn merge<'a>(&'a self, results: &[String]) -> Result<Box<dyn Made + 'a>, Halt>;
+    fn merge<'a>(&'a self, results: &[String]) -> Result<Box<dyn Report + 'a>, Halt>;
 
     /// The table, measured here and now on all threads.
     ///
     /// # Errors
     /// [`Halt`], as the observer returned it, or if the settings cannot be measured.
-    fn run<'a>(&'a self, observer: &dyn Observer) -> Result<Box<dyn Made + 'a>, Halt>;
+    fn run<'a>(&'a self, observer: &dyn Observer) -> Result<Box<dyn Report + 'a>, Halt>;
 }
 
 /// A table that has been measured.
-pub trait Made {
+pub trait Report {
     /// For people.
     ///
     /// # Errors
@@ -93,7 +93,7 @@ pub trait Made {
     /// For spreadsheets and data frames: comma-separated values, a row for each element of each of its lists.
     ///
     /// # Errors
-    /// A [`Diagnostic`] as of [`Made::json`].
+    /// A [`Diagnostic`] as of [`Report::json`].
     fn csv(&self, schema_version: u32) -> Result<String, Diagnostic> {
         csv(&self.json(schema_version)?)
     }
@@ -109,11 +109,11 @@ pub trait Made {
 }
 
 impl<T: Table> Entry for T {
-    fn about(&self) -> About {
+    fn about(&self) -> Description {
         Table::about(self)
     }
 
-    fn options(&self) -> Vec<(Given, Vec<String>)> {
+    fn options(&self) -> Vec<(TableOption, Vec<String>)> {
         let settings = T::Settings::default();
         let parameters = self.parameters().into_iter();
         parameters.map(|parameter| (parameter.option, (parameter.show)(&settings))).collect()
@@ -125,10 +125,10 @@ impl<T: Table> Entry for T {
     }
 
     fn schema(&self) -> Schema {
-        schema::of::<Document<'_, T::Merged>>(&format!("tautline reproduce {}", Table::about(self).id))
+        schema::of::<Document<'_, T::Summary>>(&format!("tautline reproduce {}", Table::about(self).id))
     }
 
-    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Diagnostic> {
+    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Experiment + 'a>, Diagnostic> {
         let mut settings = T::Settings::default();
         for parameter in self.parameters() {
             let name = parameter.option.name;
@@ -138,22 +138,22 @@ impl<T: Table> Entry for T {
                     .map_err(|remedy| Diagnostic::usage(format_args!("--{name} is wrong"), remedy))?;
             }
         }
-        Ok(Box::new(With { table: self, settings }))
+        Ok(Box::new(TableExperiment { table: self, settings }))
     }
 
-    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Diagnostic> {
-        Ok(Box::new(With { table: self, settings: read(settings)? }))
+    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Experiment + 'a>, Diagnostic> {
+        Ok(Box::new(TableExperiment { table: self, settings: read(settings)? }))
     }
 }
 
-struct With<'a, T: Table> {
+struct TableExperiment<'a, T: Table> {
     table: &'a T,
     settings: T::Settings,
 }
 
-struct Whole<'a, T: Table> {
-    asked: &'a With<'a, T>,
-    merged: T::Merged,
+struct TableReport<'a, T: Table> {
+    asked: &'a TableExperiment<'a, T>,
+    merged: T::Summary,
 }
 
 /// The head of every JSON object of a table.
@@ -174,7 +174,7 @@ fn read<V: DeserializeOwned>(text: &str) -> Result<V, Diagnostic> {
     serde_json::from_str(text).map_err(|error| Diagnostic::usage(error, "take it as tautline wrote it"))
 }
 
-impl<T: Table> Asked for With<'_, T> {
+impl<T: Table> Experiment for TableExperiment<'_, T> {
     fn settings(&self) -> Result<String, Diagnostic> {
         written(&self.settings)
     }
@@ -188,7 +188,7 @@ impl<T: Table> Asked for With<'_, T> {
         Ok(written(&self.table.measure(&self.settings, &read(job)?, &())?)?)
     }
 
-    fn merge<'a>(&'a self, results: &[String]) -> Result<Box<dyn Made + 'a>, Halt> {
+    fn merge<'a>(&'a self, results: &[String]) -> Result<Box<dyn Report + 'a>, Halt> {
         let jobs = self.table.jobs(&self.settings)?;
         if jobs.len() != results.len() {
             let what = format!("{} results of {} jobs", results.len(), jobs.len());
@@ -196,16 +196,16 @@ impl<T: Table> Asked for With<'_, T> {
         }
         let results = results.iter().map(|result| read(result)).collect::<Result<Vec<_>, _>>()?;
         let merged = self.table.merge(&self.settings, jobs.into_iter().zip(results).collect())?;
-        Ok(Box::new(Whole { asked: self, merged }))
+        Ok(Box::new(TableReport { asked: self, merged }))
     }
 
-    fn run<'a>(&'a self, observer: &dyn Observer) -> Result<Box<dyn Made + 'a>, Halt> {
+    fn run<'a>(&'a self, observer: &dyn Observer) -> Result<Box<dyn Report + 'a>, Halt> {
         let merged = measure(self.table, &self.settings, observer)?;
-        Ok(Box::new(Whole { asked: self, merged }))
+        Ok(Box::new(TableReport { asked: self, merged }))
     }
 }
 
-impl<T: Table> Made for Whole<'_, T> {
+impl<T: Table> Report for TableReport<'_, T> {
     fn text(&self) -> Result<String, Halt> {
         self.asked.table.text(&self.asked.settings, &self.merged)
     }
@@ -216,7 +216,7 @@ impl<T: Table> Made for Whole<'_, T> {
     }
 
     fn picture(&self, name: &str) -> Result<String, Halt> {
-        let With { table, settings } = self.asked;
+        let TableExperiment { table, settings } = self.asked;
         let names: Vec<&str> = Table::about(*table).pictures.iter().map(|&(name, _)| name).collect();
         let place = names.iter().position(|&known| known == name).ok_or_else(|| {
             let remedy = format!("ask for one of {names:?}");

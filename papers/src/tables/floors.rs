@@ -64,7 +64,7 @@ pub struct Line {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     settings: Settings,
     /// Layout by layout, by the number of agents, of all teams.
     pub lines: Vec<Line>,
@@ -73,11 +73,11 @@ pub struct Merged {
 impl Table for Floors {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Outcome; TEAMS.len()];
-    type Merged = Merged;
+    type Sample = [Outcome; TEAMS.len()];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "floors",
             shows: "agents on sensor floors: team moves until everything is explored, and until all agents know it, over the lower \
                     bound",
@@ -101,22 +101,22 @@ impl Table for Floors {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let Settings { maps, seed, miss, max_steps, .. } = settings;
         let (layout, starts) = floor(maps, run, *seed)?;
         let miss = Probability::new(*miss).unwrap_or(Probability::NEVER);
         Ok(TEAMS.map(|team| team.way.run(&layout, &starts, (miss, run.seed(*seed)), *max_steps)))
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let lines = points(&settings.maps, &settings.agents).flat_map(|(map, agents)| {
             let teams = TEAMS.into_iter().zip(of_teams(&results, (map, agents)));
             teams.map(move |(team, outcomes)| Line::of(&settings.maps[map], team, agents, &outcomes))
         });
-        Ok(Merged { settings: settings.clone(), lines: lines.collect() })
+        Ok(Summary { settings: settings.clone(), lines: lines.collect() })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { starts, seed, miss, max_steps, .. } = settings;
         let columns = Columns::of(&merged.lines)
             .left("layout", Fit, |line| file_name(&line.map))
@@ -138,7 +138,7 @@ impl Table for Floors {
     }
 
     /// The share of an agent's moves that the lower bound needs, by the number of agents: all layouts together.
-    fn draw(&self, _: usize, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let series = |team: Team| {
             let at = |&agents: &u16| {
                 let lines = merged.lines.iter().filter(|line| (line.team, line.agents) == (team, agents));

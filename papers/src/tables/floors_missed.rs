@@ -67,7 +67,7 @@ pub struct Line {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     settings: Settings,
     /// Layout by layout, by the number of agents, of all teams.
     pub lines: Vec<Line>,
@@ -76,11 +76,11 @@ pub struct Merged {
 impl Table for FloorsMissed {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Outcome; TEAMS.len()];
-    type Merged = Merged;
+    type Sample = [Outcome; TEAMS.len()];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "floors-missed",
             shows: "agents on sensor floors that miss sensors: how often one is done too early, and what it costs over the lower \
                     bound",
@@ -93,7 +93,7 @@ impl Table for FloorsMissed {
                 "floors-missed --map den312d.map --agents 4,20 --runs 20 --max-steps 2000000",
             ],
             doing: "exploring",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -105,7 +105,7 @@ impl Table for FloorsMissed {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let Settings { maps, miss, max_steps, .. } = settings;
         let seed = run.seed(settings.seed);
         let (layout, starts) = floor(maps, run, seed)?;
@@ -113,7 +113,7 @@ impl Table for FloorsMissed {
         Ok(TEAMS.map(|(_, way)| way.run(&layout, &starts, (miss, seed), *max_steps)))
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let lines = points(&settings.maps, &settings.agents).flat_map(|(map, agents)| {
             let teams = TEAMS.into_iter().zip(of_teams(&results, (map, agents)));
             teams.map(move |((team, _), outcomes)| Line {
@@ -126,10 +126,10 @@ impl Table for FloorsMissed {
                 ended: share(&outcomes, |outcome| outcome.is_ended),
             })
         });
-        Ok(Merged { settings: settings.clone(), lines: lines.collect() })
+        Ok(Summary { settings: settings.clone(), lines: lines.collect() })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { runs, seed, miss, max_steps, .. } = settings;
         let columns = Columns::of(&merged.lines)
             .left("layout", Fit, |line| file_name(&line.map))

@@ -41,7 +41,7 @@ settings! {
         pub layouts: u32 = 1000, one("layouts", "COUNT", from_to(1..=100_000));
         /// The seed of the first layout and its runs; the others have the seeds after it
         pub seed: u64 = 0, one("seed", "SEED", number);
-        /// TextTable of each layout
+        /// Columns of each layout
         pub columns: u16 = 6, one("columns", "COLUMNS", from_to(1..=32));
         /// Rows of each layout
         pub rows: u16 = 7, one("rows", "ROWS", from_to(1..=32));
@@ -66,13 +66,13 @@ pub struct Outcome {
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     #[serde(flatten)]
     settings: Settings,
     /// Rule by rule, each for all teams.
     pub lines: Vec<Line>,
     /// The paper's sentences, and what comes out.
-    pub judged: Vec<Judged>,
+    pub judged: Vec<Judgement>,
 }
 
 /// A team of a rule.
@@ -97,7 +97,7 @@ pub struct Line {
 
 /// A sentence of the paper.
 #[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-pub struct Judged {
+pub struct Judgement {
     /// The paper's sentence.
     pub sentence: &'static str,
     /// The measured outcome.
@@ -107,11 +107,11 @@ pub struct Judged {
 impl Table for FrontierFig7 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Vec<Outcome>;
-    type Merged = Merged;
+    type Sample = Vec<Outcome>;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "frontier-fig7",
             shows: "frontier cells: how many team moves 1 to 8 robots take to explore every cell, by every rule and rival",
             help: "How many team moves robots take that go from frontier cell to frontier cell",
@@ -121,7 +121,7 @@ impl Table for FrontierFig7 {
             ],
             doing: "exploring",
             pictures: &[("svg", "Store a chart of the team moves")],
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -145,7 +145,7 @@ impl Table for FrontierFig7 {
         teams().map(|(rule, robots)| follow(rule, &layout, &starts[..robots.into()], seed)).collect()
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let outcomes = |wanted: (RuleId, u16)| -> Vec<Outcome> {
             let place = teams().position(|team| team == wanted);
             results.iter().filter_map(|(_, outcomes)| outcomes.get(place?).copied()).collect()
@@ -155,10 +155,10 @@ impl Table for FrontierFig7 {
         };
         let lines: Vec<Line> = teams().map(line).collect();
         let judged = judged(&lines);
-        Ok(Merged { settings: *settings, lines, judged })
+        Ok(Summary { settings: *settings, lines, judged })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { layouts, columns, rows, blocked, .. } = settings;
         let moves = format!(
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
@@ -180,12 +180,12 @@ impl Table for FrontierFig7 {
             }
             columns.text()
         };
-        let said = |Judged { sentence, outcome }: &Judged| format!("“{sentence}”: {outcome}.\n");
+        let said = |Judgement { sentence, outcome }: &Judgement| format!("“{sentence}”: {outcome}.\n");
         Ok(parts.map(part).concat() + &merged.judged.iter().map(said).collect::<String>())
     }
 
     /// Team moves over robots, a line for each rule.
-    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let series = |lines: &[Line]| {
             let is_whole = |line: &&Line| line.whole.is_some_and(|whole| whole.mean > 50.0);
             let whole = lines.iter().filter(is_whole);
@@ -201,7 +201,7 @@ impl Table for FrontierFig7 {
     }
 
     /// A repaired team explores every cell, and never has two robots in one.
-    fn is_broken(&self, merged: &Merged) -> bool {
+    fn is_broken(&self, merged: &Summary) -> bool {
         let repaired = |line: &&Line| line.rule == RuleId::REPAIRED || line.rule.as_str() == "plain";
         merged.lines.iter().filter(repaired).any(|line| {
             line.whole.is_some_and(|whole| whole.mean < 100.0)
@@ -267,7 +267,7 @@ impl Line {
 }
 
 /// The paper's sentences about Fig. 7, judged by what is measured.
-fn judged(lines: &[Line]) -> Vec<Judged> {
+fn judged(lines: &[Line]) -> Vec<Judgement> {
     let of = |rule: &str, robots: u16| {
         lines.iter().find(|line| line.rule.as_str() == rule && line.robots == robots)
     };
@@ -275,7 +275,7 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
     let percent =
         |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| text(of(rule, robots).and_then(part), 1);
     vec![
-        Judged {
+        Judgement {
             sentence: "performs better when team of robots has 8 members",
             outcome: format!(
                 "8 is the largest team that is compared. Robots that wander take {} team moves with 6 and {} with 8, repaired \
@@ -286,7 +286,7 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
                 moves("repaired", 8)
             ),
         },
-        Judged {
+        Judgement {
             sentence: "avoiding … missing out sectors",
             outcome: format!(
                 "refuted: one published robot explores {} % of the cells, and all of them in {} % of the runs; repaired {} %",
@@ -295,7 +295,7 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
                 percent(|line| line.whole, "repaired", 1)
             ),
         },
-        Judged {
+        Judgement {
             sentence: "avoiding overlapping",
             outcome: format!(
                 "refuted: of the runs of 8 published robots {} % have two in one cell; repaired {} %",

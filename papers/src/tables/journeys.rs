@@ -60,7 +60,7 @@ pub const RESCUE_FIG10: Journeys = Journeys::of(
 #[derive(Clone, Copy, Debug)]
 pub struct Journeys {
     figure: Figure,
-    about: About,
+    about: Description,
 }
 
 /// The figures.
@@ -170,7 +170,7 @@ type Job = Run<usize>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     side_m: f64,
     range_m: f64,
     /// West, north, east and south of each, in metres.
@@ -197,7 +197,15 @@ impl Journeys {
         )];
         Self {
             figure,
-            about: About { id, shows, help, examples, doing: "walking", pictures, ..About::NOTHING },
+            about: Description {
+                id,
+                shows,
+                help,
+                examples,
+                doing: "walking",
+                pictures,
+                ..Description::NOTHING
+            },
         }
     }
 
@@ -217,10 +225,10 @@ impl Journeys {
 impl Table for Journeys {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Sample;
-    type Merged = Merged;
+    type Sample = Sample;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
+    fn about(&self) -> Description {
         self.about
     }
 
@@ -239,19 +247,19 @@ impl Table for Journeys {
         Sample::of(&world).map_err(usage)
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let Settings { nodes, side_m, range_m, obstacles_m, k, noise_db, topologies, seed } =
             self.whole(settings);
         let nodes = nodes.into_iter().enumerate();
         let densities = nodes.map(|(density, nodes)| Density::of(nodes, &at(&results, density))).collect();
-        Ok(Merged { side_m, range_m, obstacles: obstacles_m, k, noise_db, topologies, seed, densities })
+        Ok(Summary { side_m, range_m, obstacles: obstacles_m, k, noise_db, topologies, seed, densities })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(text::figures(&self.whole(settings), &merged.densities))
     }
 
-    fn draw(&self, _: usize, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         match self.figure {
             Figure::Ratios => Ok(drawn::chart(&merged.densities).svg()),
             Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles => {

@@ -73,7 +73,7 @@ pub const KIT_FIG14: Kit = Kit::of(
 #[derive(Clone, Copy, Debug)]
 pub struct Kit {
     figure: Figure,
-    about: About,
+    about: Description,
 }
 
 impl Kit {
@@ -82,7 +82,15 @@ impl Kit {
         let pictures = &[("svg", "Store a chart")];
         Self {
             figure,
-            about: About { id, shows, help, examples, doing: "driving", pictures, ..About::NOTHING },
+            about: Description {
+                id,
+                shows,
+                help,
+                examples,
+                doing: "driving",
+                pictures,
+                ..Description::NOTHING
+            },
         }
     }
 }
@@ -131,14 +139,14 @@ pub struct Outcome {
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     #[serde(flatten)]
     settings: Settings,
     /// Family by family, each of all teams.
     pub lines: Vec<Line>,
     /// Two robots against one, as published, for each family.
     pub races: Vec<Race>,
-    paper: Vec<Printed>,
+    paper: Vec<PrintedFigure>,
 }
 
 /// A team in a family.
@@ -179,10 +187,10 @@ pub struct Race {
 impl Table for Kit {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Outcome; TEAMS.len()];
-    type Merged = Merged;
+    type Sample = [Outcome; TEAMS.len()];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
+    fn about(&self) -> Description {
         self.about
     }
 
@@ -194,7 +202,7 @@ impl Table for Kit {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let family = FAMILIES.get(run.at).copied().unwrap_or(FAMILIES[0]);
         let seed = run.seed(settings.seed);
         let (layout, start) = fit(family.layout(seed))?;
@@ -202,7 +210,7 @@ impl Table for Kit {
         Ok(TEAMS.map(|team| follow(team, &layout, start, pace, seed)))
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let (mut lines, mut races) = (Vec::new(), Vec::new());
         for (place, family) in FAMILIES.into_iter().enumerate() {
             let teams = of_teams(&results, place);
@@ -210,19 +218,19 @@ impl Table for Kit {
             races.push(Race::of(family.name, &teams[ONE], &teams[TWO]));
         }
         let paper = printed::of(self.figure, &lines, &races);
-        Ok(Merged { settings: *settings, lines, races, paper })
+        Ok(Summary { settings: *settings, lines, races, paper })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(printed::text(self.figure, settings, merged))
     }
 
-    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(drawn::chart(self.figure, &merged.lines).svg())
     }
 
     /// A repaired team always keeps in touch, and one or two of its robots drive every path.
-    fn is_broken(&self, merged: &Merged) -> bool {
+    fn is_broken(&self, merged: &Summary) -> bool {
         let is_broken = |line: &&Line| {
             line.ended > 0 && line.team.robots < 3 || line.cut.is_some_and(|cut| cut.mean > 0.0)
         };

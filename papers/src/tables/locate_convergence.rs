@@ -7,7 +7,7 @@ use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
     Draws, Order, Parameters, Particle, Point, Residual, Signal, Swarm, closed_form, locate,
 };
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
 use crate::chart;
@@ -73,12 +73,12 @@ type Job = usize;
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Course {
     /// By the number of iterations.
-    pub after: Vec<After>,
+    pub after: Vec<CoursePoint>,
 }
 
 /// Where particles have come.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct After {
+pub struct CoursePoint {
     /// How many iterations.
     pub iterations: u32,
     /// The median distance to the optimum, in metres, and its 95 % interval.
@@ -93,7 +93,7 @@ pub struct After {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     #[serde(flatten)]
     field: Field,
     /// Reading by reading.
@@ -113,11 +113,11 @@ pub struct Variant {
 impl Table for LocateConvergence {
     type Settings = Field;
     type Job = Job;
-    type Measured = Course;
-    type Merged = Merged;
+    type Sample = Course;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "locate-convergence",
             shows: "how near particles come to the position at which distances miss least, by the iterations",
             help: "How near particles come to the position at which distances miss least, by the iterations",
@@ -147,23 +147,23 @@ impl Table for LocateConvergence {
         Ok(Course { after: ITERATIONS.into_iter().map(after).collect::<Result<_, _>>()? })
     }
 
-    fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Summary, Halt> {
         let named = |((reading, ..), (_, course)): (&(&'static str, _, _, _), (Job, Course))| Variant {
             reading,
             course,
         };
-        Ok(Merged { field: settings.clone(), variants: VARIANTS.iter().zip(results).map(named).collect() })
+        Ok(Summary { field: settings.clone(), variants: VARIANTS.iter().zip(results).map(named).collect() })
     }
 
-    fn text(&self, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Field, merged: &Summary) -> Result<String, Halt> {
         let heading = format!(
             "{PARTICLES} particles, medians of {} positions, noise {} dB, exponent {}, seed {}; after iterations:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
         );
-        let optimum = |After { optimum_m, interval_m: [least, most], .. }: After| {
+        let optimum = |CoursePoint { optimum_m, interval_m: [least, most], .. }: CoursePoint| {
             format!("{:.1} [{:.1}, {:.1}]", 1e3 * optimum_m, 1e3 * least, 1e3 * most)
         };
-        let parts: [(&str, &dyn Fn(After) -> String); 3] = [
+        let parts: [(&str, &dyn Fn(CoursePoint) -> String); 3] = [
             ("distance to the optimum, mm", &optimum),
             ("less than 5 cm from the optimum, % of runs", &|after| percent(after.below_5_cm, 1)),
             ("distance to the robot, m", &|after| format!("{:.2}", after.error_m)),
@@ -181,8 +181,8 @@ impl Table for LocateConvergence {
     }
 
     /// The medians of each reading.
-    fn draw(&self, _: usize, settings: &Field, merged: &Merged) -> Result<String, Halt> {
-        let point = |after: &After| chart::Point {
+    fn draw(&self, _: usize, settings: &Field, merged: &Summary) -> Result<String, Halt> {
+        let point = |after: &CoursePoint| chart::Point {
             x: after.iterations.into(),
             y: 1e2 * after.optimum_m,
             interval: Some(after.interval_m.map(|end| 1e2 * end)),
@@ -196,12 +196,12 @@ impl Table for LocateConvergence {
 }
 
 /// The paper's numbers beside ours.
-fn compared(merged: &Merged) -> String {
+fn compared(merged: &Summary) -> String {
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);
     let numbers = |Variant { reading, course }: &Variant| {
-        let After { optimum_m, error_m, .. } = course.after[twenty];
+        let CoursePoint { optimum_m, error_m, .. } = course.after[twenty];
         let conclusion = format!("{reading}: to the optimum, {} iterations", ITERATIONS[last]);
         [
             (format!("{reading}: to the optimum, 20 iterations"), PAPER_M, optimum_m),
@@ -223,10 +223,10 @@ fn after(
     settings: &Field,
     (anchors, signal): (&Anchors, &Signal),
     parameters: Parameters,
-) -> Result<After, Halt> {
+) -> Result<CoursePoint, Halt> {
     let (mut to_optimum, mut to_robot) = (Vec::new(), Vec::new());
     for trial in 0..settings.trials {
-        let mut oracle = Seeded::new(settings.seed, trial.into());
+        let mut oracle = SeededOracle::new(settings.seed, trial.into());
         let at = anchors.somewhere(&mut oracle);
         let ranges = distances(anchors.places(), signal, at, signal.noise_db(), &mut oracle);
         let optimum = locate(&ranges, Residual::Metres, signal, None).map_err(refused)?.best().at;
@@ -242,7 +242,7 @@ fn after(
     to_robot.sort_by(f64::total_cmp);
     let (optimum_m, interval_m) = quantile(&to_optimum, 0.5);
     let below = share(&to_optimum, |&distance_m| distance_m < PAPER_M).unwrap_or(Estimate::NOTHING);
-    Ok(After {
+    Ok(CoursePoint {
         iterations: parameters.iterations,
         optimum_m: decimals(optimum_m, 1e6),
         interval_m: interval_m.map(|end| decimals(end, 1e6)),

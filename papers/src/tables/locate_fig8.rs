@@ -4,7 +4,7 @@
 //! corners.
 
 use tautline_kernel::position::{Point, Signal};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::locate_convergence::{Field, field};
 use super::parameter::{Parameter, Settings};
@@ -42,7 +42,7 @@ type Team = [[f64; SOLVERS.len()]; MOST];
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     #[serde(flatten)]
     field: Field,
     /// Team by team.
@@ -83,7 +83,7 @@ pub struct Sentence {
 }
 
 /// A number of a team's errors: of so many robots, by one solver.
-type Of = fn(&Team, robots: usize, solver: usize) -> f64;
+type Metric = fn(&Team, robots: usize, solver: usize) -> f64;
 
 fn mean_of(team: &Team, robots: usize, solver: usize) -> f64 {
     let sum: f64 = team.iter().take(robots).map(|errors| errors[solver]).sum();
@@ -101,11 +101,11 @@ fn estimate(teams: &[Team], value: impl Fn(&Team) -> f64) -> Estimate {
 impl Table for LocateFig8 {
     type Settings = Field;
     type Job = Job;
-    type Measured = Vec<Team>;
-    type Merged = Merged;
+    type Sample = Vec<Team>;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "locate-fig8",
             shows: "how far robots are from where they take themselves to be, with and without particle swarm optimisation, by their \
                     number",
@@ -133,7 +133,7 @@ impl Table for LocateFig8 {
             .collect()
     }
 
-    fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Summary, Halt> {
         let teams: Vec<Team> = results.into_iter().flat_map(|(_, teams)| teams).collect();
         let errors = |robots: usize, number: usize| Errors {
             solver: SOLVERS[number],
@@ -146,22 +146,23 @@ impl Table for LocateFig8 {
         };
         let (without, with) = ((MOST, 0), (MOST, 1));
         let one: (usize, usize) = (1, 1);
-        let sentences: [(&str, Of, [(usize, usize); 2], f64); 3] = [
+        let sentences: [(&str, Metric, [(usize, usize); 2], f64); 3] = [
             ("the error falls with the swarm (8 robots, mean)", mean_of, [without, with], -1.0),
             ("the error grows from 1 robot to 8 (pso, mean)", mean_of, [one, with], 1.0),
             ("the same of the worst robot of the team", worst_of, [one, with], 1.0),
         ];
-        let sentence = |(paper, of, [before, after], sign): (&'static str, Of, [(usize, usize); 2], f64)| {
-            let difference_m =
-                estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
-            let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
-            Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
-        };
+        let sentence =
+            |(paper, of, [before, after], sign): (&'static str, Metric, [(usize, usize); 2], f64)| {
+                let difference_m =
+                    estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
+                let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
+                Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
+            };
         let sentences = sentences.map(sentence).into();
-        Ok(Merged { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
+        Ok(Summary { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
     }
 
-    fn text(&self, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Field, merged: &Summary) -> Result<String, Halt> {
         let heading = format!(
             "Localisation error in metres, {} teams, noise {} dB, exponent {}, seed {}; robots:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
@@ -189,7 +190,7 @@ impl Table for LocateFig8 {
         Ok(figures.with_notes(&notes))
     }
 
-    fn draw(&self, _: usize, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, settings: &Field, merged: &Summary) -> Result<String, Halt> {
         let series = |number: usize, what: &str, of: fn(&Errors) -> Estimate| {
             let point =
                 |size: &Size| chart::Point::of((size.robots as u32).into(), of(&size.solvers[number]));
@@ -207,7 +208,7 @@ impl Table for LocateFig8 {
 
 /// The errors of one team.
 fn one_team(anchors: &Anchors, signal: &Signal, seed: u64, team: u32) -> Result<Team, Halt> {
-    let mut oracle = Seeded::new(seed, team.into());
+    let mut oracle = SeededOracle::new(seed, team.into());
     let mut errors = Team::default();
     for robot in &mut errors {
         let at: Point = anchors.somewhere(&mut oracle);

@@ -6,7 +6,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Count, Rule, Scheme};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
 use tautline_field::radio::{
@@ -57,7 +57,7 @@ type Job = Run<usize>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     side_m: f64,
     range_m: f64,
     topologies: u32,
@@ -127,7 +127,7 @@ impl Settings {
     /// A topology and its source, with a stream of answers to themselves.
     fn topology(&self, nodes: usize, topology: u32) -> Result<(Network, NodeId), Problem> {
         let (area, radio) = (Area::new(self.side_m, self.side_m)?, self.radio()?);
-        let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology));
+        let chance = &mut SeededOracle::new(self.seed, 2 * u64::from(topology));
         let field = Field::random(area, Vec::new(), nodes, chance)?;
         Ok((Network::new(&field, radio, chance)?, NodeId(chance.pick(nodes as u32))))
     }
@@ -138,7 +138,7 @@ impl Settings {
         let range_um = self.radio()?.range_um();
         let schemes = self.schemes(range_um.get()).into_iter().map(|(_, scheme)| {
             let rule = Rule::new(scheme, range_um, LONGEST_WAIT_NS);
-            let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology) + 1);
+            let chance = &mut SeededOracle::new(self.seed, 2 * u64::from(topology) + 1);
             let channel = self.channel.channel();
             let (report, _) = broadcast(&network, &rule, channel, &Faults::NONE, source, chance)?;
             Ok((report.reached, report.rebroadcasts))
@@ -181,11 +181,11 @@ impl Settings {
 impl Table for NoticeFig5 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Sample;
-    type Merged = Merged;
+    type Sample = Sample;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "notice-fig5",
             shows: "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all nodes \
                     and of those connected to the source that each reaches, and how many nodes forward",
@@ -218,16 +218,16 @@ impl Table for NoticeFig5 {
         settings.sample(nodes, run.number).map_err(usage)
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let Settings { side_m, range_m, topologies, seed, channel, .. } = *settings;
         let range_um = settings.radio().map_err(usage)?.range_um().get();
         let densities = settings.nodes.iter().enumerate().map(|(density, &nodes)| {
             settings.density(nodes, &at(&results, density), settings.schemes(range_um))
         });
-        Ok(Merged { side_m, range_m, topologies, seed, channel, densities: densities.collect() })
+        Ok(Summary { side_m, range_m, topologies, seed, channel, densities: densities.collect() })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let densities = &merged.densities;
         let heading = format!(
             "{side}×{side} m, range {} m, {} for each number of nodes, seed {}, {} channel",
@@ -267,7 +267,7 @@ impl Table for NoticeFig5 {
     }
 
     /// A part of the figure by the number of nodes: (a) the reach of all nodes, (b) the rebroadcasts.
-    fn draw(&self, picture: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, picture: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let (title, y, of): (_, _, fn(&Line) -> Estimate) = match picture {
             0 => {
                 let y = Axis::new("reach", "%").showing([0.0, 100.0]);

@@ -60,7 +60,7 @@ const ORBITS: usize = 16;
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     /// Field by field, each under every rule.
     pub lines: Vec<Line>,
 }
@@ -120,11 +120,11 @@ impl Settings {
 impl Table for Optimum {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Sums; RuleName::ALL.len()];
-    type Merged = Merged;
+    type Sample = [Sums; RuleName::ALL.len()];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "optimum",
             shows: "the chain against the fewest team moves of a team that knows the walls, in all layouts of small areas: \
                     how often it takes as few, how many times as many on average and at worst, and what it misses",
@@ -132,7 +132,7 @@ impl Table for Optimum {
             more: "Two robots in all layouts of 3×3 cells, three in those of 5×5 cells with few walls.",
             examples: &["optimum", "optimum --max-walls 2 --format json"],
             doing: "solving",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -151,20 +151,20 @@ impl Table for Optimum {
         job.orbits.iter().map(|orbit| orbit.len() as u64).sum()
     }
 
-    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let area = Area::new(job.field.robots)?;
-        let mut sums = Self::Measured::default();
+        let mut sums = Self::Sample::default();
         for orbit in &job.orbits {
             sums::compare(&area, orbit, &mut sums)?;
         }
         Ok(sums)
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let mut results = results.into_iter().peekable();
         let mut lines = Vec::new();
         for field in settings.fields() {
-            let mut all = Self::Measured::default();
+            let mut all = Self::Sample::default();
             while let Some((_, sums)) = results.next_if(|(job, _)| job.field == field) {
                 for (all, sums) in all.iter_mut().zip(sums) {
                     all.add(sums);
@@ -174,10 +174,10 @@ impl Table for Optimum {
             let rules = RuleName::ALL.into_iter().zip(&all);
             lines.extend(rules.map(|(rule, sums)| sums.line(&area, field.walls, rule)));
         }
-        Ok(Merged { lines })
+        Ok(Summary { lines })
     }
 
-    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let walls = |line: &Line| match line.walls {
             [fewest, most] if fewest == most => most.to_string(),
             [fewest, most] => format!("{fewest}…{most}"),
@@ -214,7 +214,7 @@ impl Table for Optimum {
         Ok(text)
     }
 
-    fn is_broken(&self, merged: &Merged) -> bool {
+    fn is_broken(&self, merged: &Summary) -> bool {
         merged.lines.iter().any(|line| line.below > 0)
     }
 }

@@ -8,14 +8,14 @@ use super::columns::Columns;
 
 /// A figure that the paper prints, and ours.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub(super) struct Printed {
+pub(super) struct PrintedFigure {
     what: String,
     paper: f64,
     ours: Estimate,
     difference: f64,
 }
 
-impl Printed {
+impl PrintedFigure {
     /// The printed number, and the measured one; nothing if there is none.
     pub(super) fn of(what: impl Into<String>, paper: f64, ours: Option<Estimate>) -> Option<Self> {
         ours.map(|ours| Self { what: what.into(), paper, ours, difference: ours.mean - paper })
@@ -24,7 +24,7 @@ impl Printed {
 
 /// The figures for people, the paper's with so many decimals.
 pub(super) fn text(
-    printed: &[Printed],
+    printed: &[PrintedFigure],
     decimals: usize,
     [what, paper, ours, difference]: [usize; 4],
 ) -> String {

@@ -22,15 +22,15 @@ pub trait Settings: Default + Serialize + DeserializeOwned + Sync + 'static {
 /// A setting of a table, among its settings of type `S`.
 pub struct Parameter<S> {
     /// How it is given.
-    pub option: Given,
+    pub option: TableOption,
     /// The texts that stand for it where it is not given. None if that is said elsewhere.
     pub show: Show<S>,
     /// Reads it.
-    pub read: Read<S>,
+    pub read: Reader<S>,
 }
 
 type Show<S> = Box<dyn Fn(&S) -> Vec<String>>;
-type Read<S> = Box<dyn Fn(&mut S, &[&str]) -> Result<(), String>>;
+type Reader<S> = Box<dyn Fn(&mut S, &[&str]) -> Result<(), String>>;
 
 impl<S> fmt::Debug for Parameter<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -40,7 +40,7 @@ impl<S> fmt::Debug for Parameter<S> {
 
 /// An option of a table.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Given {
+pub struct TableOption {
     /// Its name.
     pub name: &'static str,
     /// The stand-in for its value in a help text.
@@ -110,7 +110,7 @@ pub(super) fn of_field<S: 'static, T: 'static>(
     parameters: Vec<Parameter<T>>,
 ) -> Vec<Parameter<S>> {
     let outer = |Parameter { option, show, read }: Parameter<T>| Parameter {
-        option: Given {
+        option: TableOption {
             about: if option.about.is_empty() { about.trim_ascii() } else { option.about },
             ..option
         },
@@ -131,7 +131,7 @@ pub(super) fn flag<T: Copy + 'static>(name: &'static str, given: T) -> Vec<Param
         *value = given;
         Ok(())
     };
-    let option = Given { name, value: "", about: "", values: Values::None };
+    let option = TableOption { name, value: "", about: "", values: Values::None };
     vec![Parameter { option, show: Box::new(|_| Vec::new()), read: Box::new(read) }]
 }
 
@@ -190,7 +190,7 @@ fn single<T: 'static, E: Into<String>>(
         }
         Ok(())
     };
-    let option = Given { name, value, about: "", values };
+    let option = TableOption { name, value, about: "", values };
     vec![Parameter { option, show: Box::new(move |value| vec![show(value)]), read: Box::new(read) }]
 }
 
@@ -204,7 +204,7 @@ fn several<T: 'static, E: Into<String>>(
         *all = texts.iter().map(|text| read(text).map_err(Into::into)).collect::<Result<_, _>>()?;
         Ok(())
     };
-    let option = Given { name, value, about: "", values };
+    let option = TableOption { name, value, about: "", values };
     vec![Parameter { option, show: Box::new(show), read: Box::new(read) }]
 }
 

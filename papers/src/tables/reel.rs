@@ -61,7 +61,7 @@ pub struct Outcome {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     robots: u16,
     seed: u64,
     /// For each goal and ground.
@@ -80,12 +80,12 @@ pub struct Line {
     /// How many layouts there are.
     pub runs: u32,
     /// For each rule.
-    pub rules: Vec<OfRule>,
+    pub rules: Vec<RuleLine>,
 }
 
 /// Team moves by one rule.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct OfRule {
+pub struct RuleLine {
     /// Its name.
     pub rule: &'static str,
     /// Runs that reach the goal.
@@ -106,12 +106,12 @@ pub struct Cells {
     /// The generator of the layouts.
     pub ground: &'static str,
     /// For each rule.
-    pub rules: Vec<Explored>,
+    pub rules: Vec<Exploration>,
 }
 
 /// The cells that runs by one rule explore.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Explored {
+pub struct Exploration {
     /// Its name.
     pub rule: &'static str,
     /// The mean.
@@ -127,18 +127,18 @@ pub struct Explored {
 impl Table for Reel {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Outcome; RULES.len()];
-    type Merged = Merged;
+    type Sample = [Outcome; RULES.len()];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "reel",
             shows: "the reel against the repaired chain on the same layouts: mean team moves to 50 %, to 75 %, and to \
                     everything within reach, and the cells that it explores",
             help: "How many team moves the reel saves, and what holding contact costs",
             examples: &["reel", "reel --layouts 1000 --format json"],
             doing: "comparing",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -147,11 +147,11 @@ impl Table for Reel {
         Ok(runs(0..GROUNDS.len(), |ground| if is_random(ground) { settings.layouts } else { 1 }))
     }
 
-    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let ground = GROUNDS.get(run.at).copied().unwrap_or_default();
         let seed = run.seed(settings.seed);
         let (layout, base) = based(generated(ground, seed)?)?;
-        let mut outcomes = Self::Measured::default();
+        let mut outcomes = Self::Sample::default();
         for (outcome, rule) in outcomes.iter_mut().zip(RULES) {
             let setup = Setup { seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout.clone(), base) };
             let report = explore(&setup, &mut |_| Ok(()))?;
@@ -167,26 +167,26 @@ impl Table for Reel {
         Ok(outcomes)
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let grounds: Vec<[Vec<&Outcome>; RULES.len()]> =
             (0..GROUNDS.len()).map(|ground| of_teams(&results, ground)).collect();
         let mut lines = Vec::new();
         for (place, goal) in GOALS.into_iter().enumerate() {
             for (ground, outcomes) in GROUNDS.into_iter().zip(&grounds) {
                 let rules = RULES.iter().zip(outcomes);
-                let rules = rules.map(|(rule, own)| OfRule::of(*rule, place, own, &outcomes[0])).collect();
+                let rules = rules.map(|(rule, own)| RuleLine::of(*rule, place, own, &outcomes[0])).collect();
                 lines.push(Line { goal, ground, runs: outcomes[0].len() as u32, rules });
             }
         }
         let cells = GROUNDS.into_iter().zip(&grounds).map(|(ground, outcomes)| {
             let rules = RULES.iter().zip(outcomes);
-            let rules = rules.map(|(rule, own)| Explored::of(*rule, own, &outcomes[0])).collect();
+            let rules = rules.map(|(rule, own)| Exploration::of(*rule, own, &outcomes[0])).collect();
             Cells { ground, rules }
         });
-        Ok(Merged { robots: ROBOTS, seed: settings.seed, lines, cells: cells.collect() })
+        Ok(Summary { robots: ROBOTS, seed: settings.seed, lines, cells: cells.collect() })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let mut text = format!(
             "{ROBOTS} robots, {} at each density, seeds from {}\n",
             counted(settings.layouts, "layout"),
@@ -252,7 +252,7 @@ fn reached(report: &Report, due: &[Cell]) -> [Option<u32>; GOALS.len()] {
     [report.reached(Milestone::Half), report.reached(Milestone::ThreeQuarters), last, Some(report.steps)]
 }
 
-impl OfRule {
+impl RuleLine {
     /// The team moves of runs to a goal, against those of the repaired rule.
     fn of(rule: RuleId, goal: usize, own: &[&Outcome], repaired: &[&Outcome]) -> Self {
         let both = own.iter().zip(repaired).filter_map(|(own, other)| own.moves[goal].zip(other.moves[goal]));
@@ -277,7 +277,7 @@ impl OfRule {
     }
 }
 
-impl Explored {
+impl Exploration {
     /// The cells that runs explore, against those of the repaired rule.
     fn of(rule: RuleId, own: &[&Outcome], repaired: &[&Outcome]) -> Self {
         let both = own.iter().zip(repaired);

@@ -49,7 +49,7 @@ pub struct Job {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     robots: u16,
     seed: u64,
     /// For each of [`DENSITIES`].
@@ -64,7 +64,7 @@ pub struct Line {
     /// How many layouts: those of the seeds from the first one on.
     pub layouts: u32,
     /// For each of [`MILESTONES`].
-    pub milestones: [Reached; MILESTONES.len()],
+    pub milestones: [MilestoneMoves; MILESTONES.len()],
     /// Team moves of whole runs.
     pub moves: Comparison,
     /// Cells explored when a run ends.
@@ -75,7 +75,7 @@ pub struct Line {
 
 /// Team moves to a milestone, where both rules reach it.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Reached {
+pub struct MilestoneMoves {
     /// The milestone.
     pub percent: u32,
     /// The team moves.
@@ -114,14 +114,14 @@ pub struct Violations {
 /// Sums over layouts.
 #[derive(Clone, Copy, Default, Debug, Serialize, Deserialize)]
 pub struct Sums {
-    milestones: [Paired; MILESTONES.len()],
-    moves: Paired,
-    explored: Paired,
+    milestones: [PairMoments; MILESTONES.len()],
+    moves: PairMoments,
+    explored: PairMoments,
     violations: [[u32; Breach::CHAIN.len()]; RuleName::ALL.len()],
 }
 
 #[derive(Clone, Copy, Default, Debug, JsonSchema, Serialize, Deserialize)]
-struct Paired {
+struct PairMoments {
     published: Moments,
     repaired: Moments,
     difference: Moments,
@@ -130,18 +130,18 @@ struct Paired {
 impl Table for RepairCost {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Sums;
-    type Merged = Merged;
+    type Sample = Sums;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "repair-cost",
             shows: "the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % \
                     and 75 %, and runs that break a clause",
             help: "What the chain's repairs cost in team moves, and what they prevent",
             examples: &["repair-cost", "repair-cost --layouts 10000 --format json"],
             doing: "comparing",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
@@ -169,17 +169,17 @@ impl Table for RepairCost {
         seeds.map(|seed| Sums::of(density, seed)).try_fold(Sums::default(), |sums, one| Ok(sums.and(one?)))
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Sums)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Sums)>) -> Result<Summary, Halt> {
         let line = |density: usize| {
             let batches = results.iter().filter(|(job, _)| job.density == density);
             let sums = batches.fold(Sums::default(), |sums, &(_, batch)| sums.and(batch));
             sums.line(DENSITIES[density], settings.layouts)
         };
         let densities = (0..DENSITIES.len()).map(line).collect();
-        Ok(Merged { robots: ROBOTS, seed: settings.seed, densities })
+        Ok(Summary { robots: ROBOTS, seed: settings.seed, densities })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let lines = &merged.densities;
         let mut text = format!(
             "{ROBOTS} robots in walls:15x15:DENSITY, {} at each density, seeds from {}\n",
@@ -206,7 +206,7 @@ impl Table for RepairCost {
         Ok(text + &clauses.text())
     }
 
-    fn is_broken(&self, merged: &Merged) -> bool {
+    fn is_broken(&self, merged: &Summary) -> bool {
         merged.densities.iter().any(|line| line.violations.iter().any(|runs| runs.repaired > 0))
     }
 }
@@ -240,12 +240,12 @@ impl Sums {
         Ok(Self {
             milestones: MILESTONES.map(|milestone| {
                 match (published.reached(milestone), repaired.reached(milestone)) {
-                    (Some(published), Some(repaired)) => Paired::of(published, repaired),
-                    (Some(_) | None, _) => Paired::default(),
+                    (Some(published), Some(repaired)) => PairMoments::of(published, repaired),
+                    (Some(_) | None, _) => PairMoments::default(),
                 }
             }),
-            moves: Paired::of(published.steps, repaired.steps),
-            explored: Paired::of(published.explored, repaired.explored),
+            moves: PairMoments::of(published.steps, repaired.steps),
+            explored: PairMoments::of(published.explored, repaired.explored),
             violations: [breaks(&published), breaks(&repaired)],
         })
     }
@@ -265,7 +265,7 @@ impl Sums {
         Line {
             density,
             layouts,
-            milestones: std::array::from_fn(|place| Reached {
+            milestones: std::array::from_fn(|place| MilestoneMoves {
                 percent: MILESTONES[place].percent(),
                 moves: self.milestones[place].comparison(layouts),
             }),
@@ -280,7 +280,7 @@ impl Sums {
     }
 }
 
-impl Paired {
+impl PairMoments {
     fn of(published: u32, repaired: u32) -> Self {
         let (published, repaired) = (i64::from(published), i64::from(repaired));
         Self {

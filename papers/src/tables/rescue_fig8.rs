@@ -56,7 +56,7 @@ type Job = Run<RuleName>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     #[serde(flatten)]
     settings: Settings,
     /// Rule by rule.
@@ -69,9 +69,9 @@ pub struct Line {
     /// MRC as published, or repaired.
     pub rule: RuleName,
     /// The share of the topologies in which each WFR was served once.
-    pub served: Compared,
+    pub served: Comparison,
     /// The share of the topologies in which each was served by a robot of its own.
-    pub own: Compared,
+    pub own: Comparison,
     /// RD: the distances moved over the shortest, of all who came.
     pub distance_ratio: Option<Estimate>,
     /// The shortest distances of the robots to the WFRs that they served, over those of the best assignment; of the
@@ -85,7 +85,7 @@ pub struct Line {
 
 /// A share beside the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Compared {
+pub struct Comparison {
     /// The paper's.
     pub paper: f64,
     /// Ours.
@@ -94,7 +94,7 @@ pub struct Compared {
     pub difference: f64,
 }
 
-impl Compared {
+impl Comparison {
     fn of(samples: &[&Sample], is_such: impl Fn(&Sample) -> bool) -> Self {
         let ours = rounded(share(samples, |sample| is_such(sample)).unwrap_or(Estimate::NOTHING), 1e4);
         Self { paper: PAPER, ours, difference: decimals(ours.mean - PAPER, 1e4) }
@@ -161,11 +161,11 @@ impl Settings {
 impl Table for RescueFig8 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Sample;
-    type Merged = Merged;
+    type Sample = Sample;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "rescue-fig8",
             shows: "three robots for three that wait for rescue, MRC as published and repaired: how often each gets a robot, \
                     and one of its own, how far they go, and how far from the best assignment that is",
@@ -194,12 +194,12 @@ impl Table for RescueFig8 {
         Ok(Sample::of(&settings.rescue(run.at, run.seed(settings.seed)).map_err(Diagnostic::from)?))
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let rules = RuleName::ALL.map(|rule| Line::of(rule, &at(&results, rule)));
-        Ok(Merged { settings: settings.clone(), rules: rules.into() })
+        Ok(Summary { settings: settings.clone(), rules: rules.into() })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { nodes, robots, wfrs, k, topologies, seed } = settings;
         let heading = format!(
             "{}, {}, {nodes} nodes in 300×300 m, range 25 m, k = {}, {}, seed {seed}",
@@ -212,7 +212,7 @@ impl Table for RescueFig8 {
         let mut table = Figures::new(heading, &merged.rules);
         table.row("MRC", |line| line.rule.to_string());
         for (name, of) in [
-            ("served, %", (|line| line.served) as fn(&Line) -> Compared),
+            ("served, %", (|line| line.served) as fn(&Line) -> Comparison),
             ("a robot each, %", |line| line.own),
         ] {
             table.row(name, |line| percent(of(line).ours, 2));
@@ -232,7 +232,7 @@ impl Table for RescueFig8 {
         ))
     }
 
-    fn draw(&self, _: usize, settings: &Settings, _: &Merged) -> Result<String, Halt> {
+    fn draw(&self, _: usize, settings: &Settings, _: &Summary) -> Result<String, Halt> {
         settings.picture()
     }
 }
@@ -292,8 +292,8 @@ impl Line {
         let best = share(&own, |(ours_m, best_m)| ours_m - best_m <= SAME_M);
         Self {
             rule,
-            served: Compared::of(samples, |sample| sample.is_served),
-            own: Compared::of(samples, |sample| sample.assigned_m.is_some()),
+            served: Comparison::of(samples, |sample| sample.is_served),
+            own: Comparison::of(samples, |sample| sample.assigned_m.is_some()),
             distance_ratio: ratio(ways),
             over_best: ratio(own.iter().copied()),
             best: best.map(|share| rounded(share, 1e4)),

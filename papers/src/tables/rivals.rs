@@ -9,7 +9,7 @@ mod table1;
 
 use std::num::NonZeroU32;
 
-use self::asked::Told;
+use self::asked::RivalSettings;
 use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};
@@ -32,7 +32,7 @@ const ROOMS: [&str; 2] = ["rooms-a", "rooms-b"];
 /// Who explores.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Who {
+pub enum Contender {
     /// A chain of this rule.
     Chain(RuleName),
     /// A rival.
@@ -46,7 +46,7 @@ pub enum Who {
     },
 }
 
-impl Who {
+impl Contender {
     /// Full search with links of this kind.
     const fn full(links: Links) -> Self {
         Self::Rival { search: Search::Full, links, cells: Cells::Distinct }
@@ -95,7 +95,7 @@ impl Who {
     }
 
     /// A run in `layout`, the base in its middle.
-    fn run(self, told: &Told, layout: &Layout, seed: u64, limits: Limits) -> Result<Outcome, Halt> {
+    fn run(self, told: &RivalSettings, layout: &Layout, seed: u64, limits: Limits) -> Result<Outcome, Halt> {
         let (layout, base) = based(layout.clone())?;
         let report = match self {
             Self::Chain(rule) => {

@@ -4,11 +4,13 @@ use tautline_kernel::ants::Rule;
 
 use super::colony::{Observed, SmallFloors};
 use super::ties;
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, Verdict};
 
-const PUBLISHED: Named<Observed> = Named::new("published", Observed { rule: Rule::Published, counts: true });
-const REPAIRED: Named<Observed> = Named::new("repaired", Observed { rule: Rule::Repaired, counts: true });
+const PUBLISHED: NamedRule<Observed> =
+    NamedRule::new("published", Observed { rule: Rule::Published, counts: true });
+const REPAIRED: NamedRule<Observed> =
+    NamedRule::new("repaired", Observed { rule: Rule::Repaired, counts: true });
 
 /// The clauses.
 pub static CLAUSES: [Clause; 2] = [
@@ -22,7 +24,7 @@ pub static CLAUSES: [Clause; 2] = [
                 REPAIRED,
                 &SmallFloors,
                 Verdict::Holds,
-                &[Named::new("sensors count nothing", Observed { counts: false, ..REPAIRED.rule })],
+                &[NamedRule::new("sensors count nothing", Observed { counts: false, ..REPAIRED.rule })],
             ),
         ],
     },
@@ -31,9 +33,9 @@ pub static CLAUSES: [Clause; 2] = [
         sentence: "An ant MUST go to the side neighbour that was entered least, the first in the order of the compass.",
         checks: &[&Check::new(
             PUBLISHED,
-            &Exhaustive { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] },
+            &EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] },
             Verdict::Holds,
-            &[Named::new("sensors count nothing", Observed { counts: false, ..PUBLISHED.rule })],
+            &[NamedRule::new("sensors count nothing", Observed { counts: false, ..PUBLISHED.rule })],
         )],
     },
 ];

@@ -6,10 +6,10 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Mark, Scan, Sensor};
 use tautline_kernel::ground::Cell;
 
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{Bits, Limits, Places, System};
 use crate::engine::world::{Turn, World};
-use crate::engine::{Choices, Script, Unfit, Until};
+use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::floor::look::Explored;
 use crate::floor::plans::{Area, FloorPlan};
 use crate::floor::small::{self, Misses, Part, Small, Stored, marked};
@@ -152,7 +152,12 @@ impl Method<Observed> for SmallFloors {
     }
 
     /// The choices of a violation are as those of [`Explored`].
-    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(
+        &self,
+        observed: &Observed,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let mut explored = Explored::new();
         for (number, series) in (0..).zip(SERIES) {
@@ -166,7 +171,7 @@ impl Method<Observed> for SmallFloors {
         Ok(explored.answer(self.shows()))
     }
 
-    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let series = SERIES[script.choose(SERIES.len())?];
         let colonies = series.colonies(*observed);
@@ -174,7 +179,7 @@ impl Method<Observed> for SmallFloors {
         let mut starts = colony.starts(series.ants);
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(colony, (number, starts.swap_remove(number)), |_| true)?;
-        let evidence = Evidence { choices: choices.clone(), demand: run.demand, seen: Seen::Choices };
-        Ok(Played { of, evidence })
+        let evidence = Evidence { choices: choices.clone(), demand: run.demand, seen: Depiction::Choices };
+        Ok(RefutationPlay { of, evidence })
     }
 }

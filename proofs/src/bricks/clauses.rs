@@ -6,13 +6,13 @@ use tautline_kernel::bricks::{Precedence, Rule};
 use super::floors::Floors;
 use super::tree::checks as tree;
 use super::{Deception, Observed, marking};
-use crate::clause::{Check, Clause, Named};
+use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::Verdict;
 use crate::step_checks;
 
-const PUBLISHED: Named<Observed> = Named::new("published", Observed::marking(Rule::PUBLISHED));
-const REPAIRED: Named<Observed> = Named::new("repaired", Observed::marking(Rule::REPAIRED));
-const ROBUST: Named<Observed> = Named::new("robust", Observed::marking(Rule::ROBUST));
+const PUBLISHED: NamedRule<Observed> = NamedRule::new("published", Observed::marking(Rule::PUBLISHED));
+const REPAIRED: NamedRule<Observed> = NamedRule::new("repaired", Observed::marking(Rule::REPAIRED));
+const ROBUST: NamedRule<Observed> = NamedRule::new("robust", Observed::marking(Rule::ROBUST));
 
 /// Agents that do not look at corners.
 const NO_CORNERS: Observed = Observed::marking(Rule::REPAIRED.without(Corners));
@@ -24,12 +24,12 @@ const NOT_ALONE: Observed = Observed::marking(Rule::REPAIRED.without(Alone));
 const NO_LAPS: Observed = Observed::marking(Rule::REPAIRED.without(Laps));
 
 /// Agents that are robust against missed sensors but for one thing.
-const TRUSTING: Named<Observed> =
-    Named::new("ways through what reads as unexplored", Observed::marking_twice_without(SeenOnly));
-const ONCE_OVER: Named<Observed> =
-    Named::new("nothing gone over twice", Observed::marking_twice_without(SecondPass));
-const EARLY_LAPS: Named<Observed> =
-    Named::new("laps in the first pass", Observed::marking_twice_without(LeastCrossed));
+const TRUSTING: NamedRule<Observed> =
+    NamedRule::new("ways through what reads as unexplored", Observed::marking_twice_without(SeenOnly));
+const ONCE_OVER: NamedRule<Observed> =
+    NamedRule::new("nothing gone over twice", Observed::marking_twice_without(SecondPass));
+const EARLY_LAPS: NamedRule<Observed> =
+    NamedRule::new("laps in the first pass", Observed::marking_twice_without(LeastCrossed));
 
 /// Agents whose laps are told apart in another way.
 const fn laps(precedence: Precedence) -> Observed {
@@ -75,15 +75,15 @@ pub static CLAUSES: [Clause; 15] = [
                 PUBLISHED,
                 &Floors::CONNECTED_ALONE,
                 Verdict::Holds,
-                &[Named::new("without corners", NO_CORNERS)],
+                &[NamedRule::new("without corners", NO_CORNERS)],
             ),
             &Check::new(
                 REPAIRED,
                 &Floors::CONNECTED,
                 Verdict::Holds,
                 &[
-                    Named::new("without corners", NO_CORNERS),
-                    Named::new("no lap gives way to another", laps(Precedence::Nobody)),
+                    NamedRule::new("without corners", NO_CORNERS),
+                    NamedRule::new("no lap gives way to another", laps(Precedence::Nobody)),
                 ],
             ),
             &Check::new(ROBUST, &Floors::CONNECTED_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
@@ -100,7 +100,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &Floors::CONNECTED_IN_TURNS,
                 Verdict::Holds,
-                &[Named::new(
+                &[NamedRule::new(
                     "agents beside each other act at once",
                     Observed::deceiving(Deception::ActsAtOnce),
                 )],
@@ -118,7 +118,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &Floors::KNOWING,
                 Verdict::Holds,
-                &[Named::new("marks cells in which others are", NOT_ALONE)],
+                &[NamedRule::new("marks cells in which others are", NOT_ALONE)],
             ),
             &Check::new(PUBLISHED, &Floors::KNOWING_HALF_BLIND, Verdict::Refuted, &[]),
             &Check::new(
@@ -156,16 +156,16 @@ pub static CLAUSES: [Clause; 15] = [
                 &Floors::ENDS,
                 Verdict::Holds,
                 &[
-                    Named::new("both laps give way", laps(Precedence::Everybody)),
-                    Named::new("marks cells in which others are", NOT_ALONE),
-                    Named::new("walks no laps", NO_LAPS),
+                    NamedRule::new("both laps give way", laps(Precedence::Everybody)),
+                    NamedRule::new("marks cells in which others are", NOT_ALONE),
+                    NamedRule::new("walks no laps", NO_LAPS),
                 ],
             ),
             &Check::new(
                 ROBUST,
                 &Floors::ENDS_TWICE,
                 Verdict::Holds,
-                &[Named::new("walks no laps", Observed::marking_twice_without(Laps))],
+                &[NamedRule::new("walks no laps", Observed::marking_twice_without(Laps))],
             ),
             &Check::new(PUBLISHED, &Floors::ENDS_HALF_BLIND, Verdict::Refuted, &[]),
             &Check::new(ROBUST, &Floors::ENDS_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER, EARLY_LAPS]),

@@ -8,14 +8,14 @@ use tautline_kernel::ground::{Area, Cell};
 
 use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
-use super::observed::Observed;
-use super::search::{Found as OfOne, Search, Unsearchable};
+use super::observed::Subject;
+use super::search::{Findings as OfOne, Search, Unsearchable};
 
 /// Areas to search, and for what.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Areas {
     /// The chain, and how it is deceived.
-    pub observed: Observed,
+    pub observed: Subject,
     /// Robots, base included: at most 64.
     pub robots: usize,
     /// Most cells of an area.
@@ -31,7 +31,7 @@ pub struct Areas {
 
 /// An area that was searched, from each of its cells as the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Searched {
+pub struct AreaSearch {
     /// Columns.
     pub columns: i16,
     /// Rows.
@@ -57,9 +57,9 @@ pub struct Smallest {
 
 /// The findings of a search over areas.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Found {
+pub struct Findings {
     /// The areas that were searched, fewest cells first.
-    pub searched: Vec<Searched>,
+    pub searched: Vec<AreaSearch>,
     /// All areas with at most so many cells are among them.
     pub cells: Option<u32>,
     /// Whether all areas within the bounds were searched for all demands, or all demands are broken in the areas
@@ -70,7 +70,7 @@ pub struct Found {
     pub broken: Vec<Smallest>,
 }
 
-impl Found {
+impl Findings {
     /// Leaves of all trees that were searched.
     pub fn runs(&self) -> u64 {
         self.searched.iter().map(|area| area.runs).sum()
@@ -121,8 +121,11 @@ pub fn most_edges(max_cells: u32) -> u32 {
 ///
 /// # Errors
 /// [`Unsearchable`] if the bounds are beyond what can be searched.
-pub fn search(all: &Areas, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -> Result<Found, Unsearchable> {
-    let mut found = Found::default();
+pub fn search(
+    all: &Areas,
+    watch: &mut dyn FnMut(&Findings) -> ControlFlow<()>,
+) -> Result<Findings, Unsearchable> {
+    let mut found = Findings::default();
     for cells in 1..=all.max_cells {
         let left: Vec<Invariant> =
             all.invariants.iter().copied().filter(|&invariant| !found.has(invariant)).collect();
@@ -146,8 +149,8 @@ impl Areas {
         &self,
         area: Area,
         left: &[Invariant],
-        found: &mut Found,
-        watch: &mut dyn FnMut(&Found) -> ControlFlow<()>,
+        found: &mut Findings,
+        watch: &mut dyn FnMut(&Findings) -> ControlFlow<()>,
     ) -> Result<bool, Unsearchable> {
         let walls = self.max_walls.min(area.edges().count() as u32);
         let (columns, rows) = (area.width() as i16, area.height() as i16);
@@ -160,7 +163,7 @@ impl Areas {
                 continue;
             }
             if found.searched.len() == place {
-                found.searched.push(Searched { columns, rows, bases: 0, walls, runs: 0, moves: 0 });
+                found.searched.push(AreaSearch { columns, rows, bases: 0, walls, runs: 0, moves: 0 });
             }
             let all = Bounds { invariants: left.to_vec(), ..bounds };
             let Some(together) = self.tree(&all, found, watch)? else { return Ok(false) };
@@ -181,8 +184,8 @@ impl Areas {
     fn tree(
         &self,
         bounds: &Bounds,
-        found: &mut Found,
-        watch: &mut dyn FnMut(&Found) -> ControlFlow<()>,
+        found: &mut Findings,
+        watch: &mut dyn FnMut(&Findings) -> ControlFlow<()>,
     ) -> Result<Option<OfOne>, Unsearchable> {
         let budget_moves = self.budget_moves.map(|budget| budget.saturating_sub(found.moves()));
         let mut search = Search::new(&Bounds { budget_moves, ..bounds.clone() })?;

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::chain::{Barrier, Heard, Message, Outcome as Came};
+use tautline_kernel::chain::{Barrier, ByteEffect, Message, Outcome as Came};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::Step;
 
@@ -99,11 +99,11 @@ impl Pair {
         let heard = self.barriers[other].hear(PLACES[robot], byte);
         let situation =
             match heard.map_err(|_| Stop::Violated("no byte contradicts one that was heard before"))? {
-                Heard::New => "a byte that was missing",
-                Heard::Again => "a byte once more",
-                Heard::Early => "a byte of the team move after",
-                Heard::Foreign => "a byte that can be of no team move now",
-                Heard::Late(missed) => {
+                ByteEffect::New => "a byte that was missing",
+                ByteEffect::Again => "a byte once more",
+                ByteEffect::Early => "a byte of the team move after",
+                ByteEffect::Foreign => "a byte that can be of no team move now",
+                ByteEffect::Late(missed) => {
                     if self.reading != Reading::Mute {
                         self.air[other].push_back(missed);
                     }

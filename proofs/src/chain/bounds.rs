@@ -1,11 +1,11 @@
 //! The bounds of a search for the chain: what it looks for, and how far.
 
-use tautline_kernel::chain::{Refused, area};
+use tautline_kernel::chain::{SetupError, area};
 use tautline_kernel::ground::{Area, Cell};
 
 use super::breach::Breach;
 use super::invariant::Invariant;
-use super::observed::Observed;
+use super::observed::Subject;
 use super::whole;
 use crate::engine::Until;
 use crate::engine::tree::{self, Limits};
@@ -18,7 +18,7 @@ pub type Counterexample = tree::Counterexample<Invariant, Frame>;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bounds {
     /// The chain, and how it is deceived.
-    pub observed: Observed,
+    pub observed: Subject,
     /// Robots, base included: at most 64.
     pub robots: usize,
     /// The cells that the layouts have in common; the chain's range cuts them to size.
@@ -38,7 +38,7 @@ pub struct Bounds {
 impl Bounds {
     /// The area of the paper for `robots`: (2N−1)² cells, the base in the middle, everything looked for that a run of
     /// its own can break.
-    pub fn new(observed: Observed, robots: usize, max_walls: u32) -> Self {
+    pub fn new(observed: Subject, robots: usize, max_walls: u32) -> Self {
         let (area, base) = whole::area(robots);
         Self {
             observed,
@@ -75,17 +75,17 @@ impl Bounds {
     /// The area as the chain's range cuts it.
     ///
     /// # Errors
-    /// [`Refused`] if the base is outside.
-    pub fn reach(&self) -> Result<Area, Refused> {
+    /// [`SetupError`] if the base is outside.
+    pub fn reach(&self) -> Result<Area, SetupError> {
         let base = self.base;
-        area(self.area, base, self.robots).ok_or(Refused::BaseOutside { base })
+        area(self.area, base, self.robots).ok_or(SetupError::BaseOutside { base })
     }
 
     /// How many edges can be walls.
     ///
     /// # Errors
-    /// [`Refused`] if the base is outside.
-    pub fn edges(&self) -> Result<u32, Refused> {
+    /// [`SetupError`] if the base is outside.
+    pub fn edges(&self) -> Result<u32, SetupError> {
         Ok(self.reach()?.edges().count() as u32)
     }
 }

@@ -9,65 +9,65 @@ use tautline_kernel::ground::Circle;
 
 use super::breach::Breach;
 use super::invariant::Invariant;
-use super::observed::{Deception, Observed};
+use super::observed::{Deception, Subject};
 use super::search::EveryLayout;
 use super::{crowd, optimum, pair, small, three, walk, whole};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Sampled, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::ground::clauses::{NARROWER, WIDER};
 use crate::step_checks;
 
-pub(super) const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
-pub(super) const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
-const UNCOVERED: Named<Observed> = Named::new("uncovered", Observed::UNCOVERED);
-pub(super) const REEL: Named<Observed> = Named::new("reel", Observed::REEL);
-pub(super) const UNHELD: Named<Observed> = Named::new("unheld", Observed::UNHELD);
-const SPARING: Named<Observed> = Named::new("sparing", Observed::SPARING);
+pub(super) const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLISHED);
+pub(super) const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::REPAIRED);
+const UNCOVERED: NamedRule<Subject> = NamedRule::new("uncovered", Subject::UNCOVERED);
+pub(super) const REEL: NamedRule<Subject> = NamedRule::new("reel", Subject::REEL);
+pub(super) const UNHELD: NamedRule<Subject> = NamedRule::new("unheld", Subject::UNHELD);
+const SPARING: NamedRule<Subject> = NamedRule::new("sparing", Subject::SPARING);
 
-step_checks! { Observed;
+step_checks! { Subject;
     contact: pair::contact, REPAIRED, pair::neighbours,
         covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
         unwind 6, mutants {
-            published: "as published" => Observed::PUBLISHED,
-            without_unsure_ahead: "without unsure neighbour" => Observed::without(UnsureAhead),
-            without_safe_ahead: "without E_S ahead" => Observed::without(SafeAhead),
-            without_covered_behind: "without E_C behind" => Observed::without(CoveredBehind),
-            covered_too_wide: "E_C widened" => Observed::with_covered(WIDER),
+            published: "as published" => Subject::PUBLISHED,
+            without_unsure_ahead: "without unsure neighbour" => Subject::without(UnsureAhead),
+            without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
+            without_covered_behind: "without E_C behind" => Subject::without(CoveredBehind),
+            covered_too_wide: "E_C widened" => Subject::with_covered(WIDER),
         };
     crowding: crowd::crowding, REPAIRED, crowd::crowds,
         covers ["none arrives", "one arrives", "two arrive", "two were there"], unwind 6, mutants {
-            published: "as published" => Observed::PUBLISHED,
-            without_full_for_follower: "without full cell for followers" => Observed::without(FullForFollower),
-            without_full_for_leader: "without full cell for the leader" => Observed::without(FullForLeader),
-            without_distinct: "without distinctness" => Observed::without(Distinct),
+            published: "as published" => Subject::PUBLISHED,
+            without_full_for_follower: "without full cell for followers" => Subject::without(FullForFollower),
+            without_full_for_leader: "without full cell for the leader" => Subject::without(FullForLeader),
+            without_distinct: "without distinctness" => Subject::without(Distinct),
         };
     coverage: pair::coverage, PUBLISHED, pair::neighbours,
         covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
         unwind 6, mutants {
-            without_safe_ahead: "without E_S ahead" => Observed::following(Rule::PUBLISHED.without(SafeAhead)),
-            safe_too_wide: "E_S with the radius of E_C" => Observed::with_safe(Circle::COVERED),
+            without_safe_ahead: "without E_S ahead" => Subject::following(Rule::PUBLISHED.without(SafeAhead)),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
         };
     message: small::message, REPAIRED, small::messages,
         covers ["a byte", "a message", "no message"], unwind 6, mutants {
-            swapped_bits: "message bits swapped" => Observed::deceiving(Deception::SwappedBits),
+            swapped_bits: "message bits swapped" => Subject::deceiving(Deception::SwappedBits),
         };
     contact_of_three: three::contact, PUBLISHED, three::places,
         covers ["R_2 may do anything else", "R_2 stays"], unwind 6, mutants {
             high_from_present: "P_high from present positions" =>
-                Observed::following(Rule { high: High::Present, ..Rule::PUBLISHED }),
-            without_safe_ahead: "without E_S ahead" => Observed::following(Rule::PUBLISHED.without(SafeAhead)),
+                Subject::following(Rule { high: High::Present, ..Rule::PUBLISHED }),
+            without_safe_ahead: "without E_S ahead" => Subject::following(Rule::PUBLISHED.without(SafeAhead)),
             without_covered_behind: "without E_C behind" =>
-                Observed::following(Rule::PUBLISHED.without(CoveredBehind)),
+                Subject::following(Rule::PUBLISHED.without(CoveredBehind)),
         };
     ring: small::ring_of_neighbours, PUBLISHED, small::pairs_in_rings,
         covers ["farther in", "farther out", "in the same ring"], unwind 6, mutants {
-            safe_too_wide: "E_S with the radius of E_C" => Observed::with_safe(Circle::COVERED),
-            without_safe_ahead: "without E_S ahead" => Observed::without(SafeAhead),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
+            without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
         };
     unfolding: walk::unfolding, REPAIRED, walk::walks,
         covers ["both go on", "both stay", "the robot ahead goes on"], unwind 6, mutants {
-            safe_too_narrow: "E_S narrowed to E_N" => Observed::with_safe(NARROWER),
-            covered_too_narrow: "E_C with the radius of E_S" => Observed::with_covered(Circle::SAFE),
+            safe_too_narrow: "E_S narrowed to E_N" => Subject::with_safe(NARROWER),
+            covered_too_narrow: "E_C with the radius of E_S" => Subject::with_covered(Circle::SAFE),
         };
 }
 
@@ -81,37 +81,37 @@ pub(super) const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
 const THREE_ROBOTS: (usize, u32) = (3, 5);
 
 /// Rules under which runs do not end.
-const ENDLESS: [Named<Observed>; 2] = [
-    Named::new("epochs need no gain", Observed::without(EpochMustGain)),
-    Named::new("refusals leave no obstacle", Observed::without(RefusedIsVirtual)),
+const ENDLESS: [NamedRule<Subject>; 2] = [
+    NamedRule::new("epochs need no gain", Subject::without(EpochMustGain)),
+    NamedRule::new("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
 ];
 
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
-const SPIRALS: Exhaustive<Observed> =
-    Exhaustive { body: whole::spiral, range: whole::spirals, covers: &["an open area"] };
+const SPIRALS: EveryAnswer<Subject> =
+    EveryAnswer { body: whole::spiral, range: whole::spirals, covers: &["an open area"] };
 
-const SOLVED: Exhaustive<Observed> =
-    Exhaustive { body: optimum::least_in_the_open, range: optimum::solved, covers: &["an open area"] };
+const SOLVED: EveryAnswer<Subject> =
+    EveryAnswer { body: optimum::least_in_the_open, range: optimum::solved, covers: &["an open area"] };
 
-const SAME_PLAN: Check<Observed> = Check::new(
+const SAME_PLAN: Check<Subject> = Check::new(
     REPAIRED,
-    &Exhaustive {
+    &EveryAnswer {
         body: whole::same_plan_in_all_layouts,
         range: whole::layouts_with_few_walls,
         covers: &ENDS,
     },
     Verdict::Holds,
     &[
-        Named::new("P_high from present positions", Observed::high_from_present()),
-        Named::new("without distinctness", Observed::without(Distinct)),
-        Named::new("refusals leave no obstacle", Observed::without(RefusedIsVirtual)),
-        Named::new("without unfolding", Observed::without(Unfold)),
-        Named::new("nobody ahead is sure to arrive", Observed::deceiving(Deception::DoubtsAll)),
+        NamedRule::new("P_high from present positions", Subject::high_from_present()),
+        NamedRule::new("without distinctness", Subject::without(Distinct)),
+        NamedRule::new("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
+        NamedRule::new("without unfolding", Subject::without(Unfold)),
+        NamedRule::new("nobody ahead is sure to arrive", Subject::deceiving(Deception::DoubtsAll)),
     ],
 );
 
-const SAME_PLAN_AT_RANDOM: Sampled<Observed> = Sampled {
+const SAME_PLAN_AT_RANDOM: RandomAnswers<Subject> = RandomAnswers {
     body: whole::same_plan_in_random_layouts,
     runs: 100,
     range: whole::random_layouts,
@@ -119,21 +119,21 @@ const SAME_PLAN_AT_RANDOM: Sampled<Observed> = Sampled {
 };
 
 /// A team that claims a budget and has none.
-const LAVISH: Named<Observed> = Named::new(
+const LAVISH: NamedRule<Subject> = NamedRule::new(
     "no budget",
-    Observed { rule: Rule { budget: Budget::Unlimited, ..Rule::REPAIRED }, ..Observed::SPARING },
+    Subject { rule: Rule { budget: Budget::Unlimited, ..Rule::REPAIRED }, ..Subject::SPARING },
 );
 
-const CHEAP: Check<Observed> = Check::new(
+const CHEAP: Check<Subject> = Check::new(
     REPAIRED,
-    &Sampled { body: whole::cheap, runs: 44, range: whole::cheap_runs, covers: &["a longer run"] },
+    &RandomAnswers { body: whole::cheap, runs: 44, range: whole::cheap_runs, covers: &["a longer run"] },
     Verdict::Unrefuted,
-    &[Named::new("the plain recursion", Observed::deceiving(Deception::PlainRecursion))],
+    &[NamedRule::new("the plain recursion", Subject::deceiving(Deception::PlainRecursion))],
 );
 
-const DEAR: Check<Observed> = Check::new(
+const DEAR: Check<Subject> = Check::new(
     PUBLISHED,
-    &Sampled {
+    &RandomAnswers {
         body: whole::cheap_among_few_walls,
         runs: 100,
         range: whole::runs_among_few_walls,
@@ -161,8 +161,8 @@ pub static CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Without(Breach::Contact), FOUR_ROBOTS),
                 Verdict::Holds,
                 &[
-                    Named::new("as published", Observed::PUBLISHED),
-                    Named::new("without unsure neighbour", Observed::without(UnsureAhead)),
+                    NamedRule::new("as published", Subject::PUBLISHED),
+                    NamedRule::new("without unsure neighbour", Subject::without(UnsureAhead)),
                 ],
             ),
             &Check::new(
@@ -194,7 +194,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
                 Verdict::Holds,
-                &[Named::new("as published", Observed::PUBLISHED)],
+                &[NamedRule::new("as published", Subject::PUBLISHED)],
             ),
             &Check::new(
                 UNHELD,
@@ -220,7 +220,10 @@ pub static CLAUSES: [Clause; 15] = [
                 PUBLISHED,
                 &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_ROBOTS),
                 Verdict::Holds,
-                &[Named::new("without E_S ahead", Observed::following(Rule::PUBLISHED.without(SafeAhead)))],
+                &[NamedRule::new(
+                    "without E_S ahead",
+                    Subject::following(Rule::PUBLISHED.without(SafeAhead)),
+                )],
             ),
             &Check { about: UNCOVERED, ..coverage::CHECK },
             &Check::new(
@@ -241,11 +244,11 @@ pub static CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
                 Verdict::Holds,
                 &[
-                    Named::new("without E_S ahead", Observed::without(SafeAhead)),
-                    Named::new("without E_C behind", Observed::without(CoveredBehind)),
-                    Named::new("without unsure neighbour", Observed::without(UnsureAhead)),
-                    Named::new("without full cell for followers", Observed::without(FullForFollower)),
-                    Named::new("without full cell for the leader", Observed::without(FullForLeader)),
+                    NamedRule::new("without E_S ahead", Subject::without(SafeAhead)),
+                    NamedRule::new("without E_C behind", Subject::without(CoveredBehind)),
+                    NamedRule::new("without unsure neighbour", Subject::without(UnsureAhead)),
+                    NamedRule::new("without full cell for followers", Subject::without(FullForFollower)),
+                    NamedRule::new("without full cell for the leader", Subject::without(FullForLeader)),
                 ],
             ),
             &Check::new(REEL, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
@@ -260,7 +263,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
                 Verdict::Holds,
-                &[Named::new("without distinctness", Observed::without(Distinct))],
+                &[NamedRule::new("without distinctness", Subject::without(Distinct))],
             ),
             &Check::new(REEL, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
         ],
@@ -272,7 +275,7 @@ pub static CLAUSES: [Clause; 15] = [
             REPAIRED,
             &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
             Verdict::Holds,
-            &[Named::new("the base follows R_2", Observed::deceiving(Deception::BaseFollows))],
+            &[NamedRule::new("the base follows R_2", Subject::deceiving(Deception::BaseFollows))],
         )],
     },
     Clause {
@@ -299,7 +302,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS),
                 Verdict::Holds,
-                &[Named::new("message bits swapped", Observed::deceiving(Deception::SwappedBits))],
+                &[NamedRule::new("message bits swapped", Subject::deceiving(Deception::SwappedBits))],
             ),
             &Check::new(REEL, &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
         ],
@@ -314,7 +317,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &SPIRALS,
                 Verdict::Holds,
-                &[Named::new("P_high from present positions", Observed::high_from_present())],
+                &[NamedRule::new("P_high from present positions", Subject::high_from_present())],
             ),
             &Check::new(REEL, &SPIRALS, Verdict::Holds, &[]),
         ],
@@ -326,7 +329,7 @@ pub static CLAUSES: [Clause; 15] = [
             &ring::CHECK,
             &Check::new(
                 PUBLISHED,
-                &Exhaustive { body: small::ring_cells, range: small::rings, covers: &["a ring"] },
+                &EveryAnswer { body: small::ring_cells, range: small::rings, covers: &["a ring"] },
                 Verdict::Holds,
                 &[],
             ),
@@ -335,7 +338,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &SOLVED,
                 Verdict::Holds,
-                &[Named::new("without E_S ahead", Observed::without(SafeAhead))],
+                &[NamedRule::new("without E_S ahead", Subject::without(SafeAhead))],
             ),
         ],
     },
@@ -372,7 +375,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_ROBOTS),
                 Verdict::Holds,
-                &[Named::new("without unfolding", Observed::without(Unfold))],
+                &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
             &Check::new(
                 UNHELD,
@@ -397,7 +400,7 @@ pub static CLAUSES: [Clause; 15] = [
                 REPAIRED,
                 &EveryLayout(Invariant::Exhausts, (3, 2)),
                 Verdict::Holds,
-                &[Named::new("without unfolding", Observed::without(Unfold))],
+                &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
             &Check::new(REPAIRED, &EveryLayout(Invariant::Exhausts, (3, 3)), Verdict::Refuted, &[]),
         ],
@@ -411,7 +414,10 @@ pub static CLAUSES: [Clause; 15] = [
                 PUBLISHED,
                 &EveryLayout(Invariant::Without(Breach::Contact), THREE_ROBOTS),
                 Verdict::Holds,
-                &[Named::new("without E_S ahead", Observed::following(Rule::PUBLISHED.without(SafeAhead)))],
+                &[NamedRule::new(
+                    "without E_S ahead",
+                    Subject::following(Rule::PUBLISHED.without(SafeAhead)),
+                )],
             ),
             &Check::new(
                 PUBLISHED,

@@ -5,7 +5,7 @@ use tautline_kernel::chain::{Condition, Role};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Step};
 
-use super::observed::Observed;
+use super::observed::Subject;
 use super::pair::World;
 use crate::engine::{Outcome, assume, require};
 
@@ -21,7 +21,7 @@ pub(super) fn crowds() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices are no case, or break the clause.
-pub(super) fn crowding(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn crowding(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = &observed.rule;
     let cell = Cell::new(0, 0);
     // One of them may be the leader, or none.

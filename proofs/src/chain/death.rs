@@ -3,13 +3,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Outcome as Came, Reforming};
+use tautline_kernel::chain::{Chain, Damage, Intent, Kind, Message, Outcome as Came, Reformation};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Edge, Grid, Side, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
-use super::observed::Observed;
+use super::observed::Subject;
 use super::whole::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
 
@@ -41,14 +41,14 @@ pub(super) fn random_layouts() -> String {
 
 /// A chain of which a robot dies, and what the others do.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Dying {
-    pub(super) observed: Observed,
-    pub(super) then: Then,
+pub(super) struct DeathCase {
+    pub(super) observed: Subject,
+    pub(super) then: Aftermath,
 }
 
 /// The others' action when a robot has died.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Then {
+pub(super) enum Aftermath {
     /// They re-form, and come home when they need what was before.
     Reform,
     /// The robots ahead wait where they are.
@@ -69,7 +69,7 @@ pub(super) enum Then {
 ///
 /// # Errors
 /// [`Stop`] if it is no case, or breaks the clause.
-pub(super) fn in_few_walls(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn in_few_walls(dying: &DeathCase, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, mut walls) = one_of(oracle, &FEW_WALLS);
     let (moment, robot) = (oracle.pick(MOMENTS), 1 + oracle.pick(robots as u32 - 1) as usize);
     let mut is_open = || {
@@ -84,7 +84,7 @@ pub(super) fn in_few_walls(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
 ///
 /// # Errors
 /// As of [`in_few_walls`].
-pub(super) fn at_random(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn at_random(dying: &DeathCase, oracle: &mut dyn Oracle) -> Outcome {
     let walls_percent = one_of(oracle, &RANDOM.1);
     let (moment, robot) = (oracle.pick(LATE_MOMENTS), 1 + oracle.pick(RANDOM.0 as u32 - 1) as usize);
     Death { dying, moment, robot }.happens(RANDOM.0, &mut || oracle.pick(100) >= walls_percent)
@@ -107,7 +107,7 @@ const MAY_COME_HOME: &str =
 ///
 /// # Errors
 /// [`Stop`] if it is no case, or breaks the clause.
-pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn whatever_the_log(dying: &DeathCase, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, most) = MEETING;
     let (moves, mute) = (1 + oracle.pick(most), 1 + oracle.pick(robots as u32 - 1) as usize);
     let mut chain: Small = start(&dying.observed, robots, SmallGrid::new)?;
@@ -134,7 +134,7 @@ pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcom
             if let Step::Cross(side) = step.reverse()
                 && !crossed.contains(&key(Edge::new(reforming.cells()[place], side)))
             {
-                refused = refused.or(Some(Damaged::OtherWorld { robot: robot + 1 }));
+                refused = refused.or(Some(Damage::OtherWorld { robot: robot + 1 }));
             }
             log[entry as usize * (robots - 1) + robot - 1] =
                 Message { step, outcome: Came::Arrived }.encode();
@@ -158,27 +158,30 @@ pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcom
     Ok(if taken_back < moves { "one chain" } else { "one chain, the part ahead home" })
 }
 
-impl Dying {
+impl DeathCase {
     /// One more team move is taken back.
-    fn take_back(&self, reforming: &mut Reforming<SmallGrid, 8>, log: &[u8]) -> Result<bool, Damaged> {
+    fn take_back(&self, reforming: &mut Reformation<SmallGrid, 8>, log: &[u8]) -> Result<bool, Damage> {
         let behind = reforming.behind();
         match reforming.take_back(log) {
-            Err(Damaged::OtherWorld { robot }) if self.then == Then::Renumber && robot > behind => {
-                Err(Damaged::OtherWorld { robot: robot - 1 })
+            Err(Damage::OtherWorld { robot }) if self.then == Aftermath::Renumber && robot > behind => {
+                Err(Damage::OtherWorld { robot: robot - 1 })
             }
             taken => taken,
         }
     }
 
     /// Whether the two parts are one chain again, by what they do; that is so as soon as it can be.
-    fn is_formed(&self, reforming: &Reforming<SmallGrid, 8>) -> Result<bool, Stop> {
+    fn is_formed(&self, reforming: &Reformation<SmallGrid, 8>) -> Result<bool, Stop> {
         let cells = reforming.cells();
         let in_contact = hold(&ways(cells, cells));
         let is_formed = match self.then {
-            Then::Crowd => in_contact,
-            Then::Reform | Then::Wait | Then::Skip | Then::Beyond | Then::StayOut | Then::Renumber => {
-                reforming.is_formed()
-            }
+            Aftermath::Crowd => in_contact,
+            Aftermath::Reform
+            | Aftermath::Wait
+            | Aftermath::Skip
+            | Aftermath::Beyond
+            | Aftermath::StayOut
+            | Aftermath::Renumber => reforming.is_formed(),
         };
         require(
             is_formed == (in_contact && !Breach::Crowding.is_in(cells, cells)),
@@ -190,7 +193,7 @@ impl Dying {
 
 /// The robot in place `robot` dies after so many team moves, on its way in the next.
 struct Death<'a> {
-    dying: &'a Dying,
+    dying: &'a DeathCase,
     moment: u32,
     robot: usize,
 }
@@ -241,7 +244,7 @@ impl Death<'_> {
             if goes_on(&mut chain, &mut fresh, &mut is_open)?.is_some() {
                 continue;
             }
-            let may_leave = self.dying.then != Then::StayOut && chain.has_more_within_reach();
+            let may_leave = self.dying.then != Aftermath::StayOut && chain.has_more_within_reach();
             let Some(mut reforming) = chain.come_home(parts).filter(|_| may_leave) else {
                 require(
                     !chain.has_more_within_reach(),
@@ -270,15 +273,15 @@ impl Death<'_> {
 
     /// A team move taken back, and whether there was one. Neighbours of the same part must be in contact, whoever of
     /// them has gone.
-    fn takes_back(&self, reforming: &mut Reforming<SmallGrid, 8>, log: &[u8]) -> Result<bool, Stop> {
+    fn takes_back(&self, reforming: &mut Reformation<SmallGrid, 8>, log: &[u8]) -> Result<bool, Stop> {
         let before = reforming.cells().to_vec();
         let mut take_back =
             || reforming.take_back(log).map_err(|_| Stop::Violated("the log leads over crossed sides only"));
         let is_left = match self.dying.then {
-            Then::Reform | Then::Crowd | Then::StayOut | Then::Renumber => take_back()?,
-            Then::Wait => false,
-            Then::Skip => take_back()? | take_back()?,
-            Then::Beyond => {
+            Aftermath::Reform | Aftermath::Crowd | Aftermath::StayOut | Aftermath::Renumber => take_back()?,
+            Aftermath::Wait => false,
+            Aftermath::Skip => take_back()? | take_back()?,
+            Aftermath::Beyond => {
                 take_back()?;
                 true
             }

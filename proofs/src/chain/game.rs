@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, Refused};
+use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, SetupError};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
 
@@ -30,10 +30,10 @@ pub(super) struct ChainGame<G, const ROBOTS: usize> {
 }
 
 impl<G: Grid, const ROBOTS: usize> ChainGame<G, ROBOTS> {
-    pub(super) fn new(bounds: &Bounds, grid: impl Fn(Area) -> Option<G>) -> Result<Self, Refused> {
+    pub(super) fn new(bounds: &Bounds, grid: impl Fn(Area) -> Option<G>) -> Result<Self, SetupError> {
         let Bounds { robots, base, .. } = *bounds;
         let most = if bounds.invariants.contains(&Invariant::Exhausts) { MOST_EXHAUSTING } else { ROBOTS };
-        let too_many = Refused::TooManyRobots { robots, most };
+        let too_many = SetupError::TooManyRobots { robots, most };
         let grid = grid(bounds.reach()?).filter(|_| robots <= most).ok_or(too_many)?;
         Ok(Self { bounds: bounds.clone(), start: Chain::new(bounds.observed.rule, robots, base, grid)? })
     }

@@ -7,14 +7,14 @@ use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step}
 
 use super::breach::Breach;
 use super::environment::{in_covered, in_safe};
-use super::observed::Observed;
+use super::observed::Subject;
 use super::plain::walk;
 use super::plain_reel::PlainReel;
 use crate::engine::{Stop, require};
 
 /// One team move, with the chain in its three states.
 pub(crate) struct Moment<'a, G, const ROBOTS: usize> {
-    pub(crate) observed: &'a Observed,
+    pub(crate) observed: &'a Subject,
     /// When it was asked for a plan.
     pub(crate) before: &'a Chain<G, ROBOTS>,
     /// When it had planned: new virtual obstacles, perhaps a new epoch.

@@ -31,7 +31,7 @@ impl Deception {
 
 /// A chain that is observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Observed {
+pub struct Subject {
     /// The rule that it follows.
     pub rule: Rule,
     /// The rule that it claims to follow.
@@ -40,7 +40,7 @@ pub struct Observed {
     pub deception: Deception,
 }
 
-impl Observed {
+impl Subject {
     /// As published.
     pub const PUBLISHED: Self = Self::honest(Rule::PUBLISHED);
 

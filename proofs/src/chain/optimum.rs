@@ -12,7 +12,7 @@ use tautline_kernel::chain::Rule;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::Cell;
 
-use super::observed::Observed;
+use super::observed::Subject;
 use super::reach::{CellSet, Followers, Ground, Relation, TooLarge};
 use super::whole;
 use crate::engine::{Outcome, Stop, require};
@@ -58,7 +58,7 @@ impl Optimum {
 
 /// Why there is no answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Unsolved {
+pub enum OptimumError {
     /// The ground is too large.
     TooLarge(TooLarge),
     /// The team has more than [`MAX_CONFIGURATIONS`].
@@ -77,7 +77,7 @@ pub enum Unsolved {
     },
 }
 
-impl fmt::Display for Unsolved {
+impl fmt::Display for OptimumError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooLarge(too_large) => too_large.fmt(f),
@@ -94,27 +94,27 @@ impl fmt::Display for Unsolved {
     }
 }
 
-impl std::error::Error for Unsolved {}
+impl std::error::Error for OptimumError {}
 
 /// The fewest team moves in which a team on `ground` explores all `goals` under `rule`, with at most `most_states`.
 ///
 /// # Errors
-/// [`Unsolved`].
+/// [`OptimumError`].
 pub fn explore_all(
     ground: &Ground,
     rule: &Rule,
     goals: &CellSet,
     guide: Guide,
     most_states: usize,
-) -> Result<Optimum, Unsolved> {
+) -> Result<Optimum, OptimumError> {
     let graph = Graph::new(ground, rule)?;
     let cells: Vec<Cell> = ground.area().cells().collect();
     let reached = graph.occupied.iter().fold(0, |reached, &occupied| reached | occupied);
     let reached = CellSet::of_bits(ground.area(), reached);
     if let Some(cell) = goals.iter().find(|&goal| !reached.contains(goal)) {
-        return Err(Unsolved::OutOfReach { cell });
+        return Err(OptimumError::OutOfReach { cell });
     }
-    let goals = ground.bits(goals).map_err(Unsolved::TooLarge)?;
+    let goals = ground.bits(goals).map_err(OptimumError::TooLarge)?;
     let bound = Bound::new(&graph, cells.len(), guide);
     let search = Search { graph: &graph, bound, nodes: Vec::new(), known: HashMap::new(), open: Vec::new() };
     let (path, states) = search.run(goals, most_states)?;
@@ -132,8 +132,8 @@ struct Graph {
 }
 
 impl Graph {
-    fn new(ground: &Ground, rule: &Rule) -> Result<Self, Unsolved> {
-        let relation = Relation::new(ground, rule).map_err(Unsolved::TooLarge)?;
+    fn new(ground: &Ground, rule: &Rule) -> Result<Self, OptimumError> {
+        let relation = Relation::new(ground, rule).map_err(OptimumError::TooLarge)?;
         let mut places = vec![relation.start()];
         let mut known = HashMap::from([(places[0], 0)]);
         let (mut occupied, mut next) = (Vec::new(), Vec::new());
@@ -151,7 +151,7 @@ impl Graph {
             });
             next.push(after);
             if places.len() > MAX_CONFIGURATIONS {
-                return Err(Unsolved::Configurations);
+                return Err(OptimumError::Configurations);
             }
         }
         Ok(Self { robots: ground.robots(), places, occupied, next })
@@ -331,7 +331,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// The configurations of a shortest exploration of `goals`, and how many states the search went on from. Of equals
     /// the one put in last comes first, and a team move's best outcome is put in last.
-    fn run(mut self, goals: u128, most_states: usize) -> Result<(Vec<u32>, u64), Unsolved> {
+    fn run(mut self, goals: u128, most_states: usize) -> Result<(Vec<u32>, u64), OptimumError> {
         let left = goals & !self.graph.occupied[0];
         self.add(Node { place: 0, left, parent: 0, made: 0, least: 0 });
         let (mut states, mut least) = (0, 0);
@@ -349,7 +349,7 @@ impl Search<'_> {
             }
             states += 1;
             if self.nodes.len() > most_states {
-                return Err(Unsolved::States { most: most_states });
+                return Err(OptimumError::States { most: most_states });
             }
             let places = self.graph.next[node.place as usize].iter();
             let mut after: Vec<(u32, u128)> =
@@ -359,7 +359,7 @@ impl Search<'_> {
                 self.add(Node { place, left, parent: index, made: made + 1, least: node.least });
             }
         }
-        Err(Unsolved::Apart)
+        Err(OptimumError::Apart)
     }
 
     fn add(&mut self, node: Node) {
@@ -406,7 +406,7 @@ pub fn solved() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if they are not 9(N−1)−1.
-pub fn least_in_the_open(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub fn least_in_the_open(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let robots = whole::within(&SOLVED, oracle) as usize;
     let (area, base) = whole::area(robots);
     let ground = Ground::new(area, base, robots, |_| true).ok_or(Stop::Assumed)?;
@@ -429,7 +429,7 @@ mod tests {
 
     use super::super::reach::tests::{ground, layouts_of_two_robots, random, team_moves};
     use super::*;
-    use crate::engine::Seeded;
+    use crate::engine::SeededOracle;
 
     const MANY: usize = 20_000_000;
 
@@ -467,7 +467,7 @@ mod tests {
 
     #[test]
     fn more_robots_need_what_plain_search_says_in_smaller_areas() {
-        let mut oracle = Seeded::new(0, 0);
+        let mut oracle = SeededOracle::new(0, 0);
         for (robots, width, height, layouts) in [(3, 5, 3, 10), (3, 4, 3, 20), (4, 4, 3, 5), (5, 3, 3, 5)] {
             let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1)).expect("cells");
             for _ in 0..layouts {
@@ -479,7 +479,7 @@ mod tests {
 
     #[test]
     fn three_robots_need_what_plain_search_says_for_some_of_the_cells() {
-        let mut oracle = Seeded::new(1, 0);
+        let mut oracle = SeededOracle::new(1, 0);
         let open = ground(3, |_| false);
         for walls_percent in [5, 15, 30] {
             for _ in 0..10 {
@@ -528,15 +528,15 @@ mod tests {
             explore_all(ground, &Rule::REPAIRED, &goals(ground, cell), Guide::Distances, most)
         };
         let corner = Cell::new(0, 0);
-        assert_eq!(solve(&ground(3), corner, MANY), Err(Unsolved::OutOfReach { cell: corner }));
+        assert_eq!(solve(&ground(3), corner, MANY), Err(OptimumError::OutOfReach { cell: corner }));
         let outside = goals(&ground(4), Cell::new(6, 6));
         let solved = explore_all(&ground(3), &Rule::REPAIRED, &outside, Guide::Distances, MANY);
-        assert_eq!(solved, Err(Unsolved::OutOfReach { cell: Cell::new(6, 6) }));
-        assert_eq!(solve(&ground(3), Cell::new(4, 4), 3), Err(Unsolved::States { most: 3 }));
+        assert_eq!(solved, Err(OptimumError::OutOfReach { cell: Cell::new(6, 6) }));
+        assert_eq!(solve(&ground(3), Cell::new(4, 4), 3), Err(OptimumError::States { most: 3 }));
         let too_large = TooLarge::Cells { cells: 169 };
-        assert_eq!(solve(&ground(7), corner, MANY), Err(Unsolved::TooLarge(too_large)));
+        assert_eq!(solve(&ground(7), corner, MANY), Err(OptimumError::TooLarge(too_large)));
         let row = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("cells");
         let crowd = Ground::new(row, Cell::new(2, 2), 8, |_| true).expect("a base inside");
-        assert_eq!(solve(&crowd, corner, MANY), Err(Unsolved::Configurations));
+        assert_eq!(solve(&crowd, corner, MANY), Err(OptimumError::Configurations));
     }
 }

@@ -6,24 +6,24 @@ use tautline_kernel::chain::{Habit, Rule, World};
 
 use super::barrier::{self, Reading};
 use super::clauses::{FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
-use super::death::{self, Dying, Then};
+use super::death::{self, Aftermath, DeathCase};
 use super::invariant::Invariant;
-use super::observed::Observed;
+use super::observed::Subject;
 use super::search::EveryLayout;
-use super::shut::{self, Shut};
+use super::shut::{self, WallsCase};
 use super::{pair, whole};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Sampled, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::ground::clauses::NARROWER;
 use crate::step_checks;
 
-step_checks! { Observed;
+step_checks! { Subject;
     hold: pair::hold, REEL, pair::goers,
         covers ["both have gone", "neither has gone", "the robot ahead has gone", "the robot behind has gone"],
         unwind 6, mutants {
-            without_hold: "without hold" => Observed::reeling(Observed::UNHELD.rule),
-            without_safe_ahead: "without E_S ahead" => Observed::reeling(Rule::REEL.without(SafeAhead)),
-            without_covered_behind: "without E_C behind" => Observed::reeling(Rule::REEL.without(CoveredBehind)),
+            without_hold: "without hold" => Subject::reeling(Subject::UNHELD.rule),
+            without_safe_ahead: "without E_S ahead" => Subject::reeling(Rule::REEL.without(SafeAhead)),
+            without_covered_behind: "without E_C behind" => Subject::reeling(Rule::REEL.without(CoveredBehind)),
         };
 }
 
@@ -35,19 +35,20 @@ const FOUR_TWO_WALLS: (usize, u32) = (4, 2);
 const THREE_FOUR_WALLS: (usize, u32) = (3, 4);
 
 /// Reels that do not end, or gain nothing where they said so.
-const UNREHEARSED: Named<Observed> =
-    Named::new("tasks are not rehearsed", Observed::without_habits(&[Habit::Rehearses]));
-const FICKLE: Named<Observed> = Named::new("stages go back", Observed::without_habits(&[Habit::KeepsTask]));
-const NO_NEARER: Named<Observed> = Named::new(
+const UNREHEARSED: NamedRule<Subject> =
+    NamedRule::new("tasks are not rehearsed", Subject::without_habits(&[Habit::Rehearses]));
+const FICKLE: NamedRule<Subject> =
+    NamedRule::new("stages go back", Subject::without_habits(&[Habit::KeepsTask]));
+const NO_NEARER: NamedRule<Subject> = NamedRule::new(
     "an approach gets no nearer",
-    Observed::without_habits(&[Habit::Rehearses, Habit::ComesNearer]),
+    Subject::without_habits(&[Habit::Rehearses, Habit::ComesNearer]),
 );
-const TAKES_BACK_ONE: Named<Observed> =
-    Named::new("take-backs always of one", Observed::without_habits(&[Habit::Doubles]));
+const TAKES_BACK_ONE: NamedRule<Subject> =
+    NamedRule::new("take-backs always of one", Subject::without_habits(&[Habit::Doubles]));
 
 const BARRIER: Check<Reading> = Check::new(
-    Named::new("reel", Reading::True),
-    &Exhaustive {
+    NamedRule::new("reel", Reading::True),
+    &EveryAnswer {
         body: barrier::barrier,
         range: barrier::losses,
         covers: &[
@@ -59,52 +60,52 @@ const BARRIER: Check<Reading> = Check::new(
     },
     Verdict::Holds,
     &[
-        Named::new("team moves are not told apart", Reading::Present),
-        Named::new("one bit counts team moves", Reading::OneBit),
-        Named::new("nobody says a byte again", Reading::Mute),
-        Named::new("answers are answered", Reading::NoAnswers),
+        NamedRule::new("team moves are not told apart", Reading::Present),
+        NamedRule::new("one bit counts team moves", Reading::OneBit),
+        NamedRule::new("nobody says a byte again", Reading::Mute),
+        NamedRule::new("answers are answered", Reading::NoAnswers),
     ],
 );
 
 /// A chain that re-forms when a robot dies.
-const fn dying(observed: Observed, then: Then) -> Dying {
-    Dying { observed, then }
+const fn dying(observed: Subject, then: Aftermath) -> DeathCase {
+    DeathCase { observed, then }
 }
 
 const DEATHS: [&str; 2] = ["the chain goes on after some moves taken back", "the chain goes on at once"];
 
-const DEATH: Check<Dying> = Check::new(
-    Named::new("reel", dying(Observed::REEL, Then::Reform)),
-    &Exhaustive { body: death::in_few_walls, range: death::few_walls, covers: &DEATHS },
+const DEATH: Check<DeathCase> = Check::new(
+    NamedRule::new("reel", dying(Subject::REEL, Aftermath::Reform)),
+    &EveryAnswer { body: death::in_few_walls, range: death::few_walls, covers: &DEATHS },
     Verdict::Holds,
     &[
-        Named::new("the robots ahead wait", dying(Observed::REEL, Then::Wait)),
-        Named::new("two team moves are taken back at once", dying(Observed::REEL, Then::Skip)),
-        Named::new("the chain never comes home", dying(Observed::REEL, Then::StayOut)),
-        Named::new("team moves are taken back that nobody made", dying(Observed::REEL, Then::Beyond)),
+        NamedRule::new("the robots ahead wait", dying(Subject::REEL, Aftermath::Wait)),
+        NamedRule::new("two team moves are taken back at once", dying(Subject::REEL, Aftermath::Skip)),
+        NamedRule::new("the chain never comes home", dying(Subject::REEL, Aftermath::StayOut)),
+        NamedRule::new("team moves are taken back that nobody made", dying(Subject::REEL, Aftermath::Beyond)),
     ],
 );
 
-const MEETING: Check<Dying> = Check::new(
+const MEETING: Check<DeathCase> = Check::new(
     DEATH.about,
-    &Exhaustive {
+    &EveryAnswer {
         body: death::whatever_the_log,
         range: death::meetings,
         covers: &["one chain", "one chain, the part ahead home", "three robots in one cell", "two parts"],
     },
     Verdict::Holds,
     &[
-        Named::new("three robots go on in one cell", dying(Observed::REEL, Then::Crowd)),
-        Named::new(
+        NamedRule::new("three robots go on in one cell", dying(Subject::REEL, Aftermath::Crowd)),
+        NamedRule::new(
             "a refused log names robots as they count without the dead one",
-            dying(Observed::REEL, Then::Renumber),
+            dying(Subject::REEL, Aftermath::Renumber),
         ),
     ],
 );
 
-const DEATH_AT_RANDOM: Check<Dying> = Check::new(
+const DEATH_AT_RANDOM: Check<DeathCase> = Check::new(
     DEATH.about,
-    &Sampled {
+    &RandomAnswers {
         body: death::at_random,
         runs: 200,
         range: death::random_layouts,
@@ -112,38 +113,43 @@ const DEATH_AT_RANDOM: Check<Dying> = Check::new(
     },
     Verdict::Unrefuted,
     &[
-        Named::new("without hold", dying(Observed::UNHELD, Then::Reform)),
-        Named::new("as repaired", dying(Observed::REPAIRED, Then::Reform)),
+        NamedRule::new("without hold", dying(Subject::UNHELD, Aftermath::Reform)),
+        NamedRule::new("as repaired", dying(Subject::REPAIRED, Aftermath::Reform)),
     ],
 );
 
 /// A chain in a world in which walls appear.
-const fn shut(observed: Observed, world: World) -> Shut {
-    Shut { observed, world, plans_in: world }
+const fn shut(observed: Subject, world: World) -> WallsCase {
+    WallsCase { observed, world, plans_in: world }
 }
 
-const SHUT: Check<Shut> = Check::new(
-    Named::new("reel", shut(Observed::REEL, World::Changing)),
-    &Exhaustive {
+const SHUT: Check<WallsCase> = Check::new(
+    NamedRule::new("reel", shut(Subject::REEL, World::Changing)),
+    &EveryAnswer {
         body: shut::in_few_walls,
         range: shut::few_walls,
         covers: &["a wall appears", "no wall appears"],
     },
     Verdict::Holds,
     &[
-        Named::new("crossed sides are not tried", shut(Observed::REEL, World::Lasting)),
-        Named::new(
+        NamedRule::new("crossed sides are not tried", shut(Subject::REEL, World::Lasting)),
+        NamedRule::new(
             "the history below a wall is kept",
-            Shut { plans_in: World::Lasting, ..shut(Observed::REEL, World::Changing) },
+            WallsCase { plans_in: World::Lasting, ..shut(Subject::REEL, World::Changing) },
         ),
     ],
 );
 
-const SHUT_AT_RANDOM: Check<Shut> = Check::new(
+const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
     SHUT.about,
-    &Sampled { body: shut::at_random, runs: 200, range: shut::random_layouts, covers: &["a wall appears"] },
+    &RandomAnswers {
+        body: shut::at_random,
+        runs: 200,
+        range: shut::random_layouts,
+        covers: &["a wall appears"],
+    },
     Verdict::Unrefuted,
-    &[Named::new("as repaired", shut(Observed::REPAIRED, World::Changing))],
+    &[NamedRule::new("as repaired", shut(Subject::REPAIRED, World::Changing))],
 );
 
 /// The clauses.
@@ -157,16 +163,16 @@ pub static CLAUSES: [Clause; 10] = [
                 REPAIRED,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
                 Verdict::Holds,
-                &[Named::new("E_S narrowed to E_N", Observed::with_safe(NARROWER))],
+                &[NamedRule::new("E_S narrowed to E_N", Subject::with_safe(NARROWER))],
             ),
             &Check::new(UNHELD, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
             &Check::new(
                 REEL,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
                 Verdict::Holds,
-                &[Named::new(
+                &[NamedRule::new(
                     "tasks are not rehearsed, E_S narrowed to E_N",
-                    Observed::reeling(Rule { safe: NARROWER, ..UNREHEARSED.rule.rule }),
+                    Subject::reeling(Rule { safe: NARROWER, ..UNREHEARSED.rule.rule }),
                 )],
             ),
         ],
@@ -215,18 +221,18 @@ pub static CLAUSES: [Clause; 10] = [
                 REEL,
                 &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS),
                 Verdict::Holds,
-                &[Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
+                &[NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
             ),
             &Check::new(
                 REEL,
-                &Sampled {
+                &RandomAnswers {
                     body: whole::any_order,
                     runs: 200,
                     range: whole::orders,
                     covers: &["a whole run"],
                 },
                 Verdict::Unrefuted,
-                &[Named::new("without hold", Observed::reeling(Observed::UNHELD.rule))],
+                &[NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule))],
             ),
         ],
     },
@@ -271,7 +277,7 @@ pub static CLAUSES: [Clause; 10] = [
                 REEL,
                 &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
                 Verdict::Holds,
-                &[Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
+                &[NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
             ),
             &Check::new(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), Verdict::Holds, &[]),
         ],
@@ -284,7 +290,7 @@ pub static CLAUSES: [Clause; 10] = [
                 REEL,
                 &EveryLayout(Invariant::Chosen, FOUR_TWO_WALLS),
                 Verdict::Holds,
-                &[UNREHEARSED, FICKLE, Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
+                &[UNREHEARSED, FICKLE, NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
             ),
             &Check::new(REEL, &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS), Verdict::Holds, &[]),
         ],
@@ -296,9 +302,9 @@ mod tests {
     use super::*;
     use crate::chain::search::{Bounds, search};
     use crate::clause::AnyCheck;
-    use crate::decide::Memory;
+    use crate::decide::Cache;
     use crate::engine::tree::unwatched;
-    use crate::engine::{Seeded, Stop};
+    use crate::engine::{SeededOracle, Stop};
     use tautline_kernel::chain::{Chain, Intent};
     use tautline_kernel::choice::Oracle;
     use tautline_kernel::ground::SmallGrid;
@@ -307,7 +313,7 @@ mod tests {
 
     /// Runs, team moves, and the longest run of both reels.
     fn searched(robots: usize, walls: u32) -> [(u64, u64, u32); 2] {
-        [Observed::REEL, Observed::UNHELD].map(|observed| {
+        [Subject::REEL, Subject::UNHELD].map(|observed| {
             let invariants = Invariant::Falls.companions(&observed.intended).to_vec();
             let bounds = Bounds { invariants, ..Bounds::new(observed, robots, walls) };
             let found = search(&bounds, &mut unwatched).expect("it can be searched");
@@ -321,14 +327,14 @@ mod tests {
         let checks: [&dyn AnyCheck; 6] =
             [&BARRIER, &DEATH, &MEETING, &DEATH_AT_RANDOM, &SHUT, &SHUT_AT_RANDOM];
         for check in checks {
-            let decision = check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+            let decision = check.decide(&mut Cache::default(), &mut unwatched).expect("it can be decided");
             assert!(decision.is_as_registered(check), "{check:?}: {decision:?}");
         }
     }
 
     /// Whether contact is lost when one robot stops on its way and the others go, in a run in a random layout.
-    fn breaks_when_one_stops(observed: Observed, seed: u64) -> bool {
-        let mut world = Seeded::new(23, seed);
+    fn breaks_when_one_stops(observed: Subject, seed: u64) -> bool {
+        let mut world = SeededOracle::new(23, seed);
         let mut chain: Chain<SmallGrid, 8> = whole::start(&observed, 8, SmallGrid::new).expect("it fits");
         let mut log = Vec::new();
         while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
@@ -348,8 +354,8 @@ mod tests {
     #[test]
     fn the_repaired_rule_breaks_contact_in_each_of_three_ways() {
         let broken = |runs: &dyn Fn(u64) -> bool| (0..100).filter(|&seed| runs(seed)).count();
-        let breaks = |observed: Observed| {
-            let world = |seed| Seeded::new(19, seed);
+        let breaks = |observed: Subject| {
+            let world = |seed| SeededOracle::new(19, seed);
             let speeds = broken(&|seed| whole::any_order(&observed, &mut world(seed)).is_err());
             let stops = broken(&|seed| breaks_when_one_stops(observed, seed));
             let lost = Err(Stop::Violated("neighbours are in contact when walls have appeared"));
@@ -357,13 +363,13 @@ mod tests {
                 broken(&|seed| shut::at_random(&shut(observed, World::Changing), &mut world(seed)) == lost);
             [speeds, stops, walls]
         };
-        assert!(breaks(Observed::REPAIRED).iter().all(|&runs| runs > 0), "{:?}", breaks(Observed::REPAIRED));
-        assert_eq!(breaks(Observed::REEL), [0; 3]);
+        assert!(breaks(Subject::REPAIRED).iter().all(|&runs| runs > 0), "{:?}", breaks(Subject::REPAIRED));
+        assert_eq!(breaks(Subject::REEL), [0; 3]);
     }
 
     #[test]
     fn while_tasks_are_rehearsed_no_promise_needs_the_last_place_on_a_walk() {
-        let observed = Observed::without_habits(&[Habit::LastPlace]);
+        let observed = Subject::without_habits(&[Habit::LastPlace]);
         let invariants = Invariant::Falls.companions(&observed.intended).to_vec();
         let found = search(&Bounds { invariants, ..Bounds::new(observed, 3, 3) }, &mut unwatched);
         let found = found.expect("it can be searched");

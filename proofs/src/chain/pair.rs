@@ -8,7 +8,7 @@ use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Circle, Edge, Step};
 
 use super::breach::stays_in_range;
-use super::observed::Observed;
+use super::observed::Subject;
 use crate::engine::{Outcome, Stop, assume, require};
 
 /// The state of an edge that a robot plans to cross.
@@ -45,25 +45,25 @@ impl<const ROBOTS: usize> World<ROBOTS> {
     }
 
     /// A robot at `from` that plans any step, and where it ends up.
-    pub(crate) fn pick(&mut self, from: Cell, oracle: &mut dyn Oracle) -> Tried {
+    pub(crate) fn pick(&mut self, from: Cell, oracle: &mut dyn Oracle) -> Attempt {
         let step = one_of(oracle, &Step::ALL);
         let nature = match step {
             Step::Cross(side) => self.nature(Edge::new(from, side), oracle),
             Step::Stay => Nature::Open,
         };
         let plan = Move { from, step, known_open: nature == Nature::KnownOpen };
-        Tried { plan, arrived: if nature == Nature::Wall { from } else { plan.to() } }
+        Attempt { plan, arrived: if nature == Nature::Wall { from } else { plan.to() } }
     }
 }
 
 /// A robot's planned move and where it ended.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tried {
+pub(crate) struct Attempt {
     pub(crate) plan: Move,
     pub(crate) arrived: Cell,
 }
 
-impl Tried {
+impl Attempt {
     fn is_blocked(self) -> bool {
         self.arrived != self.plan.to()
     }
@@ -79,8 +79,8 @@ pub(super) fn neighbours() -> String {
 
 /// R_i and R_{i+1}, i ≥ 1.
 struct Pair {
-    behind: Tried,
-    ahead: Tried,
+    behind: Attempt,
+    ahead: Attempt,
 }
 
 impl Pair {
@@ -117,7 +117,7 @@ impl Pair {
 ///
 /// # Errors
 /// [`Stop`] if the choices are no case, or break the clause.
-pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn contact(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let pair = Pair::pick(&observed.rule, |behind, ahead| Circle::COVERED.covers(behind, ahead), oracle)?;
     require(
         Circle::COVERED.covers(pair.behind.arrived, pair.ahead.arrived),
@@ -136,7 +136,7 @@ pub(super) fn goers() -> String {
 ///
 /// # Errors
 /// [`Stop`] if the choices are no case, or break the clause.
-pub(super) fn hold(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn hold(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let behind = Cell::new(0, 0);
     let mut offset = || oracle.pick(2 * FAR + 1) as i16 - FAR as i16;
     let ahead = Cell::new(offset(), offset());
@@ -165,10 +165,10 @@ pub(super) fn hold(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
 ///
 /// # Errors
 /// [`Stop`] if the choices are no case, or break the clause.
-pub(super) fn coverage(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn coverage(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let pair = Pair::pick(&observed.rule, |behind, ahead| Circle::COVERED.reaches(behind, ahead), oracle)?;
     // A robot that meets a wall goes part of its way, and back.
-    let path = |robot: Tried| [robot.plan.from, robot.plan.to()];
+    let path = |robot: Attempt| [robot.plan.from, robot.plan.to()];
     require(
         stays_in_range(path(pair.behind), path(pair.ahead)),
         "the neighbours' centres stay within r_cov, at whatever speeds they move",

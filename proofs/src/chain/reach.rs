@@ -31,7 +31,7 @@ pub(super) mod tests {
     use super::{CellSet, Ground, TooLarge};
     use crate::chain::links::within_reach;
     use crate::chain::whole;
-    use crate::engine::Seeded;
+    use crate::engine::SeededOracle;
 
     const RULES: [Rule; 7] = [
         Rule::PUBLISHED,
@@ -54,7 +54,7 @@ pub(super) mod tests {
         robots: usize,
         area: Area,
         base: Cell,
-        oracle: &mut Seeded,
+        oracle: &mut SeededOracle,
         walls_percent: u32,
     ) -> Ground {
         let walls: HashSet<Edge> = area.edges().filter(|_| oracle.pick(100) < walls_percent).collect();
@@ -186,7 +186,7 @@ pub(super) mod tests {
 
     #[test]
     fn more_robots_reach_what_plain_search_says_in_random_layouts() {
-        let mut oracle = Seeded::new(0, 0);
+        let mut oracle = SeededOracle::new(0, 0);
         let mut next = |robots, walls_percent| {
             let (area, base) = whole::area(robots);
             random(robots, area, base, &mut oracle, walls_percent)

@@ -2,20 +2,20 @@
 
 use std::fmt;
 
-use tautline_kernel::chain::Refused;
+use tautline_kernel::chain::SetupError;
 use tautline_kernel::ground::{CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
 
 pub use super::bounds::{Bounds, Counterexample};
 use super::game::ChainGame;
 use super::invariant::Invariant;
-use super::observed::Observed;
-use crate::decide::{self, Answer, Desk, Evidence, Method, Played, Seen};
+use super::observed::Subject;
+use crate::decide::{self, Answer, Context, Depiction, Evidence, Method, RefutationPlay};
 use crate::engine::tree::{self, Progress, Tree, Watch, Waves};
-use crate::engine::{Choices, Unfit, Until};
+use crate::engine::{Choices, ScriptError, Until};
 use crate::run::Frame;
 
 /// The findings of a search.
-pub type Found = tree::Found<Invariant, Frame>;
+pub type Findings = tree::Findings<Invariant, Frame>;
 
 /// Where a search is.
 pub type Position = tree::Position<Invariant>;
@@ -27,7 +27,7 @@ pub type Deal = tree::Deal<Invariant>;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Unsearchable {
     /// The team cannot be set up.
-    Team(Refused),
+    Team(SetupError),
     /// The bounds are beyond what can be searched.
     Search(tree::Unsearchable),
 }
@@ -43,8 +43,8 @@ impl fmt::Display for Unsearchable {
 
 impl std::error::Error for Unsearchable {}
 
-impl From<Refused> for Unsearchable {
-    fn from(refused: Refused) -> Self {
+impl From<SetupError> for Unsearchable {
+    fn from(refused: SetupError) -> Self {
         Self::Team(refused)
     }
 }
@@ -60,7 +60,7 @@ impl From<tree::Unsearchable> for Unsearchable {
 ///
 /// # Errors
 /// [`Unsearchable`] if the bounds are beyond what can be searched.
-pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Found, Unsearchable> {
+pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Findings, Unsearchable> {
     let mut search = Search::new(bounds)?;
     while search.wave() && watch(&search.progress()).is_continue() {}
     Ok(search.found())
@@ -68,10 +68,10 @@ pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Found, Unsearchable> 
 
 /// Plays a run that breaks `invariant` again, whose choices are the answers of the world. It is one run, whatever
 /// number of runs break it.
-fn replay(bounds: &Bounds, invariant: Invariant, choices: &Choices) -> Result<Counterexample, Unfit> {
-    let search = Search::new(bounds).map_err(|_| Unfit::Unbroken)?;
+fn replay(bounds: &Bounds, invariant: Invariant, choices: &Choices) -> Result<Counterexample, ScriptError> {
+    let search = Search::new(bounds).map_err(|_| ScriptError::Unbroken)?;
     if !choices.again.is_empty() {
-        return Err(Unfit::Over { at: choices.once.len() });
+        return Err(ScriptError::Over { at: choices.once.len() });
     }
     search.0.replay(invariant, &choices.once)
 }
@@ -167,7 +167,7 @@ impl Search {
     }
 
     /// The findings so far.
-    pub fn found(&self) -> Found {
+    pub fn found(&self) -> Findings {
         self.0.found()
     }
 }
@@ -183,7 +183,7 @@ impl fmt::Debug for Search {
 pub struct EveryLayout(pub Invariant, pub (usize, u32));
 
 impl EveryLayout {
-    fn bounds(&self, observed: &Observed) -> Bounds {
+    fn bounds(&self, observed: &Subject) -> Bounds {
         let (robots, max_walls) = self.1;
         let companions = self.0.companions(&observed.intended);
         Bounds { invariants: companions.to_vec(), ..Bounds::new(*observed, robots, max_walls) }
@@ -191,13 +191,13 @@ impl EveryLayout {
 
     /// The evidence that `found` gives, within `bounds`.
     fn evidence(bounds: &Bounds, found: &Counterexample) -> Evidence {
-        let seen = Seen::Robots(Box::new(bounds.run(found)));
+        let seen = Depiction::Robots(Box::new(bounds.run(found)));
         let choices = Choices { once: found.answers.clone(), again: Vec::new() };
         Evidence { choices, demand: found.demand, seen }
     }
 }
 
-impl Method<Observed> for EveryLayout {
+impl Method<Subject> for EveryLayout {
     fn engine(&self) -> &'static str {
         "search"
     }
@@ -207,24 +207,24 @@ impl Method<Observed> for EveryLayout {
         format!("all layouts, N = {robots}, at most {max_walls} walls")
     }
 
-    fn family(&self, observed: &Observed) -> Option<String> {
+    fn family(&self, observed: &Subject) -> Option<String> {
         Some(format!("{:?}", self.bounds(observed)))
     }
 
     fn decide(
         &self,
-        observed: &Observed,
+        observed: &Subject,
         until: Until,
-        desk: &mut Desk<'_, '_>,
-    ) -> Result<Answer, decide::Refused> {
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, decide::MethodError> {
         let all = self.bounds(observed);
         let bounds = match until {
             Until::Exhausted => all,
             Until::Violation => Bounds { invariants: vec![self.0], until, ..all },
         };
-        let Desk { memory, watch, .. } = desk;
+        let Context { memory, watch, .. } = desk;
         let found = memory.recall(bounds.clone(), |bounds| search(bounds, *watch));
-        let found = found.map_err(decide::Refused::new)?;
+        let found = found.map_err(decide::MethodError::new)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == self.0);
         let evidence = broken.map(|found| Self::evidence(&bounds, found));
         let is_whole = found.complete && found.given_up == 0;
@@ -232,9 +232,9 @@ impl Method<Observed> for EveryLayout {
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
-    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let bounds = self.bounds(observed);
         let run = replay(&bounds, self.0, choices)?;
-        Ok(Played { of: vec![2; run.answers.len()], evidence: Self::evidence(&bounds, &run) })
+        Ok(RefutationPlay { of: vec![2; run.answers.len()], evidence: Self::evidence(&bounds, &run) })
     }
 }

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Cell, Edge, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
-use super::observed::Observed;
+use super::observed::Subject;
 use super::whole::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
 
@@ -38,8 +38,8 @@ pub(super) fn random_layouts() -> String {
 
 /// A chain in a world in which walls appear, and what it takes the world for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Shut {
-    pub(super) observed: Observed,
+pub(super) struct WallsCase {
+    pub(super) observed: Subject,
     pub(super) world: World,
     /// The world that it expects while it plans.
     pub(super) plans_in: World,
@@ -49,12 +49,12 @@ pub(super) struct Shut {
 ///
 /// # Errors
 /// [`Stop`] if it is no case, or breaks the clause.
-pub(super) fn in_few_walls(shut: &Shut, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn in_few_walls(shut: &WallsCase, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, mut walls, mut appear) = one_of(oracle, &FEW_WALLS);
     runs(shut, robots, &mut |known| {
         let left = match known {
-            Known::No => &mut walls,
-            Known::Open => &mut appear,
+            SideKnowledge::No => &mut walls,
+            SideKnowledge::Open => &mut appear,
         };
         let is_wall = *left > 0 && oracle.flip();
         *left -= u32::from(is_wall);
@@ -66,22 +66,22 @@ pub(super) fn in_few_walls(shut: &Shut, oracle: &mut dyn Oracle) -> Outcome {
 ///
 /// # Errors
 /// As of [`in_few_walls`].
-pub(super) fn at_random(shut: &Shut, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn at_random(shut: &WallsCase, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, walls, tries) = RANDOM;
     let (percent, tries) = (one_of(oracle, &walls), one_of(oracle, &tries));
     runs(shut, robots, &mut |known| match known {
-        Known::No => oracle.pick(100) < percent,
-        Known::Open => oracle.pick(tries) == 0,
+        SideKnowledge::No => oracle.pick(100) < percent,
+        SideKnowledge::Open => oracle.pick(tries) == 0,
     })
 }
 
 /// The team's knowledge of a side.
-enum Known {
+enum SideKnowledge {
     No,
     Open,
 }
 
-fn runs(shut: &Shut, robots: usize, is_wall: &mut dyn FnMut(Known) -> bool) -> Outcome {
+fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) -> bool) -> Outcome {
     let mut chain: Chain<SmallGrid, 8> = start(&shut.observed, robots, SmallGrid::new)?.in_world(shut.world);
     let (mut log, mut walls) = (Vec::new(), BTreeMap::new());
     let mut situation = "no wall appears";
@@ -101,8 +101,8 @@ fn runs(shut: &Shut, robots: usize, is_wall: &mut dyn FnMut(Known) -> bool) -> O
             if let Step::Cross(side) = step {
                 let key = key(Edge::new(cell, side));
                 let is_new = match walls.get(&key) {
-                    None => is_wall(Known::No),
-                    Some(false) => is_wall(Known::Open),
+                    None => is_wall(SideKnowledge::No),
+                    Some(false) => is_wall(SideKnowledge::Open),
                     Some(true) => true,
                 };
                 if is_new && walls.insert(key, true) == Some(false) {

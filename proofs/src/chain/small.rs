@@ -6,7 +6,7 @@ use tautline_kernel::chain::{Message, Move, Outcome as StepOutcome};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Step};
 
-use super::observed::Observed;
+use super::observed::Subject;
 use crate::engine::{Outcome, assume, require};
 
 /// Values of a byte.
@@ -21,7 +21,7 @@ pub(super) fn messages() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn message(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn message(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     if oracle.flip() {
         let byte = oracle.pick(BYTES) as u8;
         let Ok(message) = Message::decode(byte) else { return Ok("no message") };
@@ -61,7 +61,7 @@ pub(super) fn pairs_in_rings() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn ring_of_neighbours(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn ring_of_neighbours(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let behind = Cell::new(oracle.pick(BEHIND) as i16, oracle.pick(BEHIND) as i16);
     let mut offset = || oracle.pick(2 * AHEAD + 1) as i16 - AHEAD as i16;
     let ahead = Cell::new(behind.x + offset(), behind.y + offset());
@@ -84,7 +84,7 @@ pub(super) fn rings() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn ring_cells(_: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn ring_cells(_: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let outermost = oracle.pick(LONGEST - 1) as i16 + 1;
     let coordinates = -outermost..=outermost;
     let cells = coordinates

@@ -4,9 +4,9 @@
 
 use tautline_kernel::chain::{Condition, Move};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Cell, Circle};
+use tautline_kernel::ground::{Cell, Circle, Step};
 
-use super::observed::Observed;
+use super::observed::Subject;
 use super::pair::World;
 use crate::engine::{Outcome, assume, require};
 
@@ -29,7 +29,7 @@ fn near(cell: Cell, far: u32, oracle: &mut dyn Oracle) -> Cell {
 ///
 /// # Errors
 /// [`Stop`](crate::engine::Stop) if the choices are no case, or break the clause.
-pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn contact(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = &observed.rule;
     let base = Cell::new(0, 0);
     let at = near(base, FAR[0], oracle);
@@ -48,7 +48,7 @@ pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
     let follower = world.pick(at, oracle);
     let stay = Move::stay(at);
     assume(is_admitted(follower.plan))?;
-    let stays_first = is_admitted(stay) && rule.is_high(at, leader.plan);
+    let stays_first = is_admitted(stay) && rule.high_steps(at, leader.plan).has(Step::Stay);
     assume(!stays_first || follower.plan == stay)?;
     require(
         Circle::COVERED.covers(follower.arrived, leader.arrived),

@@ -6,7 +6,7 @@ use tautline_kernel::chain::{Move, Role, goes_on};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Side, Step};
 
-use super::observed::Observed;
+use super::observed::Subject;
 use crate::engine::{Outcome, assume, require};
 
 /// R_i and R_{i+1} on the walk. Cells are counted along it, from the cell of R_i on.
@@ -50,7 +50,7 @@ pub(super) fn walks() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices are no case, or break the clause.
-pub(super) fn unfolding(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn unfolding(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = &observed.rule;
     let start = Cell::new(0, 0);
     let sides = [one_of(oracle, &Side::ALL), one_of(oracle, &Side::ALL)];

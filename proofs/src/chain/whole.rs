@@ -10,7 +10,7 @@ use tautline_kernel::ground::{
 };
 
 use super::breach::CHEAP_LOOKS;
-use super::observed::{Deception, Observed};
+use super::observed::{Deception, Subject};
 use super::plain::{PlainChain, PlainIntent, TooMany};
 use crate::engine::{Outcome, Stop, require};
 
@@ -22,7 +22,7 @@ pub(crate) fn area(robots: usize) -> (Area, Cell) {
 }
 
 pub(super) fn start<G: Grid, const ROBOTS: usize>(
-    observed: &Observed,
+    observed: &Subject,
     robots: usize,
     grid: impl Fn(Area) -> Option<G>,
 ) -> Result<Chain<G, ROBOTS>, Stop> {
@@ -67,7 +67,7 @@ pub(super) fn spirals() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if it is not.
-pub(super) fn spiral(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn spiral(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let robots = within(&SPIRALS, oracle) as usize;
     let mut chain = start::<_, 32>(observed, robots, MediumGrid::new)?;
     let mut log = Vec::new();
@@ -95,7 +95,7 @@ pub(super) fn orders() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if two neighbours are ever out of contact.
-pub(super) fn any_order(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn any_order(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let walls_percent = one_of(oracle, &ORDERS.1);
     let mut chain = start::<_, 8>(observed, ORDERS.0, SmallGrid::new)?;
     let mut log = Vec::new();
@@ -128,7 +128,7 @@ pub(super) fn layouts_with_few_walls() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if the plans differ.
-pub(super) fn same_plan_in_all_layouts(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn same_plan_in_all_layouts(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, mut walls) = one_of(oracle, &FEW_WALLS);
     same_plan(observed, robots, &mut |_| {
         let is_wall = walls > 0 && oracle.flip();
@@ -153,13 +153,13 @@ pub(super) fn random_layouts() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if the plans differ.
-pub(super) fn same_plan_in_random_layouts(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn same_plan_in_random_layouts(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let robots = within(&RANDOM.0, oracle) as usize;
     let walls_percent = within(&RANDOM.1, oracle);
     same_plan(observed, robots, &mut |_| oracle.pick(100) >= walls_percent)
 }
 
-fn same_plan(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
+fn same_plan(observed: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
     if robots <= 8 {
         in_step(observed, start::<_, 8>(observed, robots, SmallGrid::new)?, is_open)
     } else {
@@ -169,7 +169,7 @@ fn same_plan(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -
 
 /// Runs the chain and the plain recursion of the rule it claims to follow side by side.
 fn in_step<P: Plane, const ROBOTS: usize>(
-    observed: &Observed,
+    observed: &Subject,
     mut chain: Chain<BitGrid<P>, ROBOTS>,
     is_open: &mut dyn FnMut(Edge) -> bool,
 ) -> Outcome {
@@ -233,7 +233,7 @@ pub(super) fn cheap_runs() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if a plan looks at more than 100·N candidates.
-pub(super) fn cheap(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn cheap(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let robots = one_of(oracle, &CHEAP_TEAMS);
     let walls_permille = one_of(oracle, &CHEAP_WALLS);
     cheap_among(observed, robots, &mut |_| oracle.pick(1000) >= walls_permille)
@@ -252,7 +252,7 @@ pub(super) fn runs_among_few_walls() -> String {
 ///
 /// # Errors
 /// As of [`cheap`].
-pub(super) fn cheap_among_few_walls(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn cheap_among_few_walls(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let walls_permille = one_of(oracle, &DEAR_WALLS);
     cheap_among(observed, DEAR_TEAM, &mut |_| oracle.pick(1000) >= walls_permille)
 }
@@ -263,7 +263,7 @@ fn first_moves(robots: &[usize], walls_permille: &[u32]) -> String {
     format!("random layouts, N of {robots}, walls of {walls} %, at most {CHEAP_MOVES} moves")
 }
 
-fn cheap_among(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
+fn cheap_among(observed: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
     if observed.deception == Deception::PlainRecursion {
         plain_run(observed, robots, is_open)
     } else if robots <= 32 {
@@ -289,7 +289,7 @@ fn cheap_run<G: Grid, const ROBOTS: usize>(
     Ok("a longer run")
 }
 
-fn plain_run(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
+fn plain_run(observed: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
     let (area, base) = area(robots);
     let mut plain = PlainChain::new(observed.rule, robots, base, area);
     for _ in 0..CHEAP_MOVES {
@@ -312,7 +312,7 @@ mod tests {
     use super::super::invariant::{Invariant, Moment};
     use super::super::links::within_reach;
     use super::*;
-    use crate::engine::{Seeded, sample};
+    use crate::engine::{SeededOracle, sample};
 
     #[test]
     fn one_flood_fill_for_all_candidates_tells_what_one_for_each_does() {
@@ -343,11 +343,11 @@ mod tests {
     #[test]
     #[ignore = "a thousand runs a density take minutes"]
     fn no_order_of_going_breaks_contact_in_a_thousand_runs_a_density() {
-        let runs = |observed: &Observed| {
-            (0..5_000).filter(|&seed| any_order(observed, &mut Seeded::new(19, seed)).is_err()).count()
+        let runs = |observed: &Subject| {
+            (0..5_000).filter(|&seed| any_order(observed, &mut SeededOracle::new(19, seed)).is_err()).count()
         };
-        assert_eq!(runs(&Observed::REEL), 0);
-        assert!(runs(&Observed::UNHELD) > 0);
+        assert_eq!(runs(&Subject::REEL), 0);
+        assert!(runs(&Subject::UNHELD) > 0);
     }
 
     const DEMANDS: [Invariant; 9] = [
@@ -367,12 +367,12 @@ mod tests {
         // Plans that were cut short: a plan was known by then, or all candidates were refused.
         let (mut known, mut refused) = (0, 0);
         for seed in 0..60 {
-            let mut world = Seeded::new(3, seed);
+            let mut world = SeededOracle::new(3, seed);
             let robots = 5 + world.pick(6) as usize;
             let looks = one_of(&mut world, &[0, 3, 6, 10, 12, 14, 16, 20]);
             let walls_percent = 5 + world.pick(25);
             let rule = Rule { budget: Budget::LooksPerRobot(looks), ..Rule::REPAIRED };
-            let observed = Observed::honest(rule);
+            let observed = Subject::honest(rule);
             let mut chain: Chain<_, 32> = start(&observed, robots, MediumGrid::new).expect("it fits");
             let mut log = Vec::new();
             let ended = (0..3_000).any(|_| {

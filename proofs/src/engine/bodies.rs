@@ -1,5 +1,5 @@
 //! Engines: ways to answer every choice of a body. The same body is a bounded proof under [`exhaust`], a property
-//! under a [`Tape`] that proptest or a fuzzer wrote, a random test under [`Seeded`], a regression under
+//! under a [`Tape`] that proptest or a fuzzer wrote, a random test under [`SeededOracle`], a regression under
 //! [`Replay`], and a Kani harness under `cargo kani`.
 
 use std::iter;
@@ -106,7 +106,7 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + 
             .into_par_iter()
             .map(|run| {
                 let (_working, _steps) = (task.enter(), Steps::begin());
-                let mut recorder = Recorder { oracle: Seeded::new(seed, run), choices: Vec::new() };
+                let mut recorder = Recorder { oracle: SeededOracle::new(seed, run), choices: Vec::new() };
                 (body(&mut recorder), recorder.choices)
             })
             .collect();
@@ -241,11 +241,11 @@ impl Oracle for Replay<'_> {
 /// Random answers, the same for the same seed and run on every machine: SplitMix64 (Steele, Lea and Flood,
 /// OOPSLA 2014), its counter started by the pair.
 #[derive(Clone, Debug)]
-pub struct Seeded {
+pub struct SeededOracle {
     state: u64,
 }
 
-impl Seeded {
+impl SeededOracle {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
     /// The answers of run number `run` under `seed`.
@@ -263,7 +263,7 @@ impl Seeded {
     }
 }
 
-impl Oracle for Seeded {
+impl Oracle for SeededOracle {
     fn pick(&mut self, below: u32) -> u32 {
         // The upper half of a 32 by 32 bit product is below `below`; its bias is under 2⁻³² times `below`.
         (((self.next() >> 32) * u64::from(below)) >> 32) as u32
@@ -329,12 +329,12 @@ mod tests {
 
     #[test]
     fn seeded_answers_are_pinned_and_in_range() {
-        let mut oracle = Seeded::new(1, 2);
+        let mut oracle = SeededOracle::new(1, 2);
         let picked: Vec<u32> = (0..8).map(|_| oracle.pick(100)).collect();
         assert!(picked.iter().all(|&answer| answer < 100));
-        let mut again = Seeded::new(1, 2);
+        let mut again = SeededOracle::new(1, 2);
         assert_eq!(picked, (0..8).map(|_| again.pick(100)).collect::<Vec<_>>());
-        let mut other = Seeded::new(1, 3);
+        let mut other = SeededOracle::new(1, 3);
         assert_ne!(picked, (0..8).map(|_| other.pick(100)).collect::<Vec<_>>());
     }
 }

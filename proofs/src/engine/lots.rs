@@ -326,13 +326,13 @@ mod tests {
         endless: Option<(u64, u64)>,
     }
 
-    struct Seen {
+    struct Glance {
         steps: u64,
         is_whole: bool,
         is_enough: bool,
     }
 
-    impl Look for Seen {
+    impl Look for Glance {
         fn steps(&self) -> u64 {
             self.steps
         }
@@ -349,7 +349,7 @@ mod tests {
     impl Lots for Numbers {
         type Stage = (u64, u64);
         type Lot = (u64, u64);
-        type Look = Seen;
+        type Look = Glance;
         /// The lots in the order in which they were added, and the stages that were covered.
         type Found = (Vec<(u64, u64)>, Vec<u64>);
         type Error = Infallible;
@@ -366,12 +366,12 @@ mod tests {
             1 + lot.1 % 7
         }
 
-        fn look(&self, _: (u64, u64), lot: &(u64, u64), _: u64) -> Result<Seen, Infallible> {
+        fn look(&self, _: (u64, u64), lot: &(u64, u64), _: u64) -> Result<Glance, Infallible> {
             let is = |one: Option<(u64, u64)>| one == Some(*lot);
-            Ok(Seen { steps: lot.1 % 7, is_whole: !is(self.endless), is_enough: is(self.enough) })
+            Ok(Glance { steps: lot.1 % 7, is_whole: !is(self.endless), is_enough: is(self.enough) })
         }
 
-        fn add(&self, found: &mut Self::Found, lot: &(u64, u64), _: Seen) -> Result<(), Infallible> {
+        fn add(&self, found: &mut Self::Found, lot: &(u64, u64), _: Glance) -> Result<(), Infallible> {
             found.0.push(*lot);
             Ok(())
         }

@@ -24,7 +24,7 @@ impl Choices {
 
 /// Why choices are no refutation. Choices are counted from 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Unfit {
+pub enum ScriptError {
     /// There is no such choice.
     None {
         /// Which.
@@ -44,7 +44,7 @@ pub enum Unfit {
     NoRound,
 }
 
-impl Unfit {
+impl ScriptError {
     /// The choice that it is about, counted from 0, if it is about one.
     pub const fn at(self) -> Option<usize> {
         match self {
@@ -54,7 +54,7 @@ impl Unfit {
     }
 }
 
-impl fmt::Display for Unfit {
+impl fmt::Display for ScriptError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::None { of, .. } => write!(f, "there is no such choice: here there are {of}"),
@@ -65,7 +65,7 @@ impl fmt::Display for Unfit {
     }
 }
 
-impl std::error::Error for Unfit {}
+impl std::error::Error for ScriptError {}
 
 /// Choices that are being made.
 pub struct Script<'a> {
@@ -87,17 +87,17 @@ impl<'a> Script<'a> {
     /// Makes the next choice, one of `of`, which is none of those that come again.
     ///
     /// # Errors
-    /// [`Unfit`] if there is no such choice.
-    pub fn choose(&mut self, of: usize) -> Result<usize, Unfit> {
-        if self.of.len() < self.choices.once.len() { self.take(of) } else { Err(Unfit::Unbroken) }
+    /// [`ScriptError`] if there is no such choice.
+    pub fn choose(&mut self, of: usize) -> Result<usize, ScriptError> {
+        if self.of.len() < self.choices.once.len() { self.take(of) } else { Err(ScriptError::Unbroken) }
     }
 
-    fn take(&mut self, of: usize) -> Result<usize, Unfit> {
+    fn take(&mut self, of: usize) -> Result<usize, ScriptError> {
         let at = self.of.len();
         let of = of as u32;
-        let chosen = self.choices.all().nth(at).ok_or(Unfit::Unbroken)?;
+        let chosen = self.choices.all().nth(at).ok_or(ScriptError::Unbroken)?;
         if chosen >= of {
-            return Err(Unfit::None { at, of });
+            return Err(ScriptError::None { at, of });
         }
         self.of.push(of);
         Ok(chosen as usize)
@@ -107,13 +107,13 @@ impl<'a> Script<'a> {
     /// is looked for. From how many each choice was made, and the run.
     ///
     /// # Errors
-    /// [`Unfit`] if they break nothing that is meant, or not as they say.
+    /// [`ScriptError`] if they break nothing that is meant, or not as they say.
     pub fn play<S: System>(
         mut self,
         system: &S,
         (start, mut state): (usize, S::State),
         is_meant: impl Fn(&S::Demand) -> bool,
-    ) -> Result<(Vec<u32>, Run<S::Demand>), Unfit> {
+    ) -> Result<(Vec<u32>, Run<S::Demand>), ScriptError> {
         let first = self.of.len();
         let still = |state: &S::State| {
             let is_still = !steps(system, state).any(|step| step.is_bound);
@@ -122,7 +122,7 @@ impl<'a> Script<'a> {
         let mut there = None;
         while self.of.len() < self.choices.once.len() {
             if there.is_some() || still(&state).is_some() {
-                return Err(Unfit::Over { at: self.of.len() });
+                return Err(ScriptError::Over { at: self.of.len() });
             }
             let step = self.step(system, &state)?;
             there = step.breaks.into_iter().find(&is_meant);
@@ -130,14 +130,14 @@ impl<'a> Script<'a> {
         }
         let (demand, ending) = match (there, still(&state)) {
             (Some(_), _) | (_, Some(_)) if !self.choices.again.is_empty() => {
-                return Err(Unfit::Over { at: self.of.len() });
+                return Err(ScriptError::Over { at: self.of.len() });
             }
             (Some(demand), _) => (demand, Ending::There),
             (None, Some(demand)) => (demand, Ending::Still),
-            (None, None) if self.choices.again.is_empty() => return Err(Unfit::Unbroken),
+            (None, None) if self.choices.again.is_empty() => return Err(ScriptError::Unbroken),
             (None, None) => {
                 let demand = self.round(system, state)?;
-                let demand = demand.filter(&is_meant).ok_or(Unfit::NoRound)?;
+                let demand = demand.filter(&is_meant).ok_or(ScriptError::NoRound)?;
                 (demand, Ending::Round(self.choices.again.clone()))
             }
         };
@@ -145,14 +145,18 @@ impl<'a> Script<'a> {
         Ok((self.of, Run { demand, start, steps: made, ending }))
     }
 
-    fn step<S: System>(&mut self, system: &S, state: &S::State) -> Result<Step<S>, Unfit> {
+    fn step<S: System>(&mut self, system: &S, state: &S::State) -> Result<Step<S>, ScriptError> {
         let mut all: Vec<_> = steps(system, state).collect();
         let chosen = self.take(all.len())?;
         Ok(all.swap_remove(chosen))
     }
 
     /// Goes round from `state` once; what is broken by doing so for ever.
-    fn round<S: System>(&mut self, system: &S, mut state: S::State) -> Result<Option<S::Demand>, Unfit> {
+    fn round<S: System>(
+        &mut self,
+        system: &S,
+        mut state: S::State,
+    ) -> Result<Option<S::Demand>, ScriptError> {
         let mut home = state.clone();
         system.make_canonical(&mut home);
         let (mut owed, mut awake, mut acting): (Bits, Bits, Bits) = (Bits::MAX, Bits::MAX, 0);

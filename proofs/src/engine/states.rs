@@ -17,7 +17,7 @@ mod search;
 use std::hash::Hash;
 use std::iter;
 
-pub use limits::{Limits, Room};
+pub use limits::{Limits, MemoryLimit};
 pub use search::search;
 
 use super::bodies::Odometer;
@@ -130,7 +130,7 @@ pub const END: &str = "an end";
 
 /// The findings of a search.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Found<D> {
+pub struct Findings<D> {
     /// States, the starts among them.
     pub states: u64,
     /// States from which all steps were made, or the one that broke enough.

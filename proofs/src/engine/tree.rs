@@ -89,7 +89,7 @@ pub struct Limits {
 
 /// The findings of a search.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Found<D, F> {
+pub struct Findings<D, F> {
     /// Leaves of the tree.
     pub runs: u64,
     /// Edges of the tree, backtracks included.

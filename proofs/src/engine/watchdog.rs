@@ -90,25 +90,25 @@ impl Task {
     /// Lets this thread work on the task until what is returned is dropped. A thread that waits for others may take up
     /// other work meanwhile: it is outside of its step then, and inside again when it comes back.
     #[must_use]
-    pub fn enter(self) -> Working {
+    pub fn enter(self) -> WorkGuard {
         let pulse = OWN.with(Arc::clone);
         let before = Self(pulse.task.load(Ordering::Relaxed));
         let was_inside = pulse.is_inside();
         pulse.leave();
         pulse.task.store(self.0, Ordering::Relaxed);
-        Working { pulse, before, was_inside, of_this_thread: PhantomData }
+        WorkGuard { pulse, before, was_inside, of_this_thread: PhantomData }
     }
 }
 
 /// The time in which a thread works on a task.
-pub struct Working {
+pub struct WorkGuard {
     pulse: Arc<Pulse>,
     before: Task,
     was_inside: bool,
     of_this_thread: PhantomData<Cell<()>>,
 }
 
-impl Drop for Working {
+impl Drop for WorkGuard {
     fn drop(&mut self) {
         self.pulse.task.store(self.before.0, Ordering::Relaxed);
         self.pulse.go_back(self.was_inside);

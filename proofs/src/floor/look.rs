@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::decide::{Answer, Seen, Verdict};
-use crate::engine::states::{END, Found, Limits, Run, System, search};
+use crate::decide::{Answer, Depiction, Verdict};
+use crate::engine::states::{END, Findings, Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::{Tally, Until, cover};
 use crate::floor_trace::Course;
@@ -35,7 +35,7 @@ impl Explored {
         let mut answer = Answer::of_tally(tally, &[END], if is_whole { shown } else { Verdict::Open });
         if let Some(evidence) = &mut answer.counterexample {
             evidence.choices.again = again;
-            evidence.seen = course.map_or(Seen::Choices, |course| Seen::Agents(Box::new(course)));
+            evidence.seen = course.map_or(Depiction::Choices, |course| Depiction::Agents(Box::new(course)));
         }
         answer
     }
@@ -52,7 +52,7 @@ impl Explored {
         let mut first = None;
         for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, (limits, until)))
         {
-            let Found { states, covered, broken, is_whole, .. } = found;
+            let Findings { states, covered, broken, is_whole, .. } = found;
             self.tally.cases += states;
             self.is_whole &= is_whole;
             for situation in covered {
@@ -76,7 +76,7 @@ fn search_each<S: System<Demand = &'static str> + Sync>(
     systems: &[S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,
     (limits, until): (Limits<'_>, Until),
-) -> Vec<Found<&'static str>> {
+) -> Vec<Findings<&'static str>> {
     let last = AtomicUsize::new(usize::MAX);
     let task = Task::current();
     let each = systems.par_iter().enumerate().with_max_len(1).map(|(place, system)| {
@@ -94,7 +94,7 @@ fn search_each<S: System<Demand = &'static str> + Sync>(
         }
         Some(found)
     });
-    let mut found: Vec<Option<Found<_>>> = each.collect();
+    let mut found: Vec<Option<Findings<_>>> = each.collect();
     found.truncate(last.into_inner().saturating_add(1));
     found.into_iter().flatten().collect()
 }

@@ -5,9 +5,9 @@ use tautline_kernel::frontier::{Rule, Sight, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use super::world::{Demand, Event, Setting, World};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{Limits, Run, search};
-use crate::engine::{Choices, Script, Unfit, Until, cover};
+use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::plural::counted;
 
 /// Columns and rows.
@@ -153,14 +153,14 @@ fn words(event: &Event, cells: &[Cell]) -> Option<String> {
 }
 
 impl<const ROBOTS: usize> Areas<ROBOTS> {
-    fn setting(&self, rule: &Rule, size: Size) -> Result<Setting<ROBOTS>, Refused> {
+    fn setting(&self, rule: &Rule, size: Size) -> Result<Setting<ROBOTS>, MethodError> {
         let Self { max_losses, max_wrong, demand, .. } = *self;
-        let setting = setting(*rule, size).ok_or_else(|| Refused::new("the area is too large"))?;
+        let setting = setting(*rule, size).ok_or_else(|| MethodError::new("the area is too large"))?;
         Ok(Setting { max_losses, max_wrong, demand: Some(demand), ..setting })
     }
 
     /// Searches all areas for all demands, as far as nothing is broken.
-    fn all(&self, rule: &Rule, limits: Limits<'_>) -> Result<All, Refused> {
+    fn all(&self, rule: &Rule, limits: Limits<'_>) -> Result<All, MethodError> {
         let mut all = All { states: 0, is_whole: true, covered: Vec::new(), is_broken: false };
         for &size in self.sizes {
             let setting = Setting { demand: None, ..self.setting(rule, size)? };
@@ -179,7 +179,7 @@ impl<const ROBOTS: usize> Areas<ROBOTS> {
     }
 
     fn evidence(choices: Choices, found: &Counterexample<ROBOTS>) -> Evidence {
-        Evidence { choices, demand: found.run.demand.words(), seen: Seen::Story(found.story()) }
+        Evidence { choices, demand: found.run.demand.words(), seen: Depiction::Story(found.story()) }
     }
 }
 
@@ -212,7 +212,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     /// search.
     ///
     /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         if until == Until::Exhausted {
             let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, *rule);
@@ -244,17 +244,17 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         Ok(Answer::new(None, is_whole && is_covered, self.shows_of(), states))
     }
 
-    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let size = self.sizes[script.choose(self.sizes.len())?];
         let max_obstacles = script.choose(TinyMap::CELLS + 1)? as u8;
-        let setting = self.setting(rule, size).map_err(|_| Unfit::Unbroken)?;
+        let setting = self.setting(rule, size).map_err(|_| ScriptError::Unbroken)?;
         let setting = Setting { max_obstacles, ..setting };
         let starts = setting.starts();
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
         let found = Counterexample { setting, run };
-        Ok(Played { of, evidence: Self::evidence(choices.clone(), &found) })
+        Ok(RefutationPlay { of, evidence: Self::evidence(choices.clone(), &found) })
     }
 }
 

@@ -8,21 +8,21 @@ use tautline_kernel::frontier::{Occupancy, Rule};
 use super::areas::{Areas, Size};
 use super::drift::{self, Drift, PARTS};
 use super::pairs;
-use super::place::{self, Bears};
+use super::place::{self, ErrorBudget};
 use super::world::Demand;
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{EveryState, Exhaustive, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, EveryState, Verdict};
 use crate::step_checks;
 
-const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
-const WANDERS: Named<Rule> = Named::new("wanders", Rule::WANDERS);
-const LITERAL: Named<Rule> = Named::new("literal", Rule::LITERAL);
-const PRINTED: Named<Rule> = Named::new("printed", Rule::PRINTED);
-const PLAIN: Named<Rule> = Named::new("plain", Rule::PLAIN);
-const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
+const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
+const WANDERS: NamedRule<Rule> = NamedRule::new("wanders", Rule::WANDERS);
+const LITERAL: NamedRule<Rule> = NamedRule::new("literal", Rule::LITERAL);
+const PRINTED: NamedRule<Rule> = NamedRule::new("printed", Rule::PRINTED);
+const PLAIN: NamedRule<Rule> = NamedRule::new("plain", Rule::PLAIN);
+const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
 
 /// One condition taken out of a rule, under its name.
-const fn without(rule: Rule, condition: Condition) -> Named<Rule> {
+const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
     let name = match condition {
         Route => "no way through explored cells",
         Record => "obstacles are not stored",
@@ -35,14 +35,14 @@ const fn without(rule: Rule, condition: Condition) -> Named<Rule> {
         Claim => "claims do not count",
         Corner => "unexplored neighbours do not count",
     };
-    Named::new(name, rule.without(condition))
+    NamedRule::new(name, rule.without(condition))
 }
 
-const fn plain(condition: Condition) -> Named<Rule> {
+const fn plain(condition: Condition) -> NamedRule<Rule> {
     without(Rule::PLAIN, condition)
 }
 
-const fn repaired(condition: Condition) -> Named<Rule> {
+const fn repaired(condition: Condition) -> NamedRule<Rule> {
     without(Rule::REPAIRED, condition)
 }
 
@@ -125,22 +125,22 @@ const OFF_QUARTER: EveryState<Rule, Drift> = off(|rule| drift_of(rule, QUARTER),
 const OFF_LESS: EveryState<Rule, Drift> = off(|rule| drift_of(rule, BELOW_QUARTER), || off_by(BELOW_QUARTER));
 const OFF_HALF: EveryState<Rule, Drift> = off(|rule| drift_of(rule, BELOW_HALF), || off_by(BELOW_HALF));
 
-step_checks! { Bears;
-    believed: place::believes, Named::new("repaired", Bears::FIXES), place::errors,
+step_checks! { ErrorBudget;
+    believed: place::believes, NamedRule::new("repaired", ErrorBudget::FIXES), place::errors,
         covers ["at the midpoint", "beside the midpoint"], unwind 9, mutants {
-            at_most: "2E + D = L/2 is borne" => Bears::FIXES_AT_MOST,
-            once: "the fix before the move does not count" => Bears::TRACKED,
-            no_odometry: "odometry does not count" => Bears::FIXES_ALONE,
+            at_most: "2E + D = L/2 is borne" => ErrorBudget::FIXES_AT_MOST,
+            once: "the fix before the move does not count" => ErrorBudget::TRACKED,
+            no_odometry: "odometry does not count" => ErrorBudget::FIXES_ALONE,
         };
-    tracked: place::counts, Named::new("repaired", Bears::TRACKED), place::errors,
+    tracked: place::counts, NamedRule::new("repaired", ErrorBudget::TRACKED), place::errors,
         covers ["at the midpoint", "beside the midpoint"], unwind 9, mutants {
-            at_most: "E + D = L/2 is borne" => Bears::TRACKED_AT_MOST,
-            no_odometry: "odometry does not count" => Bears::TRACKED_ALONE,
+            at_most: "E + D = L/2 is borne" => ErrorBudget::TRACKED_AT_MOST,
+            no_odometry: "odometry does not count" => ErrorBudget::TRACKED_ALONE,
         };
 }
 
 step_checks! { Occupancy;
-    occupancy: place::occupies, Named::new("repaired", Occupancy::Corrected), place::places,
+    occupancy: place::occupies, NamedRule::new("repaired", Occupancy::Corrected), place::places,
         covers ["inside", "outside"], unwind 9, mutants {
             printed: "as it is printed" => Occupancy::Printed,
         };
@@ -249,7 +249,7 @@ pub static CLAUSES: [Clause; 9] = [
         sentence: "The occupancy probability of a cell MUST be 1 at its midpoint, MUST not grow with the distance to it, and MUST be 0 from half a cell on.",
         checks: &[
             &Check {
-                about: Named::new("published", Occupancy::Printed),
+                about: NamedRule::new("published", Occupancy::Printed),
                 expected: Verdict::Refuted,
                 mutants: &[],
                 ..occupancy::CHECK
@@ -262,7 +262,7 @@ pub static CLAUSES: [Clause; 9] = [
         sentence: "A robot with preferences MUST go to the unexplored cell that it is paired with, and to the one that comes first for it if all are the others'.",
         checks: &[&Check::new(
             REPAIRED,
-            &Exhaustive { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
+            &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
             Verdict::Holds,
             &[repaired(Nearer), repaired(Claim), repaired(Corner)],
         )],
@@ -274,14 +274,14 @@ mod tests {
     use super::super::areas::setting;
     use super::super::world::Setting;
     use super::*;
-    use crate::decide::{Desk, Memory, Method, Seen};
+    use crate::decide::{Cache, Context, Depiction, Method};
     use crate::engine::Until;
-    use crate::engine::states::{Limits, Room, search};
+    use crate::engine::states::{Limits, MemoryLimit, search};
     use crate::engine::tree::unwatched;
 
     #[test]
     fn the_checks_come_out_as_they_are_registered() {
-        let mut memory = Memory::default();
+        let mut memory = Cache::default();
         for clause in &CLAUSES {
             for check in clause.checks {
                 let decision = check.decide(&mut memory, &mut unwatched).expect("it can be decided");
@@ -294,11 +294,11 @@ mod tests {
     #[test]
     fn the_published_rules_go_wrong_in_few_cells() {
         fn told<const ROBOTS: usize>(method: &Areas<ROBOTS>, rule: &Rule) -> (String, usize) {
-            let memory = &mut Memory::default();
-            let desk = &mut Desk { memory, watch: &mut unwatched, room: Room::any() };
+            let memory = &mut Cache::default();
+            let desk = &mut Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
             let answer = method.decide(rule, Until::Exhausted, desk).expect("it can be decided");
             let found = answer.counterexample.expect("a counterexample");
-            let Seen::Story(story) = &found.seen else { panic!("it is told") };
+            let Depiction::Story(story) = &found.seen else { panic!("it is told") };
             let played = method.replay(rule, &found.choices).expect("it can be played again");
             assert_eq!(played.evidence, found);
             let looks = ["goes", "finds", "meets"].map(|word| story.matches(word).count());

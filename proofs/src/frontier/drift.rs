@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, HALF, Map, Next, Place, Reached, Robot, Rule, SIDE, Scratch, Sight, Slot, Status, TinyMap,
+    Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Scratch, SearchCell, Sight, Slot, Status, TinyMap,
     View, clamped, taken_for,
 };
 use tautline_kernel::ground::{Area, Cell};
@@ -97,7 +97,8 @@ impl Drift {
     /// A move, and the fix after it; `None` if there is none.
     fn go(&self, state: &State, oracle: &mut dyn Oracle) -> Option<(State, &'static str)> {
         let mut after = *state;
-        let (mut reached, mut queue) = ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
+        let (mut reached, mut queue) =
+            ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
         let (mut rounds, mut pairs) = (0, [None]);
         let mut scratch =
             Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };

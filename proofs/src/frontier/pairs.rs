@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Status, TinyMap, View,
+    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -34,7 +34,7 @@ pub(super) fn teams() -> String {
 }
 
 /// A robot as another one knows it: its cell, and the cell that it has claimed.
-type Known = (Cell, Option<Cell>);
+type Sighting = (Cell, Option<Cell>);
 
 /// FRONTIER-9: the first of some robots decides.
 ///
@@ -60,7 +60,7 @@ pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     }
     let left: Vec<Cell> =
         cells.iter().copied().filter(|&cell| map.status(cell) == Status::Unexplored).collect();
-    let team: Vec<Known> = places
+    let team: Vec<Sighting> = places
         .into_iter()
         .map(|cell| (cell, left.get(oracle.pick(left.len() as u32 + 1) as usize).copied()))
         .collect();
@@ -83,7 +83,7 @@ pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
 }
 
 /// The next action of the first of the robots.
-fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
+fn next(rule: &Rule, map: TinyMap, team: &[Sighting]) -> Next {
     let (at, aim) = team[0];
     let mut own = Robot::new(map, at, &[]);
     let claimed = aim.or_else(|| map.area().cells().find(|&cell| map.status(cell) == Status::Unexplored));
@@ -94,9 +94,9 @@ fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
     // any more when it has met another robot.
     own.looked(rule, if aim.is_some() { Sight::Open } else { Sight::Robot });
     own.arrived(&rule.without(Condition::Track), at);
-    let other = |&(cell, aim): &Known| Other { cell, place: Place::midpoint(cell), aim };
+    let other = |&(cell, aim): &Sighting| Other { cell, place: Place::midpoint(cell), aim };
     let others: Vec<Other> = team.iter().skip(1).map(other).collect();
-    let (mut reached, mut queue) = ([Reached::NEVER; CELLS], [Cell::new(0, 0); CELLS]);
+    let (mut reached, mut queue) = ([SearchCell::NEVER; CELLS], [Cell::new(0, 0); CELLS]);
     let (mut rounds, mut pairs) = (0, [None; ROBOTS * ROBOTS]);
     let mut scratch =
         Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
@@ -104,7 +104,7 @@ fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
 }
 
 /// The cell that the first of the robots is paired with, and the one that comes first for it alone.
-fn expected(map: &TinyMap, team: &[Known]) -> (Option<Cell>, Option<Cell>) {
+fn expected(map: &TinyMap, team: &[Sighting]) -> (Option<Cell>, Option<Cell>) {
     let mut pairs = Vec::new();
     for (robot, &(at, aim)) in team.iter().enumerate() {
         // Robots in one cell count as one, of which the first has a say.

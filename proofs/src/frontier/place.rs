@@ -15,7 +15,7 @@ const PART: i32 = SIDE / PARTS;
 
 /// Which errors a robot bears: of the fix that it believes before a move, of the one after it, and of its odometry.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bears {
+pub(crate) struct ErrorBudget {
     /// How often the error of a fix counts.
     fixes: i32,
     /// How often that of the odometry counts.
@@ -24,7 +24,7 @@ pub(crate) struct Bears {
     below: i32,
 }
 
-impl Bears {
+impl ErrorBudget {
     /// Each fix is believed: 2E + D < L/2.
     pub(crate) const FIXES: Self = Self { fixes: 2, odometry: 1, below: PARTS / 2 };
     /// The cell is counted by moves: E + D < L/2.
@@ -51,7 +51,7 @@ fn within(oracle: &mut dyn Oracle, most: i32) -> i32 {
 
 /// Errors that are borne, and where a robot really is after a move to the midpoint of the cell 1 of three, which had
 /// them.
-fn moved(bears: &Bears, oracle: &mut dyn Oracle) -> Result<(i32, i32), Stop> {
+fn moved(bears: &ErrorBudget, oracle: &mut dyn Oracle) -> Result<(i32, i32), Stop> {
     let most = PARTS / 2;
     let (fix, odometry) = (oracle.pick(most as u32 + 1) as i32, oracle.pick(most as u32 + 1) as i32);
     assume(bears.fixes * fix + bears.odometry * odometry < bears.below)?;
@@ -68,7 +68,7 @@ fn row() -> Result<Area, Stop> {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn believes(bears: &Bears, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn believes(bears: &ErrorBudget, oracle: &mut dyn Oracle) -> Outcome {
     let (at, most) = moved(bears, oracle)?;
     let fix = at + within(oracle, most);
     let taken = taken_for(row()?, Place::new(SIDE + fix * PART, 0));
@@ -80,7 +80,7 @@ pub(super) fn believes(bears: &Bears, oracle: &mut dyn Oracle) -> Outcome {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn counts(bears: &Bears, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn counts(bears: &ErrorBudget, oracle: &mut dyn Oracle) -> Outcome {
     let (at, most) = moved(bears, oracle)?;
     let is_inside = at.abs() < PARTS / 2;
     require(is_inside, "the robot is inside the cell that it has counted")?;

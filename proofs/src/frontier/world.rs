@@ -13,8 +13,8 @@ mod merging;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Stance, Status, TinyMap,
-    View,
+    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Stance, Status,
+    TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -117,7 +117,7 @@ pub enum Event {
 
 /// A step, with what happens in it.
 #[derive(Clone, Debug)]
-pub struct Turned<const ROBOTS: usize> {
+pub struct Successor<const ROBOTS: usize> {
     /// The world after the turn.
     pub world: World<ROBOTS>,
     /// The event.
@@ -225,7 +225,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
         let view = View { others: &others, slot };
         let (mut reached, mut queue, mut rounds) =
-            ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
+            ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
         let mut pairs = [[None; ROBOTS]; ROBOTS];
         let pairs = pairs.as_flattened_mut();
         let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs };
@@ -260,8 +260,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 
     /// Every step from `world`.
-    pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Turned<ROBOTS>> {
-        let mut turns: Vec<Turned<ROBOTS>> = Vec::new();
+    pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Successor<ROBOTS>> {
+        let mut turns: Vec<Successor<ROBOTS>> = Vec::new();
         for robot in 0..ROBOTS {
             match world.robots[robot].stance() {
                 Stance::Stands if self.may_decide(world, robot) => {
@@ -279,12 +279,17 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         if self.ticks(world) {
             let slot = (world.slot + 1) % ROBOTS as u8;
             let after = World { slot, old: world.moving(), has_tried: false, ..*world };
-            turns.push(Turned { world: after, event: Event::Ticks, breaks: Vec::new() });
+            turns.push(Successor { world: after, event: Event::Ticks, breaks: Vec::new() });
         }
         turns
     }
 
-    fn decide(&self, world: &World<ROBOTS>, robot: usize, oracle: &mut dyn Oracle) -> Option<Turned<ROBOTS>> {
+    fn decide(
+        &self,
+        world: &World<ROBOTS>,
+        robot: usize,
+        oracle: &mut dyn Oracle,
+    ) -> Option<Successor<ROBOTS>> {
         let Next::Tries { side, aim } = self.next(world, robot, Slot::Own, oracle) else { return None };
         let mut after = *world;
         after.robots[robot].tries(side, aim);
@@ -293,7 +298,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         } else {
             0
         };
-        Some(Turned { world: after, event: Event::Decides(robot, side, aim, missed), breaks: Vec::new() })
+        Some(Successor { world: after, event: Event::Decides(robot, side, aim, missed), breaks: Vec::new() })
     }
 
     fn look(
@@ -301,7 +306,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         world: &World<ROBOTS>,
         (robot, side): (usize, Side),
         oracle: &mut dyn Oracle,
-    ) -> Turned<ROBOTS> {
+    ) -> Successor<ROBOTS> {
         let mut after = *world;
         let cell = world.cells[robot].beyond(side);
         let met = if self.rule.has(Condition::Look) { world.inside(robot, cell, Rim::Counts) } else { 0 };
@@ -344,7 +349,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         }
         self.settle(&mut after, &mut breaks);
         let event = Event::Looks(robot, side, sight, missed, after.slot);
-        Turned { world: after, event, breaks }
+        Successor { world: after, event, breaks }
     }
 
     /// Whether there is an obstacle in `cell`, outside which there is nothing else.
@@ -367,7 +372,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         world: &World<ROBOTS>,
         (robot, side): (usize, Side),
         oracle: &mut dyn Oracle,
-    ) -> Turned<ROBOTS> {
+    ) -> Successor<ROBOTS> {
         let mut after = *world;
         let cell = world.cells[robot].beyond(side);
         after.cells[robot] = cell;
@@ -384,7 +389,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let missed = self.tell(&mut after, robot, (at, Status::Explored), u8::MAX, oracle);
         let mut breaks = Vec::new();
         self.settle(&mut after, &mut breaks);
-        Turned { world: after, event: Event::Arrives(robot, fix, missed), breaks }
+        Successor { world: after, event: Event::Arrives(robot, fix, missed), breaks }
     }
 
     /// `from` tells the robots in `to` where it is, what it has claimed, and what is new, or all that it knows. Those

@@ -4,8 +4,8 @@ use tautline_kernel::ground::Circle;
 
 use super::environments::{self, Circles};
 use super::frontier::{self, Flooding};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, Verdict};
 use crate::step_checks;
 
 /// The next larger circle: E_C with eight cells more.
@@ -14,10 +14,10 @@ pub(crate) const WIDER: Circle = Circle::new(34);
 /// The next smaller circle than that of E_S: the cell and its four side neighbours.
 pub(crate) const NARROWER: Circle = Circle::new(10);
 
-const WHOLE: Named<Flooding> = Named::new("published", Flooding::Whole);
+const WHOLE: NamedRule<Flooding> = NamedRule::new("published", Flooding::Whole);
 
 step_checks! { Circles;
-    environments_of_circles: environments::environments, Named::new("published", Circles::PUBLISHED), environments::offsets,
+    environments_of_circles: environments::environments, NamedRule::new("published", Circles::PUBLISHED), environments::offsets,
         covers ["in E_C alone", "in E_N", "in E_S alone", "in none"], unwind 6, mutants {
             safe_too_wide: "E_S with the radius of E_C" => Circles { safe: Circle::COVERED, ..Circles::PUBLISHED },
             covered_too_narrow: "E_C with the radius of E_S" => Circles { covered: Circle::SAFE, ..Circles::PUBLISHED },
@@ -42,23 +42,23 @@ pub static CLAUSES: [Clause; 2] = [
         checks: &[
             &Check::new(
                 WHOLE,
-                &Exhaustive {
+                &EveryAnswer {
                     body: frontier::in_six_cells,
                     range: frontier::small_maps,
                     covers: &["a frontier", "no frontier"],
                 },
                 Verdict::Holds,
-                &[Named::new("virtual obstacles bind followers", Flooding::BindsFollowers)],
+                &[NamedRule::new("virtual obstacles bind followers", Flooding::BindsFollowers)],
             ),
             &Check::new(
                 WHOLE,
-                &Exhaustive {
+                &EveryAnswer {
                     body: frontier::along_every_line,
                     range: frontier::lines,
                     covers: &["a column", "a row"],
                 },
                 Verdict::Holds,
-                &[Named::new("a line is not flooded", Flooding::SkipsALine)],
+                &[NamedRule::new("a line is not flooded", Flooding::SkipsALine)],
             ),
         ],
     },

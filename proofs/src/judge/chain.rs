@@ -8,7 +8,7 @@ mod duty;
 mod judge_input;
 mod place;
 
-use broken::{Broken, broken};
+use broken::{Violation, broken};
 use court::Court;
 use duty::{Duty, MOST_LED};
 pub use judge_input::{Exhibit, Move, Objection, Repairs};
@@ -32,7 +32,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
     if !exhibit.is_free(exhibit.base) {
         return Err(whole("the base is not a free cell of the layout"));
     }
-    if matches!(clause, Broken::AtEnd(_)) && exhibit.robots > MOST_LED {
+    if matches!(clause, Violation::AtEnd(_)) && exhibit.robots > MOST_LED {
         return Err(whole("the judge cannot say of more than 12 robots whether their run is over"));
     }
     let mut court = Court::new(exhibit, first.places.len());
@@ -45,7 +45,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         }
         court.hear(made).map_err(object)?;
         let is_last = at == exhibit.moves.len();
-        if let Broken::ByMove(is_broken) = clause {
+        if let Violation::ByMove(is_broken) = clause {
             match (is_broken(&court, made), is_last) {
                 (true, false) => return Err(object("the clause is broken before the last move")),
                 (false, true) => return Err(object("the last move does not break the clause")),
@@ -54,7 +54,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         }
         court.places.clone_from(&made.places);
     }
-    if let Broken::AtEnd(is_broken) = clause {
+    if let Violation::AtEnd(is_broken) = clause {
         if court.duty().map_err(whole)? != Duty::Nothing {
             return Err(whole("the run goes on after the last move"));
         }

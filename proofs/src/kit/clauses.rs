@@ -6,46 +6,48 @@ use tautline_kernel::kit::Condition::{
 use tautline_kernel::kit::{Answers as Answering, Filter, Records, Rule, Runs};
 
 use super::lattices::{Lattices, Pass, Size};
-use super::pairs::{self, Sure};
+use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
-use crate::clause::{Check, Clause, Named};
+use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryState, Verdict};
 use crate::step_checks;
 
-const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
-const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
-const ROBUST: Named<Rule> = Named::new("robust", Rule::ROBUST);
+const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
+const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
+const ROBUST: NamedRule<Rule> = NamedRule::new("robust", Rule::ROBUST);
 
-const NO_NEXT: Named<Rule> =
-    Named::new("where the other goes does not count", Rule::REPAIRED.without(NextInReach));
-const NO_FROM: Named<Rule> =
-    Named::new("where the other was does not count", Rule::REPAIRED.without(FromInReach));
-const NOT_APART: Named<Rule> = Named::new("to where the other is or goes", Rule::REPAIRED.without(Apart));
-const NO_STAY: Named<Rule> = Named::new("never stays", Rule::REPAIRED.without(Stays));
-const NO_TURN: Named<Rule> = Named::new("no turns", Rule::REPAIRED.without(Turn));
-const NO_REGROUP: Named<Rule> = Named::new("no joint way", Rule::REPAIRED.without(Regroup));
-const UNMARKED: Named<Rule> = Named::new("blocked sides are not marked", Rule::REPAIRED.without(Marked));
-const OLD_PATHS: Named<Rule> =
-    Named::new("old paths alone are filtered", Rule { filter: Filter::OldPaths, ..Rule::REPAIRED });
-const OTHERS: Named<Rule> =
-    Named::new("the other's record alone counts", Rule { records: Records::Others, ..Rule::REPAIRED });
-const NO_LOOK_BESIDE: Named<Rule> =
-    Named::new("neighbours are not looked at", Rule::REPAIRED.without(Beside));
-const NO_CARAVAN: Named<Rule> = Named::new("each goes alone", Rule::REPAIRED.without(Caravan));
-const NO_ROOM: Named<Rule> = Named::new("nobody makes room", Rule::REPAIRED.without(MakesRoom));
+const NO_NEXT: NamedRule<Rule> =
+    NamedRule::new("where the other goes does not count", Rule::REPAIRED.without(NextInReach));
+const NO_FROM: NamedRule<Rule> =
+    NamedRule::new("where the other was does not count", Rule::REPAIRED.without(FromInReach));
+const NOT_APART: NamedRule<Rule> =
+    NamedRule::new("to where the other is or goes", Rule::REPAIRED.without(Apart));
+const NO_STAY: NamedRule<Rule> = NamedRule::new("never stays", Rule::REPAIRED.without(Stays));
+const NO_TURN: NamedRule<Rule> = NamedRule::new("no turns", Rule::REPAIRED.without(Turn));
+const NO_REGROUP: NamedRule<Rule> = NamedRule::new("no joint way", Rule::REPAIRED.without(Regroup));
+const UNMARKED: NamedRule<Rule> =
+    NamedRule::new("blocked sides are not marked", Rule::REPAIRED.without(Marked));
+const OLD_PATHS: NamedRule<Rule> =
+    NamedRule::new("old paths alone are filtered", Rule { filter: Filter::OldPaths, ..Rule::REPAIRED });
+const OTHERS: NamedRule<Rule> =
+    NamedRule::new("the other's record alone counts", Rule { records: Records::Others, ..Rule::REPAIRED });
+const NO_LOOK_BESIDE: NamedRule<Rule> =
+    NamedRule::new("neighbours are not looked at", Rule::REPAIRED.without(Beside));
+const NO_CARAVAN: NamedRule<Rule> = NamedRule::new("each goes alone", Rule::REPAIRED.without(Caravan));
+const NO_ROOM: NamedRule<Rule> = NamedRule::new("nobody makes room", Rule::REPAIRED.without(MakesRoom));
 const AHEAD: Rule = Rule { runs: Runs::Ahead, ..Rule::PUBLISHED };
 
-step_checks! { Sure;
-    contact: pairs::contact, Named::new("repaired", Sure::OURS), pairs::pairs,
+step_checks! { Certainty;
+    contact: pairs::contact, NamedRule::new("repaired", Certainty::OURS), pairs::pairs,
         covers ["both drive", "both stand", "one drives"], unwind 9, mutants {
-            ends: "where both go alone counts" => Sure::ENDS,
-            next: "where a robot was does not count" => Sure::NEXT_OF_ONE,
+            ends: "where both go alone counts" => Certainty::ENDS,
+            next: "where a robot was does not count" => Certainty::NEXT_OF_ONE,
         };
-    apart: pairs::apart, Named::new("repaired", Sure::OURS), pairs::pairs,
+    apart: pairs::apart, NamedRule::new("repaired", Certainty::OURS), pairs::pairs,
         covers ["both drive", "both stand", "one drives"], unwind 9, mutants {
-            ends: "where both go alone counts" => Sure::ENDS,
-            next: "where a robot was does not count" => Sure::NEXT_OF_ONE,
+            ends: "where both go alone counts" => Certainty::ENDS,
+            next: "where a robot was does not count" => Certainty::NEXT_OF_ONE,
         };
 }
 
@@ -141,7 +143,7 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &contact::CHECK,
             &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]),
-            &Check::new(Named::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[]),
+            &Check::new(NamedRule::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[]),
             &Check::new(
                 REPAIRED,
                 &repaired(Demand::Contact),
@@ -190,7 +192,7 @@ pub static CLAUSES: [Clause; 14] = [
                 ROBUST,
                 &ANSWERED_THOUGH_LOST,
                 Verdict::Holds,
-                &[Named::new("no repeats", Rule::ROBUST.without(Repeats))],
+                &[NamedRule::new("no repeats", Rule::ROBUST.without(Repeats))],
             ),
         ],
     },
@@ -203,8 +205,8 @@ pub static CLAUSES: [Clause; 14] = [
                 &FRESH,
                 Verdict::Holds,
                 &[
-                    Named::new("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
-                    Named::new(
+                    NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
+                    NamedRule::new(
                         "the first goes first",
                         Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED },
                     ),
@@ -214,14 +216,14 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &FRESH,
                 Verdict::Holds,
-                &[Named::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
+                &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
             ),
             &Check::new(REPAIRED, &FRESH_THOUGH_DOUBLED, Verdict::Refuted, &[]),
             &Check::new(
                 ROBUST,
                 &FRESH_THOUGH_LOST,
                 Verdict::Holds,
-                &[Named::new("answers always", Rule { answers: Answering::Always, ..Rule::ROBUST })],
+                &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::ROBUST })],
             ),
         ],
     },
@@ -309,9 +311,9 @@ pub static CLAUSES: [Clause; 14] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::{Desk, Memory, Method, Seen};
+    use crate::decide::{Cache, Context, Depiction, Method};
     use crate::engine::Until;
-    use crate::engine::states::Room;
+    use crate::engine::states::MemoryLimit;
     use crate::engine::tree::unwatched;
 
     #[test]
@@ -319,7 +321,7 @@ mod tests {
         for clause in CLAUSES.iter().filter(|clause| ["KIT-4", "KIT-5"].contains(&clause.id)) {
             for check in clause.checks.iter().filter(|check| check.rule() != "robust") {
                 let decision =
-                    check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+                    check.decide(&mut Cache::default(), &mut unwatched).expect("it can be decided");
                 assert!(decision.is_as_registered(*check), "{}: {decision:?}", clause.id);
             }
         }
@@ -329,11 +331,11 @@ mod tests {
     #[test]
     fn the_published_rule_goes_wrong_in_few_drives() {
         let story = |method: &Lattices<2>, rule: &Rule| {
-            let memory = &mut Memory::default();
-            let desk = &mut Desk { memory, watch: &mut unwatched, room: Room::any() };
+            let memory = &mut Cache::default();
+            let desk = &mut Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
             let answer = method.decide(rule, Until::Exhausted, desk).expect("it can be decided");
             let found = answer.counterexample.expect("a counterexample");
-            let Seen::Story(story) = &found.seen else { panic!("it is told") };
+            let Depiction::Story(story) = &found.seen else { panic!("it is told") };
             let played = method.replay(rule, &found.choices).expect("it can be played again");
             assert_eq!(played.evidence, found);
             (story.matches("drives").count(), story.lines().next().unwrap_or_default().to_owned())

@@ -4,7 +4,7 @@
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
 use tautline_kernel::kit::{Next, Sight};
 
-use super::world::{Demand, Event, Setting, Turned, World};
+use super::world::{Demand, Event, Setting, Successor, World};
 use crate::engine::states::{Limits, Run, search};
 
 /// A run that breaks a demand, and where.
@@ -32,9 +32,9 @@ pub fn fewest<const ROBOTS: usize>(
 
 impl<const ROBOTS: usize> Counterexample<ROBOTS> {
     /// The world at the start, and each step; fewer steps if the run is not one of the setting.
-    fn steps(&self) -> Option<(World<ROBOTS>, Vec<Turned<ROBOTS>>)> {
+    fn steps(&self) -> Option<(World<ROBOTS>, Vec<Successor<ROBOTS>>)> {
         let start = self.setting.starts().into_iter().nth(self.run.start)?;
-        let mut steps: Vec<Turned<ROBOTS>> = Vec::new();
+        let mut steps: Vec<Successor<ROBOTS>> = Vec::new();
         for &number in self.run.steps.iter().chain(self.run.round()) {
             let world = steps.last().map_or(&start, |turned| &turned.world);
             let Some(turned) = self.setting.turns(world).into_iter().nth(number as usize) else { break };

@@ -6,9 +6,9 @@ use tautline_kernel::kit::Rule;
 
 use super::counterexample::Counterexample;
 use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{END, Limits, search};
-use crate::engine::{Choices, Script, Unfit, Until, cover};
+use crate::engine::{Choices, Script, ScriptError, Until, cover};
 
 /// Columns, rows, and the most walls that one run meets.
 pub(super) type Size = (i16, i16, u8);
@@ -38,7 +38,7 @@ pub(super) enum Pass {
 }
 
 /// The findings in the states.
-struct Looked<const ROBOTS: usize> {
+struct Findings<const ROBOTS: usize> {
     states: u64,
     is_whole: bool,
     covered: Vec<&'static str>,
@@ -61,8 +61,8 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         sizes: &[Size],
         demand: Option<Demand>,
         limits: Limits<'_>,
-    ) -> Looked<ROBOTS> {
-        let mut looked = Looked { states: 0, is_whole: true, covered: Vec::new(), broken: None };
+    ) -> Findings<ROBOTS> {
+        let mut looked = Findings { states: 0, is_whole: true, covered: Vec::new(), broken: None };
         for (number, &(width, height, most)) in (0..).zip(sizes) {
             // Mostly nothing is broken; where it is, the fewest walls are looked for.
             let all = self.search(rule, (width, height, most), demand, (limits, &mut looked));
@@ -92,7 +92,7 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         rule: &Rule,
         size: Size,
         demand: Option<Demand>,
-        (limits, looked): (Limits<'_>, &mut Looked<ROBOTS>),
+        (limits, looked): (Limits<'_>, &mut Findings<ROBOTS>),
     ) -> Option<Counterexample<ROBOTS>> {
         let setting = self.setting(rule, size, demand)?;
         let found = search(&setting, setting.starts(), limits);
@@ -104,7 +104,7 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         Some(Counterexample { setting, run: found.broken.into_iter().next()? })
     }
 
-    fn answer(&self, looked: Looked<ROBOTS>) -> Answer {
+    fn answer(&self, looked: Findings<ROBOTS>) -> Answer {
         let is_covered = self.covers.iter().chain(&[END]).all(|situation| looked.covered.contains(situation));
         let evidence = looked.broken.map(|(choices, found)| evidence(choices, &found));
         Answer::new(evidence, looked.is_whole && is_covered, Method::<Rule>::shows(self), looked.states)
@@ -153,34 +153,35 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     }
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         if self.pass == Pass::Together && until == Until::Exhausted {
             let key = (self.family(rule), *rule);
-            let kept: Result<&(bool, u64, bool, Vec<&'static str>), Refused> =
+            let kept: Result<&(bool, u64, bool, Vec<&'static str>), MethodError> =
                 desk.memory.recall(key, |_| {
                     let looked = self.look(rule, self.sizes, None, limits);
                     Ok((looked.broken.is_none(), looked.states, looked.is_whole, looked.covered))
                 });
             if let (true, states, is_whole, covered) = kept?.clone() {
-                return Ok(self.answer(Looked { states, is_whole, covered, broken: None }));
+                return Ok(self.answer(Findings { states, is_whole, covered, broken: None }));
             }
         }
         Ok(self.answer(self.look(rule, self.sizes, Some(self.demand), limits)))
     }
 
-    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let (width, height, most) = self.sizes[script.choose(self.sizes.len())?];
         let walls = script.choose(usize::from(most) + 1)? as u8;
-        let setting = self.setting(rule, (width, height, walls), Some(self.demand)).ok_or(Unfit::Unbroken)?;
+        let setting =
+            self.setting(rule, (width, height, walls), Some(self.demand)).ok_or(ScriptError::Unbroken)?;
         let starts: Vec<World<ROBOTS>> = setting.starts();
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
-        Ok(Played { of, evidence: evidence(choices.clone(), &Counterexample { setting, run }) })
+        Ok(RefutationPlay { of, evidence: evidence(choices.clone(), &Counterexample { setting, run }) })
     }
 }
 
 fn evidence<const ROBOTS: usize>(choices: Choices, found: &Counterexample<ROBOTS>) -> Evidence {
-    Evidence { choices, demand: found.run.demand.words(), seen: Seen::Story(found.story()) }
+    Evidence { choices, demand: found.run.demand.words(), seen: Depiction::Story(found.story()) }
 }

@@ -2,7 +2,7 @@
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Side, Step, Steps};
-use tautline_kernel::kit::{Message, Rule, Stance};
+use tautline_kernel::kit::{Message, Reach, Rule, Stance};
 
 use crate::engine::{Outcome, assume, require};
 
@@ -61,7 +61,7 @@ pub(super) fn pairs() -> String {
 }
 
 /// KIT-1: who is sure to hear another one is at most 10 m from it, wherever the two are on their paths.
-pub(super) fn contact(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn contact(sure: &Certainty, oracle: &mut dyn Oracle) -> Outcome {
     let [one, other] = pair(oracle);
     assume((sure.contact)(one, other))?;
     // 10 m are 10/3 of a path.
@@ -74,7 +74,7 @@ pub(super) fn contact(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
 }
 
 /// KIT-3: who is sure to be apart from another one is at least 3 m from it, wherever the two are on their paths.
-pub(super) fn apart(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn apart(sure: &Certainty, oracle: &mut dyn Oracle) -> Outcome {
     let [one, other] = pair(oracle);
     assume((sure.apart)(one, other))?;
     let squared = distance_squared([one, other], parts(oracle));
@@ -82,24 +82,29 @@ pub(super) fn apart(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
     Ok(situation([one, other]))
 }
 
+/// Whether these robots hear each other within the paper's reach at whatever speeds they drive.
+const fn is_in_contact(one: Stance, other: Stance) -> bool {
+    one.is_sure_of(other, Reach::PAPER)
+}
+
 /// Predicates about two robots that follow from where they are.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sure {
+pub(crate) struct Certainty {
     contact: fn(Stance, Stance) -> bool,
     apart: fn(Stance, Stance) -> bool,
 }
 
-impl Sure {
+impl Certainty {
     /// The kernel's predicates.
-    pub(super) const OURS: Self = Self { contact: Stance::is_sure_of, apart: Stance::is_apart_from };
+    pub(super) const OURS: Self = Self { contact: is_in_contact, apart: Stance::is_apart_from };
     /// Only where both go counts.
     pub(super) const ENDS: Self = Self {
-        contact: |one, other| Stance::Stands(one.to()).is_sure_of(Stance::Stands(other.to())),
+        contact: |one, other| is_in_contact(Stance::Stands(one.to()), Stance::Stands(other.to())),
         apart: |one, other| one.to() != other.to(),
     };
     /// Where the other one has left counts, and where a robot itself has left does not.
     pub(super) const NEXT_OF_ONE: Self = Self {
-        contact: |one, other| Stance::Stands(one.to()).is_sure_of(other),
+        contact: |one, other| is_in_contact(Stance::Stands(one.to()), other),
         apart: |one, other| !other.has(one.to()),
     };
 }
@@ -156,8 +161,8 @@ mod tests {
     #[test]
     fn there_are_653_pairs_in_contact_at_most_9_49_m_and_580_of_them_at_least_3_m_apart() {
         // √10 paths of 3 m are 9.49 m.
-        assert_eq!(count(Stance::is_sure_of), (653, 10, 0));
-        let both = |one: Stance, other: Stance| one.is_sure_of(other) && one.is_apart_from(other);
+        assert_eq!(count(is_in_contact), (653, 10, 0));
+        let both = |one: Stance, other: Stance| is_in_contact(one, other) && one.is_apart_from(other);
         assert_eq!(count(both), (580, 10, 1));
     }
 }

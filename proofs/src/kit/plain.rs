@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 
 /// The robots' findings on a lattice.
 #[derive(Clone, Copy)]
-pub(super) struct Found<'a, const ROBOTS: usize> {
+pub(super) struct Findings<'a, const ROBOTS: usize> {
     /// Paths that were driven ([`EdgeMark::Open`]) and walls that were met.
     pub(super) map: &'a TinyGrid,
     /// Where a robot is besides the node that is told, if it is on a path.
@@ -22,7 +22,7 @@ fn hear(one: Cell, other: Cell) -> bool {
     metres(dx).pow(2) + metres(dy).pow(2) <= 100
 }
 
-impl<const ROBOTS: usize> Found<'_, ROBOTS> {
+impl<const ROBOTS: usize> Findings<'_, ROBOTS> {
     fn is_driven(&self, node: Cell, side: Side) -> bool {
         self.map.edge_has(EdgeMark::Open, Edge::new(node, side))
     }
@@ -123,7 +123,7 @@ mod tests {
         let area = Area::new(Cell::new(0, 0), Cell::new(5, 0)).expect("an area");
         let mut map = TinyGrid::new(area).expect("a map");
         let found = |map: &TinyGrid, cells: [i16; 2]| {
-            Found { map, left: [None; 2] }.distance(cells.map(|x| Cell::new(x, 0)), 0b11)
+            Findings { map, left: [None; 2] }.distance(cells.map(|x| Cell::new(x, 0)), 0b11)
         };
         assert_eq!(found(&map, [0, 1]), Some(0));
         for x in 0..4 {

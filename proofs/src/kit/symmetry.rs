@@ -7,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Condition, Robot, Runs, Stance};
 
-use super::world::{Demand, Part, SITUATIONS, Setting, Speeds, Team, Turned, World};
+use super::world::{Demand, Part, SITUATIONS, Setting, Speeds, Successor, Team, World};
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
@@ -104,7 +104,7 @@ type Edges = [u64; 3];
 /// A lattice with two robots of which one image of each state is searched. An endless run is one that goes round,
 /// whoever acts in it, since an image may have other numbers on its robots.
 #[derive(Clone, Debug)]
-pub struct Symmetric {
+pub struct SymmetricLattice {
     setting: Setting<2>,
     edges: Vec<Edge>,
     images: Vec<Image>,
@@ -113,7 +113,7 @@ pub struct Symmetric {
     drives: Counter<u64>,
 }
 
-impl Symmetric {
+impl SymmetricLattice {
     /// This lattice, with all its images.
     pub fn new(setting: Setting<2>) -> Self {
         let area = setting.area;
@@ -191,23 +191,23 @@ impl Symmetric {
     }
 }
 
-impl world::World for Symmetric {
+impl world::World for SymmetricLattice {
     type State = World<2>;
-    type Plan = Vec<Turned<2>>;
-    type Event = Turned<2>;
+    type Plan = Vec<Successor<2>>;
+    type Event = Successor<2>;
     type Demand = Demand;
 
-    fn plan(&self, state: &mut World<2>, log: &[u8]) -> Option<Vec<Turned<2>>> {
+    fn plan(&self, state: &mut World<2>, log: &[u8]) -> Option<Vec<Successor<2>>> {
         self.setting.plan(state, log)
     }
 
     fn settle(
         &self,
         state: &mut World<2>,
-        turns: &Vec<Turned<2>>,
+        turns: &Vec<Successor<2>>,
         log: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Turned<2> {
+    ) -> Successor<2> {
         let turned = self.setting.settle(state, turns, log, world);
         let is_drive = matches!(turned.situation, "a new path" | "an old path");
         self.drives.set(self.drives.get() + u64::from(is_drive));
@@ -231,7 +231,7 @@ impl world::World for Symmetric {
     }
 }
 
-impl System for Symmetric {
+impl System for SymmetricLattice {
     type Part = Part<2>;
 
     fn make_canonical(&self, state: &mut World<2>) {
@@ -300,13 +300,13 @@ mod tests {
 
     use super::super::world::Starts;
     use super::*;
-    use crate::engine::Seeded;
-    use crate::engine::states::{Found, Limits, search};
+    use crate::engine::SeededOracle;
+    use crate::engine::states::{Findings, Limits, search};
 
     /// The events that can happen next, and where they lead, as it looks in this image.
     type Nexts = HashSet<(&'static str, Vec<&'static str>, World<2>)>;
 
-    fn nexts(lattice: &Symmetric, world: &World<2>, image: &Image, order: [usize; 2]) -> Nexts {
+    fn nexts(lattice: &SymmetricLattice, world: &World<2>, image: &Image, order: [usize; 2]) -> Nexts {
         let turns = lattice.setting.turns(world).into_iter();
         let next = turns.map(|turned| {
             let breaks = turned.breaks.iter().map(|demand| demand.words()).collect();
@@ -320,11 +320,11 @@ mod tests {
     /// rows.
     fn do_alike(rule: Rule, size: (i16, i16), orders: &'static [[usize; 2]]) -> bool {
         let setting = Setting::new(rule, size).expect("a lattice");
-        let lattice = Symmetric { orders, ..Symmetric::new(setting) };
+        let lattice = SymmetricLattice { orders, ..SymmetricLattice::new(setting) };
         let starts = setting.starts();
         let identity = &lattice.images[0];
         (0..4).all(|seed| {
-            let mut dice = Seeded::new(seed, 16);
+            let mut dice = SeededOracle::new(seed, 16);
             let mut world = starts[dice.pick(starts.len() as u32) as usize];
             (0..40).all(|_| {
                 let images =
@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn an_image_has_its_drives_and_walls_where_they_are_taken() {
         let setting = Setting::new(Rule::REPAIRED, (3, 3)).expect("a lattice");
-        let lattice = Symmetric::new(setting);
+        let lattice = SymmetricLattice::new(setting);
         let mut team = setting.start([Cell::new(0, 0), Cell::new(2, 0)]).expect("a start").team;
         assert_eq!(team.decide(0, &mut First), Ok(Next::Looks(Side::East)));
         assert_eq!(team.looked(0, Sight::Obstacle, &mut First), Ok(Next::Looks(Side::South)));
@@ -390,7 +390,7 @@ mod tests {
         for size in [(3, 1), (2, 2), (4, 1)] {
             let setting = Setting::new(Rule::REPAIRED, size).expect("a lattice");
             let all = search(&setting, setting.starts(), Limits::NONE);
-            let lattice = Symmetric::new(setting);
+            let lattice = SymmetricLattice::new(setting);
             let one = search(&lattice, setting.starts(), Limits::NONE);
             assert!(one.is_whole && one.broken.is_empty() && one.states < all.states, "{size:?}");
             assert_eq!(one.covered, all.covered);
@@ -418,12 +418,12 @@ mod tests {
     fn what_is_broken_is_broken_in_an_image() {
         for lost in [Condition::NextInReach, Condition::Apart, Condition::Marked, Condition::Stays] {
             let rule = Rule::REPAIRED.without(lost);
-            let demands = |found: Found<Demand>| -> HashSet<&'static str> {
+            let demands = |found: Findings<Demand>| -> HashSet<&'static str> {
                 found.broken.iter().map(|run| run.demand.words()).collect()
             };
             let setting = Setting { max_walls: 1, ..Setting::new(rule, (5, 1)).expect("a lattice") };
             let all = demands(search(&setting, setting.starts(), Limits::NONE));
-            let one = demands(search(&Symmetric::new(setting), setting.starts(), Limits::NONE));
+            let one = demands(search(&SymmetricLattice::new(setting), setting.starts(), Limits::NONE));
             assert!(all.is_subset(&one) && !one.is_empty(), "{lost:?}: {all:?}, {one:?}");
         }
     }
@@ -434,7 +434,7 @@ mod tests {
             let rule = Rule { reach: Reach::of_paths(paths).expect("a reach"), ..Rule::REPAIRED };
             for size in [(5, 1), (3, 2)] {
                 let setting = Setting::new(rule, size).expect("a lattice");
-                let found = search(&Symmetric::new(setting), setting.starts(), Limits::NONE);
+                let found = search(&SymmetricLattice::new(setting), setting.starts(), Limits::NONE);
                 let keeps =
                     found.broken.iter().all(|run| !matches!(run.demand, Demand::Contact | Demand::Apart));
                 assert!(found.is_whole && keeps, "{size:?}: {:?}", found.broken);
@@ -449,7 +449,7 @@ mod tests {
         let begun = Instant::now();
         let setting = Setting::new(Rule::REPAIRED, (columns, rows)).expect("a lattice");
         let setting = Setting { max_walls: max_walls.min(setting.max_walls), speeds, ..setting };
-        let lattice = Symmetric::new(setting);
+        let lattice = SymmetricLattice::new(setting);
         let found = search(&lattice, setting.starts(), Limits::NONE);
         println!(
             "{columns}×{rows}, at most {} walls, {speeds:?}: {} states, {} steps, {} drives, {} MiB, {:.0} s",

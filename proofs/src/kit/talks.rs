@@ -4,7 +4,7 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Steps};
-use tautline_kernel::kit::{Letter, Message, NUMBERS, Phase, Rule, Sent, Talk};
+use tautline_kernel::kit::{Letter, Message, NUMBERS, Outbox, Phase, Rule, Talk};
 
 use crate::engine::states::{Bits, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
@@ -34,7 +34,7 @@ pub(super) struct Talks {
 pub(super) struct State {
     robots: [Talk; 2],
     /// The messages on their way, sorted.
-    letters: Vec<Sealed>,
+    letters: Vec<Envelope>,
     lost: u8,
     doubled: u8,
     last: Event,
@@ -42,7 +42,7 @@ pub(super) struct State {
 
 /// A letter on its way: to whom, its fields, and a bit for each robot that has acted since it was sent. A copy of a
 /// letter takes any time.
-type Sealed = (usize, [i16; 8], Bits);
+type Envelope = (usize, [i16; 8], Bits);
 
 /// The bit of a copy.
 const COPY: Bits = 4;
@@ -117,14 +117,14 @@ impl Talks {
     }
 
     /// `from` has acted and says so.
-    fn act(&self, state: &mut State, from: usize, sent: Sent) {
+    fn act(&self, state: &mut State, from: usize, sent: Outbox) {
         for (_, _, age) in &mut state.letters {
             *age |= 1 << from;
         }
         self.send(state, from, sent);
     }
 
-    fn send(&self, state: &mut State, from: usize, sent: Sent) {
+    fn send(&self, state: &mut State, from: usize, sent: Outbox) {
         // Who hears that its response has come does nothing then.
         let counts = |letter: &Letter| letter.message != Message::ResponseAcknowledged;
         let letters = sent.into_iter().flatten().filter(counts);
@@ -149,7 +149,7 @@ impl Talks {
     }
 
     /// The acts open to two robots.
-    fn acts(&self, state: &State) -> Vec<Turned> {
+    fn acts(&self, state: &State) -> Vec<Successor> {
         let mut acts = Vec::new();
         for robot in 0..2 {
             let bit = 1 << robot;
@@ -159,7 +159,7 @@ impl Talks {
                     let mut after = State { last: Event::Arrives(robot), ..state.clone() };
                     let sent = after.robots[robot].arrived(Steps::NONE);
                     self.act(&mut after, robot, sent);
-                    acts.push(Turned::by(bit, "an arrival", after));
+                    acts.push(Successor::by(bit, "an arrival", after));
                 }
                 Phase::Decides if Self::may_act(state, robot) => {
                     let is_stale = talk.told().is_some_and(|told| told != state.robots[1 - robot].next());
@@ -168,11 +168,11 @@ impl Talks {
                     let to = Cell::new((talk.next().x + 1) % NODES, talk.next().y);
                     let sent = after.robots[robot].drives(to, nothing);
                     self.act(&mut after, robot, sent);
-                    acts.push(Turned { breaks, ..Turned::by(bit, "a drive", after) });
+                    acts.push(Successor { breaks, ..Successor::by(bit, "a drive", after) });
                     let mut after = State { last: Event::Stays(robot), ..state.clone() };
                     let sent = after.robots[robot].stays(nothing);
                     self.act(&mut after, robot, sent);
-                    acts.push(Turned { breaks, ..Turned::by(bit, "a stay", after) });
+                    acts.push(Successor { breaks, ..Successor::by(bit, "a stay", after) });
                 }
                 Phase::Drives | Phase::Decides | Phase::Asks | Phase::Waits | Phase::Stays => {}
             }
@@ -181,14 +181,14 @@ impl Talks {
             {
                 let mut after = State { last: Event::Repeats(robot), ..state.clone() };
                 self.send(&mut after, robot, [Some(letter), None, None]);
-                acts.push(Turned::by(16 << robot, "a repeated request", after));
+                acts.push(Successor::by(16 << robot, "a repeated request", after));
             }
         }
         acts
     }
 
     /// The fates open to the messages on their way.
-    fn letters(&self, state: &State) -> Vec<Turned> {
+    fn letters(&self, state: &State) -> Vec<Successor> {
         let mut steps = Vec::new();
         let mut before = None;
         for (place, &(to, fields, age)) in state.letters.iter().enumerate() {
@@ -202,17 +202,17 @@ impl Talks {
             let mut after = State { last: Event::Hears(to, letter), ..gone.clone() };
             let sent = after.robots[to].hears(letter, nothing);
             self.send(&mut after, to, sent);
-            steps.push(Turned::by(4 << to, "a message", after));
+            steps.push(Successor::by(4 << to, "a message", after));
             if state.lost < self.max_lost {
                 let lost = State { last: Event::Loses(to, letter), lost: state.lost + 1, ..gone };
-                steps.push(Turned::by(0, "a loss", lost));
+                steps.push(Successor::by(0, "a loss", lost));
             }
             if state.doubled < self.max_doubled {
                 let mut twice = State { last: Event::Doubles(to, letter), ..state.clone() };
                 twice.letters.push((to, fields, age | COPY));
                 twice.letters.sort_unstable();
                 twice.doubled += 1;
-                steps.push(Turned::by(0, "a double", twice));
+                steps.push(Successor::by(0, "a double", twice));
             }
         }
         steps
@@ -229,7 +229,7 @@ impl Talks {
 
 /// A step, with what happens in it.
 #[derive(Clone)]
-pub(super) struct Turned {
+pub(super) struct Successor {
     state: State,
     /// Who acts; nobody in a fault.
     acting: Bits,
@@ -237,7 +237,7 @@ pub(super) struct Turned {
     breaks: Option<&'static str>,
 }
 
-impl Turned {
+impl Successor {
     const fn by(acting: Bits, situation: &'static str, state: State) -> Self {
         Self { state, acting, situation, breaks: None }
     }
@@ -249,11 +249,11 @@ const SITUATIONS: [&str; 7] =
 
 impl World for Talks {
     type State = State;
-    type Plan = Vec<Turned>;
-    type Event = Turned;
+    type Plan = Vec<Successor>;
+    type Event = Successor;
     type Demand = &'static str;
 
-    fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Turned>> {
+    fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Successor>> {
         let mut turns = self.acts(state);
         turns.extend(self.letters(state));
         any_of(turns)
@@ -262,10 +262,10 @@ impl World for Talks {
     fn settle(
         &self,
         state: &mut State,
-        turns: &Vec<Turned>,
+        turns: &Vec<Successor>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Turned {
+    ) -> Successor {
         let turned = picked(turns, world);
         state.clone_from(&turned.state);
         turned

@@ -9,7 +9,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance};
 
-use super::plain::Found;
+use super::plain::Findings;
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
@@ -146,7 +146,7 @@ pub enum Event {
 
 /// A step, with what happens in it.
 #[derive(Clone, Debug)]
-pub struct Turned<const ROBOTS: usize> {
+pub struct Successor<const ROBOTS: usize> {
     /// The world after it.
     pub world: World<ROBOTS>,
     /// The events, in order.
@@ -251,7 +251,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// Whether a new path is within reach of a team that stands.
     fn is_owed(&self, world: &World<ROBOTS>) -> bool {
         let map = self.found(world);
-        Found { map: &map, left: [None; ROBOTS] }.distance(Self::ends(world), u8::MAX).is_some()
+        Findings { map: &map, left: [None; ROBOTS] }.distance(Self::ends(world), u8::MAX).is_some()
     }
 
     /// Whether this is looked at, and promised to so many robots that start so.
@@ -284,21 +284,21 @@ pub(super) const SITUATIONS: [&str; 5] = ["a new path", "a stay", "an arrival", 
 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
-    type Plan = Vec<Turned<ROBOTS>>;
-    type Event = Turned<ROBOTS>;
+    type Plan = Vec<Successor<ROBOTS>>;
+    type Event = Successor<ROBOTS>;
     type Demand = Demand;
 
-    fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Turned<ROBOTS>>> {
+    fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Successor<ROBOTS>>> {
         world::any_of(self.turns(state))
     }
 
     fn settle(
         &self,
         state: &mut World<ROBOTS>,
-        turns: &Vec<Turned<ROBOTS>>,
+        turns: &Vec<Successor<ROBOTS>>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Turned<ROBOTS> {
+    ) -> Successor<ROBOTS> {
         let turned = world::picked(turns, world);
         *state = turned.world;
         turned

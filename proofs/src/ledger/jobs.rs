@@ -16,15 +16,15 @@ use rayon::Yield;
 
 use super::{Row, checks};
 use crate::clause::{Clause, Decision};
-use crate::decide::{Answer, Desk, Memory, Refused, Verdict};
+use crate::decide::{Answer, Cache, Context, MethodError, Verdict};
 use crate::engine::Until;
-use crate::engine::states::Room;
+use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Progress;
 use crate::engine::watchdog::{BETWEEN_LOOKS, Task, Watchdog};
 
 /// News while checks are decided.
 #[derive(Clone, Copy, Debug)]
-pub enum Heard<'a> {
+pub enum News<'a> {
     /// How far a search is.
     Search(&'a Progress<'a>),
     /// Another job is done: a check, or a mutant.
@@ -44,13 +44,13 @@ pub enum Heard<'a> {
 }
 
 /// Hears how far the deciding is, from any thread, and may end a search: its check is left open then.
-pub type Hear = Arc<dyn Fn(Heard<'_>) -> ControlFlow<()> + Send + Sync>;
+pub type Hear = Arc<dyn Fn(News<'_>) -> ControlFlow<()> + Send + Sync>;
 
 /// The limits of deciding.
 #[derive(Clone, Debug)]
 pub struct Limits {
     /// The memory that searches over states may take together.
-    pub room: Arc<Room>,
+    pub room: Arc<MemoryLimit>,
     /// Seconds that one step may take: a team move, a case of a body, a step between states. They are far more than any
     /// step takes that ends, on any machine.
     pub patience_s: u32,
@@ -61,13 +61,13 @@ pub const PATIENCE_S: u32 = 60;
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { room: Arc::new(Room::unbounded()), patience_s: PATIENCE_S }
+        Self { room: Arc::new(MemoryLimit::unbounded()), patience_s: PATIENCE_S }
     }
 }
 
 /// Why nothing came of a check, or of one of its mutants.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Undecided {
+pub enum Indecision {
     /// One of its steps did not end.
     Unended {
         /// The mutant whose step it was; none if it was a step of the rule.
@@ -79,7 +79,7 @@ pub enum Undecided {
     Behind,
 }
 
-impl fmt::Display for Undecided {
+impl fmt::Display for Indecision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unended { mutant: None, seconds } => {
@@ -96,13 +96,9 @@ impl fmt::Display for Undecided {
 /// Decides all checks of `clauses`, on all cores.
 ///
 /// # Errors
-/// [`Refused`] if a method cannot begin.
-pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
-    decide(
-        &checks(clauses),
-        &Limits::default(),
-        &(Arc::new(|_: Heard<'_>| ControlFlow::Continue(())) as Hear),
-    )
+/// [`MethodError`] if a method cannot begin.
+pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, MethodError> {
+    decide(&checks(clauses), &Limits::default(), &(Arc::new(|_: News<'_>| ControlFlow::Continue(())) as Hear))
 }
 
 /// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one
@@ -111,15 +107,15 @@ pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
 /// ends with the process.
 ///
 /// # Errors
-/// [`Refused`] if a method cannot begin.
+/// [`MethodError`] if a method cannot begin.
 pub fn decide(
     checks: &[(&'static Clause, usize)],
     limits: &Limits,
     hear: &Hear,
-) -> Result<Vec<Row>, Refused> {
+) -> Result<Vec<Row>, MethodError> {
     let (jobs, (tell, told)) = (Arc::new(jobs(checks)), channel());
     let tasks: Vec<Task> = Task::several(jobs.len()).collect();
-    let shared = Arc::new(Shared {
+    let shared = Arc::new(SharedState {
         checks: checks.to_vec(),
         limits: limits.clone(),
         hear: Arc::clone(hear),
@@ -130,7 +126,7 @@ pub fn decide(
         let (shared, jobs, tell) = (Arc::clone(&shared), Arc::clone(&jobs), tell.clone());
         rayon::spawn_fifo(move || shared.work(&jobs, (number, task), &tell));
     }
-    let waiting = Waiting { jobs: &jobs, tasks: &tasks, shared: &shared };
+    let waiting = Collector { jobs: &jobs, tasks: &tasks, shared: &shared };
     let came = waiting.wait(&told);
     shared.is_over.store(true, Ordering::Relaxed);
     // As long as this one could tell something, nobody is without news.
@@ -140,7 +136,7 @@ pub fn decide(
 }
 
 /// The data that the deciding threads share.
-struct Shared {
+struct SharedState {
     checks: Vec<(&'static Clause, usize)>,
     limits: Limits,
     hear: Hear,
@@ -151,18 +147,18 @@ struct Shared {
 }
 
 /// A thread's news for whoever waits.
-enum Told {
-    Done(Done),
-    Refused(Refused),
+enum ThreadNews {
+    Done(Completion),
+    Refused(MethodError),
     /// A bug, which is the waiting thread's to raise.
     Bug(Box<dyn Any + Send>),
     /// A job has ended.
     End,
 }
 
-impl Shared {
+impl SharedState {
     /// Does a job, and tells of each question when it is answered.
-    fn work(&self, jobs: &[Job], (number, task): (usize, Task), tell: &Sender<Told>) {
+    fn work(&self, jobs: &[Job], (number, task): (usize, Task), tell: &Sender<ThreadNews>) {
         if self.is_over.load(Ordering::Relaxed) {
             return;
         }
@@ -171,47 +167,47 @@ impl Shared {
         let send = |told| drop(tell.send(told));
         let work = || {
             let job = &jobs[number];
-            let memory = &mut Memory::default();
-            let watch = &mut |progress: &Progress<'_>| (self.hear)(Heard::Search(progress));
-            let mut desk = Desk { memory, watch, room: &self.limits.room };
+            let memory = &mut Cache::default();
+            let watch = &mut |progress: &Progress<'_>| (self.hear)(News::Search(progress));
+            let mut desk = Context { memory, watch, room: &self.limits.room };
             for &question in &job.questions {
                 match job.answer(question, &self.checks, &mut desk) {
-                    Ok(done) => send(Told::Done(done)),
-                    Err(refused) => return send(Told::Refused(refused)),
+                    Ok(done) => send(ThreadNews::Done(done)),
+                    Err(refused) => return send(ThreadNews::Refused(refused)),
                 }
             }
             let ended = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
             let clause = self.checks[job.place()].0.id;
             // Nothing can be ended here.
-            let _ = (self.hear)(Heard::Done { clause, jobs: ended, of: jobs.len() });
-            send(Told::End);
+            let _ = (self.hear)(News::Done { clause, jobs: ended, of: jobs.len() });
+            send(ThreadNews::End);
         };
         if let Err(bug) = panic::catch_unwind(AssertUnwindSafe(work)) {
-            send(Told::Bug(bug));
+            send(ThreadNews::Bug(bug));
         }
     }
 }
 
 /// Whoever waits for the answers.
-struct Waiting<'a> {
+struct Collector<'a> {
     jobs: &'a [Job],
     tasks: &'a [Task],
-    shared: &'a Shared,
+    shared: &'a SharedState,
 }
 
-impl Waiting<'_> {
+impl Collector<'_> {
     /// All answers; or those that there are when a step does not end and no other job goes on, and the numbers of the
     /// jobs that have such a step.
-    fn wait(&self, told: &Receiver<Told>) -> Result<(Vec<Done>, Vec<usize>), Refused> {
+    fn wait(&self, told: &Receiver<ThreadNews>) -> Result<(Vec<Completion>, Vec<usize>), MethodError> {
         let (patience_s, mut watchdog) = (self.shared.limits.patience_s, Watchdog::new(self.tasks));
         let (mut done, mut unended, mut left) = (Vec::new(), Vec::new(), self.jobs.len());
         let mut next_look = Instant::now() + BETWEEN_LOOKS;
         while left > 0 {
             match next(told, next_look) {
-                Some(Told::Done(answer)) => done.push(answer),
-                Some(Told::Refused(refused)) => return Err(refused),
-                Some(Told::Bug(bug)) => panic::resume_unwind(bug),
-                Some(Told::End) => left -= 1,
+                Some(ThreadNews::Done(answer)) => done.push(answer),
+                Some(ThreadNews::Refused(refused)) => return Err(refused),
+                Some(ThreadNews::Bug(bug)) => panic::resume_unwind(bug),
+                Some(ThreadNews::End) => left -= 1,
                 None => {}
             }
             if Instant::now() < next_look {
@@ -224,7 +220,7 @@ impl Waiting<'_> {
             for number in silent.iter().filter(|number| !unended.contains(*number)) {
                 let clause = self.shared.checks[self.jobs[*number].place()].0.id;
                 // Nothing can be ended here.
-                let _ = (self.shared.hear)(Heard::Unended { clause });
+                let _ = (self.shared.hear)(News::Unended { clause });
             }
             unended = silent;
             if !unended.is_empty() && watchdog.is_all_silent(patience_s) {
@@ -235,7 +231,7 @@ impl Waiting<'_> {
     }
 
     /// The stand-ins for the questions without an answer.
-    fn missing(&self, done: &[Done], unended: &[usize]) -> Vec<Done> {
+    fn missing(&self, done: &[Completion], unended: &[usize]) -> Vec<Completion> {
         let mut missing = Vec::new();
         for (number, job) in self.jobs.iter().enumerate() {
             let is_answered = |question: &Question| done.iter().any(|done| done.question == *question);
@@ -244,40 +240,40 @@ impl Waiting<'_> {
             for &question in job.questions.iter().filter(|question| !is_answered(question)) {
                 let mutant = question.mutant_name(&self.shared.checks);
                 let came = match mutant {
-                    None => Came::Own(Answer::new(None, false, Verdict::Open, 0)),
-                    Some(name) => Came::Mutant(name, Verdict::Open),
+                    None => Reply::Own(Answer::new(None, false, Verdict::Open, 0)),
+                    Some(name) => Reply::Mutant(name, Verdict::Open),
                 };
                 let undecided = if is_unended {
-                    Undecided::Unended { mutant, seconds: self.shared.limits.patience_s }
+                    Indecision::Unended { mutant, seconds: self.shared.limits.patience_s }
                 } else {
-                    Undecided::Behind
+                    Indecision::Behind
                 };
                 is_unended = false;
-                missing.push(Done { question, seconds: 0.0, came, undecided: Some(undecided) });
+                missing.push(Completion { question, seconds: 0.0, came, undecided: Some(undecided) });
             }
         }
         missing
     }
 
     /// The row of each check.
-    fn rows(&self, mut done: Vec<Done>, unended: &[usize]) -> Vec<Row> {
+    fn rows(&self, mut done: Vec<Completion>, unended: &[usize]) -> Vec<Row> {
         done.extend(self.missing(&done, unended));
         done.sort_by_key(|done| done.question);
         let mut rows: Vec<Row> = Vec::new();
-        for Done { question: Question { place, .. }, seconds, came, undecided } in done {
+        for Completion { question: Question { place, .. }, seconds, came, undecided } in done {
             let (clause, number) = self.shared.checks[place];
             match (came, rows.last_mut()) {
-                (Came::Own(answer), _) => {
+                (Reply::Own(answer), _) => {
                     let (check, decision) = (clause.checks[number], Decision::of(answer));
                     rows.push(Row { clause, number, check, decision, undecided, seconds });
                 }
-                (Came::Mutant(name, verdict), Some(row)) => {
+                (Reply::Mutant(name, verdict), Some(row)) => {
                     row.decision.add(name, verdict);
                     row.undecided = [row.undecided, undecided].into_iter().flatten().min();
                     row.seconds += seconds;
                 }
                 // A check comes before its mutants.
-                (Came::Mutant(..), None) => {}
+                (Reply::Mutant(..), None) => {}
             }
         }
         rows
@@ -289,7 +285,7 @@ const IDLE: Duration = Duration::from_millis(1);
 
 /// The next news, if there is any before `until`. A thread that is itself one of those that do the work does some
 /// meanwhile: it may be the only one. A step that does not end is its end, too, then.
-fn next(told: &Receiver<Told>, until: Instant) -> Option<Told> {
+fn next(told: &Receiver<ThreadNews>, until: Instant) -> Option<ThreadNews> {
     loop {
         let rest = until.saturating_duration_since(Instant::now());
         let wait = match rayon::yield_now() {
@@ -327,15 +323,15 @@ impl Question {
 }
 
 /// A question that is answered, or given up.
-struct Done {
+struct Completion {
     question: Question,
     seconds: f64,
-    came: Came,
-    undecided: Option<Undecided>,
+    came: Reply,
+    undecided: Option<Indecision>,
 }
 
 /// The answer to a question.
-enum Came {
+enum Reply {
     Own(Answer),
     Mutant(&'static str, Verdict),
 }
@@ -391,19 +387,19 @@ impl Job {
         &self,
         question: Question,
         checks: &[(&'static Clause, usize)],
-        desk: &mut Desk<'_, '_>,
-    ) -> Result<Done, Refused> {
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Completion, MethodError> {
         let start = Instant::now();
         let (clause, number) = checks[question.place];
         let check = clause.checks[number];
         let came = match question.mutant {
-            None => Came::Own(check.decide_own(desk)?),
+            None => Reply::Own(check.decide_own(desk)?),
             Some(mutant) => {
                 let name = question.mutant_name(checks).unwrap_or_default();
-                Came::Mutant(name, check.decide_mutant(mutant, self.until, desk)?)
+                Reply::Mutant(name, check.decide_mutant(mutant, self.until, desk)?)
             }
         };
-        Ok(Done { question, seconds: start.elapsed().as_secs_f64(), came, undecided: None })
+        Ok(Completion { question, seconds: start.elapsed().as_secs_f64(), came, undecided: None })
     }
 }
 

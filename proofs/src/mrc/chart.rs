@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use tautline_kernel::mrc::{Phase, Task, Upward, WfrTimer, Word};
 
-use super::space::{Broken, Ending};
+use super::space::{Ending, Refutation};
 use super::state::{Action, Actor, Message, Setting, State, place};
 use crate::plural::counted;
 
@@ -22,7 +22,7 @@ enum Reach {
 }
 
 /// Draws a run that breaks a demand.
-pub fn chart(setting: &Setting, broken: &Broken) -> String {
+pub fn chart(setting: &Setting, broken: &Refutation) -> String {
     let mut state = setting.starts().swap_remove(broken.start);
     let actors: Vec<Actor> =
         (0..setting.wfrs).map(Actor::Wfr).chain((0..setting.robots).map(Actor::Robot)).collect();

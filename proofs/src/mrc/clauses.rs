@@ -7,67 +7,67 @@ use tautline_kernel::mrc::Condition::{
 use tautline_kernel::mrc::Rule;
 
 use super::within::Within;
-use super::{Demand, Faults, Leases, Lossy, Misread, Observed, Setting, records};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Verdict};
+use super::{Demand, Faults, Leases, LossKind, Misreading, Setting, Subject, records};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, Verdict};
 
-const PUBLISHED: Named<Observed> = Named::new("published", Observed::rescuing(Rule::PUBLISHED));
-const REPAIRED: Named<Observed> = Named::new("repaired", Observed::rescuing(Rule::REPAIRED));
+const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
+const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::rescuing(Rule::REPAIRED));
 
-const RECORDS: Check<Observed> = Check::new(
+const RECORDS: Check<Subject> = Check::new(
     REPAIRED,
-    &Exhaustive { body: records::records, range: records::notices, covers: &["one call", "several calls"] },
+    &EveryAnswer { body: records::records, range: records::notices, covers: &["one call", "several calls"] },
     Verdict::Holds,
-    &[Named::new("no epoch", NO_EPOCH)],
+    &[NamedRule::new("no epoch", NO_EPOCH)],
 );
 
-const SERVED: Check<Observed> = Check::new(
+const SERVED: Check<Subject> = Check::new(
     REPAIRED,
-    &Exhaustive {
+    &EveryAnswer {
         body: records::served,
         range: records::answers,
         covers: &["asked in vain", "no SBit", "told of a choice"],
     },
     Verdict::Holds,
-    &[Named::new("no epoch", NO_EPOCH)],
+    &[NamedRule::new("no epoch", NO_EPOCH)],
 );
 
-const WAYS_BACK: Check<Observed> = Check::new(
+const WAYS_BACK: Check<Subject> = Check::new(
     REPAIRED,
-    &Exhaustive {
+    &EveryAnswer {
         body: records::ways_back,
         range: records::messages,
         covers: &["a way back", "no way back"],
     },
     Verdict::Holds,
     &[
-        Named::new("all robots are one", Observed::misreading(Misread::OneRobot)),
-        Named::new("all calls are one", Observed::misreading(Misread::OneCall)),
+        NamedRule::new("all robots are one", Subject::misreading(Misreading::OneRobot)),
+        NamedRule::new("all calls are one", Subject::misreading(Misreading::OneCall)),
     ],
 );
 
-const REPEATED: Check<Observed> = Check::new(
+const REPEATED: Check<Subject> = Check::new(
     REPAIRED,
-    &Exhaustive { body: records::repeated, range: records::repeats, covers: &["a WFR", "a robot"] },
+    &EveryAnswer { body: records::repeated, range: records::repeats, covers: &["a WFR", "a robot"] },
     Verdict::Holds,
-    &[Named::new("no repetition", Observed::rescuing(Rule::REPAIRED.without(Repetition)))],
+    &[NamedRule::new("no repetition", Subject::rescuing(Rule::REPAIRED.without(Repetition)))],
 );
 
-const FILLED: Check<Observed> = Check::new(
+const FILLED: Check<Subject> = Check::new(
     REPAIRED,
-    &Exhaustive {
+    &EveryAnswer {
         body: records::filled,
         range: records::fillings,
         covers: &["nobody gives way", "one gives way", "room for all"],
     },
     Verdict::Holds,
-    &[Named::new("whoever is chosen goes", Observed::rescuing(Rule::REPAIRED.without(StillAsks)))],
+    &[NamedRule::new("whoever is chosen goes", Subject::rescuing(Rule::REPAIRED.without(StillAsks)))],
 );
 
-const REDECIDE: Observed = Observed::rescuing(Rule::REPAIRED.without(ChoiceStands));
-const FIRST_OF_EQUALS: Observed = Observed::rescuing(Rule::REPAIRED.without(LeastIdentity));
-const NO_EPOCH: Observed = Observed::rescuing(Rule::REPAIRED.without(Epochs));
-const NO_CONSENT: Observed = Observed::rescuing(Rule::REPAIRED.without(Consent));
+const REDECIDE: Subject = Subject::rescuing(Rule::REPAIRED.without(ChoiceStands));
+const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
+const NO_EPOCH: Subject = Subject::rescuing(Rule::REPAIRED.without(Epochs));
+const NO_CONSENT: Subject = Subject::rescuing(Rule::REPAIRED.without(Consent));
 
 /// The settings of a rescue.
 const TWO: Setting = Setting {
@@ -77,7 +77,7 @@ const TWO: Setting = Setting {
     events: 2,
     max_hops: 2,
     faults: Faults::any(1),
-    lossy: Lossy::All,
+    lossy: LossKind::All,
     leases: Leases::UntilCalled,
 };
 const TWO_LONGER: Setting = Setting { events: 3, max_hops: 1, ..TWO };
@@ -97,7 +97,7 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &Within(Demand::OneRobotForACall, TWO),
                 Verdict::Holds,
-                &[Named::new("redecide on a late MOVE", REDECIDE)],
+                &[NamedRule::new("redecide on a late MOVE", REDECIDE)],
             ),
             &Check::new(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &Within(Demand::OneRobotForACall, THREE_AND_TWO), Verdict::Holds, &[]),
@@ -112,7 +112,7 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &Within(Demand::OneCallForARobot, TWO),
                 Verdict::Holds,
-                &[Named::new("no consent", NO_CONSENT)],
+                &[NamedRule::new("no consent", NO_CONSENT)],
             ),
             &Check::new(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), Verdict::Holds, &[]),
@@ -128,18 +128,18 @@ pub static CLAUSES: [Clause; 14] = [
                 &Within(Demand::BestOfTheWindow, TWO),
                 Verdict::Holds,
                 &[
-                    Named::new("no collection window", Observed::rescuing(Rule::REPAIRED.without(Window))),
-                    Named::new("redecide on a late MOVE", REDECIDE),
-                    Named::new(
+                    NamedRule::new("no collection window", Subject::rescuing(Rule::REPAIRED.without(Window))),
+                    NamedRule::new("redecide on a late MOVE", REDECIDE),
+                    NamedRule::new(
                         "the least MID, however far",
-                        Observed::rescuing(Rule::REPAIRED.without(NearestRobot)),
+                        Subject::rescuing(Rule::REPAIRED.without(NearestRobot)),
                     ),
-                    Named::new("of equal MHC the first heard", FIRST_OF_EQUALS),
-                    Named::new(
+                    NamedRule::new("of equal MHC the first heard", FIRST_OF_EQUALS),
+                    NamedRule::new(
                         "the first MOVE heard",
-                        Observed::rescuing(Rule::REPAIRED.without(NearestRobot).without(LeastIdentity)),
+                        Subject::rescuing(Rule::REPAIRED.without(NearestRobot).without(LeastIdentity)),
                     ),
-                    Named::new("no epoch", NO_EPOCH),
+                    NamedRule::new("no epoch", NO_EPOCH),
                 ],
             ),
             &Check::new(REPAIRED, &Within(Demand::BestOfTheWindow, TWO_LONGER), Verdict::Holds, &[]),
@@ -155,7 +155,7 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &Within(Demand::CountsOnConsent, TWO),
                 Verdict::Holds,
-                &[Named::new("no consent", NO_CONSENT)],
+                &[NamedRule::new("no consent", NO_CONSENT)],
             ),
             &Check::new(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), Verdict::Holds, &[]),
@@ -171,17 +171,17 @@ pub static CLAUSES: [Clause; 14] = [
                 &Within(Demand::IsServed, TWO_AND_ONE),
                 Verdict::Holds,
                 &[
-                    Named::new("no renewal", Observed::rescuing(Rule::REPAIRED.without(Renewal))),
-                    Named::new("no epoch", NO_EPOCH),
+                    NamedRule::new("no renewal", Subject::rescuing(Rule::REPAIRED.without(Renewal))),
+                    NamedRule::new("no epoch", NO_EPOCH),
                 ],
             ),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::IsServed, ONE_AND_TWO),
                 Verdict::Holds,
-                &[Named::new(
+                &[NamedRule::new(
                     "late MOVEs unanswered",
-                    Observed::rescuing(Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                    Subject::rescuing(Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
                 )],
             ),
             &Check::new(REPAIRED, &Within(Demand::IsServed, TWO), Verdict::Holds, &[]),
@@ -198,7 +198,7 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &Within(Demand::AsksAnew, TWO),
                 Verdict::Holds,
-                &[Named::new("no epoch", NO_EPOCH)],
+                &[NamedRule::new("no epoch", NO_EPOCH)],
             ),
             &Check::new(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), Verdict::Holds, &[]),
@@ -214,13 +214,13 @@ pub static CLAUSES: [Clause; 14] = [
                 &Within(Demand::AsksNearest, ONE_AND_THREE),
                 Verdict::Holds,
                 &[
-                    Named::new(
+                    NamedRule::new(
                         "the least SN, however far",
-                        Observed::rescuing(Rule::PUBLISHED.without(NearestCall)),
+                        Subject::rescuing(Rule::PUBLISHED.without(NearestCall)),
                     ),
-                    Named::new(
+                    NamedRule::new(
                         "of equal HC the first heard",
-                        Observed::rescuing(Rule::PUBLISHED.without(LeastIdentity)),
+                        Subject::rescuing(Rule::PUBLISHED.without(LeastIdentity)),
                     ),
                 ],
             ),
@@ -229,14 +229,14 @@ pub static CLAUSES: [Clause; 14] = [
                 &Within(Demand::AsksNearest, TWO),
                 Verdict::Holds,
                 &[
-                    Named::new(
+                    NamedRule::new(
                         "the least SN, however far",
-                        Observed::rescuing(Rule::REPAIRED.without(NearestCall)),
+                        Subject::rescuing(Rule::REPAIRED.without(NearestCall)),
                     ),
-                    Named::new("of equal HC the first heard", FIRST_OF_EQUALS),
-                    Named::new(
+                    NamedRule::new("of equal HC the first heard", FIRST_OF_EQUALS),
+                    NamedRule::new(
                         "the first call heard",
-                        Observed::rescuing(Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
+                        Subject::rescuing(Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
                     ),
                 ],
             ),
@@ -255,11 +255,11 @@ pub static CLAUSES: [Clause; 14] = [
                 &Within(Demand::TakesWhatItAsksFor, TWO),
                 Verdict::Holds,
                 &[
-                    Named::new(
+                    NamedRule::new(
                         "it no longer asks, and accepts",
-                        Observed::rescuing(Rule::REPAIRED.without(StillAsks)),
+                        Subject::rescuing(Rule::REPAIRED.without(StillAsks)),
                     ),
-                    Named::new("no consent", NO_CONSENT),
+                    NamedRule::new("no consent", NO_CONSENT),
                 ],
             ),
             &Check::new(REPAIRED, &Within(Demand::TakesWhatItAsksFor, TWO_LONGER), Verdict::Holds, &[]),
@@ -275,9 +275,9 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &Within(Demand::TellsWhoAsked, TWO),
                 Verdict::Holds,
-                &[Named::new(
+                &[NamedRule::new(
                     "late MOVEs unanswered",
-                    Observed::rescuing(Rule::REPAIRED.without(AnswersAgain)),
+                    Subject::rescuing(Rule::REPAIRED.without(AnswersAgain)),
                 )],
             ),
             &Check::new(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), Verdict::Holds, &[]),
@@ -320,14 +320,14 @@ pub static CLAUSES: [Clause; 14] = [
 mod tests {
     use super::*;
     use crate::clause::AnyCheck;
-    use crate::decide::Memory;
+    use crate::decide::Cache;
     use crate::engine::tree::unwatched;
 
     #[test]
     fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
         for check in [&RECORDS, &SERVED, &WAYS_BACK, &REPEATED, &FILLED] {
             let decision =
-                check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
+                check.decide(&mut Cache::default(), &mut unwatched).expect("a body can be decided");
             assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());
         }
     }

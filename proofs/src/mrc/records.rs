@@ -2,10 +2,12 @@
 //! against what follows from the list of them. Repetitions and losses are orders, too.
 
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::mrc::{Downward, Hop, Relay, Resb, Robot, Rule, Sent, Served, Task, Upward, Wfr, Word};
+use tautline_kernel::mrc::{
+    Downward, Hop, Mail, Relay, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word,
+};
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
-use super::{Misread, Observed};
+use super::{Misreading, Subject};
 use crate::engine::{Outcome, require};
 
 /// Messages that arrive at a robot or a node.
@@ -47,7 +49,7 @@ pub(super) fn messages() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn records(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn records(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let mut robot = Robot::<{ WFRS as usize }>::new(observed.rule, ROBOT);
     let mut heard: Vec<Notice> = Vec::new();
     let mut situation = "one call";
@@ -87,7 +89,7 @@ pub(super) fn records(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn served(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn served(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let mut robot = Robot::<{ WFRS as usize }>::new(observed.rule, ROBOT);
     let mut bits: [Option<(Epoch, bool)>; 2] = [None; WFRS as usize];
     let mut situation = "no SBit";
@@ -120,7 +122,7 @@ pub(super) fn served(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
             }
         }
         for (wfr, bit) in (0..).map(NodeId).zip(bits) {
-            let is_set = robot.request(wfr).map(|record| record.served == Served::Yes);
+            let is_set = robot.request(wfr).map(|record| record.served == ServiceBit::Yes);
             require(
                 is_set == bit.map(|(_, is_set)| is_set),
                 "the SBit tells whether the robot is done with the call",
@@ -135,7 +137,7 @@ pub(super) fn served(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn ways_back(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn ways_back(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     const ME: NodeId = NodeId(7);
     const PARENT: NodeId = NodeId(3);
     let mut relay = Relay::<{ (WFRS * ROBOTS) as usize }>::new(ME);
@@ -183,7 +185,7 @@ pub(super) fn repeats() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn repeated(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn repeated(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let repeats = oracle.pick(MESSAGES as u32 + 1) as u8;
     let rule = Rule { repeats, ..observed.rule };
     let call = Call { wfr: NodeId(0), epoch: Epoch::FIRST };
@@ -207,13 +209,13 @@ pub(super) fn repeated(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome 
         if let Some(timer) = wfr.timer() {
             (wfr, sent) = wfr.expire(timer);
         }
-        let is_told = if told == 0 { matches!(sent, Sent::All(_)) } else { matches!(sent, Sent::One(_)) };
+        let is_told = if told == 0 { matches!(sent, Mail::All(_)) } else { matches!(sent, Mail::One(_)) };
         require(is_told && wfr.call() == call, demand)?;
     }
     if let Some(timer) = wfr.timer() {
         (wfr, sent) = wfr.expire(timer);
     }
-    require(matches!(sent, Sent::Notice(_)) && wfr.call().epoch == call.epoch.next(), demand)?;
+    require(matches!(sent, Mail::Notice(_)) && wfr.call().epoch == call.epoch.next(), demand)?;
     Ok("a WFR")
 }
 
@@ -230,7 +232,7 @@ pub(super) fn fillings() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn filled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn filled(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let mut robot = Robot::<PLACES>::new(observed.rule, ROBOT);
     let (mut table, mut asks, mut holds): (Vec<(u32, bool)>, Option<u32>, Option<u32>) =
         (Vec::new(), None, None);
@@ -270,7 +272,7 @@ pub(super) fn filled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
         if seeks && asks.or(holds).is_none() {
             asks = table.iter().filter(|&&(_, is_served)| !is_served).map(|&(wfr, _)| wfr).min();
         }
-        let records = robot.requests().map(|request| (request.call.wfr.0, request.served == Served::Yes));
+        let records = robot.requests().map(|request| (request.call.wfr.0, request.served == ServiceBit::Yes));
         require(
             records.eq(table.iter().copied()),
             "a new WFR takes the place of the first that is done with",
@@ -286,10 +288,10 @@ pub(super) fn filled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
 }
 
 /// The message as which a path node reads `message`.
-fn read(observed: &Observed, message: Upward) -> Upward {
+fn read(observed: &Subject, message: Upward) -> Upward {
     match observed.misread {
-        Some(Misread::OneRobot) => Upward { robot: ROBOT, ..message },
-        Some(Misread::OneCall) => Upward { call: Call { epoch: Epoch::FIRST, ..message.call }, ..message },
+        Some(Misreading::OneRobot) => Upward { robot: ROBOT, ..message },
+        Some(Misreading::OneCall) => Upward { call: Call { epoch: Epoch::FIRST, ..message.call }, ..message },
         None => message,
     }
 }

@@ -8,7 +8,7 @@ use tautline_kernel::choice::Oracle;
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
 use crate::engine::states::{self, Bits, Limits, Places, Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
-use crate::engine::{Choices, Script, Unfit};
+use crate::engine::{Choices, Script, ScriptError};
 
 /// When to stop.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,7 +32,7 @@ pub enum Ending {
 
 /// The shortest run that breaks a demand.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Broken {
+pub struct Refutation {
     /// Which.
     pub demand: Demand,
     /// Which of [`Setting::starts`] it starts from.
@@ -45,7 +45,7 @@ pub struct Broken {
 
 /// The findings in the states.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Found {
+pub struct Findings {
     /// States.
     pub states: u64,
     /// Steps from state to state.
@@ -55,23 +55,29 @@ pub struct Found {
     /// Whether the search came to its end, and not to one of its limits.
     pub complete: bool,
     /// The demands that are broken, each by its shortest run.
-    pub broken: Vec<Broken>,
+    pub broken: Vec<Refutation>,
 }
 
-impl Found {
+impl Findings {
     /// The shortest run that breaks `demand`.
-    pub fn broken(&self, demand: Demand) -> Option<&Broken> {
+    pub fn broken(&self, demand: Demand) -> Option<&Refutation> {
         self.broken.iter().find(|broken| broken.demand == demand)
     }
 }
 
 /// Searches all states of `setting` within `limits`.
-pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Found {
+pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Findings {
     let space = Space { setting: *setting, until };
     let found = states::search(&space, setting.starts(), limits);
-    let mut broken: Vec<Broken> = found.broken.into_iter().map(|run| space.broken(run)).collect();
+    let mut broken: Vec<Refutation> = found.broken.into_iter().map(|run| space.broken(run)).collect();
     broken.sort_by_key(|broken| broken.demand);
-    Found { states: found.states, steps: found.steps, bytes: found.bytes, complete: found.is_whole, broken }
+    Findings {
+        states: found.states,
+        steps: found.steps,
+        bytes: found.bytes,
+        complete: found.is_whole,
+        broken,
+    }
 }
 
 /// Plays a run that breaks `demand` again: from how many each choice was made, and the run.
@@ -79,7 +85,7 @@ pub(crate) fn replay(
     setting: &Setting,
     demand: Demand,
     mut script: Script<'_>,
-) -> Result<(Vec<u32>, Broken), Unfit> {
+) -> Result<(Vec<u32>, Refutation), ScriptError> {
     let space = Space { setting: *setting, until: Until::Broken(demand) };
     let mut starts = setting.starts();
     let number = script.choose(starts.len())?;
@@ -88,7 +94,7 @@ pub(crate) fn replay(
     Ok((of, space.broken(run)))
 }
 
-impl Broken {
+impl Refutation {
     /// The choices that make this run in `setting`.
     pub fn choices(&self, setting: &Setting) -> Choices {
         let mut state = setting.start(self.start as u32);
@@ -171,7 +177,7 @@ impl Space {
     }
 
     /// The violation in a run.
-    fn broken(&self, run: Run<Demand>) -> Broken {
+    fn broken(&self, run: Run<Demand>) -> Refutation {
         let mut state = self.setting.start(run.start as u32);
         let mut played = |numbers: Vec<u32>| -> Vec<Action> {
             let play = |number: u32| {
@@ -187,7 +193,7 @@ impl Space {
             states::Ending::Still => Ending::Still,
             states::Ending::Round(round) => Ending::Round(played(round)),
         };
-        Broken { demand: run.demand, start: run.start, actions, ending }
+        Refutation { demand: run.demand, start: run.start, actions, ending }
     }
 }
 

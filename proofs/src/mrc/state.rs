@@ -22,7 +22,7 @@ pub use action::{Action, Actor, Message};
 pub use demand::Demand;
 use demand::Notes;
 pub(super) use parts::Part;
-pub use setting::{Faults, Leases, Lossy, ROBOTS, Setting, WFRS};
+pub use setting::{Faults, Leases, LossKind, ROBOTS, Setting, WFRS};
 
 /// Robots, WFRs and what is between them.
 #[derive(Clone, Debug)]

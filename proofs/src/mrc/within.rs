@@ -1,11 +1,11 @@
 //! A check that no state, and no run, breaks a demand within a setting.
 
 use super::chart::chart;
-use super::space::{self, Broken};
-use super::{Demand, Observed, Setting};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use super::space::{self, Refutation};
+use super::{Demand, Setting, Subject};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::Limits;
-use crate::engine::{Choices, Script, Unfit, Until};
+use crate::engine::{Choices, Script, ScriptError, Until};
 
 /// Every state within a setting is checked for a demand.
 pub(super) struct Within(pub Demand, pub Setting);
@@ -14,17 +14,17 @@ pub(super) struct Within(pub Demand, pub Setting);
 const MOST_STEPS: u64 = 20_000_000;
 
 impl Within {
-    fn setting(&self, observed: &Observed) -> Setting {
+    fn setting(&self, observed: &Subject) -> Setting {
         Setting { rule: observed.rule, ..self.1 }
     }
 
-    fn evidence(setting: &Setting, broken: &Broken) -> Evidence {
-        let seen = Seen::Messages { events: broken.actions.len(), chart: chart(setting, broken) };
+    fn evidence(setting: &Setting, broken: &Refutation) -> Evidence {
+        let seen = Depiction::Messages { events: broken.actions.len(), chart: chart(setting, broken) };
         Evidence { choices: broken.choices(setting), demand: broken.demand.broken(), seen }
     }
 }
 
-impl Method<Observed> for Within {
+impl Method<Subject> for Within {
     fn engine(&self) -> &'static str {
         "states"
     }
@@ -33,18 +33,23 @@ impl Method<Observed> for Within {
         self.1.bound()
     }
 
-    fn family(&self, observed: &Observed) -> Option<String> {
+    fn family(&self, observed: &Subject) -> Option<String> {
         Some(format!("{:?}", self.setting(observed)))
     }
 
-    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(
+        &self,
+        observed: &Subject,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
         let (demand, setting) = (self.0, self.setting(observed));
         let until = match until {
             Until::Exhausted => space::Until::Exhausted,
             Until::Violation => space::Until::Broken(demand),
         };
         let limits = Limits { most_steps: MOST_STEPS, room: desk.room };
-        let found: Result<&space::Found, Refused> = desk
+        let found: Result<&space::Findings, MethodError> = desk
             .memory
             .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, limits)));
         let found = found?;
@@ -52,9 +57,9 @@ impl Method<Observed> for Within {
         Ok(Answer::new(evidence, found.complete, self.shows(), found.states))
     }
 
-    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let setting = self.setting(observed);
         let (of, broken) = space::replay(&setting, self.0, Script::new(choices))?;
-        Ok(Played { of, evidence: Self::evidence(&setting, &broken) })
+        Ok(RefutationPlay { of, evidence: Self::evidence(&setting, &broken) })
     }
 }

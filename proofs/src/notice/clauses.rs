@@ -2,41 +2,41 @@
 
 use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 
-use super::{Observed, networks, random};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Sampled, Verdict};
+use super::{Subject, networks, random};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{RandomAnswers, Verdict};
 use crate::step_checks;
 
-const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
-const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
+const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLISHED);
+const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::REPAIRED);
 
 /// Runs of random networks.
 const RUNS: u64 = 500;
 
-const LATER: Named<Observed> = Named::new(
+const LATER: NamedRule<Subject> = NamedRule::new(
     "a later NOTICE with HC ≤ own changes the parent",
-    Observed::hearing_without(FrozenOnceForwarded),
+    Subject::hearing_without(FrozenOnceForwarded),
 );
 
-const UNFROZEN: [Named<Observed>; 1] = [LATER];
+const UNFROZEN: [NamedRule<Subject>; 1] = [LATER];
 
-const ANOTHER_PARENT: [Named<Observed>; 3] = [
+const ANOTHER_PARENT: [NamedRule<Subject>; 3] = [
     LATER,
-    Named::new("the parent is the last heard", Observed::hearing_without(LeastHops)),
-    Named::new("of equal HC the last heard", Observed::hearing_without(FirstHeard)),
+    NamedRule::new("the parent is the last heard", Subject::hearing_without(LeastHops)),
+    NamedRule::new("of equal HC the last heard", Subject::hearing_without(FirstHeard)),
 ];
 
-const FORGETFUL: [Named<Observed>; 1] =
-    [Named::new("who has forwarded an event forgets it", Observed::hearing_without(RememberEvent))];
+const FORGETFUL: [NamedRule<Subject>; 1] =
+    [NamedRule::new("who has forwarded an event forgets it", Subject::hearing_without(RememberEvent))];
 
-const FINITE: [Named<Observed>; 1] =
-    [Named::new("k = ∞ is taken for 1", Observed { takes_endless_for_one: true, ..Observed::REPAIRED })];
+const FINITE: [NamedRule<Subject>; 1] =
+    [NamedRule::new("k = ∞ is taken for 1", Subject { takes_endless_for_one: true, ..Subject::REPAIRED })];
 
-step_checks! { Observed;
+step_checks! { Subject;
     second_event: random::second_event, REPAIRED, random::later_events,
         covers ["silent about the first", "through with the first", "unaware of the first", "waiting with the first"],
         unwind 12, mutants {
-            published: "as published" => Observed::PUBLISHED,
+            published: "as published" => Subject::PUBLISHED,
         };
 }
 
@@ -50,7 +50,7 @@ pub static CLAUSES: [Clause; 6] = [
             &Check::new(PUBLISHED, &networks::TREE, Verdict::Holds, &UNFROZEN),
             &Check::new(
                 PUBLISHED,
-                &Sampled {
+                &RandomAnswers {
                     body: random::tree_at_random,
                     runs: RUNS,
                     range: random::random_networks,
@@ -68,7 +68,7 @@ pub static CLAUSES: [Clause; 6] = [
             &Check::new(PUBLISHED, &networks::ONCE, Verdict::Holds, &FORGETFUL),
             &Check::new(
                 PUBLISHED,
-                &Sampled {
+                &RandomAnswers {
                     body: random::once_at_random,
                     runs: RUNS,
                     range: random::random_networks,
@@ -87,7 +87,7 @@ pub static CLAUSES: [Clause; 6] = [
             &Check::new(PUBLISHED, &networks::FLOOD, Verdict::Holds, &FINITE),
             &Check::new(
                 PUBLISHED,
-                &Sampled {
+                &RandomAnswers {
                     body: random::flood_at_random,
                     runs: RUNS,
                     range: random::random_floods,
@@ -124,7 +124,7 @@ pub static CLAUSES: [Clause; 6] = [
             &Check::new(PUBLISHED, &networks::NEAREST_PARENT, Verdict::Holds, &ANOTHER_PARENT),
             &Check::new(
                 PUBLISHED,
-                &Sampled {
+                &RandomAnswers {
                     body: random::nearest_parent_at_random,
                     runs: RUNS,
                     range: random::random_networks,

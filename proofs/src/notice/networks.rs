@@ -4,13 +4,13 @@ use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
-use super::Observed;
+use super::Subject;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::world::{Turn, World, any_of, picked};
-use crate::engine::{Choices, Script, Stop, Tally, Unfit, Until, cover};
+use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover};
 
 /// The largest network of which every state is looked at.
 pub(super) const SMALL: usize = 5;
@@ -82,7 +82,7 @@ enum Rules {
 }
 
 impl Rules {
-    fn list(self, observed: &Observed) -> Vec<Rule> {
+    fn list(self, observed: &Subject) -> Vec<Rule> {
         match self {
             Self::EveryK => every_k().map(|k| observed.farthest(k)).to_vec(),
             Self::Endless => vec![observed.farthest(None), observed.rule(Scheme::Flooding)],
@@ -92,7 +92,7 @@ impl Rules {
 }
 
 /// The findings in all networks under one rule, whatever is demanded.
-struct Shown {
+struct Findings {
     rule: Rule,
     /// Without a violation.
     tally: Tally,
@@ -199,7 +199,7 @@ impl System for Case {
 }
 
 impl Networks {
-    fn cases(self, observed: &Observed) -> impl Iterator<Item = Case> {
+    fn cases(self, observed: &Subject) -> impl Iterator<Item = Case> {
         let rules = self.rules.list(observed);
         let demands = self.demand.alone();
         shapes().into_iter().flat_map(move |links| {
@@ -209,7 +209,7 @@ impl Networks {
     }
 
     /// Goes through all states, until the first violation. A case is a state.
-    fn explore(self, observed: &Observed) -> Tally {
+    fn explore(self, observed: &Subject) -> Tally {
         let mut tally = Tally::default();
         for (place, case) in (0..).zip(self.cases(observed)) {
             let found = search(&case, [Spread::start(&case.links)], Limits::NONE);
@@ -226,10 +226,10 @@ impl Networks {
     }
 
     /// The tally of the rules of this check, if its demand is kept under them.
-    fn kept(self, observed: &Observed, shown: &[Shown]) -> Option<Tally> {
+    fn kept(self, observed: &Subject, shown: &[Findings]) -> Option<Tally> {
         let rules = self.rules.list(observed);
         let mut tally = Tally::default();
-        for Shown { tally: one, broken, .. } in shown.iter().filter(|shown| rules.contains(&shown.rule)) {
+        for Findings { tally: one, broken, .. } in shown.iter().filter(|shown| rules.contains(&shown.rule)) {
             if broken.iter().any(|broken| broken.is_of_ends() == self.demand.is_of_ends()) {
                 return None;
             }
@@ -241,7 +241,7 @@ impl Networks {
 }
 
 /// Goes through all states of every small network under every rule that some check is about, once for all demands.
-fn show(observed: &Observed) -> Vec<Shown> {
+fn show(observed: &Subject) -> Vec<Findings> {
     let mut rules = Rules::EveryK.list(observed);
     rules.push(observed.rule(Scheme::Flooding));
     let (shapes, task) = (shapes(), Task::current());
@@ -252,7 +252,7 @@ fn show(observed: &Observed) -> Vec<Shown> {
             search(&Case { links, rule, demands: &Demand::ALL }, [Spread::start(&links)], Limits::NONE)
         };
         let found: Vec<_> = shapes.par_iter().map(look).collect();
-        let mut shown = Shown { rule, tally: Tally::default(), broken: Vec::new() };
+        let mut shown = Findings { rule, tally: Tally::default(), broken: Vec::new() };
         for found in found {
             shown.tally.cases += found.looked_at;
             found.covered.iter().for_each(|situation| cover(&mut shown.tally.covered, situation));
@@ -265,7 +265,7 @@ fn show(observed: &Observed) -> Vec<Shown> {
 
 impl Networks {
     /// The events when these choices are made, in lines.
-    fn story(self, observed: &Observed, choices: &[u32]) -> String {
+    fn story(self, observed: &Subject, choices: &[u32]) -> String {
         let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
         let Some(Case { links, rule, .. }) = self.cases(observed).nth(place as usize) else {
             return String::new();
@@ -301,7 +301,7 @@ impl Networks {
     }
 }
 
-impl Method<Observed> for Networks {
+impl Method<Subject> for Networks {
     fn engine(&self) -> &'static str {
         "states"
     }
@@ -316,17 +316,22 @@ impl Method<Observed> for Networks {
         format!("all networks of up to {SMALL} nodes, {rules}, every order")
     }
 
-    fn family(&self, observed: &Observed) -> Option<String> {
+    fn family(&self, observed: &Subject) -> Option<String> {
         Some(format!("networks {observed:?}"))
     }
 
     /// Demands of several clauses on the same networks are looked at in one pass. Each clause looks for its own
     /// violations.
-    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(
+        &self,
+        observed: &Subject,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
         let kept = match until {
             Until::Violation => None,
             Until::Exhausted => {
-                let shown: Result<&Vec<Shown>, Refused> =
+                let shown: Result<&Vec<Findings>, MethodError> =
                     desk.memory.recall(*observed, |observed| Ok(show(observed)));
                 self.kept(observed, shown?)
             }
@@ -334,18 +339,18 @@ impl Method<Observed> for Networks {
         let tally = kept.unwrap_or_else(|| self.explore(observed));
         let mut answer = Answer::of_tally(tally, &EVENTS, self.shows());
         if let Some(evidence) = &mut answer.counterexample {
-            evidence.seen = Seen::Story(self.story(observed, &evidence.choices.once));
+            evidence.seen = Depiction::Story(self.story(observed, &evidence.choices.once));
         }
         Ok(answer)
     }
 
-    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let cases: Vec<Case> = self.cases(observed).collect();
         let case = &cases[script.choose(cases.len())?];
         let (of, run) = script.play(case, (0, Spread::start(&case.links)), |_| true)?;
-        let seen = Seen::Story(self.story(observed, &choices.once));
-        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand.1, seen } })
+        let seen = Depiction::Story(self.story(observed, &choices.once));
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand.1, seen } })
     }
 }
 
@@ -367,21 +372,21 @@ mod tests {
     }
 
     /// The demand that a observed breaks first, and how.
-    fn broken(networks: Networks, observed: Observed) -> (&'static str, String) {
+    fn broken(networks: Networks, observed: Subject) -> (&'static str, String) {
         let (choices, demand) = networks.explore(&observed).violation.expect("it is broken");
         (demand, networks.story(&observed, &choices))
     }
 
     #[test]
     fn a_parent_that_changes_after_forwarding_closes_a_circle() {
-        let (demand, _) = broken(TREE, Observed::hearing_without(Condition::FrozenOnceForwarded));
+        let (demand, _) = broken(TREE, Subject::hearing_without(Condition::FrozenOnceForwarded));
         assert_eq!(demand, "parent by parent every node comes to the source");
     }
 
     #[test]
     fn a_parent_that_is_the_last_heard_makes_a_tree_all_the_same_but_another() {
         for condition in [Condition::LeastHops, Condition::FirstHeard] {
-            let observed = Observed::hearing_without(condition);
+            let observed = Subject::hearing_without(condition);
             assert_eq!(TREE.explore(&observed).violation, None);
             let (demand, _) = broken(NEAREST_PARENT, observed);
             assert_eq!(demand, "the parent is the first heard of those with the least hop count");
@@ -419,7 +424,7 @@ mod tests {
     #[test]
     fn stateright_comes_to_the_same_verdicts_where_nothing_is_left_out() {
         let demands = [Demand::Tree, Demand::Once, Demand::Reaches, Demand::NearestParent];
-        let compared = |pairs: &[(usize, usize)], observed: Observed, k: Option<Count>| {
+        let compared = |pairs: &[(usize, usize)], observed: Subject, k: Option<Count>| {
             let mut links = Links::NONE;
             for &(one, other) in pairs {
                 links.add(one, other);
@@ -441,21 +446,21 @@ mod tests {
         let tail = [(0, 1), (0, 2), (1, 2), (2, 3)];
         let round = [(0, 1), (0, 2), (1, 3), (2, 3)];
         let (one, all) = (Some(Count::ONE), None);
-        assert_eq!(compared(&tail, Observed::PUBLISHED, one), (51, 1641, vec![Demand::Reaches]));
-        assert_eq!(compared(&tail, Observed::PUBLISHED, all), (84, 2601, vec![]));
-        assert_eq!(compared(&round, Observed::PUBLISHED, one), (50, 1601, vec![]));
-        let unfrozen = Observed::hearing_without(Condition::FrozenOnceForwarded);
+        assert_eq!(compared(&tail, Subject::PUBLISHED, one), (51, 1641, vec![Demand::Reaches]));
+        assert_eq!(compared(&tail, Subject::PUBLISHED, all), (84, 2601, vec![]));
+        assert_eq!(compared(&round, Subject::PUBLISHED, one), (50, 1601, vec![]));
+        let unfrozen = Subject::hearing_without(Condition::FrozenOnceForwarded);
         let broken = vec![Demand::Tree, Demand::NearestParent];
         assert_eq!(compared(&tail, unfrozen, all), (176, 9065, broken));
-        let last = Observed::hearing_without(Condition::LeastHops);
+        let last = Subject::hearing_without(Condition::LeastHops);
         assert_eq!(compared(&tail, last, all), (102, 3561, vec![Demand::NearestParent]));
-        let last_of_equals = Observed::hearing_without(Condition::FirstHeard);
+        let last_of_equals = Subject::hearing_without(Condition::FirstHeard);
         assert_eq!(compared(&round, last_of_equals, all), (70, 2689, vec![Demand::NearestParent]));
     }
 
     #[test]
     fn who_is_silenced_may_be_the_only_one_on_the_way() {
-        let (_, story) = broken(REACH_WITH_ONE, Observed::PUBLISHED);
+        let (_, story) = broken(REACH_WITH_ONE, Subject::PUBLISHED);
         let lines: Vec<&str> = story.lines().collect();
         let expected = [
             "The source is 0, the links are 0-1 0-2 1-2 2-3.",

@@ -6,7 +6,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Notice};
 use tautline_kernel::notice::{Count, Node, Reaction};
 
-use super::Observed;
+use super::Subject;
 use super::networks::SMALL;
 use super::spread::{Demand, Links, Point, Spread, call, hear, notice};
 use crate::engine::{Outcome, require};
@@ -40,7 +40,7 @@ fn random_nodes() -> String {
 const MOST_EVENTS: usize = 4_000;
 
 /// A random network, a random order and some k, the demand checked after every event.
-fn spread_at_random(observed: &Observed, oracle: &mut dyn Oracle, demand: Demand) -> Outcome {
+fn spread_at_random(observed: &Subject, oracle: &mut dyn Oracle, demand: Demand) -> Outcome {
     // k = ∞ is one of them, and for flooding the only one.
     let k = if demand == Demand::Floods { 0 } else { oracle.pick(u32::from(Count::MOST) + 1) };
     let rule = observed.farthest(Count::new(k as u8));
@@ -74,7 +74,7 @@ pub(super) const SPREADS: [&str; 2] = ["few nodes forward", "most nodes forward"
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn tree_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn tree_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     spread_at_random(observed, oracle, Demand::Tree)
 }
 
@@ -82,7 +82,7 @@ pub(super) fn tree_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Ou
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn once_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn once_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     spread_at_random(observed, oracle, Demand::Once)
 }
 
@@ -90,7 +90,7 @@ pub(super) fn once_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Ou
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn nearest_parent_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn nearest_parent_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     spread_at_random(observed, oracle, Demand::NearestParent)
 }
 
@@ -98,7 +98,7 @@ pub(super) fn nearest_parent_at_random(observed: &Observed, oracle: &mut dyn Ora
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn flood_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn flood_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     spread_at_random(observed, oracle, Demand::Floods)
 }
 
@@ -122,7 +122,7 @@ pub(super) fn later_events() -> String {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn second_event(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn second_event(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = observed.farthest(Some(Count::ONE));
     let mut node = Node::new(NodeId(1), NodeId(0));
     let fate = oracle.pick(FATES.len() as u32);

@@ -5,7 +5,7 @@
 use core::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{Call, Epoch, Heard, NodeId, Notice};
+use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Node, Reaction, Rule, Stage, Surroundings};
 
 use crate::engine::{Stop, require};
@@ -89,7 +89,7 @@ pub(super) const fn notice(sender: usize) -> Notice {
 
 /// All waits are over as soon as they begin.
 pub(super) fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
-    let heard = Heard { message: notice, distance_um: RANGE.get(), now_ns: 0 };
+    let heard = Reception { message: notice, distance_um: RANGE.get(), now_ns: 0 };
     node.receive(rule, heard, Surroundings::none, &mut AtOnce)
 }
 

@@ -7,20 +7,21 @@ use super::floors::{Bounds, Drawing, Floors, Size, Starts};
 use super::gains::Gains;
 use super::played::{Demand, SITUATIONS};
 use super::rays::{self, Rays};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, Verdict};
 
-const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
-const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
+const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
+const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
 
-const NO_CONNECT: Named<Rule> = Named::new("links do not count", Rule::REPAIRED.without(Connect));
-const NO_CORNERS: Named<Rule> = Named::new("midpoints count", Rule::REPAIRED.without(Corners));
-const NO_SINGLE: Named<Rule> = Named::new("robots share cells", Rule::REPAIRED.without(Single));
-const NO_LEAD: Named<Rule> = Named::new("nobody leads", Rule::REPAIRED.without(Lead));
-const NO_BACK: Named<Rule> = Named::new("no move is taken back", Rule::REPAIRED.without(Back));
-const NO_DOUBLE: Named<Rule> = Named::new("always one move is taken back", Rule::REPAIRED.without(Double));
-const NO_ANEW: Named<Rule> =
-    Named::new("ways are kept when a move is taken back", Rule::REPAIRED.without(Anew));
+const NO_CONNECT: NamedRule<Rule> = NamedRule::new("links do not count", Rule::REPAIRED.without(Connect));
+const NO_CORNERS: NamedRule<Rule> = NamedRule::new("midpoints count", Rule::REPAIRED.without(Corners));
+const NO_SINGLE: NamedRule<Rule> = NamedRule::new("robots share cells", Rule::REPAIRED.without(Single));
+const NO_LEAD: NamedRule<Rule> = NamedRule::new("nobody leads", Rule::REPAIRED.without(Lead));
+const NO_BACK: NamedRule<Rule> = NamedRule::new("no move is taken back", Rule::REPAIRED.without(Back));
+const NO_DOUBLE: NamedRule<Rule> =
+    NamedRule::new("always one move is taken back", Rule::REPAIRED.without(Double));
+const NO_ANEW: NamedRule<Rule> =
+    NamedRule::new("ways are kept when a move is taken back", Rule::REPAIRED.without(Anew));
 
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
@@ -173,13 +174,13 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-7",
         sentence: "A robot of a pack MUST see a cell within R_s if and only if a ray goes there.",
         checks: &[&Check::new(
-            Named::new("published", Rays::Stopped),
-            &Exhaustive { body: rays::sees, range: rays::views, covers: &rays::COVERS },
+            NamedRule::new("published", Rays::Stopped),
+            &EveryAnswer { body: rays::sees, range: rays::views, covers: &rays::COVERS },
             Verdict::Holds,
             &[
-                Named::new("a ray passes between two obstacles", Rays::PassCorners),
-                Named::new("one obstacle at a corner stops a ray", Rays::StopAtCorners),
-                Named::new("no obstacle is seen", Rays::SeeNoObstacle),
+                NamedRule::new("a ray passes between two obstacles", Rays::PassCorners),
+                NamedRule::new("one obstacle at a corner stops a ray", Rays::StopAtCorners),
+                NamedRule::new("no obstacle is seen", Rays::SeeNoObstacle),
             ],
         )],
     },
@@ -201,13 +202,13 @@ pub static CLAUSES: [Clause; 8] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::{Memory, Seen};
+    use crate::decide::{Cache, Depiction};
     use crate::engine::tree::unwatched;
 
     /// The floors of [`FEW`] take milliseconds, the others seconds: `tautline prove PACK` looks at them.
     #[test]
     fn small_floors_refute_what_the_paper_leaves_open() {
-        let mut memory = Memory::default();
+        let mut memory = Cache::default();
         let mut floors = Vec::new();
         for check in CLAUSES
             .iter()
@@ -217,7 +218,7 @@ mod tests {
             let decision = check.decide(&mut memory, &mut unwatched).expect("it can be decided");
             assert!(decision.is_as_registered(*check), "{check:?}: {decision:?}");
             let found = decision.counterexample.expect("it is refuted");
-            let Seen::Story(story) = &found.seen else { panic!("it is told") };
+            let Depiction::Story(story) = &found.seen else { panic!("it is told") };
             floors.push(story.lines().nth(1).expect("a row").to_owned());
             assert_eq!(check.replay(&found.choices).expect("it is one").evidence, found);
         }

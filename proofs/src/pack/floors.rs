@@ -6,9 +6,9 @@ use tautline_kernel::pack::Rule;
 
 use super::gains::Gains;
 use super::played::{Demand, Floor, play, story};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Verdict};
 use crate::engine::watchdog::Steps;
-use crate::engine::{Choices, Script, Unfit, Until, cover};
+use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::plural::counted;
 
 /// Columns and rows.
@@ -53,7 +53,7 @@ pub(super) struct Floors {
 type Place = [usize; 3];
 
 /// The findings on all floors.
-struct Found {
+struct Findings {
     runs: u64,
     covered: Vec<&'static str>,
     /// By demand: the first floor where it is broken.
@@ -61,14 +61,14 @@ struct Found {
 }
 
 impl Bounds {
-    fn rule(&self, rule: &Rule) -> Result<Rule, Refused> {
-        rule.within(self.sight_cells, self.range_cells).map_err(Refused::new)
+    fn rule(&self, rule: &Rule) -> Result<Rule, MethodError> {
+        rule.within(self.sight_cells, self.range_cells).map_err(MethodError::new)
     }
 
-    fn area(size: Size) -> Result<Area, Refused> {
+    fn area(size: Size) -> Result<Area, MethodError> {
         let area = Area::new(Cell::new(0, 0), Cell::new(size.0 - 1, size.1 - 1));
         area.filter(|area| area.width() * area.height() < u64::BITS as usize)
-            .ok_or_else(|| Refused::new("a floor has from 1 to 63 cells"))
+            .ok_or_else(|| MethodError::new("a floor has from 1 to 63 cells"))
     }
 
     /// How many sizes and drawings there are.
@@ -77,7 +77,7 @@ impl Bounds {
     }
 
     /// The area of the size or drawing with this number, and the sets of obstacles there, the fewest first.
-    fn layouts(&self, number: usize) -> Result<(Area, Vec<u64>), Refused> {
+    fn layouts(&self, number: usize) -> Result<(Area, Vec<u64>), MethodError> {
         let Some(&(size, most)) = self.sizes.get(number) else {
             let drawing = self.drawn.get(number - self.sizes.len()).copied().unwrap_or_default();
             return Ok((Self::area(size_of(drawing))?, vec![obstacles_of(drawing)]));
@@ -109,9 +109,9 @@ impl Bounds {
     }
 
     /// Runs a pack on every floor; ends with the first one that breaks `until`.
-    fn search(&self, rule: &Rule, until: Option<Demand>) -> Result<Found, Refused> {
+    fn search(&self, rule: &Rule, until: Option<Demand>) -> Result<Findings, MethodError> {
         let rule = self.rule(rule)?;
-        let mut found = Found { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
+        let mut found = Findings { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
         let steps = Steps::begin();
         for number in 0..self.count() {
             let (area, sets) = self.layouts(number)?;
@@ -164,7 +164,7 @@ fn is_one(cells: &[Cell]) -> bool {
 
 impl Floors {
     /// The refutation by the run on one floor; `None` if it breaks something else, or nothing.
-    fn evidence(&self, rule: &Rule, [number, set, start]: Place) -> Result<Option<Evidence>, Refused> {
+    fn evidence(&self, rule: &Rule, [number, set, start]: Place) -> Result<Option<Evidence>, MethodError> {
         let rule = self.bounds.rule(rule)?;
         let (area, sets) = self.bounds.layouts(number)?;
         let Some(&obstacles) = sets.get(set) else { return Ok(None) };
@@ -178,7 +178,7 @@ impl Floors {
                 again: Vec::new(),
             },
             demand: self.demand.words(),
-            seen: Seen::Story(story(&rule, &floor, &played)),
+            seen: Depiction::Story(story(&rule, &floor, &played)),
         }))
     }
 }
@@ -227,7 +227,7 @@ impl Method<Rule> for Floors {
     }
 
     /// The choices are the numbers of the size, of the set of obstacles, and of the starts.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let once;
         let found = match until {
             Until::Exhausted => {
@@ -245,15 +245,16 @@ impl Method<Rule> for Floors {
         Ok(Answer::new(evidence, is_covered, Verdict::Holds, runs))
     }
 
-    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let number = script.choose(self.bounds.count())?;
-        let (area, sets) = self.bounds.layouts(number).map_err(|_| Unfit::Unbroken)?;
+        let (area, sets) = self.bounds.layouts(number).map_err(|_| ScriptError::Unbroken)?;
         let set = script.choose(sets.len())?;
         let starts = self.bounds.starts(area, sets[set]).len();
         let start = script.choose(starts)?;
-        let evidence = self.evidence(rule, [number, set, start]).ok().flatten().ok_or(Unfit::Unbroken)?;
+        let evidence =
+            self.evidence(rule, [number, set, start]).ok().flatten().ok_or(ScriptError::Unbroken)?;
         let of = [self.bounds.count(), sets.len(), starts].map(|of| of as u32).to_vec();
-        Ok(Played { of, evidence })
+        Ok(RefutationPlay { of, evidence })
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
-use tautline_kernel::pack::{Chart, MAX_ROBOTS, Made, Past, Rule, Scratch, Team};
+use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Team};
 
 use super::gains::{Gains, are_best};
 use crate::plural::counted;
@@ -120,13 +120,13 @@ impl Past for Moves {
 
 /// The outcome of a run.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Played {
+pub(super) struct RunOutcome {
     /// The demands that it breaks, each once.
     pub(super) broken: Vec<Demand>,
     /// The situations that occurred.
     pub(super) covered: Vec<&'static str>,
     /// Where the robots were after each team move, and what it was.
-    moves: Vec<(Made, Vec<Cell>)>,
+    moves: Vec<(MoveKind, Vec<Cell>)>,
     /// The cells within reach that were not explored when it ended.
     left: Vec<Cell>,
 }
@@ -146,7 +146,7 @@ fn is_joined(cells: &[Cell], range_cells: u16) -> bool {
 }
 
 /// Runs a pack of `rule` on `floor`; `None` if the robots are no pack there.
-pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<Played> {
+pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<RunOutcome> {
     let area = floor.area;
     let cells = area.width() * area.height();
     let mut team = Team::new(*rule, &floor.starts).ok()?;
@@ -154,7 +154,8 @@ pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<Played>
     let (mut reached, mut queue) = (vec![0; cells], vec![Cell::default(); cells]);
     let (mut gains, mut rounds) = (vec![0; cells], 0);
     let (mut past, mut steps) = (Moves::default(), [Step::Stay; MAX_ROBOTS]);
-    let mut played = Played { broken: Vec::new(), covered: Vec::new(), moves: Vec::new(), left: Vec::new() };
+    let mut played =
+        RunOutcome { broken: Vec::new(), covered: Vec::new(), moves: Vec::new(), left: Vec::new() };
     let mut seen = floor.starts.clone();
     let breaks = |broken: &mut Vec<Demand>, demand: Demand, is_broken: bool| {
         if is_broken && !broken.contains(&demand) {
@@ -182,9 +183,9 @@ pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<Played>
         let is_step =
             |(&from, &to): (&Cell, &Cell)| floor.is_free(to) && (from == to || neighbours(from, to));
         breaks(&mut played.broken, Demand::Free, !before.iter().zip(&now).all(is_step));
-        if made == Made::Spread && choices == Gains::Compared {
+        if made == MoveKind::Spread && choices == Gains::Compared {
             // A robot that has gone its own way keeps its aim as long as that is a frontier cell.
-            let has_spread = played.moves.last().is_none_or(|&(last, _)| last == Made::Spread);
+            let has_spread = played.moves.last().is_none_or(|&(last, _)| last == MoveKind::Spread);
             let is_kept = |&aim: &Cell| has_spread && chart.is_frontier(aim);
             let kept: Vec<Option<Cell>> = aims.into_iter().map(|aim| aim.filter(is_kept)).collect();
             let chosen: Vec<Option<Cell>> = team.aims().collect();
@@ -194,10 +195,10 @@ pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<Played>
         breaks(&mut played.broken, Demand::Connected, !is_joined(&now, rule.range_cells()));
         breaks(&mut played.broken, Demand::Single, is_double);
         let situation = SITUATIONS[match made {
-            Made::Spread => 0,
-            Made::Led(_) => 1,
-            Made::TakenBack => 2,
-            Made::Marched => 3,
+            MoveKind::Spread => 0,
+            MoveKind::Led(_) => 1,
+            MoveKind::TakenBack => 2,
+            MoveKind::Marched => 3,
         }];
         if !played.covered.contains(&situation) {
             played.covered.push(situation);
@@ -218,16 +219,16 @@ pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<Played>
 const MOST_TOLD: usize = 40;
 
 /// The run in lines.
-pub(super) fn story(rule: &Rule, floor: &Floor, played: &Played) -> String {
+pub(super) fn story(rule: &Rule, floor: &Floor, played: &RunOutcome) -> String {
     let (width, height) = (floor.area.width(), floor.area.height());
     let (sight, range) = (rule.sight().radius_cells(), rule.range_cells());
     let mut lines = format!("{width}×{height} cells, R_s {sight}, R_c {range}\n{}", floor.drawing());
     for (made, cells) in played.moves.iter().take(MOST_TOLD) {
         let what = match made {
-            Made::Spread => "each goes its way".to_owned(),
-            Made::Led(robot) => format!("R{} leads", robot + 1),
-            Made::TakenBack => "a move is taken back".to_owned(),
-            Made::Marched => "a caterpillar".to_owned(),
+            MoveKind::Spread => "each goes its way".to_owned(),
+            MoveKind::Led(robot) => format!("R{} leads", robot + 1),
+            MoveKind::TakenBack => "a move is taken back".to_owned(),
+            MoveKind::Marched => "a caterpillar".to_owned(),
         };
         let cells: Vec<String> = (1..).zip(cells).map(|(robot, cell)| format!("R{robot} {cell}")).collect();
         // Writing to a string cannot fail.

@@ -6,13 +6,13 @@ use super::minima;
 use super::refused;
 use super::swarm::{self, Best, Conduct};
 use super::way::{self, Way};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Sampled, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 
-const PUBLISHED: Named<Way> = Named::new("published", way::published);
-const REPAIRED: Named<Way> = Named::new("repaired", way::repaired);
-const METRES: Named<Way> = Named::new("metres", way::metres);
-const DECIBELS: Named<Way> = Named::new("decibels", way::decibels);
+const PUBLISHED: NamedRule<Way> = NamedRule::new("published", way::published);
+const REPAIRED: NamedRule<Way> = NamedRule::new("repaired", way::repaired);
+const METRES: NamedRule<Way> = NamedRule::new("metres", way::metres);
+const DECIBELS: NamedRule<Way> = NamedRule::new("decibels", way::decibels);
 
 /// Random triples of anchors.
 const TRIPLES: u64 = 20_000;
@@ -20,58 +20,61 @@ const TRIPLES: u64 = 20_000;
 /// Random swarms.
 const SWARMS: u64 = 2_000;
 
-const EXACT: Exhaustive<Way> = Exhaustive {
+const EXACT: EveryAnswer<Way> = EveryAnswer {
     body: lattice::is_exact,
     range: lattice::places,
     covers: &["four anchors", "three anchors"],
 };
 
-const INEXACT: [Named<Way>; 2] = [
-    Named::new("each anchor takes the distance of the next", broken::exchanged),
-    Named::new("the last distance is that of the first", broken::without_the_last),
+const INEXACT: [NamedRule<Way>; 2] = [
+    NamedRule::new("each anchor takes the distance of the next", broken::exchanged),
+    NamedRule::new("the last distance is that of the first", broken::without_the_last),
 ];
 
-const REFUSES: Exhaustive<Way> = Exhaustive {
+const REFUSES: EveryAnswer<Way> = EveryAnswer {
     body: refused::is_refused_or_told,
     range: refused::numbers,
     covers: &["refused for want of anchors or numbers", "told"],
 };
 
-const CREDULOUS: [Named<Way>; 2] = [
-    Named::new("nobody looks at what is divided by", broken::unchecked),
-    Named::new("a distance that is no number is 0", broken::lenient),
+const CREDULOUS: [NamedRule<Way>; 2] = [
+    NamedRule::new("nobody looks at what is divided by", broken::unchecked),
+    NamedRule::new("a distance that is no number is 0", broken::lenient),
 ];
 
-const MIRRORED: Exhaustive<Way> = Exhaustive {
+const MIRRORED: EveryAnswer<Way> = EveryAnswer {
     body: minima::tells_the_mirror_image,
     range: minima::lines,
     covers: &["a slanting line", "a straight line"],
 };
 
-const FOLLOWS: Exhaustive<Way> =
-    Exhaustive { body: lattice::follows, range: lattice::moves, covers: &["one position"] };
+const FOLLOWS: EveryAnswer<Way> =
+    EveryAnswer { body: lattice::follows, range: lattice::moves, covers: &["one position"] };
 
-const FOLLOWS_TWO: Exhaustive<Way> =
-    Exhaustive { body: lattice::follows, range: lattice::moves, covers: &["one position", "two positions"] };
+const FOLLOWS_TWO: EveryAnswer<Way> =
+    EveryAnswer { body: lattice::follows, range: lattice::moves, covers: &["one position", "two positions"] };
 
-const UNMOVED: [Named<Way>; 2] = [
-    Named::new("places are told from the first anchor", broken::from_the_first),
-    Named::new("distances along y count twice", broken::stretched),
+const UNMOVED: [NamedRule<Way>; 2] = [
+    NamedRule::new("places are told from the first anchor", broken::from_the_first),
+    NamedRule::new("distances along y count twice", broken::stretched),
 ];
 
-const COARSE: Exhaustive<Conduct> = Exhaustive {
+const COARSE: EveryAnswer<Conduct> = EveryAnswer {
     body: swarm::never_worsens,
     range: swarm::coarse_draws,
     covers: &["it does not improve", "it improves"],
 };
 
-const FORGETFUL: [Named<Conduct>; 2] = [
-    Named::new("the best of the present positions", Conduct { best: Best::Now, ..Conduct::REPAIRED }),
-    Named::new("the position of the first particle", Conduct { best: Best::First, ..Conduct::REPAIRED }),
+const FORGETFUL: [NamedRule<Conduct>; 2] = [
+    NamedRule::new("the best of the present positions", Conduct { best: Best::Now, ..Conduct::REPAIRED }),
+    NamedRule::new("the position of the first particle", Conduct { best: Best::First, ..Conduct::REPAIRED }),
 ];
 
-const INSIDE: Exhaustive<Way> =
-    Exhaustive { body: lattice::keeps_inside, range: lattice::rectangles, covers: &["inside", "on the rim"] };
+const INSIDE: EveryAnswer<Way> = EveryAnswer {
+    body: lattice::keeps_inside,
+    range: lattice::rectangles,
+    covers: &["inside", "on the rim"],
+};
 
 /// The clauses.
 pub static CLAUSES: [Clause; 6] = [
@@ -82,7 +85,7 @@ pub static CLAUSES: [Clause; 6] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &Exhaustive {
+                &EveryAnswer {
                     body: lattice::is_exact_of_three,
                     range: lattice::places_of_three,
                     covers: &["three anchors"],
@@ -114,17 +117,17 @@ pub static CLAUSES: [Clause; 6] = [
                 METRES,
                 &MIRRORED,
                 Verdict::Holds,
-                &[Named::new("the better one alone", broken::better_alone)],
+                &[NamedRule::new("the better one alone", broken::better_alone)],
             ),
             &Check::new(
                 DECIBELS,
                 &MIRRORED,
                 Verdict::Holds,
-                &[Named::new("the better one alone", broken::better_level_alone)],
+                &[NamedRule::new("the better one alone", broken::better_level_alone)],
             ),
             &Check::new(
                 METRES,
-                &Sampled {
+                &RandomAnswers {
                     body: minima::tells_second_minima,
                     runs: TRIPLES,
                     range: minima::random_anchors,
@@ -149,11 +152,11 @@ pub static CLAUSES: [Clause; 6] = [
         id: "POSITION-5",
         sentence: "The best position of a swarm MUST never fit worse than the one before, nor than any particle does.",
         checks: &[
-            &Check::new(Named::new("published", Conduct::PUBLISHED), &COARSE, Verdict::Holds, &FORGETFUL),
-            &Check::new(Named::new("repaired", Conduct::REPAIRED), &COARSE, Verdict::Holds, &FORGETFUL),
+            &Check::new(NamedRule::new("published", Conduct::PUBLISHED), &COARSE, Verdict::Holds, &FORGETFUL),
+            &Check::new(NamedRule::new("repaired", Conduct::REPAIRED), &COARSE, Verdict::Holds, &FORGETFUL),
             &Check::new(
-                Named::new("repaired", Conduct::REPAIRED),
-                &Sampled {
+                NamedRule::new("repaired", Conduct::REPAIRED),
+                &RandomAnswers {
                     body: swarm::never_worsens_at_random,
                     runs: SWARMS,
                     range: swarm::random_swarms,
@@ -173,13 +176,13 @@ pub static CLAUSES: [Clause; 6] = [
                 METRES,
                 &INSIDE,
                 Verdict::Holds,
-                &[Named::new("the rectangle is forgotten", broken::anywhere)],
+                &[NamedRule::new("the rectangle is forgotten", broken::anywhere)],
             ),
             &Check::new(
                 DECIBELS,
                 &INSIDE,
                 Verdict::Holds,
-                &[Named::new("the rectangle is forgotten", broken::any_level)],
+                &[NamedRule::new("the rectangle is forgotten", broken::any_level)],
             ),
         ],
     },
@@ -188,7 +191,7 @@ pub static CLAUSES: [Clause; 6] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::Memory;
+    use crate::decide::Cache;
     use crate::engine::tree::unwatched;
 
     #[test]
@@ -196,7 +199,7 @@ mod tests {
         for clause in &CLAUSES {
             for check in clause.checks {
                 let decision =
-                    check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
+                    check.decide(&mut Cache::default(), &mut unwatched).expect("a body can be decided");
                 assert!(decision.is_as_registered(*check), "{} {check:?}: {decision:?}", clause.id);
             }
         }

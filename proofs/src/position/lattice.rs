@@ -4,7 +4,7 @@
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::position::{Area, Point, Range};
 
-use super::way::{Told, Way};
+use super::way::{Way, WayResult};
 use crate::engine::{Outcome, Stop, assume, require};
 
 /// The side of the lattice of three anchors and a robot, and of that of four.
@@ -134,7 +134,7 @@ pub(super) fn follows(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
             .map(|(anchor, far)| (far - place.distance_m(moved(*anchor))).powi(2));
         squares.sum::<f64>()
     };
-    let follows = |before: Told, after: Told| {
+    let follows = |before: WayResult, after: WayResult| {
         let is_it = |before: Point, after: Point| {
             after.distance_m(moved(before)) < NEAR_M
                 || (misses(after) - misses(moved(before))).abs() < NEAR_M * NEAR_M

@@ -6,18 +6,18 @@ use tautline_kernel::position::{
 };
 
 /// A way from distances to a position. The rectangle is for the ways that keep to one.
-pub(super) type Way = fn(&[Range], Option<Area>) -> Result<Told, Refusal>;
+pub(super) type Way = fn(&[Range], Option<Area>) -> Result<WayResult, Refusal>;
 
 /// The result of a way.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Told {
+pub(super) struct WayResult {
     /// The position that fits best.
     pub(super) best: Point,
     /// Another one that fits as well.
     pub(super) other: Option<Point>,
 }
 
-impl Told {
+impl WayResult {
     /// One position.
     pub(super) const fn one(best: Point) -> Self {
         Self { best, other: None }
@@ -38,29 +38,29 @@ pub(super) fn signal() -> Option<Signal> {
 }
 
 /// Equations (5) to (8).
-pub(super) fn published(ranges: &[Range], _: Option<Area>) -> Result<Told, Refusal> {
-    closed_form(ranges).map(Told::one)
+pub(super) fn published(ranges: &[Range], _: Option<Area>) -> Result<WayResult, Refusal> {
+    closed_form(ranges).map(WayResult::one)
 }
 
 /// Linear least squares.
-pub(super) fn repaired(ranges: &[Range], _: Option<Area>) -> Result<Told, Refusal> {
-    linear(ranges).map(Told::one)
+pub(super) fn repaired(ranges: &[Range], _: Option<Area>) -> Result<WayResult, Refusal> {
+    linear(ranges).map(WayResult::one)
 }
 
-fn located(ranges: &[Range], residual: Residual, area: Option<Area>) -> Result<Told, Refusal> {
+fn located(ranges: &[Range], residual: Residual, area: Option<Area>) -> Result<WayResult, Refusal> {
     let signal = signal().ok_or(Refusal::NoParticle)?;
     Ok(match locate(ranges, residual, &signal, area)? {
-        Fix::One(one) => Told::one(one.at),
-        Fix::Two(one, other) => Told { best: one.at, other: Some(other.at) },
+        Fix::One(one) => WayResult::one(one.at),
+        Fix::Two(one, other) => WayResult { best: one.at, other: Some(other.at) },
     })
 }
 
 /// Least squares of what distances miss.
-pub(super) fn metres(ranges: &[Range], area: Option<Area>) -> Result<Told, Refusal> {
+pub(super) fn metres(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
     located(ranges, Residual::Metres, area)
 }
 
 /// Least squares of what levels miss.
-pub(super) fn decibels(ranges: &[Range], area: Option<Area>) -> Result<Told, Refusal> {
+pub(super) fn decibels(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
     located(ranges, Residual::Decibels, area)
 }

@@ -2,60 +2,60 @@
 
 use super::legs::{self, Reading};
 use super::way::{self, Patience, TRUE};
-use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Verdict};
+use crate::clause::{Check, Clause, NamedRule};
+use crate::decide::{EveryAnswer, Verdict};
 
-const REPAIRED: Named<Reading> = Named::new("repaired", Reading::True);
+const REPAIRED: NamedRule<Reading> = NamedRule::new("repaired", Reading::True);
 
 const FOLLOWS: Check<Reading> = Check::new(
     REPAIRED,
-    &Exhaustive {
+    &EveryAnswer {
         body: legs::follows,
         range: legs::signals,
         covers: &["a signal followed", "a signal ignored"],
     },
     Verdict::Holds,
     &[
-        Named::new("any nearer node", Reading::AnyNearer),
-        Named::new("any node", Reading::AnyNode),
-        Named::new("any tree", Reading::AnyTree),
+        NamedRule::new("any nearer node", Reading::AnyNearer),
+        NamedRule::new("any node", Reading::AnyNode),
+        NamedRule::new("any tree", Reading::AnyTree),
     ],
 );
 
 const GOES_ON: Check<Reading> = Check::new(
     REPAIRED,
-    &Exhaustive {
+    &EveryAnswer {
         body: legs::goes_on,
         range: legs::signals,
         covers: &["at a node", "at the WFR", "no signal followed", "the signal lost"],
     },
     Verdict::Holds,
-    &[Named::new("a node is its own parent", Reading::NoParent)],
+    &[NamedRule::new("a node is its own parent", Reading::NoParent)],
 );
 
 const WHOLE_WAY: Check<Patience> = Check::new(
-    Named::new("repaired", TRUE),
-    &Exhaustive {
+    NamedRule::new("repaired", TRUE),
+    &EveryAnswer {
         body: way::whole_way,
         range: way::events,
         covers: &["at the WFR", "it asks", "lost", "on its way"],
     },
     Verdict::Holds,
     &[
-        Named::new("asks three times", Patience { tries: 3, ..TRUE }),
-        Named::new("goes nearer twice", Patience { times: 2, ..TRUE }),
+        NamedRule::new("asks three times", Patience { tries: 3, ..TRUE }),
+        NamedRule::new("goes nearer twice", Patience { times: 2, ..TRUE }),
     ],
 );
 
 const GUIDES: Check<bool> = Check::new(
-    Named::new("repaired", true),
-    &Exhaustive {
+    NamedRule::new("repaired", true),
+    &EveryAnswer {
         body: way::guides,
         range: way::requests,
         covers: &["idle", "it keeps silent", "it signals"],
     },
     Verdict::Holds,
-    &[Named::new("others do not count", false)],
+    &[NamedRule::new("others do not count", false)],
 );
 
 /// The clauses.
@@ -91,7 +91,7 @@ pub static CLAUSES: [Clause; 4] = [
 mod tests {
     use super::*;
     use crate::clause::AnyCheck;
-    use crate::decide::Memory;
+    use crate::decide::Cache;
     use crate::engine::tree::unwatched;
 
     #[test]
@@ -99,7 +99,7 @@ mod tests {
         let checks: [&dyn AnyCheck; 4] = [&FOLLOWS, &GOES_ON, &WHOLE_WAY, &GUIDES];
         for check in checks {
             let decision =
-                check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
+                check.decide(&mut Cache::default(), &mut unwatched).expect("a body can be decided");
             assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());
         }
     }

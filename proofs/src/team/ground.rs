@@ -5,7 +5,7 @@ use std::fmt;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, SmallGrid};
 
-use crate::decide::Refused;
+use crate::decide::MethodError;
 use crate::plural::counted;
 
 /// Which walls there are, or which blocked cells.
@@ -88,10 +88,10 @@ impl Ground {
     /// Every layout as it is known before a run begins.
     ///
     /// # Errors
-    /// [`Refused`] if the area is too large, or there are too many layouts.
-    pub(super) fn maps(&self) -> Result<Vec<Map>, Refused> {
-        let area = self.area().ok_or_else(|| Refused::new("the area holds no cell"))?;
-        let blank = Map::new(area).ok_or_else(|| Refused::new("an area has at most 16×16 cells"))?;
+    /// [`MethodError`] if the area is too large, or there are too many layouts.
+    pub(super) fn maps(&self) -> Result<Vec<Map>, MethodError> {
+        let area = self.area().ok_or_else(|| MethodError::new("the area holds no cell"))?;
+        let blank = Map::new(area).ok_or_else(|| MethodError::new("an area has at most 16×16 cells"))?;
         let edges: Vec<Edge> = area.edges().collect();
         let cells: Vec<Cell> = area.cells().collect();
         let mut maps = Vec::new();
@@ -135,7 +135,7 @@ pub(super) fn words<T>(which: &Which<T>, one: &str) -> Option<String> {
 const MOST_LAYOUTS: usize = 1 << 20;
 
 /// The sets of `all` that are meant.
-fn sets<T: Copy>(all: &[T], which: Which<T>) -> Result<Vec<Vec<T>>, Refused> {
+fn sets<T: Copy>(all: &[T], which: Which<T>) -> Result<Vec<Vec<T>>, MethodError> {
     let most = match which {
         Which::None | Which::Met(_) => return Ok(vec![Vec::new()]),
         Which::These(these) => return Ok(vec![these.to_vec()]),
@@ -152,7 +152,7 @@ fn sets<T: Copy>(all: &[T], which: Which<T>) -> Result<Vec<Vec<T>>, Refused> {
         if sets.len() > MOST_LAYOUTS {
             let what =
                 format_args!("there are more than {MOST_LAYOUTS} layouts to begin with: ask for fewer walls");
-            return Err(Refused::new(what));
+            return Err(MethodError::new(what));
         }
     }
     sets.sort_by_key(Vec::len);

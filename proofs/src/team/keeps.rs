@@ -4,11 +4,11 @@ use tautline_kernel::ground::{Area, Cell};
 
 use super::ground::{Map, words};
 use super::rule::{Rule, Scene, When};
-use super::{Moves, Places, Playing, Promise, Setting, Strategy};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
+use super::{Moves, Places, Promise, Setting, Strategy, TeamWorld};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Verdict};
 use crate::engine::states::{self, steps};
 use crate::engine::tree::{self, Waves};
-use crate::engine::{Choices, Script, Unfit, Until};
+use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::plural::counted;
 use crate::run::{Ending, Frame, Run};
 
@@ -21,7 +21,7 @@ pub struct Keeps<'a, R: Rule>(
 );
 
 /// The findings of a tree: the frames, and the layout as far as it was known in each.
-type Found = tree::Found<Promise, (Frame, Option<Map>)>;
+type Findings = tree::Findings<Promise, (Frame, Option<Map>)>;
 
 impl<R: Rule> Setting<'_, R> {
     /// The run with these frames, the last of them in this layout.
@@ -64,11 +64,11 @@ impl<R: Rule> Setting<'_, R> {
     ) -> Evidence {
         let choices = Choices { once: found.answers.clone(), again: Vec::new() };
         let run = self.run(start.cells().collect(), found);
-        Evidence { choices, demand: found.demand, seen: Seen::Robots(Box::new(run)) }
+        Evidence { choices, demand: found.demand, seen: Depiction::Robots(Box::new(run)) }
     }
 }
 
-impl<R: Rule> Playing<'_, R> {
+impl<R: Rule> TeamWorld<'_, R> {
     /// The frames of a run that was found among the states, and its last scene.
     fn played(&self, mut scene: Scene<R>, run: &states::Run<Promise>) -> (Vec<Frame>, Scene<R>) {
         let mut frames = Vec::new();
@@ -94,19 +94,24 @@ impl<R: Rule> Playing<'_, R> {
         let once = [&[run.start as u32], &run.steps[..]].concat();
         let choices = Choices { once, again: run.round().to_vec() };
         let demand = self.demand(run.demand).words;
-        Some(Evidence { choices, demand, seen: Seen::Robots(Box::new(found)) })
+        Some(Evidence { choices, demand, seen: Depiction::Robots(Box::new(found)) })
     }
 }
 
 impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
     /// The findings of a search as a tree, which is made only once.
-    fn found<'d>(&self, rule: &R, until: Until, desk: &'d mut Desk<'_, '_>) -> Result<&'d Found, Refused> {
+    fn found<'d>(
+        &self,
+        rule: &R,
+        until: Until,
+        desk: &'d mut Context<'_, '_>,
+    ) -> Result<&'d Findings, MethodError> {
         // A search that goes on for each demand answers for all of them.
         let wanted = match until {
             Until::Exhausted => Vec::new(),
             Until::Violation => vec![Promise(self.1)],
         };
-        let Desk { memory, watch, .. } = desk;
+        let Context { memory, watch, .. } = desk;
         let key = (std::ptr::from_ref(self.0).addr(), rule.clone(), until, wanted);
         memory.recall(key, |(_, rule, until, wanted)| {
             let mut tree = self.0.search(rule, *until, wanted)?;
@@ -115,7 +120,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         })
     }
 
-    fn in_tree(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn in_tree(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let start = self.0.playing(rule, &[])?.start;
         let found = self.found(rule, until, desk)?;
         let broken = found.counterexamples.iter().find(|found| found.broken.0 == self.1);
@@ -126,12 +131,12 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
-    fn in_states(&self, rule: &R, desk: &Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn in_states(&self, rule: &R, desk: &Context<'_, '_>) -> Result<Answer, MethodError> {
         let starts = self.0.starts(rule)?;
         let Some(start) = starts.first().cloned() else {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
         };
-        let playing = Playing { setting: self.0, rule: rule.clone(), wanted: vec![Promise(self.1)], start };
+        let playing = TeamWorld { setting: self.0, rule: rule.clone(), wanted: vec![Promise(self.1)], start };
         let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
         let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
@@ -183,33 +188,37 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
     }
 
     /// The choices are the answers of the world in a tree; among states, the number of the start and those of the steps.
-    fn decide(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         match self.0.strategy() {
             Strategy::Tree => self.in_tree(rule, until, desk),
             Strategy::States => self.in_states(rule, desk),
         }
     }
 
-    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let wanted = [Promise(self.1)];
         match self.0.strategy() {
             Strategy::Tree => {
                 if !choices.again.is_empty() {
-                    return Err(Unfit::Over { at: choices.once.len() });
+                    return Err(ScriptError::Over { at: choices.once.len() });
                 }
-                let start = self.0.playing(rule, &wanted).map_err(|_| Unfit::Unbroken)?.start;
-                let tree = self.0.search(rule, Until::Exhausted, &wanted).map_err(|_| Unfit::Unbroken)?;
+                let start = self.0.playing(rule, &wanted).map_err(|_| ScriptError::Unbroken)?.start;
+                let tree =
+                    self.0.search(rule, Until::Exhausted, &wanted).map_err(|_| ScriptError::Unbroken)?;
                 let found = tree.replay(Promise(self.1), &choices.once)?;
-                Ok(Played { of: vec![2; found.answers.len()], evidence: self.0.evidence(&start, &found) })
+                Ok(RefutationPlay {
+                    of: vec![2; found.answers.len()],
+                    evidence: self.0.evidence(&start, &found),
+                })
             }
             Strategy::States => {
-                let playing = self.0.playing(rule, &wanted).map_err(|_| Unfit::Unbroken)?;
-                let starts = self.0.starts(rule).map_err(|_| Unfit::Unbroken)?;
+                let playing = self.0.playing(rule, &wanted).map_err(|_| ScriptError::Unbroken)?;
+                let starts = self.0.starts(rule).map_err(|_| ScriptError::Unbroken)?;
                 let mut script = Script::new(choices);
                 let number = script.choose(starts.len())?;
                 let (of, run) = script.play(&playing, (number, starts[number].clone()), |_| true)?;
-                let evidence = playing.evidence(&starts, &run).ok_or(Unfit::Unbroken)?;
-                Ok(Played { of, evidence })
+                let evidence = playing.evidence(&starts, &run).ok_or(ScriptError::Unbroken)?;
+                Ok(RefutationPlay { of, evidence })
             }
         }
     }

@@ -215,14 +215,14 @@ pub(super) fn passes<R: Rule>(
 
 /// One step of a team, as a demand sees it.
 #[derive(Debug)]
-pub struct Moved<'a, R: Rule> {
+pub struct TeamStep<'a, R: Rule> {
     /// The team before it.
     pub before: &'a Scene<R>,
     /// The team after it.
     pub after: &'a Scene<R>,
 }
 
-impl<R: Rule> Moved<'_, R> {
+impl<R: Rule> TeamStep<'_, R> {
     /// Whether a robot has left its cell.
     pub fn has_moved(&self, robot: usize) -> bool {
         self.before.cell(robot) != self.after.cell(robot)
@@ -241,16 +241,16 @@ impl<R: Rule> Moved<'_, R> {
 }
 
 /// A question about a step.
-type OfStep<'a, R> = &'a (dyn Fn(&Moved<'_, R>) -> bool + Sync);
+type StepQuestion<'a, R> = &'a (dyn Fn(&TeamStep<'_, R>) -> bool + Sync);
 /// A question about a team.
-type OfScene<'a, R> = &'a (dyn Fn(&Scene<R>) -> bool + Sync);
+type SceneQuestion<'a, R> = &'a (dyn Fn(&Scene<R>) -> bool + Sync);
 
 /// When a demand is looked at.
 pub(super) enum When<'a, R: Rule> {
-    Always(OfStep<'a, R>),
-    AtTheEnd(OfScene<'a, R>),
+    Always(StepQuestion<'a, R>),
+    AtTheEnd(SceneQuestion<'a, R>),
     NeverEndless,
-    Eventually(OfScene<'a, R>),
+    Eventually(SceneQuestion<'a, R>),
 }
 
 /// A demand on a team.
@@ -264,12 +264,12 @@ pub struct Demand<'a, R: Rule> {
 
 impl<'a, R: Rule> Demand<'a, R> {
     /// Of every step.
-    pub const fn always(id: &'static str, words: &'static str, is_kept: OfStep<'a, R>) -> Self {
+    pub const fn always(id: &'static str, words: &'static str, is_kept: StepQuestion<'a, R>) -> Self {
         Self { id, words, when: When::Always(is_kept) }
     }
 
     /// Of the end of every run that ends.
-    pub const fn at_the_end(id: &'static str, words: &'static str, is_kept: OfScene<'a, R>) -> Self {
+    pub const fn at_the_end(id: &'static str, words: &'static str, is_kept: SceneQuestion<'a, R>) -> Self {
         Self { id, words, when: When::AtTheEnd(is_kept) }
     }
 
@@ -281,12 +281,12 @@ impl<'a, R: Rule> Demand<'a, R> {
 
     /// That this is so at some time in every run in which every robot acts again and again that has something left to
     /// do (weak fairness).
-    pub const fn eventually(id: &'static str, words: &'static str, is_so: OfScene<'a, R>) -> Self {
+    pub const fn eventually(id: &'static str, words: &'static str, is_so: SceneQuestion<'a, R>) -> Self {
         Self { id, words, when: When::Eventually(is_so) }
     }
 
     /// Whether a step breaks it.
-    pub fn is_broken_by(&self, moved: &Moved<'_, R>) -> bool {
+    pub fn is_broken_by(&self, moved: &TeamStep<'_, R>) -> bool {
         matches!(self.when, When::Always(is_kept) if !is_kept(moved))
     }
 
@@ -307,4 +307,4 @@ impl<'a, R: Rule> Demand<'a, R> {
 }
 
 /// A situation that must occur: its name, and whether a step is one.
-pub type Cover<'a, R> = (&'static str, OfStep<'a, R>);
+pub type Cover<'a, R> = (&'static str, StepQuestion<'a, R>);

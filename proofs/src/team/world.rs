@@ -7,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Step};
 
 use super::ground::Map;
-use super::rule::{Act, Body, Demand, Moved, Rule, Scene, TeamState, View, passes};
+use super::rule::{Act, Body, Demand, Rule, Scene, TeamState, TeamStep, View, passes};
 use super::{Moves, Promise, Setting};
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::tree::Game;
@@ -15,7 +15,7 @@ use crate::engine::world::{Turn, World};
 use crate::run::Frame;
 
 /// A team that follows a rule in its setting.
-pub struct Playing<'a, R: Rule> {
+pub struct TeamWorld<'a, R: Rule> {
     pub(super) setting: &'a Setting<'a, R>,
     pub(super) rule: R,
     /// The demands that are looked at, each as if it stood alone.
@@ -33,7 +33,7 @@ pub struct Event {
     blocked: Vec<bool>,
 }
 
-impl<'a, R: Rule> Playing<'a, R> {
+impl<'a, R: Rule> TeamWorld<'a, R> {
     /// The robots that have something left to do, a bit for each.
     fn awake(&self, scene: &Scene<R>) -> Bits {
         let is_awake = |robot: &usize| !scene.is_dead(*robot) && !self.rule.is_done(*robot, scene);
@@ -121,7 +121,7 @@ impl Event {
     }
 }
 
-impl<R: Rule> World for Playing<'_, R> {
+impl<R: Rule> World for TeamWorld<'_, R> {
     type State = Scene<R>;
     type Plan = Bits;
     type Event = Event;
@@ -184,7 +184,7 @@ impl<R: Rule> World for Playing<'_, R> {
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Promise> {
-        let moved = Moved { before: turn.before, after: turn.after };
+        let moved = TeamStep { before: turn.before, after: turn.after };
         self.broken(|demand| demand.is_broken_by(&moved))
     }
 
@@ -197,13 +197,13 @@ impl<R: Rule> World for Playing<'_, R> {
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        let moved = Moved { before: turn.before, after: turn.after };
+        let moved = TeamStep { before: turn.before, after: turn.after };
         let occurs = self.setting.covers.iter().zip(0..).filter(|((_, is_one), _)| is_one(&moved));
         occurs.fold(0, |bits, (_, bit)| bits | 1 << bit)
     }
 }
 
-impl<R: Rule> Game for Playing<'_, R> {
+impl<R: Rule> Game for TeamWorld<'_, R> {
     type Frame = (Frame, Option<Map>);
 
     fn start(&self) -> Scene<R> {
@@ -261,7 +261,7 @@ pub enum Part<M, T> {
     },
 }
 
-impl<R: Rule> System for Playing<'_, R> {
+impl<R: Rule> System for TeamWorld<'_, R> {
     type Part = Part<R::Memory, R::Message>;
 
     fn places(&self, scene: &Scene<R>) -> usize {

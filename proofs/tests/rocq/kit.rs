@@ -73,7 +73,7 @@ pub(super) fn terms() -> String {
     let in_reach: Vec<bool> = offsets(REACH).map(is_in_reach).collect();
     let mut text = definition("reach", "Z", &format!("{REACH}%Z"));
     text += &definition("reached", "N", &bits(&in_reach));
-    text += &definition("sure", "N", &of_stances(Stance::is_sure_of));
+    text += &definition("sure", "N", &of_stances(|one, other| one.is_sure_of(other, Reach::PAPER)));
     text += &definition("apart", "N", &of_stances(Stance::is_apart_from));
     let without = |condition| (format!("without_{condition:?}"), Rule::REPAIRED.without(condition));
     let mutants = [Condition::NextInReach, Condition::FromInReach, Condition::Apart].map(without);

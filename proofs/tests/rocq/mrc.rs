@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::hash::Hash;
 
-use tautline_kernel::mrc::{Downward, Phase, Resb, Robot, Rule, Sent, Served, Task, Upward, Wfr, Word};
+use tautline_kernel::mrc::{Downward, Mail, Phase, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word};
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 use super::term::{definition, list};
@@ -72,7 +72,7 @@ fn explore<S: Copy + Eq + Hash>(
 fn robot_term<const CALLS: usize>(robot: &Robot<CALLS>) -> String {
     let requests = robot
         .requests()
-        .map(|request| format!("Build_request {} {}", of(request.call), request.served == Served::Yes));
+        .map(|request| format!("Build_request {} {}", of(request.call), request.served == ServiceBit::Yes));
     let task = match robot.task() {
         Task::Free => "Free".to_owned(),
         Task::Asking { call, .. } => format!("(Asking {})", of(call)),
@@ -119,12 +119,12 @@ fn wfr_term(wfr: &Wfr<2>) -> String {
 
 fn wfr_inputs(wfr: &Wfr<2>) -> Vec<(String, Wfr<2>, String)> {
     let mut all = Vec::new();
-    let mut add = |input: &str, (after, sent): (Wfr<2>, Sent<2>)| {
+    let mut add = |input: &str, (after, sent): (Wfr<2>, Mail<2>)| {
         let sent = match sent {
-            Sent::Nothing => String::new(),
-            Sent::Notice(message) => notice(message),
-            Sent::One(message) => resb(message),
-            Sent::All(messages) => messages.into_iter().flatten().map(resb).collect::<Vec<_>>().join("; "),
+            Mail::Nothing => String::new(),
+            Mail::Notice(message) => notice(message),
+            Mail::One(message) => resb(message),
+            Mail::All(messages) => messages.into_iter().flatten().map(resb).collect::<Vec<_>>().join("; "),
         };
         all.push((input.to_owned(), after, format!("[{sent}]")));
     };
@@ -140,7 +140,7 @@ fn wfr_inputs(wfr: &Wfr<2>) -> Vec<(String, Wfr<2>, String)> {
     if let Some(timer) = wfr.timer() {
         add("Expires", wfr.expire(timer));
     }
-    add("Reached", (wfr.reach(ME), Sent::Nothing));
+    add("Reached", (wfr.reach(ME), Mail::Nothing));
     all
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashSet};
 use std::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{Call, Epoch, Heard, NodeId, Notice};
+use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Condition, Conditions, Count, Node, Rule, Scheme, Stage, Surroundings};
 
 use super::term::{definition, list};
@@ -64,7 +64,7 @@ fn explore(conditions: Conditions, rows: &mut Rows) {
                 let call = Call { wfr: SOURCE, epoch: Epoch(1) };
                 let message = Notice { call, hops, sender: NodeId(sender) };
                 let mut after = node;
-                let heard = Heard { message, distance_um: RANGE.get(), now_ns: 0 };
+                let heard = Reception { message, distance_um: RANGE.get(), now_ns: 0 };
                 after.receive(&rule, heard, Surroundings::none, &mut AtOnce);
                 rows.heard.insert((state(&node), (sender, hops), state(&after)));
                 next.push(after);

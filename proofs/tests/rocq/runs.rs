@@ -20,7 +20,7 @@ impl Draw {
 
 /// The situations that a set of runs must contain for the comparison to mean something.
 #[derive(Default)]
-struct Met {
+struct Situations {
     backtracks: usize,
     blocked: usize,
     unfolding: usize,
@@ -30,23 +30,23 @@ struct Met {
 /// byte), and where they are at the end.
 pub(super) fn terms() -> String {
     let (repaired, met) = runs("REPAIRED", Rule::REPAIRED);
-    let Met { backtracks, blocked, unfolding } = met;
+    let Situations { backtracks, blocked, unfolding } = met;
     assert!(backtracks > 100 && blocked > 100 && unfolding > 10, "{backtracks} {blocked} {unfolding}");
     let (reel, met) = runs("REEL", Rule::REEL);
-    let Met { backtracks, blocked, .. } = met;
+    let Situations { backtracks, blocked, .. } = met;
     assert!(backtracks > 10 && blocked > 100, "{backtracks} {blocked}");
     repaired + &reel
 }
 
-fn runs(name: &str, rule: Rule) -> (String, Met) {
-    let (mut draw, mut met) = (Draw(2011), Met::default());
+fn runs(name: &str, rule: Rule) -> (String, Situations) {
+    let (mut draw, mut met) = (Draw(2011), Situations::default());
     let runs: Vec<String> =
         (0..15).map(|number| run(rule, 2 + number % (MOST - 1), &mut draw, &mut met)).collect();
     let kind = "list (nat * (Z * Z) * list ((Z * Z) * bool) * list N * list (Z * Z))";
     (definition(&format!("runs_{name}"), kind, &list(runs)), met)
 }
 
-fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Met) -> String {
+fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> String {
     let whole = Area::new(Cell::new(0, 0), Cell::new(10, 10)).expect("an area");
     let area = area(whole, BASE, robots).expect("the base is inside");
     let share = 1 + draw.below(3);

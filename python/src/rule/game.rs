@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::team::{
-    Act, Cover, Demand, Ground, Moved, Places, Rule, Scene, Senses, Setting, View, Which,
+    Act, Cover, Demand, Ground, TeamStep, Places, Rule, Scene, Senses, Setting, View, Which,
 };
 
-use super::written::{Blocked, Cells, MAX_ROBOTS, Move, When, Written};
+use super::written::{WallHits, Cells, MAX_ROBOTS, Move, When, RuleScript};
 
 /// The rule, asked as a robot asks it.
 #[derive(Clone)]
-pub(super) struct Asked(pub(super) Arc<Written>);
+pub(super) struct PythonRule(pub(super) Arc<RuleScript>);
 
-impl Rule for Asked {
+impl Rule for PythonRule {
     type Memory = u32;
     type Message = ();
 
@@ -42,7 +42,7 @@ impl Rule for Asked {
 }
 
 /// Where the robots are, and which of them have just met a wall.
-fn seen(scene: &Scene<Asked>) -> (Cells, Blocked) {
+fn seen(scene: &Scene<PythonRule>) -> (Cells, WallHits) {
     let (mut cells, mut blocked) = ([Cell::new(0, 0); MAX_ROBOTS], [false; MAX_ROBOTS]);
     for robot in 0..scene.robots() {
         (cells[robot], blocked[robot]) = (scene.cell(robot), scene.was_blocked(robot));
@@ -51,7 +51,7 @@ fn seen(scene: &Scene<Asked>) -> (Cells, Blocked) {
 }
 
 /// A team move as Python sees it.
-fn moved(written: &Written, moved: &Moved<'_, Asked>) -> Move {
+fn moved(written: &RuleScript, moved: &TeamStep<'_, PythonRule>) -> Move {
     let (before, after) = (*moved.before.memory(0), *moved.after.memory(0));
     let ((from, was_blocked), (to, blocked)) = (seen(moved.before), seen(moved.after));
     let steps = written.step(before, &from, &was_blocked).1.unwrap_or([Step::Stay; MAX_ROBOTS]);
@@ -59,23 +59,23 @@ fn moved(written: &Written, moved: &Moved<'_, Asked>) -> Move {
 }
 
 /// A question about a team move.
-type OfMove<'a> = Box<dyn Fn(&Moved<'_, Asked>) -> bool + Sync + 'a>;
+type MoveQuestion<'a> = Box<dyn Fn(&TeamStep<'_, PythonRule>) -> bool + Sync + 'a>;
 /// A question about the end of a run.
-type OfEnd<'a> = Box<dyn Fn(&Scene<Asked>) -> bool + Sync + 'a>;
+type EndQuestion<'a> = Box<dyn Fn(&Scene<PythonRule>) -> bool + Sync + 'a>;
 
 /// The questions that a rule's demands and covers ask.
 pub(super) struct Questions<'a> {
-    of_moves: Vec<OfMove<'a>>,
-    of_ends: Vec<OfEnd<'a>>,
-    covers: Vec<OfMove<'a>>,
+    of_moves: Vec<MoveQuestion<'a>>,
+    of_ends: Vec<EndQuestion<'a>>,
+    covers: Vec<MoveQuestion<'a>>,
 }
 
 impl<'a> Questions<'a> {
-    pub(super) fn of(written: &'a Written) -> Self {
-        let of_move = |demand: usize| -> OfMove<'a> {
+    pub(super) fn of(written: &'a RuleScript) -> Self {
+        let of_move = |demand: usize| -> MoveQuestion<'a> {
             Box::new(move |step| !written.is_broken_by(demand, &moved(written, step)))
         };
-        let of_end = |demand: usize| -> OfEnd<'a> {
+        let of_end = |demand: usize| -> EndQuestion<'a> {
             Box::new(move |scene| {
                 let (cells, blocked) = seen(scene);
                 // A rule that learns something at its end says so with its last answer.
@@ -83,7 +83,7 @@ impl<'a> Questions<'a> {
                 !written.is_broken_at_end(demand, last, &cells)
             })
         };
-        let cover = |cover: usize| -> OfMove<'a> {
+        let cover = |cover: usize| -> MoveQuestion<'a> {
             Box::new(move |step| written.occurs(cover, &moved(written, step)))
         };
         let demands = 0..written.demands.len();
@@ -94,7 +94,7 @@ impl<'a> Questions<'a> {
         }
     }
 
-    pub(super) fn demands(&'a self, written: &Written) -> Vec<Demand<'a, Asked>> {
+    pub(super) fn demands(&'a self, written: &RuleScript) -> Vec<Demand<'a, PythonRule>> {
         let demand = |(number, demand): (usize, &super::written::Demand)| {
             let (id, words) = (demand.clause.as_str(), demand.words);
             match demand.when {
@@ -106,20 +106,20 @@ impl<'a> Questions<'a> {
         written.demands.iter().enumerate().map(demand).collect()
     }
 
-    pub(super) fn covers(&'a self, written: &Written) -> Vec<Cover<'a, Asked>> {
+    pub(super) fn covers(&'a self, written: &RuleScript) -> Vec<Cover<'a, PythonRule>> {
         written.covers.iter().zip(&self.covers).map(|(&(name, _), is_one)| (name, &**is_one as _)).collect()
     }
 }
 
 /// The surroundings of a rule.
 pub(super) fn setting<'a>(
-    written: &Written,
-    demands: &'a [Demand<'a, Asked>],
-    covers: &'a [Cover<'a, Asked>],
-) -> Setting<'a, Asked> {
+    written: &RuleScript,
+    demands: &'a [Demand<'a, PythonRule>],
+    covers: &'a [Cover<'a, PythonRule>],
+) -> Setting<'a, PythonRule> {
     let (width, height) = written.size;
     let ground = Ground::open(width, height).walls(Which::Met(written.max_walls));
-    let starts = Places::At(|Asked(written): &Asked| written.starts().to_vec());
+    let starts = Places::At(|PythonRule(written): &PythonRule| written.starts().to_vec());
     Setting {
         senses: Senses::TEAM,
         longest_run: written.longest_run,

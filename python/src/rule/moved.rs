@@ -5,7 +5,7 @@ use pyo3::types::PyTuple;
 
 /// One team move of a rule written in Python.
 #[pyclass(frozen, module = "pytautline", get_all)]
-pub(crate) struct Moved {
+pub(crate) struct TeamMove {
     /// The state with which the rule was asked for this move.
     pub(crate) before: Py<PyAny>,
     /// The state that it answered.
@@ -21,7 +21,7 @@ pub(crate) struct Moved {
 }
 
 #[pymethods]
-impl Moved {
+impl TeamMove {
     fn __repr__(&self) -> String {
         format!("<pytautline.Moved {} from {} to {}>", self.tried, self.cells_before, self.cells)
     }

@@ -13,7 +13,7 @@ use tautline_kernel::ground::{Area, Cell, Side, SmallGrid, Step};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::ClauseId;
 
-use super::moved::Moved;
+use super::moved::TeamMove;
 use crate::diagnostic::{Kind, error};
 use crate::layout::{Pair, side};
 use crate::run::cell;
@@ -50,11 +50,11 @@ pub(super) struct Demand {
 /// Where robots are; what lies behind the last one is not meant.
 pub(super) type Cells = [Cell; MAX_ROBOTS];
 /// Which robots met a wall.
-pub(super) type Blocked = [bool; MAX_ROBOTS];
+pub(super) type WallHits = [bool; MAX_ROBOTS];
 /// The steps that robots try.
 pub(super) type Steps = [Step; MAX_ROBOTS];
 /// The question to a rule: the number of its state, where robots are, and which met a wall.
-type Question = (u32, Cells, Blocked);
+type Question = (u32, Cells, WallHits);
 
 /// The states that Python has answered, each once, by their numbers.
 struct States {
@@ -63,7 +63,7 @@ struct States {
 }
 
 /// A rule written in Python.
-pub(super) struct Written {
+pub(super) struct RuleScript {
     pub(super) scheme: &'static str,
     pub(super) name: &'static str,
     pub(super) robots: usize,
@@ -139,7 +139,7 @@ fn shown(value: &Bound<'_, PyAny>) -> String {
     }
 }
 
-impl Written {
+impl RuleScript {
     /// The rule's description of itself.
     pub(super) fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
@@ -223,7 +223,7 @@ impl Written {
         Ok(())
     }
 
-    /// The state and the cells at the start; before [`Written::begin`] there are none to speak of.
+    /// The state and the cells at the start; before [`RuleScript::begin`] there are none to speak of.
     pub(super) fn start(&self) -> (u32, Cells) {
         self.started.get().copied().unwrap_or((0, [Cell::new(0, 0); MAX_ROBOTS]))
     }
@@ -296,7 +296,7 @@ impl Written {
     }
 
     /// The number of the rule's state next, and what it does; no steps if the run is over, or if the rule has failed.
-    pub(super) fn step(&self, state: u32, cells: &Cells, blocked: &Blocked) -> (u32, Option<Steps>) {
+    pub(super) fn step(&self, state: u32, cells: &Cells, blocked: &WallHits) -> (u32, Option<Steps>) {
         if self.is_over() {
             return (state, None);
         }
@@ -315,7 +315,7 @@ impl Written {
         py: Python<'_>,
         state: u32,
         cells: &Cells,
-        blocked: &Blocked,
+        blocked: &WallHits,
     ) -> PyResult<(u32, Option<Steps>)> {
         let blocked = PyTuple::new(py, &blocked[..self.robots])?;
         let arguments = (self.state(py, state), self.cells(py, cells)?, blocked);
@@ -478,12 +478,12 @@ pub(super) struct Move {
     pub(super) from: Cells,
     pub(super) to: Cells,
     pub(super) steps: Steps,
-    pub(super) blocked: Blocked,
+    pub(super) blocked: WallHits,
 }
 
 impl Move {
     /// As a demand sees it.
-    fn told<'py>(&self, py: Python<'py>, written: &Written) -> PyResult<Bound<'py, Moved>> {
+    fn told<'py>(&self, py: Python<'py>, written: &RuleScript) -> PyResult<Bound<'py, TeamMove>> {
         let tried = self.steps[..written.robots].iter().map(|&step| match step {
             Step::Cross(Side::East) => 'E',
             Step::Cross(Side::South) => 'S',
@@ -491,7 +491,7 @@ impl Move {
             Step::Cross(Side::North) => 'N',
             Step::Stay => '.',
         });
-        let moved = Moved {
+        let moved = TeamMove {
             before: written.state(py, self.before),
             after: written.state(py, self.after),
             cells_before: written.cells(py, &self.from)?.unbind(),
@@ -505,7 +505,7 @@ impl Move {
 
 /// Whoever waits for the rule.
 pub(super) struct Patience<'a> {
-    written: &'a Written,
+    written: &'a RuleScript,
     most: Duration,
     /// Which call it is, and since when.
     since: (u64, Instant),

@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::decide::{Evidence, Played};
-use tautline_proofs::engine::{Choices, Unfit};
+use tautline_proofs::decide::{Evidence, RefutationPlay};
+use tautline_proofs::engine::{Choices, ScriptError};
 use tautline_proofs::ledger;
 
 use crate::atomic_file::{AtomicFile, Replaceable};
@@ -98,7 +98,7 @@ pub fn store(
     replaceable: &Replaceable,
 ) -> Result<AtomicFile, Diagnostic> {
     let choices = &evidence.choices;
-    let Played { of, .. } = check.replay(choices).map_err(|unfit| {
+    let RefutationPlay { of, .. } = check.replay(choices).map_err(|unfit| {
         let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
         Diagnostic::in_file(path, what, "this is a bug of tautline: please report it")
     })?;
@@ -248,14 +248,14 @@ fn play(
         let text = text.trim_end();
         Diagnostic::in_line(path, 2 + at, text, 0..text.len(), what, AGAIN)
     };
-    let refused = |unfit: Unfit| match unfit.at() {
+    let refused = |unfit: ScriptError| match unfit.at() {
         Some(place) => at(place, &unfit.to_string()),
         None => Diagnostic::in_file(path, format_args!("this refutes nothing: {unfit}"), AGAIN),
     };
     let mut first = None;
     for &check in checks {
         match check.replay(choices) {
-            Ok(Played { of: asked, evidence }) => {
+            Ok(RefutationPlay { of: asked, evidence }) => {
                 let misfit = (0..).zip(asked.iter().zip(of)).find(|(_, (asked, of))| asked != of);
                 return match misfit {
                     Some((place, (asked, _))) => {
@@ -267,5 +267,5 @@ fn play(
             Err(unfit) => first = first.or(Some(unfit)),
         }
     }
-    Err(refused(first.unwrap_or(Unfit::Unbroken)))
+    Err(refused(first.unwrap_or(ScriptError::Unbroken)))
 }

@@ -6,9 +6,9 @@ pub mod hunt;
 mod shown;
 mod team;
 
-use tautline_kernel::chain::{self, Chain, MAX_ROBOTS, Refused};
+use tautline_kernel::chain::{self, Chain, MAX_ROBOTS, SetupError};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
-use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::plural::counted;
 
@@ -32,18 +32,18 @@ pub const UNHELD: RuleId = RuleId::new("unheld");
 pub static CHAIN: Profile = Profile {
     about: "A base, a leader that seeks the frontier, and followers that keep radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), &Walls(Observed::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), &Walls(Observed::REPAIRED)),
+        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), &Walls(Subject::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), &Walls(Subject::REPAIRED)),
         Rule::new(
             REEL,
             "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
             |setup| start(setup, chain::Rule::REEL),
         )
-        .hunted(&Walls(Observed::REEL)),
+        .hunted(&Walls(Subject::REEL)),
         Rule::new(UNHELD, "The reel without the condition that holds contact whoever fails", |setup| {
-            start(setup, Observed::UNHELD.rule)
+            start(setup, Subject::UNHELD.rule)
         })
-        .hunted(&Walls(Observed::UNHELD)),
+        .hunted(&Walls(Subject::UNHELD)),
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,
@@ -98,22 +98,23 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     setup: &Setup,
     rule: chain::Rule,
     grid: impl Fn(Area) -> Option<G>,
-) -> Result<Box<dyn Team>, Refused> {
+) -> Result<Box<dyn Team>, SetupError> {
     let (base, robots) = (setup.base, usize::from(setup.robots));
-    let area = chain::area(setup.layout.size().area(), base, robots).ok_or(Refused::BaseOutside { base })?;
-    let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;
+    let area =
+        chain::area(setup.layout.size().area(), base, robots).ok_or(SetupError::BaseOutside { base })?;
+    let grid = grid(area).ok_or(SetupError::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
     Ok(Box::new(ChainTeam::new(setup, chain)))
 }
 
 /// The fault of a chain that is refused.
-fn fault(refused: Refused) -> Diagnostic {
+fn fault(refused: SetupError) -> Diagnostic {
     match refused {
-        Refused::TooFewRobots { .. } | Refused::TooManyRobots { .. } => {
+        SetupError::TooFewRobots { .. } | SetupError::TooManyRobots { .. } => {
             let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
             Diagnostic::of_field("robots", refused, remedy)
         }
-        Refused::BaseOutside { .. } => {
+        SetupError::BaseOutside { .. } => {
             Diagnostic::of_field("base", refused, "give `base` a free cell of the layout")
         }
     }

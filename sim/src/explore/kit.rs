@@ -14,7 +14,7 @@ use std::num::NonZeroU32;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Step};
-use tautline_kernel::kit::{Reach, Refused, Rule as Kit, Stance};
+use tautline_kernel::kit::{Reach, Rule as Kit, SetupError, Stance};
 use tautline_proofs::run::Frame;
 
 use self::hunt::Searched;
@@ -149,12 +149,14 @@ fn pace(setup: &Setup) -> Pace {
 }
 
 /// The fault of a team that is refused.
-fn fault(refused: Refused) -> Diagnostic {
+fn fault(refused: SetupError) -> Diagnostic {
     let (field, remedy) = match refused {
-        Refused::Robots { .. } => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
-        Refused::TooManyNodes { .. } => ("layout", "take a layout of at most 64 columns and rows".to_owned()),
-        Refused::ShortReach(_) => ("range", "leave `range` out, or give `robots` 1 or 2".to_owned()),
-        Refused::Outside(_) | Refused::OneNode(_) | Refused::OutOfContact(_) => {
+        SetupError::Robots { .. } => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
+        SetupError::TooManyNodes { .. } => {
+            ("layout", "take a layout of at most 64 columns and rows".to_owned())
+        }
+        SetupError::ShortReach(_) => ("range", "leave `range` out, or give `robots` 1 or 2".to_owned()),
+        SetupError::Outside(_) | SetupError::OneNode(_) | SetupError::OutOfContact(_) => {
             ("starts", "give each robot a start beside another one's".to_owned())
         }
     };
@@ -255,7 +257,7 @@ fn is_connected(stances: &[Stance], reach: Reach) -> bool {
     let mut place = 0;
     while let Some(&from) = reached.get(place) {
         let (near, far): (Vec<Stance>, Vec<Stance>) =
-            rest.into_iter().partition(|other| from.is_sure_within(*other, reach));
+            rest.into_iter().partition(|other| from.is_sure_of(*other, reach));
         reached.extend(near);
         rest = far;
         place += 1;

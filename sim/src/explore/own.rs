@@ -5,11 +5,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::tree::Game;
 use tautline_proofs::engine::world::World;
 use tautline_proofs::run::Frame;
-use tautline_proofs::team::{Moved, Playing, Rule, Scene};
+use tautline_proofs::team::{Rule, Scene, TeamStep, TeamWorld};
 
 use super::clause::ClauseId;
 use super::run::{End, Team};
@@ -18,11 +18,11 @@ use crate::layout::Layout;
 
 /// A team that follows a rule of one's own in one layout.
 pub struct Own<'a, R: Rule> {
-    playing: Playing<'a, R>,
+    playing: TeamWorld<'a, R>,
     before: Scene<R>,
     scene: Scene<R>,
     cells: Vec<Cell>,
-    dice: Seeded,
+    dice: SeededOracle,
     /// The scenes in which it was since the last draw, by 128 bits of each.
     been: HashSet<[u64; 2]>,
 }
@@ -39,7 +39,7 @@ fn digest(scene: &impl Hash) -> [u64; 2] {
 /// Answers as a layout does, and by lot what no layout knows.
 struct InLayout<'a> {
     is_open: &'a mut dyn FnMut(Edge) -> bool,
-    dice: &'a mut Seeded,
+    dice: &'a mut SeededOracle,
     /// Whether anything was asked that no layout knows.
     has_drawn: bool,
 }
@@ -62,13 +62,13 @@ impl Oracle for InLayout<'_> {
 
 impl<'a, R: Rule> Own<'a, R> {
     /// A team at its start. What no layout knows, such as who acts next, is drawn by `seed`.
-    pub fn new(playing: Playing<'a, R>, seed: u64) -> Self {
+    pub fn new(playing: TeamWorld<'a, R>, seed: u64) -> Self {
         let scene = playing.start();
-        let (cells, dice) = (scene.cells().collect(), Seeded::new(seed, 0));
+        let (cells, dice) = (scene.cells().collect(), SeededOracle::new(seed, 0));
         Self { playing, before: scene.clone(), scene, cells, dice, been: HashSet::new() }
     }
 
-    fn clauses(&self, broken: Vec<<Playing<'a, R> as World>::Demand>) -> Vec<ClauseId> {
+    fn clauses(&self, broken: Vec<<TeamWorld<'a, R> as World>::Demand>) -> Vec<ClauseId> {
         broken.into_iter().map(|demand| ClauseId::new(self.playing.demand(demand).id)).collect()
     }
 }
@@ -94,7 +94,7 @@ impl<R: Rule> Team for Own<'_, R> {
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        let moved = Moved { before: &self.before, after: &self.scene };
+        let moved = TeamStep { before: &self.before, after: &self.scene };
         self.clauses(self.playing.broken(|demand| demand.is_broken_by(&moved)))
     }
 

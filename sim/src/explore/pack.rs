@@ -10,7 +10,8 @@ use std::collections::HashSet;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Circle, Edge, Step};
 use tautline_kernel::pack::{
-    Chart, End as Over, MAX_ROBOTS, Made, Past, Refused, Rule as Pack, Scratch, Team as Robots, Unfit,
+    Chart, End as Over, MAX_ROBOTS, MoveKind, Past, RangeError, Rule as Pack, Scratch, SetupError,
+    Team as Robots,
 };
 use tautline_proofs::run::Frame;
 
@@ -96,7 +97,7 @@ struct PackTeam {
     free: Vec<Cell>,
     obstacles: Vec<Cell>,
     /// What the last team move was.
-    made: Option<Made>,
+    made: Option<MoveKind>,
     /// Team moves since something new was seen.
     idle: usize,
 }
@@ -139,18 +140,20 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
     Ok(Box::new(team))
 }
 
-fn unfit(unfit: Unfit) -> Diagnostic {
+fn unfit(unfit: RangeError) -> Diagnostic {
     match unfit {
-        Unfit::Sight => Diagnostic::of_field("sight", unfit, "give `sight` a number of cells from 1 to 31"),
-        Unfit::Range => Diagnostic::of_field("range", unfit, "give `range` a number of cells from 3 on"),
+        RangeError::Sight => {
+            Diagnostic::of_field("sight", unfit, "give `sight` a number of cells from 1 to 31")
+        }
+        RangeError::Range => Diagnostic::of_field("range", unfit, "give `range` a number of cells from 3 on"),
     }
 }
 
-fn refused(refused: Refused) -> Diagnostic {
+fn refused(refused: SetupError) -> Diagnostic {
     let (field, remedy) = match refused {
-        Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MAX_ROBOTS}")),
-        Refused::Together(_) => ("starts", "give each robot a start of its own".to_owned()),
-        Refused::Apart(..) => {
+        SetupError::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MAX_ROBOTS}")),
+        SetupError::Together(_) => ("starts", "give each robot a start of its own".to_owned()),
+        SetupError::Apart(..) => {
             ("starts", "start the robots nearer to each other, or give a greater `range`".to_owned())
         }
     };
@@ -209,8 +212,8 @@ impl Team for PackTeam {
         let is_news = self.free.len() + self.obstacles.len() > known;
         self.idle = if is_news { 0 } else { self.idle + 1 };
         let kind = match made {
-            Made::TakenBack => Kind::Backtrack,
-            Made::Spread | Made::Led(_) | Made::Marched => Kind::Advance,
+            MoveKind::TakenBack => Kind::Backtrack,
+            MoveKind::Spread | MoveKind::Led(_) | MoveKind::Marched => Kind::Advance,
         };
         let cells = self.robots.cells().to_vec();
         Ok(Frame { kind, steps: steps[..cells.len()].to_vec(), blocked: vec![false; cells.len()], cells })

@@ -5,7 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use tautline_kernel::chain::Rule;
-use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::Subject;
 
 use super::clause::kept;
 use crate::named_values::NamedValues;
@@ -32,10 +32,10 @@ impl RuleName {
     pub const ALL: [Self; 2] = [Self::Published, Self::Repaired];
 
     /// The chain that follows it.
-    pub const fn observed(self) -> Observed {
+    pub const fn observed(self) -> Subject {
         match self {
-            Self::Published => Observed::PUBLISHED,
-            Self::Repaired => Observed::REPAIRED,
+            Self::Published => Subject::PUBLISHED,
+            Self::Repaired => Subject::REPAIRED,
         }
     }
 

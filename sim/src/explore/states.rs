@@ -4,7 +4,7 @@
 use std::cell::{Cell, RefCell};
 
 use tautline_kernel::choice::Oracle;
-use tautline_proofs::engine::states::{Bits, Found, Limits, Places, System, search};
+use tautline_proofs::engine::states::{Bits, Findings, Limits, Places, System, search};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::plural::counted;
 
@@ -123,7 +123,7 @@ pub(super) fn watched<S: System>(
     asked: &Asked<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
-) -> (Found<S::Demand>, bool) {
+) -> (Findings<S::Demand>, bool) {
     let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
     let watched = Watched {
         system,

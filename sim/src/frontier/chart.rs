@@ -1,7 +1,7 @@
 //! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again
 //! looks only at what is new.
 
-use tautline_kernel::frontier::{Map, Pair, Reached, Scratch, Status};
+use tautline_kernel::frontier::{Map, Pair, Scratch, SearchCell, Status};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 /// A repository on the heap.
@@ -129,7 +129,7 @@ impl Map for Chart {
 /// The memory of searches in an area.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
-    reached: Vec<Reached>,
+    reached: Vec<SearchCell>,
     queue: Vec<Cell>,
     rounds: u32,
     pairs: Vec<Option<Pair>>,
@@ -140,7 +140,7 @@ impl Memory {
     pub(super) fn new(area: Area, robots: usize) -> Self {
         let cells = area.width() * area.height();
         Self {
-            reached: vec![Reached::NEVER; cells],
+            reached: vec![SearchCell::NEVER; cells],
             queue: vec![Cell::new(0, 0); cells],
             rounds: 0,
             pairs: vec![None; robots * robots],

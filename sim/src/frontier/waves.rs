@@ -11,7 +11,7 @@
 //! bound stays in: so the cells that it finds, their distances and the first sides of the ways are those of a wave
 //! without a bound.
 
-use tautline_kernel::frontier::{Condition, Found, Map, Pair, Rule, Seeker, Status};
+use tautline_kernel::frontier::{Condition, Map, Pair, Rule, Seeker, Status, Target};
 use tautline_kernel::ground::{Cell, Side};
 
 use super::chart::Chart;
@@ -51,7 +51,7 @@ struct Wave {
     told: usize,
     /// Cells that are so far were found.
     level: u32,
-    found: Vec<Found>,
+    found: Vec<Target>,
     /// How many cells are left to be found.
     left: usize,
     /// So many moves it may go round.
@@ -127,7 +127,7 @@ impl Wave {
                 if status == Status::Unexplored {
                     // A robot in a cell that is not explored here has neighbours that count in no frontier.
                     self.left = self.left.saturating_sub(1);
-                    self.found.push(Found { cell: chart.cell(beside), distance: self.level, first });
+                    self.found.push(Target { cell: chart.cell(beside), distance: self.level, first });
                 } else if field.is_closed(beside) {
                     continue;
                 } else if field.least(beside) + self.level > self.bound {
@@ -143,7 +143,7 @@ impl Wave {
     }
 
     /// The cells beyond `level`.
-    fn beyond(&self, level: u32) -> &[Found] {
+    fn beyond(&self, level: u32) -> &[Target] {
         &self.found[self.found.partition_point(|found| found.distance <= level)..]
     }
 }
@@ -171,7 +171,7 @@ impl Waves {
         rule: &Rule,
         own: usize,
         seekers: &[Seeker],
-    ) -> Option<Found> {
+    ) -> Option<Target> {
         let mut free = self.start(chart, rule, own, seekers);
         let (mut first, mut level, mut taken) = (None, 0, Vec::new());
         loop {

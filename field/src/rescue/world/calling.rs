@@ -1,7 +1,7 @@
 //! MRC over the air: each turn of a WFR's or a robot's machine, what it sends, which timers it starts, and what is told
 //! of it.
 
-use tautline_kernel::mrc::{Bid, Downward, Hop, Phase, Resb, Robot, Sent, Task, Upward, Wfr, Word};
+use tautline_kernel::mrc::{Bid, Downward, Hop, Mail, Phase, Resb, Robot, Task, Upward, Wfr, Word};
 use tautline_kernel::net::{Epoch, RobotId};
 use tautline_kernel::tan::Stage as Leg;
 
@@ -9,7 +9,7 @@ use super::{Duty, Happening, Message, World};
 use crate::radio::Reach;
 use crate::rescue::acks::Content;
 use crate::rescue::rover::Rover;
-use crate::rescue::{Event, Logged, MAX_ROBOTS, MAX_WFRS, Ordinal, Spread};
+use crate::rescue::{Event, LogEntry, MAX_ROBOTS, MAX_WFRS, Ordinal, Spread};
 
 impl World<'_> {
     pub(super) fn robot_hears(&mut self, robot: usize, message: Message, now_ns: u64) {
@@ -28,7 +28,7 @@ impl World<'_> {
                     let event =
                         Event::Hears { robot: Ordinal(robot), wfr: Ordinal(wfr), epoch, hops: after.hops };
                     // Before what it makes the robot do.
-                    self.log.insert(place, Logged { at_ns: now_ns, event });
+                    self.log.insert(place, LogEntry { at_ns: now_ns, event });
                 }
             }
             Message::Letter(letter) => match self.open(station, letter) {
@@ -61,7 +61,7 @@ impl World<'_> {
         wfr: usize,
         now_ns: u64,
         bidder: Option<RobotId>,
-        turn: impl FnOnce(Wfr<MAX_ROBOTS>) -> (Wfr<MAX_ROBOTS>, Sent<MAX_ROBOTS>),
+        turn: impl FnOnce(Wfr<MAX_ROBOTS>) -> (Wfr<MAX_ROBOTS>, Mail<MAX_ROBOTS>),
     ) {
         let (before, node) = (self.wfrs[wfr], self.scenario.wfrs[wfr].node);
         let (after, sent) = turn(before);
@@ -69,14 +69,14 @@ impl World<'_> {
         let (Epoch(epoch), hops) =
             (after.call().epoch, choice(after.phase()).map_or(0, |choice| choice.hops));
         let told: Vec<Resb> = match sent {
-            Sent::Nothing | Sent::Notice(_) => Vec::new(),
-            Sent::One(resb) => vec![resb],
-            Sent::All(resbs) => resbs.into_iter().flatten().collect(),
+            Mail::Nothing | Mail::Notice(_) => Vec::new(),
+            Mail::One(resb) => vec![resb],
+            Mail::All(resbs) => resbs.into_iter().flatten().collect(),
         };
         self.judge.tells(wfr, (before.phase(), &after), bidder, &told, now_ns);
         match sent {
-            Sent::Notice(_) => self.call(wfr, now_ns),
-            Sent::Nothing | Sent::One(_) | Sent::All(_) => {
+            Mail::Notice(_) => self.call(wfr, now_ns),
+            Mail::Nothing | Mail::One(_) | Mail::All(_) => {
                 for resb in told {
                     self.send_down(node, resb, now_ns);
                 }

@@ -3,7 +3,7 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Bid, Condition, Hop, Relay, Resb, Upward, Word};
-use tautline_kernel::net::{Epoch, Heard, NodeId};
+use tautline_kernel::net::{Epoch, NodeId, Reception};
 use tautline_kernel::notice::Stage;
 use tautline_kernel::tan::{Conduct, Guide, Nav, ReqNav};
 
@@ -13,12 +13,12 @@ use crate::rescue::acks::{ANSWER_WAIT_NS, Content, Letter};
 use crate::rescue::pace::SIGNAL_NS;
 
 impl World<'_> {
-    pub(super) fn node_hears(&mut self, at: NodeId, heard: Heard<Message>, chance: &mut dyn Oracle) {
-        let Heard { message, distance_um, now_ns } = heard;
+    pub(super) fn node_hears(&mut self, at: NodeId, heard: Reception<Message>, chance: &mut dyn Oracle) {
+        let Reception { message, distance_um, now_ns } = heard;
         match message {
             Message::Notice(message) => {
                 let Some(wfr) = self.scenario.wfr(message.call.wfr) else { return };
-                let heard = Heard { message, distance_um, now_ns };
+                let heard = Reception { message, distance_um, now_ns };
                 if let Some(at_ns) = self.broadcasts[wfr].receive(at, heard, chance) {
                     self.put(at, at_ns, Duty::Forward(wfr));
                 }

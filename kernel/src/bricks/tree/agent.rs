@@ -13,9 +13,9 @@ use crate::floor::Ring;
 use crate::ground::{Cell, Side};
 
 /// Cells around that read as unexplored: in the last scan, in the last two, and so on.
-type Missed = [Ring; Rule::MOST_READINGS as usize - 1];
+type MissedCells = [Ring; Rule::MOST_READINGS as usize - 1];
 
-const NONE_MISSED: Missed = [Ring(0); Rule::MOST_READINGS as usize - 1];
+const NONE_MISSED: MissedCells = [Ring(0); Rule::MOST_READINGS as usize - 1];
 
 /// An agent's memory: no map, and no place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -30,7 +30,7 @@ pub struct Agent {
     /// The cells around its cell that it knows to have sensors.
     known: Ring,
     /// Those that have read as unexplored in its last scan, in its last two scans, and so on.
-    missed: Missed,
+    missed: MissedCells,
 }
 
 /// An agent's action after a scan.

@@ -2,10 +2,10 @@
 
 use super::super::paper;
 use super::super::prelude::*;
-use super::{Duration, Figure, Line, Merged, TEAMS, Team};
+use super::{Duration, Figure, Line, Summary, TEAMS, Team};
 
 /// The paper's numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
-pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<Printed> {
+pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
     let [bricks, _, ants, ants_published, ..] = TEAMS;
     let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
     let one = one.filter(|_| figure == Figure::Agents);
@@ -14,16 +14,16 @@ pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<Printed> {
         explored.min_by(|one, other| one.mean.total_cmp(&other.mean))
     };
     let printed = [
-        Printed::of("% explored by one agent of bricks", 50.0, one.map(|line| line.explored)),
-        Printed::of("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
-        Printed::of("% explored by ants, at least", 100.0, least(ants)),
-        Printed::of("% explored by ants (published), at least", 100.0, least(ants_published)),
+        PrintedFigure::of("% explored by one agent of bricks", 50.0, one.map(|line| line.explored)),
+        PrintedFigure::of("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
+        PrintedFigure::of("% explored by ants, at least", 100.0, least(ants)),
+        PrintedFigure::of("% explored by ants (published), at least", 100.0, least(ants_published)),
     ];
     printed.into_iter().flatten().collect()
 }
 
 /// The figure for people.
-pub(super) fn text(figure: Figure, merged: &Merged) -> String {
+pub(super) fn text(figure: Figure, merged: &Summary) -> String {
     let (missed, seconds) = match figure {
         Figure::Agents | Figure::Area => ("5.56 % of the sensors missed", String::new()),
         Figure::Ideal => ("no sensor missed", seconds(merged)),
@@ -40,7 +40,7 @@ pub(super) fn text(figure: Figure, merged: &Merged) -> String {
     )
 }
 
-fn moves(merged: &Merged) -> String {
+fn moves(merged: &Summary) -> String {
     let moves = |duration| of_runs(merged, duration, |duration| duration.team_moves.text(0));
     Columns::of(&merged.lines)
         .left("area", 7, |line| format!("{0}x{0}", line.side))
@@ -57,7 +57,7 @@ fn moves(merged: &Merged) -> String {
         .text()
 }
 
-fn seconds(merged: &Merged) -> String {
+fn seconds(merged: &Summary) -> String {
     let hours = |duration| of_runs(merged, duration, |duration| duration.seconds.times(1.0 / 3600.0).text(1));
     Columns::of(&merged.lines)
         .title("Hours of the slowest agent")
@@ -70,7 +70,7 @@ fn seconds(merged: &Merged) -> String {
 }
 
 /// How long something took, and in how many runs if not in all.
-fn of_runs(merged: &Merged, duration: Option<Duration>, text: impl Fn(Duration) -> String) -> String {
+fn of_runs(merged: &Summary, duration: Option<Duration>, text: impl Fn(Duration) -> String) -> String {
     match duration {
         None => "never".to_owned(),
         Some(duration) if duration.seconds.count < merged.layouts => {

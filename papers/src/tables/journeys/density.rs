@@ -4,7 +4,7 @@ use super::super::estimates;
 use super::super::prelude::*;
 use super::Way;
 use super::claims::{Claim, Decision};
-use super::world::{Sample, Walked};
+use super::world::{Sample, Walk};
 
 /// All ways at one number of nodes.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -49,8 +49,8 @@ impl Density {
         let of_linked = |is_such: &dyn Fn(&Sample) -> bool| {
             part(Estimate::share(count(samples, |sample| is_such(sample)), linked))
         };
-        let all: Vec<(f64, [Walked; 4])> = samples.iter().filter_map(|sample| sample.all()).collect();
-        let ratio = |value: &dyn Fn(&[Walked; 4]) -> Option<f64>| {
+        let all: Vec<(f64, [Walk; 4])> = samples.iter().filter_map(|sample| sample.all()).collect();
+        let ratio = |value: &dyn Fn(&[Walk; 4]) -> Option<f64>| {
             let pairs = all.iter().map(|(shortest_m, walked)| Some((value(walked)?, *shortest_m)));
             estimates::ratio(pairs.collect::<Option<Vec<_>>>()?)
         };

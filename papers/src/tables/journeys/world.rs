@@ -3,7 +3,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Rule, Scheme};
-use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::SeededOracle;
 
 use super::super::prelude::*;
 use super::{Settings, Way};
@@ -35,17 +35,17 @@ pub struct Sample {
     /// In metres, if there is a way at all.
     shortest_m: Option<f64>,
     /// Those who arrive, in the order of [`Way::ALL`].
-    pub(super) walked: [Option<Walked>; 4],
+    pub(super) walked: [Option<Walk>; 4],
 }
 
 /// A robot's walk until it was there.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub(super) struct Walked {
+pub(super) struct Walk {
     pub(super) length_m: f64,
     pub(super) time_s: Option<f64>,
 }
 
-impl Walked {
+impl Walk {
     fn of(journey: &Journey) -> Option<Self> {
         let time_s = journey.time_ns.map(seconds);
         (journey.end == End::Arrived).then_some(Self { length_m: journey.length_m, time_s })
@@ -57,7 +57,7 @@ impl World {
         let area = Area::new(settings.side_m, settings.side_m)?;
         let radio = Radio::new(settings.range_m, Model::Disc)?;
         let stream = (settings.seed, u64::from(topology));
-        let chance = &mut Seeded::new(stream.0, 2 * stream.1);
+        let chance = &mut SeededOracle::new(stream.0, 2 * stream.1);
         let obstacles: Vec<Obstacle> = settings.obstacles_m.iter().copied().map(Into::into).collect();
         let field = Field::random(area, obstacles, nodes, chance)?;
         let field = field.with(&[field.place(chance)?])?;
@@ -79,9 +79,9 @@ impl World {
     }
 
     /// The broadcast and each journey have a stream of answers to themselves, different from that of the topology.
-    fn chance(&self) -> Seeded {
+    fn chance(&self) -> SeededOracle {
         let (seed, topology) = self.stream;
-        Seeded::new(seed, 2 * topology + 1)
+        SeededOracle::new(seed, 2 * topology + 1)
     }
 
     pub(super) fn tree(&self) -> Result<Tree, Problem> {
@@ -110,7 +110,7 @@ impl World {
 impl Sample {
     pub(super) fn of(world: &World) -> Result<Self, Problem> {
         let tree = world.tree()?;
-        let walked = Way::ALL.map(|way| Walked::of(&world.journey(&tree, way)));
+        let walked = Way::ALL.map(|way| Walk::of(&world.journey(&tree, way)));
         let hops = hops(&world.network, world.wfr, |node| node != world.robot);
         let fewest_hops = hops.last().copied().flatten();
         let tree_hops = tree.entry().map(|(_, hops)| hops);
@@ -118,7 +118,7 @@ impl Sample {
     }
 
     /// The metres of the shortest way, and what was walked, if all arrive.
-    pub(super) fn all(&self) -> Option<(f64, [Walked; 4])> {
+    pub(super) fn all(&self) -> Option<(f64, [Walk; 4])> {
         let [tan, verma, reich, sheu] = self.walked;
         Some((self.shortest_m?, [tan?, verma?, reich?, sheu?]))
     }

@@ -2,15 +2,17 @@
 
 use super::super::paper;
 use super::super::prelude::*;
-use super::{EXPLORED, Figure, Line, Merged, PATHS, Race, Settings, TEAMS, TWO, Team};
+use super::{EXPLORED, Figure, Line, PATHS, Race, Settings, Summary, TEAMS, TWO, Team};
 
 /// The paper's two numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot
 /// and two.
-pub(super) fn of(figure: Figure, lines: &[Line], races: &[Race]) -> Vec<Printed> {
-    let gain =
-        |race: &Race| Printed::of(format!("s by which two are sooner, {}", race.family), 444.0, race.gain);
-    let share =
-        |line: &Line| Printed::of(format!("% efficiency of two, {}", line.family), 78.0, line.efficiency);
+pub(super) fn of(figure: Figure, lines: &[Line], races: &[Race]) -> Vec<PrintedFigure> {
+    let gain = |race: &Race| {
+        PrintedFigure::of(format!("s by which two are sooner, {}", race.family), 444.0, race.gain)
+    };
+    let share = |line: &Line| {
+        PrintedFigure::of(format!("% efficiency of two, {}", line.family), 78.0, line.efficiency)
+    };
     match figure {
         Figure::Time => races.iter().filter_map(gain).collect(),
         Figure::Overlap => lines.iter().filter(|line| line.team == TEAMS[TWO]).filter_map(share).collect(),
@@ -25,7 +27,7 @@ impl Team {
 }
 
 /// The figure for people.
-pub(super) fn text(figure: Figure, settings: &Settings, merged: &Merged) -> String {
+pub(super) fn text(figure: Figure, settings: &Settings, merged: &Summary) -> String {
     let Settings { layouts, seed, speed, spread } = settings;
     let head = format!(
         "Lattices with {PATHS} paths, {} of each family, seeds from {seed}; {speed} mm/s, drives up to {spread} \u{2030} \
@@ -43,7 +45,7 @@ pub(super) fn text(figure: Figure, settings: &Settings, merged: &Merged) -> Stri
 }
 
 /// Two lines of text for each family and team, the family named once.
-fn named(merged: &Merged) -> impl Iterator<Item = (&'static str, &Line)> {
+fn named(merged: &Summary) -> impl Iterator<Item = (&'static str, &Line)> {
     let mut last = "";
     merged.lines.iter().map(move |line| {
         let family = if line.family == last { "" } else { line.family };
@@ -52,7 +54,7 @@ fn named(merged: &Merged) -> impl Iterator<Item = (&'static str, &Line)> {
     })
 }
 
-fn times(merged: &Merged) -> String {
+fn times(merged: &Summary) -> String {
     let half = |line: &Line| -> Option<Estimate> {
         line.nodes.get(line.nodes.len().div_ceil(2).checked_sub(1)?).copied()
     };
@@ -73,7 +75,7 @@ fn times(merged: &Merged) -> String {
     nodes.text() + &races.text()
 }
 
-fn overlaps(merged: &Merged) -> String {
+fn overlaps(merged: &Summary) -> String {
     let title = format!(
         "When {EXPLORED} paths are explored: % of them driven by one robot alone, and seconds; seconds until all are"
     );

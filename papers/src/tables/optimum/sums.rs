@@ -18,23 +18,23 @@ pub struct Sums {
     missed: u64,
     beyond: u64,
     #[serde(with = "as_list")]
-    compared: Compared,
+    compared: Comparison,
 }
 
 /// By team moves of the chain and of the optimum: how many layouts, and the first by number of walls.
-type Compared = BTreeMap<(u32, u32), (u64, (u32, WallSet))>;
+type Comparison = BTreeMap<(u32, u32), (u64, (u32, WallSet))>;
 
 /// Maps in JSON have words for keys; these are numbers.
 mod as_list {
     use serde::{Deserialize, Deserializer, Serializer};
 
-    use super::Compared;
+    use super::Comparison;
 
-    pub(super) fn serialize<S: Serializer>(map: &Compared, serializer: S) -> Result<S::Ok, S::Error> {
+    pub(super) fn serialize<S: Serializer>(map: &Comparison, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(map)
     }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Compared, D::Error> {
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Comparison, D::Error> {
         Ok(Vec::deserialize(deserializer)?.into_iter().collect())
     }
 }

@@ -9,7 +9,7 @@ use crate::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 settings! {
     /// The parameters of the rivals, but for what the tables vary.
     #[derive(Copy)]
-    pub(super) struct Told {
+    pub(super) struct RivalSettings {
         /// Runs of each rival
         pub runs: u32 = 50, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of the first run; the others have the seeds after it
@@ -25,7 +25,7 @@ settings! {
     }
 }
 
-impl Told {
+impl RivalSettings {
     pub(super) const fn parameters(&self, search: Search, links: Links, cells: Cells) -> Parameters {
         let deadlock = match self.scatter {
             0 => Deadlock::Wait,

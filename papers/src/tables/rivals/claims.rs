@@ -5,7 +5,7 @@ use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// A sentence of the paper, and what is so.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub(super) struct Judged {
+pub(super) struct Judgement {
     /// Its words, shortened, and where they stand.
     pub(super) sentence: &'static str,
     /// For which density or area, and by which links.
@@ -69,11 +69,11 @@ impl Race {
 }
 
 /// The sentences for people, each named once.
-pub(super) fn text(judged: &[Judged]) -> String {
+pub(super) fn text(judged: &[Judgement]) -> String {
     let widths = [Width::Fit, Width::Fit, Width::Fit].map(Column::left);
     let mut columns = TextTable::new(widths);
     let mut last = "";
-    for Judged { sentence, of, measured, verdict } in judged {
+    for Judgement { sentence, of, measured, verdict } in judged {
         if *sentence != last {
             columns.title(*sentence);
             last = sentence;

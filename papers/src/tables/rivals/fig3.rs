@@ -1,9 +1,9 @@
 //! Fig. 3: team moves to 50 % and to 75 % of the cells by the density of walls, and in two buildings.
 
 use super::super::prelude::*;
-use super::asked::Told;
-use super::claims::{self, Judged, Race, alike};
-use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who};
+use super::asked::RivalSettings;
+use super::claims::{self, Judgement, Race, alike};
+use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times};
 use crate::rivals::Links;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
 
@@ -22,7 +22,7 @@ settings! {
     #[derive(Copy)]
     pub struct Settings {
         /// The parameters of the rivals, and how many layouts each density has
-        told: Told = Told { runs: 200, ..Told::default() },
+        told: RivalSettings = RivalSettings { runs: 200, ..RivalSettings::default() },
             renamed(nested(), "runs", ["layouts", "Layouts of each density, and runs in each building"]);
     }
 }
@@ -32,10 +32,10 @@ type Job = Run<usize>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     settings: Settings,
     areas: Vec<Area>,
-    sentences: Vec<Judged>,
+    sentences: Vec<Judgement>,
 }
 
 /// All teams in the layouts of one density, or in one building.
@@ -47,7 +47,7 @@ struct Area {
 
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Line {
-    who: Who,
+    who: Contender,
     milestones: [Times; MILESTONES.len()],
     /// Against the chain as published, on the same layouts: how often the chain is sooner.
     races: [Race; MILESTONES.len()],
@@ -60,11 +60,11 @@ fn areas() -> impl Iterator<Item = &'static str> {
 impl Table for ChainFig3 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = [Outcome; 6];
-    type Merged = Merged;
+    type Sample = [Outcome; 6];
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "chain-fig3",
             shows: "the chain against Full search and Rooker and Birk's pool by the density of walls: team moves to 50 % and \
                     75 %, and what the paper says of them",
@@ -84,23 +84,23 @@ impl Table for ChainFig3 {
         Ok(runs(0..areas().count(), |_| settings.told.runs))
     }
 
-    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let area = areas().nth(run.at).unwrap_or(OPEN);
         let description = if ROOMS.contains(&area) { area.to_owned() } else { format!("walls:15x15:{area}") };
         let seed = run.seed(settings.told.seed);
         let layout = generated(&description, seed)?;
         let limits = Limits { until: Some(Milestone::ThreeQuarters), ..Limits::default() };
         let mut outcomes = [Outcome { milestones: [None; 3], explored: 0, cells: 0 }; 6];
-        for (outcome, who) in outcomes.iter_mut().zip(Who::all(settings.told.pool)) {
+        for (outcome, who) in outcomes.iter_mut().zip(Contender::all(settings.told.pool)) {
             *outcome = who.run(&settings.told, &layout, seed, limits)?;
         }
         Ok(outcomes)
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let area = |(place, area): (usize, &'static str)| {
             let teams = of_teams(&results, place);
-            let line = |(who, outcomes): (Who, &Vec<&Outcome>)| {
+            let line = |(who, outcomes): (Contender, &Vec<&Outcome>)| {
                 let race = |milestone| {
                     let both = teams[0].iter().zip(outcomes);
                     Race::of(both.map(|(one, other)| (one.reached(milestone), other.reached(milestone))))
@@ -111,15 +111,18 @@ impl Table for ChainFig3 {
                     races: MILESTONES.map(race),
                 }
             };
-            Area { area, teams: Who::all(settings.told.pool).into_iter().zip(&teams).map(line).collect() }
+            Area {
+                area,
+                teams: Contender::all(settings.told.pool).into_iter().zip(&teams).map(line).collect(),
+            }
         };
         let areas: Vec<Area> = areas().enumerate().map(area).collect();
         let sentences = judged(&areas, settings.told.pool);
-        Ok(Merged { settings: *settings, areas, sentences })
+        Ok(Summary { settings: *settings, areas, sentences })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
-        let Told { runs, seed, patience, pool, .. } = settings.told;
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
+        let RivalSettings { runs, seed, patience, pool, .. } = settings.told;
         let mut text = format!(
             "{ROBOTS} robots in walls:15x15:DENSITY and two buildings, {} a point, seeds from {seed}; means with 95 % intervals \
              (reached / runs); stuck after {} without gain\n",
@@ -130,7 +133,7 @@ impl Table for ChainFig3 {
             let mut columns = Columns::of(&merged.areas)
                 .title(format!("Team moves to {} %", milestone.percent()))
                 .left("density", Fit, |area| area.area);
-            for (team, who) in Who::all(pool).into_iter().enumerate() {
+            for (team, who) in Contender::all(pool).into_iter().enumerate() {
                 columns =
                     columns.right(who.name(), Fit, move |area| area.teams[team].milestones[place].text());
             }
@@ -142,7 +145,7 @@ impl Table for ChainFig3 {
     }
 
     /// The medians by density.
-    fn draw(&self, place: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+    fn draw(&self, place: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let teams = merged.areas.first().map_or(&[][..], |area| &area.teams);
         let series = |(team, line): (usize, &Line)| {
             let points = merged.areas.iter().filter_map(move |Area { area, teams }| {
@@ -162,48 +165,48 @@ impl Table for ChainFig3 {
 
 /// A sentence's claim about the chain and a rival.
 #[derive(Clone, Copy)]
-enum Says {
+enum Claim {
     Sooner,
     Later,
     Alike,
 }
 
 /// The sentences of Section E about Fig. 3.
-fn judged(areas: &[Area], pool: u32) -> Vec<Judged> {
-    type Rival = fn(u32, Links) -> Who;
-    let (full, reference): (Rival, Rival) = (|_, links| Who::full(links), Who::pool);
-    let sentences: [(&'static str, (usize, Rival, &[&str], Says)); 8] = [
+fn judged(areas: &[Area], pool: u32) -> Vec<Judgement> {
+    type Rival = fn(u32, Links) -> Contender;
+    let (full, reference): (Rival, Rival) = (|_, links| Contender::full(links), Contender::pool);
+    let sentences: [(&'static str, (usize, Rival, &[&str], Claim)); 8] = [
         (
             "50 %: “definitely better than the reference … for an obstacle-free area or low obstacle density”",
-            (0, reference, &DENSITIES[..3], Says::Sooner),
+            (0, reference, &DENSITIES[..3], Claim::Sooner),
         ),
         (
             "50 %: “for higher obstacle densities the performances of the two methods are similar”",
-            (0, reference, &DENSITIES[3..], Says::Alike),
+            (0, reference, &DENSITIES[3..], Claim::Alike),
         ),
         (
             "50 %: “at zero and 0.01 densities” chain and Full search take “almost the same” time",
-            (0, full, &DENSITIES[..2], Says::Alike),
+            (0, full, &DENSITIES[..2], Claim::Alike),
         ),
         (
             "50 %: “for higher densities the Full search method performs better”",
-            (0, full, &DENSITIES[2..], Says::Later),
+            (0, full, &DENSITIES[2..], Claim::Later),
         ),
         (
             "75 %: “for low densities (zero and 0.01) … better than the other two”: Full search",
-            (1, full, &DENSITIES[..2], Says::Sooner),
+            (1, full, &DENSITIES[..2], Claim::Sooner),
         ),
         (
             "75 %: “for low densities (zero and 0.01) … better than the other two”: the reference",
-            (1, reference, &DENSITIES[..2], Says::Sooner),
+            (1, reference, &DENSITIES[..2], Claim::Sooner),
         ),
         (
             "75 %: “beyond ρ=0.01 the Full search method achieves the best results”",
-            (1, full, &DENSITIES[2..], Says::Later),
+            (1, full, &DENSITIES[2..], Claim::Later),
         ),
         (
             "75 %: “definitely better than the reference method for all examined obstacle densities”",
-            (1, reference, &DENSITIES, Says::Sooner),
+            (1, reference, &DENSITIES, Claim::Sooner),
         ),
     ];
     let mut judged = Vec::new();
@@ -211,13 +214,13 @@ fn judged(areas: &[Area], pool: u32) -> Vec<Judged> {
         for links in [Links::Safe, Links::Covered] {
             for Area { area, teams } in areas.iter().filter(|area| densities.contains(&area.area)) {
                 let find = |who| teams.iter().find(|line| line.who == who);
-                let chain = find(Who::Chain(RuleName::Published));
+                let chain = find(Contender::Chain(RuleName::Published));
                 let (Some(chain), Some(rival)) = (chain, find(rival(pool, links))) else { continue };
                 let race = rival.races[place];
                 let verdict = match says {
-                    Says::Sooner => race.is_won(),
-                    Says::Later => Race { sooner: race.later, later: race.sooner, even: race.even }.is_won(),
-                    Says::Alike => alike(chain.milestones[place].middle(), rival.milestones[place].middle()),
+                    Claim::Sooner => race.is_won(),
+                    Claim::Later => Race { sooner: race.later, later: race.sooner, even: race.even }.is_won(),
+                    Claim::Alike => alike(chain.milestones[place].middle(), rival.milestones[place].middle()),
                 };
                 let measured = format!(
                     "{} against {}: {}",
@@ -226,7 +229,7 @@ fn judged(areas: &[Area], pool: u32) -> Vec<Judged> {
                     race.text()
                 );
                 let of = format!("{area}, {}", links.symbol());
-                judged.push(Judged { sentence, of, measured, verdict });
+                judged.push(Judgement { sentence, of, measured, verdict });
             }
         }
     }

@@ -2,9 +2,9 @@
 //! far the rivals' figures depend on what the paper does not say.
 
 use super::super::prelude::*;
-use super::asked::Told;
-use super::claims::{self, Judged, about, alike};
-use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, stopping};
+use super::asked::RivalSettings;
+use super::claims::{self, Judgement, about, alike};
+use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
 use crate::rivals::{Cells, Links, Search};
 use tautline_sim::explore::{Limits, Milestone, RuleName};
 
@@ -20,14 +20,14 @@ settings! {
     #[derive(Copy)]
     pub struct Settings {
         /// The parameters of the rivals
-        told: Told = Told::default(), nested();
+        told: RivalSettings = RivalSettings::default(), nested();
         /// In buildings a run stops when a robot has entered so many cells
         max_moves: u32 = 400, one("max-moves", "CELLS", from_to(1..=1_000_000));
     }
 }
 
 /// A run of a team in an area.
-type Job = Run<(Place, Who)>;
+type Job = Run<(Place, Contender)>;
 
 /// Where it is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -38,26 +38,26 @@ pub enum Place {
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Merged {
+pub struct Summary {
     settings: Settings,
     /// Team moves without walls.
     open: Vec<Line>,
     /// The explored shares of buildings.
     rooms: Vec<Share>,
-    paper: Vec<Printed>,
-    sentences: Vec<Judged>,
+    paper: Vec<PrintedFigure>,
+    sentences: Vec<Judgement>,
 }
 
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Line {
-    who: Who,
+    who: Contender,
     milestones: [Times; Milestone::ALL.len()],
 }
 
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Share {
     room: &'static str,
-    who: Who,
+    who: Contender,
     /// Percent of the cells.
     explored: Option<Estimate>,
     /// Runs that explored all.
@@ -67,7 +67,7 @@ struct Share {
 
 /// A figure that the paper prints, and ours.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-struct Printed {
+struct PrintedFigure {
     what: String,
     paper: f64,
     ours: Option<f64>,
@@ -80,11 +80,11 @@ struct Printed {
 impl Table for ChainTable1 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Outcome;
-    type Merged = Merged;
+    type Sample = Outcome;
+    type Summary = Summary;
 
-    fn about(&self) -> About {
-        About {
+    fn about(&self) -> Description {
+        Description {
             id: "chain-table1",
             shows: "the chain against Full search and Rooker and Birk's pool: team moves without walls, what is explored of two \
                     buildings, and what the rivals' figures depend on",
@@ -93,15 +93,15 @@ impl Table for ChainTable1 {
                    all runs get there, the median counts the others as later than any.",
             examples: &["chain-table1", "chain-table1 --runs 200 --pool 200 --format json"],
             doing: "comparing",
-            ..About::NOTHING
+            ..Description::NOTHING
         }
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         settings.told.check()?;
-        let Told { runs: count, pool, .. } = settings.told;
+        let RivalSettings { runs: count, pool, .. } = settings.told;
         let open = teams(pool).into_iter().map(|who| (Place::Open, who));
-        let rooms = pairs((0..ROOMS.len()).map(Place::Rooms), Who::all(pool));
+        let rooms = pairs((0..ROOMS.len()).map(Place::Rooms), Contender::all(pool));
         Ok(runs(open.chain(rooms), |(_, who)| if who.is_chancy() { count } else { 1 }))
     }
 
@@ -114,7 +114,7 @@ impl Table for ChainTable1 {
         who.run(&settings.told, &generated(layout, 0)?, run.seed(settings.told.seed), limits)
     }
 
-    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let pool = settings.told.pool;
         let line = |who| {
             let outcomes = at(&results, (Place::Open, who));
@@ -132,13 +132,13 @@ impl Table for ChainTable1 {
                 runs: outcomes.len() as u32,
             }
         };
-        let rooms: Vec<Share> = pairs(0..ROOMS.len(), Who::all(pool)).map(share).collect();
+        let rooms: Vec<Share> = pairs(0..ROOMS.len(), Contender::all(pool)).map(share).collect();
         let (paper, sentences) = (printed(&open, &rooms, pool), judged(&open, &rooms, pool));
-        Ok(Merged { settings: *settings, open, rooms, paper, sentences })
+        Ok(Summary { settings: *settings, open, rooms, paper, sentences })
     }
 
-    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
-        let Settings { told: Told { runs, seed, patience, .. }, max_moves } = settings;
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
+        let Settings { told: RivalSettings { runs, seed, patience, .. }, max_moves } = settings;
         let heading = format!(
             "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals (reached / runs); stuck after {} \
              without gain\n",
@@ -174,36 +174,36 @@ impl Table for ChainTable1 {
 }
 
 /// Both chains, then the rivals by links, cells and pools.
-fn teams(pool: u32) -> Vec<Who> {
+fn teams(pool: u32) -> Vec<Contender> {
     let mut pools: Vec<u32> = POOLS.into_iter().chain([pool]).collect();
     pools.sort_unstable();
     pools.dedup();
     let searches: Vec<Search> = pools.into_iter().map(Search::Pool).chain([Search::Full]).collect();
-    let mut teams = vec![Who::Chain(RuleName::Published), Who::Chain(RuleName::Repaired)];
+    let mut teams = vec![Contender::Chain(RuleName::Published), Contender::Chain(RuleName::Repaired)];
     for links in [Links::Safe, Links::Covered] {
         for cells in [Cells::Distinct, Cells::Shared] {
-            teams.extend(searches.iter().map(|&search| Who::Rival { search, links, cells }));
+            teams.extend(searches.iter().map(|&search| Contender::Rival { search, links, cells }));
         }
     }
     teams
 }
 
-fn whole(open: &[Line], who: Who) -> Option<Times> {
+fn whole(open: &[Line], who: Contender) -> Option<Times> {
     open.iter().find(|line| line.who == who).map(|line| line.milestones[Milestone::Whole as usize])
 }
 
 /// The paper's figures: 62, and by its words about twice and six times that; 70 and 80 %, 25 and 43 %.
-fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Printed> {
+fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<PrintedFigure> {
     let printed = |what, paper: f64, ours: Option<f64>, reached, runs| {
         let difference = ours.map(|ours| ours - paper);
-        Printed { what, paper, ours, difference, reached, runs }
+        PrintedFigure { what, paper, ours, difference, reached, runs }
     };
     let moves = [
-        (Who::Chain(RuleName::Published), 62.0),
-        (Who::full(Links::Safe), 124.0),
-        (Who::full(Links::Covered), 124.0),
-        (Who::pool(pool, Links::Safe), 372.0),
-        (Who::pool(pool, Links::Covered), 372.0),
+        (Contender::Chain(RuleName::Published), 62.0),
+        (Contender::full(Links::Safe), 124.0),
+        (Contender::full(Links::Covered), 124.0),
+        (Contender::pool(pool, Links::Safe), 372.0),
+        (Contender::pool(pool, Links::Covered), 372.0),
     ];
     let moves = moves.into_iter().filter_map(|(who, paper)| {
         let times = whole(open, who)?;
@@ -212,9 +212,11 @@ fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Printed> {
     });
     let shares = rooms.iter().filter_map(|share| {
         let [first, second] = match share.who {
-            Who::Chain(RuleName::Published) | Who::Rival { search: Search::Full, .. } => [70.0, 80.0],
-            Who::Rival { search: Search::Pool(_), .. } => [25.0, 43.0],
-            Who::Chain(RuleName::Repaired) => return None,
+            Contender::Chain(RuleName::Published) | Contender::Rival { search: Search::Full, .. } => {
+                [70.0, 80.0]
+            }
+            Contender::Rival { search: Search::Pool(_), .. } => [25.0, 43.0],
+            Contender::Chain(RuleName::Repaired) => return None,
         };
         let paper = if share.room == ROOMS[0] { first } else { second };
         let what = format!("% of {}: {}", share.room, share.who.name());
@@ -224,12 +226,12 @@ fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Printed> {
 }
 
 /// The sentences of Section E about Table I.
-fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
+fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
     let mut judged = Vec::new();
-    let chain = whole(open, Who::Chain(RuleName::Published)).and_then(|times| times.middle());
+    let chain = whole(open, Contender::Chain(RuleName::Published)).and_then(|times| times.middle());
     let said = chain.map_or_else(|| "-".to_owned(), |chain| format!("{chain:.0}"));
     let verdict = Verdict::of(chain.is_some_and(|chain| (chain - 62.0).abs() < 0.5));
-    judged.push(Judged {
+    judged.push(Judgement {
         sentence: "“62 time units … the minimal theoretical value of 9(N−1)−1”",
         of: "chain".to_owned(),
         measured: said,
@@ -240,7 +242,7 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
         ("“one sixth of that of the reference method”", 6.0, Search::Pool(pool)),
     ] {
         for links in [Links::Safe, Links::Covered] {
-            let times = whole(open, Who::Rival { search, links, cells: Cells::Distinct });
+            let times = whole(open, Contender::Rival { search, links, cells: Cells::Distinct });
             let ratio = times.and_then(|times| Some(times.mean?.mean / chain?));
             let measured = match (times, ratio) {
                 (Some(_), Some(ratio)) => format!("{ratio:.2} times"),
@@ -248,19 +250,19 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
                 (None, _) => "-".to_owned(),
             };
             let of = format!("links by {}", links.symbol());
-            judged.push(Judged { sentence, of, measured, verdict: about(factor, ratio) });
+            judged.push(Judgement { sentence, of, measured, verdict: about(factor, ratio) });
         }
     }
-    let explored = |room: &str, who: Who| {
+    let explored = |room: &str, who: Contender| {
         let share = rooms.iter().find(|share| share.room == room && share.who == who);
         share.and_then(|share| share.explored).map_or(0.0, |explored| explored.mean)
     };
     for room in ROOMS {
-        let said = |share: &&Share| share.room == room && share.who != Who::Chain(RuleName::Repaired);
+        let said = |share: &&Share| share.room == room && share.who != Contender::Chain(RuleName::Repaired);
         let shares = || rooms.iter().filter(said);
         let (all, runs): (u32, u32) =
             (shares().map(|share| share.whole).sum(), shares().map(|share| share.runs).sum());
-        judged.push(Judged {
+        judged.push(Judgement {
             sentence: "“all three algorithms stopped before the 100 % exploration success”",
             of: room.to_owned(),
             measured: format!("{all} of {runs} runs explore all"),
@@ -269,16 +271,17 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
     }
     for room in ROOMS {
         for links in [Links::Safe, Links::Covered] {
-            let ours = explored(room, Who::Chain(RuleName::Published));
-            let [full, pool] = [Who::full(links), Who::pool(pool, links)].map(|who| explored(room, who));
+            let ours = explored(room, Contender::Chain(RuleName::Published));
+            let [full, pool] =
+                [Contender::full(links), Contender::pool(pool, links)].map(|who| explored(room, who));
             let of = format!("{room}, links by {}", links.symbol());
-            judged.push(Judged {
+            judged.push(Judgement {
                 sentence: "“the proposed and the Full search algorithms have similar success rates”",
                 of: of.clone(),
                 measured: format!("chain {ours:.0} %, Full search {full:.0} %"),
                 verdict: alike(Some(ours), Some(full)),
             });
-            judged.push(Judged {
+            judged.push(Judgement {
                 sentence: "“much better … than the reference algorithm having only 25% and 43%”",
                 of,
                 measured: format!("chain {ours:.0} %, Full search {full:.0} %, pool {pool:.0} %"),

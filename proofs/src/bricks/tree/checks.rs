@@ -7,63 +7,66 @@ use tautline_kernel::bricks::tree::Rule;
 
 use super::floors::Floors;
 use super::{Deception, Observed, Way, labels};
-use crate::clause::{Check, Named};
+use crate::clause::{Check, NamedRule};
 use crate::decide::Verdict;
 use crate::step_checks;
 
-const TREE: Named<Observed> = Named::new("tree", Observed::following(Rule::TREE));
-const HELPERS: Named<Observed> = Named::new("helpers", Observed::following(Rule::HELPERS));
-const ROBUST: Named<Observed> = Named::new("careful", Observed::following(Rule::ROBUST));
-const MDFS: Named<Observed> = Named::new("mdfs", Observed { way: Way::Mdfs, deception: Deception::None });
+const TREE: NamedRule<Observed> = NamedRule::new("tree", Observed::following(Rule::TREE));
+const HELPERS: NamedRule<Observed> = NamedRule::new("helpers", Observed::following(Rule::HELPERS));
+const ROBUST: NamedRule<Observed> = NamedRule::new("careful", Observed::following(Rule::ROBUST));
+const MDFS: NamedRule<Observed> =
+    NamedRule::new("mdfs", Observed { way: Way::Mdfs, deception: Deception::None });
 const AT_ONCE: Observed = Observed { deception: Deception::ActsAtOnce, ..TREE.rule };
 
 /// Agents that doubt as they run: they believe three scans in a row.
-const SHIPPED: Named<Observed> = Named::new("doubting", Observed::following(Rule::DOUBTING));
-const TWO_BELIEVED: Named<Observed> =
-    Named::new("two scans are believed", Observed::following(Rule::DOUBTING.reading(2)));
+const SHIPPED: NamedRule<Observed> = NamedRule::new("doubting", Observed::following(Rule::DOUBTING));
+const TWO_BELIEVED: NamedRule<Observed> =
+    NamedRule::new("two scans are believed", Observed::following(Rule::DOUBTING.reading(2)));
 
 /// Agents that believe one scan: three are more to search than larger floors can show.
-const DOUBTING: Named<Observed> = Named::new("doubting-1", Observed::following(DOUBTING_RULE));
+const DOUBTING: NamedRule<Observed> = NamedRule::new("doubting-1", Observed::following(DOUBTING_RULE));
 
 /// Agents whose trees all have the same label.
-const WRAPPING: Named<Observed> =
-    Named::new("labels that come again", Observed::following(Rule { label_bits: 0, ..Rule::TREE }));
-const NO_EXITS: Named<Observed> =
-    Named::new("cells marked without the side left through", Observed::following(Rule::TREE.without(Exit)));
-const PARENTS_MARKED: Named<Observed> =
-    Named::new("cells marked that have children", Observed::following(Rule::TREE.without(Childless)));
-const WITH_BRICKS: Named<Observed> = Named::new(
+const WRAPPING: NamedRule<Observed> =
+    NamedRule::new("labels that come again", Observed::following(Rule { label_bits: 0, ..Rule::TREE }));
+const NO_EXITS: NamedRule<Observed> = NamedRule::new(
+    "cells marked without the side left through",
+    Observed::following(Rule::TREE.without(Exit)),
+);
+const PARENTS_MARKED: NamedRule<Observed> =
+    NamedRule::new("cells marked that have children", Observed::following(Rule::TREE.without(Childless)));
+const WITH_BRICKS: NamedRule<Observed> = NamedRule::new(
     "cells marked that do not block, as far as is seen",
     Observed::following(Rule { conditions: Rule::ROBUST.conditions.with(Bricks), ..Rule::ROBUST }),
 );
-const DEEPER: Named<Observed> = Named::new(
+const DEEPER: NamedRule<Observed> = NamedRule::new(
     "cells of the same tree adopted once more",
     Observed::following(Rule::TREE.without(LowerOnly)),
 );
-const TWICE_ADOPTED: Named<Observed> = Named::new(
+const TWICE_ADOPTED: NamedRule<Observed> = NamedRule::new(
     "cells of the same tree adopted once more",
     Observed::following(Rule::HELPERS.without(LowerOnly)),
 );
-const UNASKED: Named<Observed> =
-    Named::new("sensors placed unasked", Observed::following(Rule::ROBUST.without(Underfoot)));
-const NOT_RESTORED: Named<Observed> =
-    Named::new("sensors not restored", Observed::following(DOUBTING_RULE.without(Restores)));
-const FORGETFUL: Named<Observed> =
-    Named::new("known sensors replaced", Observed::following(DOUBTING_RULE.without(Remembers)));
+const UNASKED: NamedRule<Observed> =
+    NamedRule::new("sensors placed unasked", Observed::following(Rule::ROBUST.without(Underfoot)));
+const NOT_RESTORED: NamedRule<Observed> =
+    NamedRule::new("sensors not restored", Observed::following(DOUBTING_RULE.without(Restores)));
+const FORGETFUL: NamedRule<Observed> =
+    NamedRule::new("known sensors replaced", Observed::following(DOUBTING_RULE.without(Remembers)));
 const DOUBTING_RULE: Rule = Rule::DOUBTING.reading(1);
-const TRUSTING: Named<Observed> = Named::new("what is seen is believed", TREE.rule);
+const TRUSTING: NamedRule<Observed> = NamedRule::new("what is seen is believed", TREE.rule);
 
 /// A check that holds.
 const fn holds(
-    about: Named<Observed>,
+    about: NamedRule<Observed>,
     floors: &'static Floors,
-    mutants: &'static [Named<Observed>],
+    mutants: &'static [NamedRule<Observed>],
 ) -> Check<Observed> {
     Check::new(about, floors, Verdict::Holds, mutants)
 }
 
 /// A check that is refuted.
-const fn refuted(about: Named<Observed>, floors: &'static Floors) -> Check<Observed> {
+const fn refuted(about: NamedRule<Observed>, floors: &'static Floors) -> Check<Observed> {
     Check::new(about, floors, Verdict::Refuted, &[])
 }
 
@@ -77,11 +80,14 @@ pub(in crate::bricks) static HELPERS_CONNECTED: Check<Observed> =
 pub(in crate::bricks) static ROBUST_CONNECTED: Check<Observed> =
     holds(ROBUST, &Floors::CONNECTED_HALF_BLIND, &[WITH_BRICKS]);
 /// BRICKS-3
-pub(in crate::bricks) static IN_TURNS: Check<Observed> =
-    holds(TREE, &Floors::CONNECTED_IN_TURNS, &[Named::new("agents beside each other act at once", AT_ONCE)]);
+pub(in crate::bricks) static IN_TURNS: Check<Observed> = holds(
+    TREE,
+    &Floors::CONNECTED_IN_TURNS,
+    &[NamedRule::new("agents beside each other act at once", AT_ONCE)],
+);
 /// BRICKS-3, the shortest break.
 pub(in crate::bricks) static BOTH_AT_ONCE: Check<Observed> =
-    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_AT_ONCE);
+    refuted(NamedRule::new("at-once", AT_ONCE), &Floors::CONNECTED_AT_ONCE);
 /// BRICKS-4
 pub(in crate::bricks) static TREE_KNOWING: Check<Observed> = holds(TREE, &Floors::KNOWING, &[NO_EXITS]);
 /// BRICKS-4
@@ -142,7 +148,7 @@ pub(in crate::bricks) static LEAST_ENTERED: Check<Observed> = holds(TREE, &Floor
 pub(in crate::bricks) static HELPERS_LEAST_ENTERED: Check<Observed> = holds(
     HELPERS,
     &Floors::HELPERS_LEAST_ENTERED,
-    &[Named::new("the first child", Observed { deception: Deception::FirstChild, ..HELPERS.rule })],
+    &[NamedRule::new("the first child", Observed { deception: Deception::FirstChild, ..HELPERS.rule })],
 );
 
 step_checks! { Observed;

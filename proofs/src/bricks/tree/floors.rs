@@ -5,9 +5,9 @@ use tautline_kernel::bricks::tree::Note;
 
 use super::team::{Demand, Team, Turns};
 use super::{Deception, Observed};
-use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::Limits;
-use crate::engine::{Choices, Script, Unfit, Until};
+use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::floor::look::Explored;
 use crate::floor::plans::Area;
 
@@ -185,20 +185,25 @@ impl Method<Observed> for Floors {
 
     /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each
     /// looks for its own first violation.
-    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(
+        &self,
+        observed: &Observed,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
             return Ok(self.explore(observed, (limits, until)).answer(self.shows()));
         };
         let key = (together, *observed);
-        let explored: Result<&Explored, Refused> =
+        let explored: Result<&Explored, MethodError> =
             desk.memory.recall(key, |(floors, observed)| Ok(floors.explore(observed, (limits, until))));
         let explored = explored?.clone();
         let is_kept = explored.tally.violation.is_none();
         Ok(if is_kept { explored } else { self.explore(observed, (limits, until)) }.answer(self.shows()))
     }
 
-    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let series = self.series[script.choose(self.series.len())?];
         let teams = series.teams(observed, self.demand);
@@ -207,8 +212,8 @@ impl Method<Observed> for Floors {
         let number = script.choose(starts.len())?;
         let start = starts.swap_remove(number);
         let (of, run) = script.play(team, (number, start.clone()), |_| true)?;
-        let seen = Seen::Agents(Box::new(team.course(start, &run)));
-        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+        let seen = Depiction::Agents(Box::new(team.course(start, &run)));
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
     }
 }
 

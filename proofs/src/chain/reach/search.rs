@@ -33,11 +33,11 @@ impl Ground {
 /// The search through all configurations.
 struct Search {
     relation: Relation,
-    visited: Visited,
+    visited: VisitedSet,
 }
 
 /// The configurations that were met.
-struct Visited {
+struct VisitedSet {
     /// By follower and cell: what it adds to the index of the followers' place; none where the follower cannot be.
     strides: Vec<Vec<Option<u32>>>,
     /// By place: the leader's cells seen, and those of them not yet moved on from.
@@ -69,7 +69,7 @@ impl Search {
                 return Err(TooLarge::Places);
             }
         }
-        let visited = Visited {
+        let visited = VisitedSet {
             strides,
             seen: vec![0; places as usize],
             pending: vec![0; places as usize],
@@ -95,7 +95,7 @@ impl Search {
     }
 }
 
-impl Visited {
+impl VisitedSet {
     /// Notes the configurations with the leader in any of `leaders`.
     fn add(&mut self, relation: &Relation, followers: &Followers, leaders: u128) {
         let parts = followers.iter().zip(&self.strides).map(|(&cell, strides)| strides[usize::from(cell)]);

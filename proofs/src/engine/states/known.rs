@@ -111,7 +111,7 @@ impl Code {
 }
 
 /// States by the numbers of their parts. A number takes as many bytes as the largest needs.
-pub(super) struct Known<P> {
+pub(super) struct StateTable<P> {
     parts: Parts<P>,
     /// Bytes of a number.
     width: usize,
@@ -126,7 +126,7 @@ pub(super) struct Known<P> {
     made: Code,
 }
 
-impl<P: Clone + Eq + Hash> Known<P> {
+impl<P: Clone + Eq + Hash> StateTable<P> {
     pub(super) fn new() -> Self {
         Self {
             parts: Parts { places: HashTable::new(), parts: Vec::new() },
@@ -318,7 +318,7 @@ mod tests {
     #[test]
     fn states_stay_apart_and_come_back_when_their_numbers_grow() {
         const STATES: u32 = 70_000;
-        let mut known = Known::new();
+        let mut known = StateTable::new();
         let parts = |state: u32| [state, state + 1, 7];
         for state in 0..STATES {
             let differing = if state == 0 { Places::MAX } else { 0b011 };
@@ -326,7 +326,7 @@ mod tests {
             known.show_last();
         }
         assert_eq!(known.width, 3);
-        let put = |known: &mut Known<u32>, state: u32| {
+        let put = |known: &mut StateTable<u32>, state: u32| {
             let mut put = Vec::new();
             known.show(state as usize, |place, &part| put.push((place, part)));
             put

@@ -11,7 +11,7 @@ pub struct Limits<'a> {
     /// Steps between states that it may make.
     pub most_steps: u64,
     /// The memory that it may take.
-    pub room: &'a Room,
+    pub room: &'a MemoryLimit,
 }
 
 impl Limits<'static> {
@@ -25,11 +25,11 @@ impl Limits<'static> {
 }
 
 /// Room for whatever there is.
-static ANY: Room = Room::unbounded();
+static ANY: MemoryLimit = MemoryLimit::unbounded();
 
 /// The memory that searches beside each other may take together.
 #[derive(Debug)]
-pub struct Room {
+pub struct MemoryLimit {
     /// Bytes of one search.
     most: u64,
     /// Bytes of a search that is not the large one.
@@ -40,7 +40,7 @@ pub struct Room {
     was_too_small: AtomicBool,
 }
 
-impl Room {
+impl MemoryLimit {
     /// As much as there is.
     pub const fn any() -> &'static Self {
         &ANY
@@ -70,9 +70,9 @@ impl Room {
     }
 }
 
-/// A search's share of a [`Room`].
-pub(super) struct Taken<'a> {
-    room: &'a Room,
+/// A search's share of a [`MemoryLimit`].
+pub(super) struct MemoryShare<'a> {
+    room: &'a MemoryLimit,
     large: Option<MutexGuard<'a, ()>>,
     /// Bytes of what stays.
     pub(super) held: u64,
@@ -80,8 +80,8 @@ pub(super) struct Taken<'a> {
     pub(super) most: u64,
 }
 
-impl<'a> Taken<'a> {
-    pub(super) const fn new(room: &'a Room) -> Self {
+impl<'a> MemoryShare<'a> {
+    pub(super) const fn new(room: &'a MemoryLimit) -> Self {
         Self { room, large: None, held: 0, most: 0 }
     }
 
@@ -117,24 +117,24 @@ mod tests {
     #[test]
     fn one_search_gets_three_quarters_whatever_is_beside_it() {
         for beside in [0, 1, 64] {
-            let room = Room::of(1024, beside);
-            let mut taken = Taken::new(&room);
+            let room = MemoryLimit::of(1024, beside);
+            let mut taken = MemoryShare::new(&room);
             assert!(taken.hold(768) && !room.was_too_small());
             assert!(!taken.hold(769) && room.was_too_small());
             assert_eq!((taken.held, taken.most, room.most()), (769, 769, 768));
         }
-        assert!(Taken::new(Room::any()).hold(u64::MAX));
+        assert!(MemoryShare::new(MemoryLimit::any()).hold(u64::MAX));
     }
 
     #[test]
     fn a_second_large_search_waits_for_the_first() {
-        let room = Room::of(1024, 2);
+        let room = MemoryLimit::of(1024, 2);
         let (told, heard) = channel();
         thread::scope(|scope| {
-            let mut first = Taken::new(&room);
+            let mut first = MemoryShare::new(&room);
             assert!(first.hold(200));
             scope.spawn(|| {
-                let mut second = Taken::new(&room);
+                let mut second = MemoryShare::new(&room);
                 assert!(second.hold(100), "a small one does not wait");
                 told.send("small").expect("somebody hears");
                 assert!(second.hold(300));

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::Bits;
 use super::graph::{Arc, Graph};
-use super::limits::Taken;
+use super::limits::MemoryShare;
 
 /// In place of a component of a node that owes nothing.
 const NONE: u32 = 0;
@@ -49,7 +49,7 @@ impl Graph {
     pub(super) fn first_round(
         &self,
         mut awake: impl FnMut(usize) -> Bits,
-        taken: &mut Taken<'_>,
+        taken: &mut MemoryShare<'_>,
     ) -> Result<Option<Round>, TooLarge> {
         let all = (0..self.len()).fold(0, |all, node| all | self.owed.at(node));
         let mut first: Option<Round> = None;
@@ -69,7 +69,7 @@ impl Graph {
         &self,
         owed: Bits,
         awake: &mut impl FnMut(usize) -> Bits,
-        taken: &mut Taken<'_>,
+        taken: &mut MemoryShare<'_>,
     ) -> Result<Option<Round>, TooLarge> {
         let part = self.components(owed, taken)?;
         let mut components: FxHashMap<u32, Component> = FxHashMap::default();
@@ -150,7 +150,7 @@ impl Graph {
 
     /// The strongly connected component of each node in which `owed` is owed, among such nodes, by a number; [`NONE`]
     /// for the other nodes.
-    fn components(&self, owed: Bits, taken: &mut Taken<'_>) -> Result<Vec<u32>, TooLarge> {
+    fn components(&self, owed: Bits, taken: &mut MemoryShare<'_>) -> Result<Vec<u32>, TooLarge> {
         let is_inside = |node: usize| self.owed.at(node) & owed != 0;
         let before = taken.held + (self.len() * size_of::<u32>()) as u64;
         let mut fits = |path: &Vec<Visit>, open: &Vec<u32>| {

@@ -4,10 +4,10 @@
 use std::ops::ControlFlow;
 
 use super::graph::{Arc, Graph};
-use super::known::Known;
-use super::limits::{Limits, Taken};
+use super::known::StateTable;
+use super::limits::{Limits, MemoryShare};
 use super::rounds::TooLarge;
-use super::{Bits, END, Ending, Found, Places, Run, Step, System, steps};
+use super::{Bits, END, Ending, Findings, Places, Run, Step, System, steps};
 use crate::engine::watchdog::Steps;
 
 /// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
@@ -15,7 +15,7 @@ pub fn search<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
     limits: Limits<'_>,
-) -> Found<S::Demand> {
+) -> Findings<S::Demand> {
     let mut search = Search::new(system, limits);
     for (start, state) in (0..).zip(starts) {
         search.meet_start(start, state);
@@ -32,7 +32,7 @@ pub fn search<S: System>(
     let occurred = situations.filter(|(_, bit)| search.occurred >> bit & 1 == 1).map(|(name, _)| name);
     let mut covered: Vec<_> = occurred.chain(search.has_ended.then_some(END)).collect();
     covered.sort_unstable();
-    Found {
+    Findings {
         states: search.known.len() as u64,
         looked_at: search.looked_at as u64,
         steps: search.steps,
@@ -50,7 +50,7 @@ enum Stop {
     TooMany,
 }
 
-struct Broken<D> {
+struct Violation<D> {
     demand: D,
     node: usize,
     how: How,
@@ -67,17 +67,17 @@ enum How {
 
 struct Search<'a, S: System> {
     system: &'a S,
-    known: Known<S::Part>,
+    known: StateTable<S::Part>,
     graph: Graph,
     looked_at: usize,
     steps: u64,
     /// The state that is shown: of the next one only what differs is put.
     shown: Option<Box<S::State>>,
-    taken: Taken<'a>,
+    taken: MemoryShare<'a>,
     /// The situations that occurred, a bit for each.
     occurred: u64,
     has_ended: bool,
-    broken: Vec<Broken<S::Demand>>,
+    broken: Vec<Violation<S::Demand>>,
 }
 
 /// States that are looked at between two looks at the memory that they take.
@@ -87,12 +87,12 @@ impl<'a, S: System> Search<'a, S> {
     fn new(system: &'a S, limits: Limits<'a>) -> Self {
         Self {
             system,
-            known: Known::new(),
+            known: StateTable::new(),
             graph: Graph::new(system.broken_by_endless_runs().is_some()),
             looked_at: 0,
             steps: 0,
             shown: None,
-            taken: Taken::new(limits.room),
+            taken: MemoryShare::new(limits.room),
             occurred: 0,
             has_ended: false,
             broken: Vec::new(),
@@ -165,20 +165,20 @@ impl<'a, S: System> Search<'a, S> {
                 self.graph.add_arc(Arc { to, acting });
             }
             for demand in breaks {
-                self.note(Broken { demand, node, how: How::Step(number) })?;
+                self.note(Violation { demand, node, how: How::Step(number) })?;
             }
         }
         self.has_ended |= is_last;
         if is_still {
             for demand in system.broken_at_end(state, &[]) {
-                self.note(Broken { demand, node, how: How::Still })?;
+                self.note(Violation { demand, node, how: How::Still })?;
             }
         }
         ControlFlow::Continue(())
     }
 
     /// Keeps what is broken for the first time.
-    fn note(&mut self, new: Broken<S::Demand>) -> ControlFlow<Stop> {
+    fn note(&mut self, new: Violation<S::Demand>) -> ControlFlow<Stop> {
         if self.broken.iter().any(|broken| broken.demand == new.demand) {
             return ControlFlow::Continue(());
         }
@@ -187,8 +187,8 @@ impl<'a, S: System> Search<'a, S> {
         if is_enough { ControlFlow::Break(Stop::Enough) } else { ControlFlow::Continue(()) }
     }
 
-    fn run(&mut self, broken: Broken<S::Demand>) -> Run<S::Demand> {
-        let Broken { demand, node, how } = broken;
+    fn run(&mut self, broken: Violation<S::Demand>) -> Run<S::Demand> {
+        let Violation { demand, node, how } = broken;
         let (start, mut steps) = self.way(node);
         let ending = match how {
             How::Step(number) => {
@@ -242,7 +242,7 @@ impl<'a, S: System> Search<'a, S> {
             system.awake(state)
         };
         let Some((node, round)) = graph.first_round(awake, taken)? else { return Ok(()) };
-        let new = Broken { demand, node, how: How::Round(round) };
+        let new = Violation { demand, node, how: How::Round(round) };
         match self.broken.iter_mut().find(|broken| broken.demand == demand) {
             Some(known) if known.node <= node => {}
             Some(known) => *known = new,
@@ -256,16 +256,16 @@ impl<'a, S: System> Search<'a, S> {
 mod tests {
     use tautline_kernel::choice::Oracle;
 
-    use super::super::{Bits, Room};
+    use super::super::{Bits, MemoryLimit};
     use super::*;
     use crate::engine::world::{Turn, World};
 
     /// An arc of a graph that one can look at: where it leads, and who acts.
-    type Drawn = (usize, Bits);
+    type SketchArc = (usize, Bits);
 
     /// Such a graph, and the demands on it. Node 0 is the start.
     struct Graphic {
-        arcs: &'static [&'static [Drawn]],
+        arcs: &'static [&'static [SketchArc]],
         /// No step leads there.
         forbidden: usize,
         /// No run ends there.
@@ -283,21 +283,21 @@ mod tests {
 
     impl World for Graphic {
         type State = usize;
-        type Plan = &'static [Drawn];
-        type Event = Drawn;
+        type Plan = &'static [SketchArc];
+        type Event = SketchArc;
         type Demand = &'static str;
 
-        fn plan(&self, &mut node: &mut usize, _: &[u8]) -> Option<&'static [Drawn]> {
+        fn plan(&self, &mut node: &mut usize, _: &[u8]) -> Option<&'static [SketchArc]> {
             Some(self.arcs[node]).filter(|arcs| !arcs.is_empty())
         }
 
         fn settle(
             &self,
             node: &mut usize,
-            arcs: &&'static [Drawn],
+            arcs: &&'static [SketchArc],
             _: &mut Vec<u8>,
             world: &mut impl Oracle,
-        ) -> Drawn {
+        ) -> SketchArc {
             let arc = arcs[world.pick(arcs.len() as u32) as usize];
             *node = arc.0;
             arc
@@ -368,7 +368,7 @@ mod tests {
         is_enough: true,
     };
 
-    fn found(graph: &Graphic) -> Found<&'static str> {
+    fn found(graph: &Graphic) -> Findings<&'static str> {
         search(graph, [0], Limits::NONE)
     }
 
@@ -379,7 +379,7 @@ mod tests {
     #[test]
     fn every_state_is_looked_at_once() {
         let bytes = found(&GRAPH).bytes;
-        let all = Found {
+        let all = Findings {
             states: 7,
             looked_at: 7,
             steps: 9,
@@ -448,8 +448,8 @@ mod tests {
 
     #[test]
     fn everybody_who_is_awake_acts_in_a_round() {
-        const SHARED: &[&[Drawn]] = &[&[(0, 1), (1, 2)], &[(0, 2)]];
-        const FAR: &[&[Drawn]] = &[&[(0, 1), (1, 1)], &[(1, 2), (2, 1), (0, 1)], &[(1, 1), (2, 4)]];
+        const SHARED: &[&[SketchArc]] = &[&[(0, 1), (1, 2)], &[(0, 2)]];
+        const FAR: &[&[SketchArc]] = &[&[(0, 1), (1, 1)], &[(1, 2), (2, 1), (0, 1)], &[(1, 1), (2, 4)]];
         let round = |awake, arcs| {
             let found = broken(&Graphic { awake, arcs, owing: &[0, 1, 2], ..GRAPH });
             found.map(|run| run.ending)
@@ -465,7 +465,8 @@ mod tests {
     #[test]
     fn a_search_that_would_take_too_much_memory_is_not_whole() {
         let all = found(&GRAPH);
-        let in_room = |bytes| search(&GRAPH, [0], Limits { room: &Room::of(bytes, 1), ..Limits::NONE });
+        let in_room =
+            |bytes| search(&GRAPH, [0], Limits { room: &MemoryLimit::of(bytes, 1), ..Limits::NONE });
         assert_eq!(in_room(2 * all.bytes), all);
         let cut_off = in_room(8);
         assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 0, vec![]));
@@ -474,14 +475,14 @@ mod tests {
         let all = found(&owing);
         assert!(all.is_whole && all.broken.len() == 1);
         let cut_off =
-            search(&owing, [0], Limits { room: &Room::of(all.bytes * 4 / 3 - 4, 1), ..Limits::NONE });
+            search(&owing, [0], Limits { room: &MemoryLimit::of(all.bytes * 4 / 3 - 4, 1), ..Limits::NONE });
         assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 7, vec![]));
     }
 
     /// From 0 a fault and then a step to 1 and back.
     #[test]
     fn the_steps_of_a_round_are_numbered_among_all_steps() {
-        const FAULTY: &[&[Drawn]] = &[&[(2, 0), (1, 1)], &[(2, 0), (2, 0), (0, 1)], &[]];
+        const FAULTY: &[&[SketchArc]] = &[&[(2, 0), (1, 1)], &[(2, 0), (2, 0), (0, 1)], &[]];
         let round = broken(&Graphic { arcs: FAULTY, owing: &[0, 1], ..GRAPH });
         assert_eq!(round.map(|run| run.ending), Some(Ending::Round(vec![1, 2])));
     }

@@ -20,7 +20,7 @@ pub(super) struct Violation {
 /// The runs that break an invariant, and the smallest of them.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Broken<D> {
+pub(super) struct DemandRuns<D> {
     /// The demand that it breaks.
     #[serde(rename = "invariant")]
     pub(super) demand: D,
@@ -36,7 +36,7 @@ pub(super) struct Count<D> {
     /// Edges of the tree, each once.
     pub(super) moves: u64,
     pub(super) longest: u32,
-    pub(super) broken: Vec<Broken<D>>,
+    pub(super) broken: Vec<DemandRuns<D>>,
     /// Runs that grew too long.
     #[serde(default, skip_serializing_if = "is_nothing")]
     pub(super) given_up: u64,
@@ -67,7 +67,7 @@ impl<D> Default for Count<D> {
 }
 
 impl<D: PartialEq> Count<D> {
-    pub(super) fn add_broken(&mut self, new: Broken<D>) {
+    pub(super) fn add_broken(&mut self, new: DemandRuns<D>) {
         match self.broken.iter_mut().find(|known| known.demand == new.demand) {
             Some(known) => {
                 known.runs += new.runs;
@@ -85,7 +85,7 @@ impl<D: PartialEq> Count<D> {
         let runs: u128 = levels.iter().map(|level| u128::from(level.runs)).sum();
         let moves: u128 = levels.iter().map(|level| u128::from(level.moves)).sum();
         let (all_runs, all_moves) = (u128::from(self.runs), u128::from(self.moves));
-        let is_countable = |broken: &Broken<D>| u128::from(broken.runs) <= all_runs + lanes as u128;
+        let is_countable = |broken: &DemandRuns<D>| u128::from(broken.runs) <= all_runs + lanes as u128;
         runs <= all_runs
             && moves <= all_moves
             && self.broken.iter().all(is_countable)

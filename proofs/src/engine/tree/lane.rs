@@ -12,7 +12,7 @@ use super::Game;
 use super::count::{self, Count, Violation};
 use super::forecast::Forecast;
 use super::share::Share;
-use crate::engine::Unfit;
+use crate::engine::ScriptError;
 use crate::engine::watchdog::Steps;
 use crate::engine::world::Turn;
 
@@ -58,14 +58,14 @@ impl Answers {
 }
 
 /// Answers as a script says, and plainly where it has ended.
-struct Answering<'a> {
+struct ScriptOracle<'a> {
     answers: &'a mut Answers,
     script: slice::Iter<'a, u32>,
     /// Whether every line of the script was an answer to its question.
     fits: bool,
 }
 
-impl Answering<'_> {
+impl ScriptOracle<'_> {
     fn answer(&mut self, below: u32, is_mishap: bool) -> u32 {
         let value = self.script.next().copied().unwrap_or(0);
         self.fits &= value < below;
@@ -73,7 +73,7 @@ impl Answering<'_> {
     }
 }
 
-impl Oracle for Answering<'_> {
+impl Oracle for ScriptOracle<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         if below > 1 { self.answer(below, false) } else { 0 }
     }
@@ -243,7 +243,7 @@ impl<G: Game> Lane<G> {
     fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> Option<G::Event> {
         let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
         self.steps += 1;
-        let mut world = Answering { answers: &mut self.answers, script: self.script.iter(), fits: true };
+        let mut world = ScriptOracle { answers: &mut self.answers, script: self.script.iter(), fits: true };
         let event = game.settle(&mut self.state, ready.plan, &mut self.log, &mut world);
         let fits = world.fits;
         self.script.clear();
@@ -330,7 +330,7 @@ impl<G: Game> Lane<G> {
             if lane.is_new() {
                 let answers = lane.answers.values(0).collect();
                 let smallest = Violation { mishaps: lane.answers.mishaps, steps: lane.steps, answers };
-                count.add_broken(count::Broken { demand, runs: 1, smallest });
+                count.add_broken(count::DemandRuns { demand, runs: 1, smallest });
             }
         });
     }
@@ -478,7 +478,7 @@ impl<G: Game> Lane<G> {
 }
 
 /// A run made again.
-pub(super) struct Replayed<F> {
+pub(super) struct Rerun<F> {
     /// The broken demand, in words.
     pub(super) words: &'static str,
     /// Its team moves; of a run without end, as far as it first comes back to where it was.
@@ -494,7 +494,7 @@ pub(super) fn replay<G: Game>(
     most: u32,
     demand: G::Demand,
     answers: &[u32],
-) -> Result<Replayed<G::Frame>, Unfit> {
+) -> Result<Rerun<G::Frame>, ScriptError> {
     let words = |broken: Vec<G::Demand>| broken.contains(&demand).then(|| game.words(demand, None));
     let mut lane = Lane::whole(game, most);
     let mut frames = Vec::new();
@@ -508,10 +508,10 @@ pub(super) fn replay<G: Game>(
         let Some(event) = lane.settle(game, &fork.ready()) else {
             let mut given = lane.answers.given.iter().zip(answers);
             let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
-            return Err(Unfit::None { at, of: lane.answers.given[at].below });
+            return Err(ScriptError::None { at, of: lane.answers.given[at].below });
         };
         if lane.answers.given.len() > answers.len() {
-            return Err(Unfit::Unbroken);
+            return Err(ScriptError::Unbroken);
         }
         let turn = lane.turn(&fork.ready(), &event, fork.sent);
         frames.push(game.frame(&turn));
@@ -533,9 +533,9 @@ pub(super) fn replay<G: Game>(
     };
     let used = lane.answers.given.len();
     if used < answers.len() {
-        return Err(Unfit::Over { at: used });
+        return Err(ScriptError::Over { at: used });
     }
-    Ok(Replayed { words: broken.ok_or(Unfit::Unbroken)?, frames, steps: lane.steps })
+    Ok(Rerun { words: broken.ok_or(ScriptError::Unbroken)?, frames, steps: lane.steps })
 }
 
 /// The place in these states where a run that has come back to one of them first did.

@@ -6,14 +6,14 @@ use std::collections::BinaryHeap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::count::{Broken, Count, Violation};
+use super::count::{Count, DemandRuns, Violation};
 use super::deal::{Deal, Ways};
 use super::forecast::Forecast;
-use super::lane::{self, Lane, Place, Replayed};
+use super::lane::{self, Lane, Place, Rerun};
 use super::share::Share;
-use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
+use super::{Counterexample, Findings, Game, Level, Limits, Progress, Unsearchable, Watch};
 use crate::engine::watchdog::{Steps, Task};
-use crate::engine::{Unfit, Until};
+use crate::engine::{ScriptError, Until};
 
 /// Where a search is. Read back, it goes on from here and comes out as if it had never been interrupted.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -47,7 +47,7 @@ pub trait Waves<D, F> {
     /// Where it is: enough to go on from here.
     fn position(&self) -> Position<D>;
     /// The findings so far.
-    fn found(&self) -> Found<D, F>;
+    fn found(&self) -> Findings<D, F>;
     /// Deals what is left of the search out among so many shards, each of which can be searched elsewhere.
     fn deal(&mut self, shards: usize) -> Deal<D>;
     /// Becomes the search of one shard of a deal, the first being 0, at its start.
@@ -64,8 +64,8 @@ pub trait Waves<D, F> {
     /// it.
     ///
     /// # Errors
-    /// [`Unfit`] if there is no such run.
-    fn replay(&self, demand: D, answers: &[u32]) -> Result<Counterexample<D, F>, Unfit>;
+    /// [`ScriptError`] if there is no such run.
+    fn replay(&self, demand: D, answers: &[u32]) -> Result<Counterexample<D, F>, ScriptError>;
 }
 
 /// Searches all layouts within `limits`. The result is the same on any number of threads, unless `watch` ends the
@@ -77,7 +77,7 @@ pub fn search<G: Game>(
     game: G,
     limits: &Limits,
     watch: Watch<'_>,
-) -> Result<Found<G::Demand, G::Frame>, Unsearchable> {
+) -> Result<Findings<G::Demand, G::Frame>, Unsearchable> {
     let mut tree = Tree::new(game, limits)?;
     while tree.wave() && watch(&tree.progress()).is_continue() {}
     Ok(tree.found())
@@ -228,7 +228,7 @@ impl<G: Game> Tree<G> {
     }
 
     fn is_over(&self) -> bool {
-        let is_wanted = |broken: &Broken<_>| self.game.wanted().contains(&broken.demand);
+        let is_wanted = |broken: &DemandRuns<_>| self.game.wanted().contains(&broken.demand);
         let is_settled = self.limits.until == Until::Violation && self.count.broken.iter().any(is_wanted);
         is_settled || self.lanes.is_empty() || self.affordable_moves() == 0
     }
@@ -305,11 +305,11 @@ impl<G: Game> Tree<G> {
     }
 
     /// The smallest run that breaks a demand again; `None` if it does not.
-    fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
+    fn record(&self, broken: &DemandRuns<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
         let Violation { mishaps, steps, answers } = &broken.smallest;
         let again = lane::replay(&self.game, *mishaps, broken.demand, answers).ok()?;
         let (runs, answers) = (broken.runs, answers.clone());
-        let Replayed { words, frames, .. } = again;
+        let Rerun { words, frames, .. } = again;
         (again.steps == *steps).then_some(Counterexample {
             broken: broken.demand,
             runs,
@@ -382,14 +382,14 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         }
     }
 
-    fn found(&self) -> Found<G::Demand, G::Frame> {
+    fn found(&self) -> Findings<G::Demand, G::Frame> {
         let Count { runs, moves, longest, given_up, ref broken, .. } = self.count;
         let mut broken = broken.clone();
         broken.sort_unstable();
         let situations = self.game.covers().into_iter().zip(0..);
         let covered = situations.filter(|(_, bit)| self.count.covered >> bit & 1 == 1);
         let counterexamples = broken.iter().filter_map(|broken| self.record(broken)).collect();
-        Found {
+        Findings {
             runs,
             moves,
             longest,
@@ -417,10 +417,10 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         &self,
         demand: G::Demand,
         answers: &[u32],
-    ) -> Result<Counterexample<G::Demand, G::Frame>, Unfit> {
+    ) -> Result<Counterexample<G::Demand, G::Frame>, ScriptError> {
         let mishaps = answers.iter().filter(|&&answer| answer != 0).count() as u32;
         let most = mishaps.min(self.limits.max_walls);
-        let Replayed { words, frames, .. } = lane::replay(&self.game, most, demand, answers)?;
+        let Rerun { words, frames, .. } = lane::replay(&self.game, most, demand, answers)?;
         Ok(Counterexample { broken: demand, runs: 1, demand: words, frames, answers: answers.to_vec() })
     }
 }

@@ -3,7 +3,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Next, Sight, TinyMap};
 
-use super::{Demand, Event, Setting, Turned, World};
+use super::{Demand, Event, Setting, Successor, World};
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
@@ -22,21 +22,21 @@ const SITUATIONS: [&str; 6] =
 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
-    type Plan = Vec<Turned<ROBOTS>>;
-    type Event = Turned<ROBOTS>;
+    type Plan = Vec<Successor<ROBOTS>>;
+    type Event = Successor<ROBOTS>;
     type Demand = Demand;
 
-    fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Turned<ROBOTS>>> {
+    fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Successor<ROBOTS>>> {
         world::any_of(self.turns(state))
     }
 
     fn settle(
         &self,
         state: &mut World<ROBOTS>,
-        turns: &Vec<Turned<ROBOTS>>,
+        turns: &Vec<Successor<ROBOTS>>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Turned<ROBOTS> {
+    ) -> Successor<ROBOTS> {
         let turned = world::picked(turns, world);
         *state = turned.world;
         turned

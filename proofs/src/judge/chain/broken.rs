@@ -7,20 +7,20 @@ use super::judge_input::Move;
 use super::place::{Place, SIDES, add, is_covered, side_between};
 
 /// The violation of the clause with this id, if the judge knows it.
-pub(super) fn broken(clause: &str) -> Option<Broken> {
+pub(super) fn broken(clause: &str) -> Option<Violation> {
     Some(match clause {
-        "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
-        "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
-        "CHAIN-3" => Broken::ByMove(|court, made| range_is_left(&court.places, &made.places)),
-        "CHAIN-13" => Broken::AtEnd(|court| Ok(misses_within_reach(court))),
-        "CHAIN-14" => Broken::AtEnd(|court| misses_reachable(court, MOST_CONFIGURATIONS)),
+        "CHAIN-1" => Violation::ByMove(|_, made| contact_is_lost(&made.places)),
+        "CHAIN-2" => Violation::ByMove(|_, made| cell_is_crowded(&made.places)),
+        "CHAIN-3" => Violation::ByMove(|court, made| range_is_left(&court.places, &made.places)),
+        "CHAIN-13" => Violation::AtEnd(|court| Ok(misses_within_reach(court))),
+        "CHAIN-14" => Violation::AtEnd(|court| misses_reachable(court, MOST_CONFIGURATIONS)),
         _ => return None,
     })
 }
 
 /// A violation of a clause.
 #[derive(Clone, Copy)]
-pub(super) enum Broken {
+pub(super) enum Violation {
     ByMove(fn(&Court<'_>, &Move) -> bool),
     AtEnd(fn(&Court<'_>) -> Result<bool, &'static str>),
 }

@@ -4,7 +4,7 @@ use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 use tautline_kernel::kit::{Condition, Stance};
 
 use super::{Demand, Setting, Speeds, World};
-use crate::kit::plain::Found;
+use crate::kit::plain::Findings;
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
     pub(super) fn broken_by_marks(&self, world: &World<ROBOTS>) -> Vec<Demand> {
@@ -92,7 +92,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let mut after = cells;
         after[robot] = to;
         let is_nearer = |left, movers| {
-            let found = Found { map: &map, left };
+            let found = Findings { map: &map, left };
             match (found.distance(after, movers), found.distance(cells, movers)) {
                 (Some(after), Some(before)) => after < before,
                 (_, None) | (None, Some(_)) => false,
@@ -111,13 +111,13 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let cells = Self::ends(world);
         let left =
             |other: usize| world.team.stance(other).filter(|stance| !stance.stands()).map(Stance::from);
-        let now = Found { map: &map, left: std::array::from_fn(left) };
+        let now = Findings { map: &map, left: std::array::from_fn(left) };
         let goes_alone = self.rule.has(Condition::Meanwhile) && world.fresh & !(1 << robot) != 0;
         let alone = (now, 1 << robot);
         let (found, movers) = if goes_alone && now.distance(cells, alone.1).is_some() {
             alone
         } else {
-            (Found { left: [None; ROBOTS], ..now }, u8::MAX)
+            (Findings { left: [None; ROBOTS], ..now }, u8::MAX)
         };
         let is_nearer = |&side: &Side| {
             let mut after = cells;
@@ -144,7 +144,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         }
         let is_left_over = || {
             let map = self.found(world);
-            !is_over || Found { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
+            !is_over || Findings { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
         };
         if self.is_wanted(Demand::Whole) && is_left_over() {
             breaks.push(Demand::Whole);

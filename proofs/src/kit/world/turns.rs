@@ -4,7 +4,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Records, Sight, Stance, touch};
 
-use super::{Answers, Demand, Event, Setting, Speeds, Turned, World};
+use super::{Answers, Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::outcomes;
 
 /// Looks after which a decision is taken for one that never ends: each side once for each reason that there is to look.
@@ -12,7 +12,7 @@ const MOST_LOOKS: usize = 4 * 5;
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// Every step from `world`.
-    pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Turned<ROBOTS>> {
+    pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Successor<ROBOTS>> {
         let mut turns = Vec::new();
         let is_in_between =
             self.speeds == Speeds::OneByOne && world.team.stances().any(|stance| !stance.stands());
@@ -46,7 +46,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 continue;
             }
             let breaks = self.broken_by_marks(&after);
-            turns.push(Turned {
+            turns.push(Successor {
                 world: self.settled(after),
                 events: vec![arrival],
                 robot,
@@ -59,9 +59,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// All that comes of a decision of `robot`, if it may decide. Where it drives an old path at once, it is any that
     /// begins a shortest way.
-    fn decided(&self, world: &World<ROBOTS>, robot: usize) -> Vec<Turned<ROBOTS>> {
+    fn decided(&self, world: &World<ROBOTS>, robot: usize) -> Vec<Successor<ROBOTS>> {
         let mut decided: Vec<_> = outcomes(|oracle| self.decide(world, robot, oracle)).collect();
-        let taken = |turned: &Turned<ROBOTS>| match (turned.situation, &turned.events[..]) {
+        let taken = |turned: &Successor<ROBOTS>| match (turned.situation, &turned.events[..]) {
             ("an old path", [Event::Decides(_, looks, _)]) if looks.len() == 1 => Some(looks[0].0),
             _ => None,
         };
@@ -78,7 +78,12 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 
     /// `robot` decides, if it may.
-    fn decide(&self, world: &World<ROBOTS>, robot: usize, oracle: &mut dyn Oracle) -> Option<Turned<ROBOTS>> {
+    fn decide(
+        &self,
+        world: &World<ROBOTS>,
+        robot: usize,
+        oracle: &mut dyn Oracle,
+    ) -> Option<Successor<ROBOTS>> {
         let mut after = *world;
         let from = Self::ends(world)[robot];
         let mut next = after.team.decide(robot, oracle).ok()?;
@@ -114,7 +119,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             breaks.extend(self.broken_by_drive(&seen, robot, Stance::Drives { from, to }, is_old));
         }
         let events = vec![Event::Decides(robot, looks, next)];
-        Some(Turned { world: self.settled(after), events, robot, situation, breaks })
+        Some(Successor { world: self.settled(after), events, robot, situation, breaks })
     }
 
     /// The sight of `robot` at a side of its node.

@@ -4,7 +4,7 @@ use tautline_kernel::mrc::{Task, WfrTimer};
 use tautline_kernel::net::Call;
 
 use super::action::{Action, Actor, Message};
-use super::setting::{Leases, Lossy, Setting};
+use super::setting::{Leases, LossKind, Setting};
 use super::{State, node, place, robot_id};
 
 impl State {
@@ -21,8 +21,8 @@ impl State {
             }
             actions.push(Action::Deliver(at));
             let can_be_lost = match (setting.lossy, message) {
-                (Lossy::All, _) | (Lossy::Resb, Message::Resb(_)) => true,
-                (Lossy::Resb, Message::Notice(..) | Message::Up(_)) => false,
+                (LossKind::All, _) | (LossKind::Resb, Message::Resb(_)) => true,
+                (LossKind::Resb, Message::Notice(..) | Message::Up(_)) => false,
             };
             if can_be_lost && self.left.left(|left| left.losses) > 0 {
                 actions.push(Action::Lose(at));

@@ -16,15 +16,15 @@ use crate::engine::states::Places;
 /// WFRs: of each there are few, and so the many that they make together cost little.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(in crate::mrc) enum Part {
-    Robot(OfRobot),
-    Wfr(OfWfr),
+    Robot(RobotPart),
+    Wfr(WfrPart),
     Network(Vec<Message>),
     Rest(Rest),
 }
 
 /// A robot and what concerns it alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) struct OfRobot {
+pub(in crate::mrc) struct RobotPart {
     robot: Robot<WFRS>,
     hops: [u16; WFRS],
     has_failed: bool,
@@ -34,7 +34,7 @@ pub(in crate::mrc) struct OfRobot {
 
 /// A WFR and what concerns it alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) struct OfWfr {
+pub(in crate::mrc) struct WfrPart {
     wfr: Wfr<ROBOTS>,
     best: Option<Bid>,
     heard: u8,
@@ -117,8 +117,8 @@ impl State {
             | Places::from(self.rest() != other.rest()) << REST
     }
 
-    const fn of_robot(&self, robot: usize) -> OfRobot {
-        OfRobot {
+    const fn of_robot(&self, robot: usize) -> RobotPart {
+        RobotPart {
             robot: self.robots[robot],
             hops: self.hops[robot],
             has_failed: self.failed[robot],
@@ -127,9 +127,9 @@ impl State {
         }
     }
 
-    const fn of_wfr(&self, wfr: usize) -> OfWfr {
+    const fn of_wfr(&self, wfr: usize) -> WfrPart {
         let Notes { best, heard, open, .. } = &self.notes;
-        OfWfr { wfr: self.wfrs[wfr], best: best[wfr], heard: heard[wfr], is_open: open[wfr] }
+        WfrPart { wfr: self.wfrs[wfr], best: best[wfr], heard: heard[wfr], is_open: open[wfr] }
     }
 
     /// The messages to and from a robot.
@@ -206,11 +206,11 @@ impl State {
     /// Makes `part` the one in this place.
     pub(in crate::mrc) fn put(&mut self, place: usize, part: &Part) {
         match part {
-            &Part::Robot(OfRobot { robot, hops, has_failed, cut, taken }) => {
+            &Part::Robot(RobotPart { robot, hops, has_failed, cut, taken }) => {
                 (self.robots[place], self.hops[place], self.failed[place]) = (robot, hops, has_failed);
                 (self.cut[place], self.notes.taken[place]) = (cut, taken);
             }
-            &Part::Wfr(OfWfr { wfr, best, heard, is_open }) => {
+            &Part::Wfr(WfrPart { wfr, best, heard, is_open }) => {
                 let place = place - FIRST_WFR;
                 self.wfrs[place] = wfr;
                 (self.notes.best[place], self.notes.heard[place]) = (best, heard);

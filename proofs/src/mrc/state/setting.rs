@@ -61,7 +61,7 @@ impl Faults {
 
 /// Which messages can be lost.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Lossy {
+pub enum LossKind {
     /// Any.
     All,
     /// Those that tell of a choice.
@@ -95,7 +95,7 @@ pub struct Setting {
     /// The faults that may happen.
     pub faults: Faults,
     /// Which messages may be lost.
-    pub lossy: Lossy,
+    pub lossy: LossKind,
     /// How long robots hold leases.
     pub leases: Leases,
 }
@@ -119,8 +119,8 @@ impl Setting {
             hops,
         ];
         match lossy {
-            Lossy::All => {}
-            Lossy::Resb => words.push("of messages only RESBs lost".to_owned()),
+            LossKind::All => {}
+            LossKind::Resb => words.push("of messages only RESBs lost".to_owned()),
         }
         match leases {
             Leases::UntilCalled => {}

@@ -1,7 +1,7 @@
 //! A turn: the state after an action, what the machines send then, and what the observer notes.
 
 use tautline_kernel::mrc::{
-    Bid, Condition, Downward, Phase, Robot, Sent, Served, Task, Upward, Wfr, WfrTimer, Word,
+    Bid, Condition, Downward, Mail, Phase, Robot, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
 };
 use tautline_kernel::net::{Call, Epoch, Notice, RobotId};
 
@@ -83,7 +83,7 @@ impl State {
                 self.turn_robot(robot, |robot| robot.receive(Downward::Notice(notice)));
                 let is_new = known.is_none_or(|known| known < notice.call.epoch);
                 let is_served =
-                    self.robots[robot].request(wfr).is_some_and(|request| request.served == Served::Yes);
+                    self.robots[robot].request(wfr).is_some_and(|request| request.served == ServiceBit::Yes);
                 if is_new && is_served {
                     self.notes.tell(Demand::AsksAnew);
                 }
@@ -147,7 +147,7 @@ impl State {
         let (next, sent) = turn(self.robots[robot]);
         self.robots[robot] = next;
         let rank = |call: Call| (self.hops[robot][place(call.wfr)], call.wfr.0);
-        let open = || next.requests().filter(|request| request.served == Served::No);
+        let open = || next.requests().filter(|request| request.served == ServiceBit::No);
         let nearest = open().map(|request| request.call).min_by_key(|&call| rank(call));
         let has_strayed = match (before, next.task()) {
             (Task::Asking { call: before, .. }, Task::Asking { call, .. }) if before == call => {
@@ -172,16 +172,16 @@ impl State {
         setting: &Setting,
         wfr: usize,
         bidder: Option<RobotId>,
-        turn: impl FnOnce(Wfr<ROBOTS>) -> (Wfr<ROBOTS>, Sent<ROBOTS>),
+        turn: impl FnOnce(Wfr<ROBOTS>) -> (Wfr<ROBOTS>, Mail<ROBOTS>),
     ) {
         let before = self.wfrs[wfr];
         let (next, sent) = turn(before);
         self.wfrs[wfr] = next;
         let sent: Vec<Message> = match sent {
-            Sent::Nothing => Vec::new(),
-            Sent::One(resb) => vec![Message::Resb(resb)],
-            Sent::All(resbs) => resbs.into_iter().flatten().map(Message::Resb).collect(),
-            Sent::Notice(notice) => {
+            Mail::Nothing => Vec::new(),
+            Mail::One(resb) => vec![Message::Resb(resb)],
+            Mail::All(resbs) => resbs.into_iter().flatten().map(Message::Resb).collect(),
+            Mail::Notice(notice) => {
                 self.notes.open[wfr] = true;
                 (self.notes.best[wfr], self.notes.heard[wfr]) = (None, 0);
                 let to = |robot: usize| {

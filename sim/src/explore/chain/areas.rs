@@ -1,7 +1,7 @@
 //! The hunt of chains over areas: whatever their columns and rows, and wherever the base is.
 
-use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::areas::{Areas, Found, Searched, Smallest, most_edges, search};
+use tautline_proofs::chain::Subject;
+use tautline_proofs::chain::areas::{AreaSearch, Areas, Findings, Smallest, most_edges, search};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{bounds, fault, team};
@@ -13,7 +13,7 @@ use crate::explore::hunt::{
 
 /// Searches all areas of at most so many cells.
 pub(super) fn hunt(
-    observed: Observed,
+    observed: Subject,
     asked: &Asked<'_>,
     max_cells: u32,
     hunter: &mut dyn Hunter,
@@ -22,7 +22,7 @@ pub(super) fn hunt(
         refuse(asked, "resume", "a hunt over areas is not kept in a file")?;
     }
     let areas = areas(observed, asked, max_cells)?;
-    let mut hears = |found: &Found| {
+    let mut hears = |found: &Findings| {
         let done = found.cells.unwrap_or(0);
         let runs = counted(found.runs(), "run");
         hunter.hears(Far::Words(format!("areas of {done} of {max_cells} cells, {runs}")))
@@ -38,7 +38,7 @@ pub(super) fn refuse(asked: &Asked<'_>, field: &'static str, what: &str) -> Resu
 }
 
 /// The areas that are asked for.
-fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
+fn areas(observed: Subject, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
     let (robots, walls) = team(asked);
     let whole = bounds(observed, robots, walls, None)?;
     let within_reach = (whole.area.width() * whole.area.height()) as u32;
@@ -67,7 +67,7 @@ fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas,
 }
 
 /// What is told of a search.
-fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<HuntReport, Diagnostic> {
+fn told(asked: &Asked<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
     let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     let &Areas { max_cells, max_walls, robots, .. } = areas;
@@ -101,8 +101,8 @@ fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<HuntReport, D
 }
 
 /// The certificate of one area.
-const fn area(searched: &Searched) -> Area {
-    let &Searched { columns, rows, bases, walls, runs, moves } = searched;
+const fn area(searched: &AreaSearch) -> Area {
+    let &AreaSearch { columns, rows, bases, walls, runs, moves } = searched;
     Area { columns, rows, bases, walls, runs, moves }
 }
 

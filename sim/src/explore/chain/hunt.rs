@@ -6,8 +6,8 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Deal as Walk, Found, Position, Search, Unsearchable};
+use tautline_proofs::chain::Subject;
+use tautline_proofs::chain::search::{Bounds, Deal as Walk, Findings, Position, Search, Unsearchable};
 use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
@@ -33,7 +33,7 @@ const MAX_ROBOTS: usize = 64;
 
 /// The chain that is hunted.
 #[derive(Debug)]
-pub(super) struct Walls(pub(super) Observed);
+pub(super) struct Walls(pub(super) Subject);
 
 impl Hunt for Walls {
     fn takes(&self) -> &'static [Bound] {
@@ -146,7 +146,7 @@ pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
 }
 
 /// What is told of a search, and of each run that it found.
-fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Found) -> Result<HuntReport, Diagnostic> {
+fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
         let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
@@ -164,7 +164,7 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Found) -> Result<HuntReport,
         })
     });
     let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
-    let &Found { runs, moves, longest, ref levels, .. } = found;
+    let &Findings { runs, moves, longest, ref levels, .. } = found;
     let max_walls = bounds.max_walls;
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
     let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
@@ -185,7 +185,7 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Found) -> Result<HuntReport,
     })
 }
 
-fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Diagnostic> {
+fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Findings, Diagnostic> {
     let mut saved = asked.resume.map(|path| Saved::new(path, asked, bounds));
     let mut search = match &mut saved {
         Some(saved) => saved.search(bounds)?,
@@ -217,7 +217,7 @@ fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result
 /// # Errors
 /// A [`Diagnostic`] if there are too few or too many robots.
 pub fn bounds(
-    observed: Observed,
+    observed: Subject,
     robots: u64,
     max_walls: u32,
     size: Option<Size>,

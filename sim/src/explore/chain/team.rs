@@ -5,7 +5,9 @@
 use std::mem::take;
 
 use rand_chacha::ChaCha8Rng;
-use tautline_kernel::chain::{self, Barrier, Chain, Heard, Intent, Kind, Parts, Plan, Reforming, World};
+use tautline_kernel::chain::{
+    self, Barrier, ByteEffect, Chain, Intent, Kind, Parts, Plan, Reformation, World,
+};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
 use tautline_proofs::chain::links::within_reach;
@@ -56,7 +58,7 @@ enum Whole<G, const ROBOTS: usize> {
     /// A chain.
     Chain(Box<Chain<G, ROBOTS>>),
     /// Two parts that take their moves back, as far as until they are in contact, or home.
-    Parts(Reforming<G, ROBOTS>, Until),
+    Parts(Reformation<G, ROBOTS>, Until),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -189,7 +191,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     }
 
     /// Takes a team move from before the death back; `None` if there is none.
-    fn take_back(&mut self, reforming: &mut Reforming<G, ROBOTS>) -> Option<Frame> {
+    fn take_back(&mut self, reforming: &mut Reformation<G, ROBOTS>) -> Option<Frame> {
         let before = reforming.cells().to_vec();
         let (_, log) = self.before.as_ref()?;
         if reforming.take_back(log) != Ok(true) {
@@ -226,8 +228,11 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
                 let mut answers = Vec::new();
                 for to in (0..self.barriers.len()).filter(|&to| to != from) {
                     match self.carry(from, to, byte, &mut unheard[from]) {
-                        Some(Heard::Late(answer)) => answers.push((to, answer)),
-                        Some(Heard::New | Heard::Again | Heard::Early | Heard::Foreign) | None => {}
+                        Some(ByteEffect::Late(answer)) => answers.push((to, answer)),
+                        Some(
+                            ByteEffect::New | ByteEffect::Again | ByteEffect::Early | ByteEffect::Foreign,
+                        )
+                        | None => {}
                     }
                 }
                 for (other, answer) in answers {
@@ -249,7 +254,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     }
 
     /// A byte from one robot to another, both counted from R_2, unless it is lost.
-    fn carry(&mut self, from: usize, to: usize, byte: u8, unheard: &mut Vec<usize>) -> Option<Heard> {
+    fn carry(&mut self, from: usize, to: usize, byte: u8, unheard: &mut Vec<usize>) -> Option<ByteEffect> {
         if self.loss.happens(&mut self.chance) {
             self.faults.lost_bytes += 1;
             if !unheard.contains(&to) {
@@ -414,7 +419,7 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
 
 impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     /// The two parts are a chain again, with a log that begins anew.
-    fn form(&mut self, reforming: Reforming<G, ROBOTS>) {
+    fn form(&mut self, reforming: Reformation<G, ROBOTS>) {
         if let Ok((chain, parts)) = reforming.formed() {
             if let Some((told, _)) = &mut self.before {
                 *told = Some(parts);

@@ -4,9 +4,9 @@
 
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule as Kit;
-use tautline_proofs::engine::states::{Found, Limits as Most};
+use tautline_proofs::engine::states::{Findings, Limits as Most};
 use tautline_proofs::kit::counterexample::{Counterexample, fewest};
-use tautline_proofs::kit::symmetry::Symmetric;
+use tautline_proofs::kit::symmetry::SymmetricLattice;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::plural::counted;
 
@@ -79,14 +79,14 @@ struct Broken<const ROBOTS: usize> {
 
 /// How all states of a lattice are searched; whether the work was ended is said beside what was found.
 type SearchAll<const ROBOTS: usize> =
-    fn(Setting<ROBOTS>, &Asked<'_>, &mut Count, &mut dyn Hunter) -> (Found<Demand>, bool);
+    fn(Setting<ROBOTS>, &Asked<'_>, &mut Count, &mut dyn Hunter) -> (Findings<Demand>, bool);
 
 fn as_it_is<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     asked: &Asked<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
-) -> (Found<Demand>, bool) {
+) -> (Findings<Demand>, bool) {
     watched(&setting, setting.starts(), what(&setting), asked, count, hunter)
 }
 
@@ -95,8 +95,8 @@ fn in_one_image(
     asked: &Asked<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
-) -> (Found<Demand>, bool) {
-    watched(&Symmetric::new(setting), setting.starts(), what(&setting), asked, count, hunter)
+) -> (Findings<Demand>, bool) {
+    watched(&SymmetricLattice::new(setting), setting.starts(), what(&setting), asked, count, hunter)
 }
 
 fn what<const ROBOTS: usize>(setting: &Setting<ROBOTS>) -> String {
