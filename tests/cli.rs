@@ -400,8 +400,8 @@ fn a_bound_on_memory_leaves_checks_open_and_says_so() {
 #[test]
 fn the_patience_with_a_step_is_a_number_of_seconds_and_changes_nothing_where_steps_end() {
     let folder = folder();
-    let patient = printed(folder.path(), &["prove", "MRC-1", "--patience", "1"], 0);
-    assert_eq!(patient, printed(folder.path(), &["prove", "MRC-1"], 0));
+    let patient = printed(folder.path(), &["prove", "KIT-2", "--patience", "1"], 0);
+    assert_eq!(patient, printed(folder.path(), &["prove", "KIT-2"], 0));
     let ledger = json(folder.path(), &["prove", "NOTICE-4", "--patience", "600"], 0);
     assert_eq!((&ledger["unended"], &ledger["clauses"][0]["undecided"]), (&false.into(), &().into()));
     for wrong in ["0", "-1", "1.5", "a while"] {
