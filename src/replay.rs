@@ -356,8 +356,15 @@ impl Replay {
                 Some(_) | None => Ok(false),
             },
             Depiction::Agents(course) => self.judge_floor(&of_course(clause.id, course)),
-            // A judge of rescues would be asked here.
-            Depiction::Choices | Depiction::Story(_) | Depiction::Messages { .. } => Ok(false),
+            Depiction::Choices | Depiction::Story(_) | Depiction::Messages { .. } => {
+                match check.case(&evidence.choices) {
+                    Some(case) => {
+                        case.judge().map_err(|objection| self.rejected(&objection))?;
+                        Ok(true)
+                    }
+                    None => Ok(false),
+                }
+            }
         }
     }
 

@@ -8,6 +8,7 @@ use crate::decide::{Answer, Cache, Context, Evidence, Method, MethodError, Refut
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Watch;
 use crate::engine::{Choices, ScriptError, Until};
+use crate::judge::AnyCase;
 
 /// A rule with the name that the ledger prints: "published", "repaired", "robust", or what is wrong with it.
 #[derive(Clone, Copy, Debug)]
@@ -158,6 +159,9 @@ pub trait AnyCheck: Sync {
     /// # Errors
     /// [`ScriptError`] if they are no refutation.
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
+
+    /// The counterexample that these choices make, written down for a judge; `None` if no judge reads it.
+    fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>>;
 }
 
 impl<R: Sync> AnyCheck for Check<R> {
@@ -209,6 +213,10 @@ impl<R: Sync> AnyCheck for Check<R> {
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         self.method.replay(&self.about.rule, choices)
+    }
+
+    fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        self.method.case(&self.about.rule, choices)
     }
 }
 

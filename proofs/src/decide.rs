@@ -10,6 +10,7 @@ use crate::engine::states::{self, Limits, MemoryLimit, Step, System, steps};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
+use crate::judge::AnyCase;
 use crate::run::Run;
 
 /// A check's verdict.
@@ -208,6 +209,49 @@ pub trait Method<R>: Sync {
     /// # Errors
     /// [`ScriptError`] if they are none.
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
+
+    /// The counterexample to `rule` that these choices make, written down for a judge; `None` if no judge reads it.
+    fn case(&self, _: &R, _: &Choices) -> Option<Box<dyn AnyCase>> {
+        None
+    }
+}
+
+/// A method whose counterexamples are written down for a judge.
+pub struct Judged<R: 'static> {
+    /// The method.
+    pub method: &'static dyn Method<R>,
+    /// The counterexample that choices make, written down; `None` if they make none.
+    pub case: fn(&R, &Choices) -> Option<Box<dyn AnyCase>>,
+}
+
+impl<R> Method<R> for Judged<R> {
+    fn engine(&self) -> &'static str {
+        self.method.engine()
+    }
+
+    fn bound(&self) -> String {
+        self.method.bound()
+    }
+
+    fn shows(&self) -> Verdict {
+        self.method.shows()
+    }
+
+    fn family(&self, rule: &R) -> Option<String> {
+        self.method.family(rule)
+    }
+
+    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+        self.method.decide(rule, until, desk)
+    }
+
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        self.method.replay(rule, choices)
+    }
+
+    fn case(&self, rule: &R, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        (self.case)(rule, choices)
+    }
 }
 
 /// A body: one case of a clause about `rule`, made by the choices that the oracle answers.

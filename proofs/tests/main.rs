@@ -8,6 +8,7 @@ mod hostile;
 mod judge_and_rule;
 mod judge_of_agents;
 mod judge_of_chains;
+mod judges;
 mod log;
 mod own_parts;
 mod own_rule;

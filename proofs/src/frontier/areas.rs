@@ -1,13 +1,14 @@
 //! Small areas: all obstacles, all starts, all orders of moves, lost messages and wrong fixes (FRONTIER-1 to
 //! FRONTIER-5). A counterexample has the fewest cells, of these the fewest obstacles, and of these the fewest steps.
 
-use tautline_kernel::frontier::{Rule, Sight, TinyMap};
+use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use super::world::{Demand, Event, Setting, World};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
+use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::counted;
 
 /// Columns and rows.
@@ -98,6 +99,28 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         Some((setting, numbers))
     }
 
+    /// The run by a rule without repairs, written down for the judge.
+    fn case(&self) -> Option<Box<dyn AnyCase>> {
+        let rule = match self.setting.rule {
+            Rule::PUBLISHED => judge::Rule::Published,
+            Rule::PRINTED => judge::Rule::Printed,
+            Rule::LITERAL => judge::Rule::Literal,
+            Rule::WANDERS => judge::Rule::Wanders,
+            _ => return None,
+        };
+        let (start, steps, once) = self.steps()?;
+        let area = self.setting.area;
+        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
+        let truth = steps.last().map_or(start.truth(), |(_, world)| world.truth());
+        let barred = area.cells().filter(|&cell| truth.status(cell) == Status::Obstacle).map(place).collect();
+        let floor = Floor { columns: area.width() as i32, rows: area.height() as i32, barred };
+        let starts = start.cells().map(place).to_vec();
+        let round = steps.len() - once;
+        let steps = steps.iter().map(|(event, _)| written(event)).collect::<Option<Vec<_>>>()?;
+        let clause = self.run.demand.clause();
+        Some(Box::new(judge::Run { clause, rule, floor, starts, steps, round }))
+    }
+
     /// The events, a line for each step.
     pub fn story(&self) -> String {
         let area = self.setting.area;
@@ -117,6 +140,23 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         }
         lines
     }
+}
+
+/// An event as the judge reads it, if no message is lost.
+fn written(event: &Event) -> Option<judge::Step> {
+    let (robot, what, side, fix) = match *event {
+        Event::Decides(robot, side, _, 0) => {
+            let side = Side::ALL.iter().position(|&other| other == side);
+            (robot, judge::What::Decides, side, None)
+        }
+        Event::Looks(robot, _, Sight::Open, ..) => (robot, judge::What::Enters, None, None),
+        Event::Looks(robot, _, Sight::Obstacle, 0, _) => (robot, judge::What::IsBarred, None, None),
+        Event::Arrives(robot, fix, 0) => {
+            (robot, judge::What::Arrives, None, Some((fix.x.into(), fix.y.into())))
+        }
+        Event::Decides(..) | Event::Looks(..) | Event::Arrives(..) | Event::Ticks => return None,
+    };
+    Some(judge::Step { robot, what, side, fix })
 }
 
 /// An event in words; nothing of a robot that has only decided, unless a robot misses that.
@@ -245,6 +285,22 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let (of, found) = self.found(rule, choices)?;
+        Ok(RefutationPlay { of, evidence: Self::evidence(choices.clone(), &found) })
+    }
+
+    fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        self.found(rule, choices).ok()?.1.case()
+    }
+}
+
+impl<const ROBOTS: usize> Areas<ROBOTS> {
+    /// From how many each choice is made, and the run.
+    fn found(
+        &self,
+        rule: &Rule,
+        choices: &Choices,
+    ) -> Result<(Vec<u32>, Counterexample<ROBOTS>), ScriptError> {
         let mut script = Script::new(choices);
         let size = self.sizes[script.choose(self.sizes.len())?];
         let max_obstacles = script.choose(TinyMap::CELLS + 1)? as u8;
@@ -253,12 +309,9 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         let starts = setting.starts();
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
-        let found = Counterexample { setting, run };
-        Ok(RefutationPlay { of, evidence: Self::evidence(choices.clone(), &found) })
+        Ok((of, Counterexample { setting, run }))
     }
-}
 
-impl<const ROBOTS: usize> Areas<ROBOTS> {
     fn shows_of(&self) -> crate::decide::Verdict {
         Method::<Rule>::shows(self)
     }

@@ -8,13 +8,15 @@ use tautline_kernel::frontier::{
     Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Scratch, SearchCell, Sight, Slot, Status, TinyMap,
     View, clamped, taken_for,
 };
-use tautline_kernel::ground::{Area, Cell};
+use tautline_kernel::ground::{Area, Cell, Side};
 
 use super::areas::Size;
 use super::world::Demand;
-use crate::engine::outcomes;
 use crate::engine::states::{Run, System, steps};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
+use crate::engine::{Choices, Replay, outcomes};
+use crate::judge::frontier::{Drift as Written, Move};
+use crate::judge::{AnyCase, Floor};
 
 /// The parts of a cell's side in which an error is told.
 pub const PARTS: i32 = 16;
@@ -94,17 +96,52 @@ impl Drift {
         Place::new(place.x + off() * error, place.y + off() * error)
     }
 
-    /// A move, and the fix after it; `None` if there is none.
-    fn go(&self, state: &State, oracle: &mut dyn Oracle) -> Option<(State, &'static str)> {
-        let mut after = *state;
+    /// What the robot does next.
+    fn next(&self, state: &State, oracle: &mut dyn Oracle) -> Next {
         let (mut reached, mut queue) =
             ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
         let (mut rounds, mut pairs) = (0, [None]);
         let mut scratch =
             Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
         let view = View { others: &[], slot: Slot::Own };
-        let next = state.robot.next(&self.rule, view, &mut scratch, oracle);
-        let Next::Tries { side, aim } = next else { return None };
+        state.robot.next(&self.rule, view, &mut scratch, oracle)
+    }
+
+    /// The run that these choices make in areas of these sizes by the published rule, written down for the judge.
+    pub(super) fn case(&self, sizes: &[Size], choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        let mut numbers = choices.all();
+        let start = self.starts(sizes).into_iter().nth(numbers.next()? as usize)?;
+        let sixteenths = |place: Place, from: Place| {
+            let part = |far: i32| far * PARTS / SIDE;
+            (part(place.x - from.x), part(place.y - from.y))
+        };
+        let (mut state, mut moves) = (start, Vec::new());
+        for number in numbers {
+            // The published rule leaves nothing to choose.
+            let Next::Tries { side, .. } = self.next(&state, &mut Replay::new(&[])) else { return None };
+            let step = steps(self, &state).nth(number as usize)?;
+            let is_arrival = step.state.place != state.place;
+            state = step.state;
+            let off = is_arrival.then(|| sixteenths(state.fix, state.place));
+            moves.push(Move { side: Side::ALL.iter().position(|&other| other == side)?, off });
+        }
+        let (area, place) = (state.truth.area(), |cell: Cell| (i32::from(cell.x), i32::from(cell.y)));
+        let is_barred = |cell: &Cell| state.truth.status(*cell) == Status::Obstacle;
+        let barred = area.cells().filter(is_barred).map(place).collect();
+        Some(Box::new(Written {
+            clause: Demand::Marks.clause(),
+            floor: Floor { columns: area.width() as i32, rows: area.height() as i32, barred },
+            error: self.error.into(),
+            start: place(start.robot.at()),
+            off: sixteenths(start.fix, start.place),
+            moves,
+        }))
+    }
+
+    /// A move, and the fix after it; `None` if there is none.
+    fn go(&self, state: &State, oracle: &mut dyn Oracle) -> Option<(State, &'static str)> {
+        let mut after = *state;
+        let Next::Tries { side, aim } = self.next(state, oracle) else { return None };
         after.robot.tries(side, aim);
         let to = state.place.moved(state.fix, Place::midpoint(state.robot.at().beyond(side)));
         let way = self.way(&mut after.truth, state.place, to, oracle);

@@ -5,7 +5,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{HALF, Occupancy, Place, SIDE, clamped, taken_for};
 use tautline_kernel::ground::{Area, Cell};
 
-use crate::engine::{Outcome, Stop, assume, require};
+use crate::engine::{Choices, Outcome, Replay, Stop, assume, require};
+use crate::judge::{AnyCase, frontier as judge};
 
 /// Parts of a cell's side.
 const PARTS: i32 = 16;
@@ -91,6 +92,17 @@ pub(super) fn counts(bears: &ErrorBudget, oracle: &mut dyn Oracle) -> Outcome {
     Ok(if at == 0 { "at the midpoint" } else { "beside the midpoint" })
 }
 
+/// Two places within a cell of the midpoint of 0,0, in parts.
+fn two(oracle: &mut dyn Oracle) -> [(i32, i32); 2] {
+    [(); 2].map(|()| (within(oracle, PARTS / 2), within(oracle, PARTS / 2)))
+}
+
+/// The places that these choices of [`occupies`] make, written down for the judge.
+pub(super) fn occupied(_: &Occupancy, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let answers: Vec<u32> = choices.all().collect();
+    Some(Box::new(judge::Occupancy { clause: "FRONTIER-8", places: two(&mut Replay::new(&answers)) }))
+}
+
 /// The bound of [`occupies`], in words.
 pub(super) fn places() -> String {
     format!("two places within a cell of its midpoint, on a lattice of 1/{PARTS}")
@@ -102,8 +114,7 @@ pub(super) fn places() -> String {
 /// [`Stop`] if the clause is broken.
 pub(super) fn occupies(occupancy: &Occupancy, oracle: &mut dyn Oracle) -> Outcome {
     let cell = Cell::new(0, 0);
-    let mut place = || Place::new(within(oracle, PARTS / 2) * PART, within(oracle, PARTS / 2) * PART);
-    let (near, far) = (place(), place());
+    let [near, far] = two(oracle).map(|(x, y)| Place::new(x * PART, y * PART));
     let distance = |place: Place| place.distance(Place::midpoint(cell));
     assume(distance(near) <= distance(far))?;
     let [near_by, far_off] = [near, far].map(|place| occupancy.of(cell, place));

@@ -2,10 +2,11 @@
 //! and what happens in it.
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
-use tautline_kernel::kit::{Next, Sight};
+use tautline_kernel::kit::{Next, Rule, Runs, Sight};
 
-use super::world::{Demand, Event, Setting, Successor, World};
+use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
+use crate::judge::{AnyCase, Lattice, kit as judge};
 
 /// A run that breaks a demand, and where.
 #[derive(Clone, Debug)]
@@ -74,6 +75,34 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         events.filter(|event| matches!(event, Event::Decides(.., Next::Drives(_)))).count()
     }
 
+    /// The run of two robots by the published rule, written down for the judge.
+    pub(super) fn case(&self) -> Option<Box<dyn AnyCase>> {
+        let Setting { rule, area, speeds, .. } = self.setting;
+        let reading = match rule {
+            Rule::PUBLISHED => judge::Reading::Published,
+            _ if rule == (Rule { runs: Runs::Ahead, ..Rule::PUBLISHED }) => judge::Reading::Ahead,
+            _ => return None,
+        };
+        let (speeds, is_equal) = match speeds {
+            Speeds::Any => (judge::Speeds::Any, false),
+            Speeds::Equal => (judge::Speeds::Equal, true),
+            Speeds::OneByOne => return None,
+        };
+        let clause = match self.run.demand {
+            Demand::Contact if ROBOTS == 2 && is_equal => "KIT-2",
+            demand => demand.clause(ROBOTS),
+        };
+        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
+        let walls = self.given()?.0.into_iter();
+        let barred = walls.map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side())))).collect();
+        let lattice = Lattice { columns: area.width() as i32, rows: area.height() as i32, barred };
+        let events = self.steps()?.1.into_iter().flat_map(|turned| turned.events);
+        let steps = events.map(|event| written(&event)).collect::<Option<Vec<_>>>()?;
+        let starts = self.starts()?.map(place).to_vec();
+        let round = self.run.round().len();
+        Some(Box::new(judge::Run { clause, reading, speeds, lattice, starts, steps, round }))
+    }
+
     /// The events, a line for each.
     pub fn story(&self) -> String {
         let (width, height) = (self.setting.area.width(), self.setting.area.height());
@@ -94,6 +123,31 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         }
         lines
     }
+}
+
+/// An event as the judge reads it.
+fn written(event: &Event) -> Option<judge::Step> {
+    let look = |&(side, sight): &(Side, Sight)| {
+        let side = Side::ALL.iter().position(|&other| other == side)?;
+        let sees = match sight {
+            Sight::Free => judge::Sees::Free,
+            Sight::Obstacle => judge::Sees::Obstacle,
+            Sight::Robot => judge::Sees::Robot,
+        };
+        Some(judge::Look { side, sees })
+    };
+    let (robot, what, looks) = match event {
+        &Event::Arrives(robot, _) => (robot, judge::What::Arrives, Vec::new()),
+        Event::Decides(robot, looks, next) => {
+            let what = match next {
+                Next::Drives(_) => judge::What::Drives,
+                Next::Stays => judge::What::Stays,
+                Next::Looks(_) | Next::Done => return None,
+            };
+            (*robot, what, looks.iter().map(look).collect::<Option<Vec<_>>>()?)
+        }
+    };
+    Some(judge::Step { robot, what, looks })
 }
 
 /// An event in words.

@@ -9,6 +9,7 @@ use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{END, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
+use crate::judge::AnyCase;
 
 /// Columns, rows, and the most walls that one run meets.
 pub(super) type Size = (i16, i16, u8);
@@ -170,6 +171,22 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let (of, found) = self.found(rule, choices)?;
+        Ok(RefutationPlay { of, evidence: evidence(choices.clone(), &found) })
+    }
+
+    fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        self.found(rule, choices).ok()?.1.case()
+    }
+}
+
+impl<const ROBOTS: usize> Lattices<ROBOTS> {
+    /// From how many each choice is made, and the run.
+    fn found(
+        &self,
+        rule: &Rule,
+        choices: &Choices,
+    ) -> Result<(Vec<u32>, Counterexample<ROBOTS>), ScriptError> {
         let mut script = Script::new(choices);
         let (width, height, most) = self.sizes[script.choose(self.sizes.len())?];
         let walls = script.choose(usize::from(most) + 1)? as u8;
@@ -178,7 +195,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         let starts: Vec<World<ROBOTS>> = setting.starts();
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
-        Ok(RefutationPlay { of, evidence: evidence(choices.clone(), &Counterexample { setting, run }) })
+        Ok((of, Counterexample { setting, run }))
     }
 }
 

@@ -2,9 +2,11 @@
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Side, Step, Steps};
-use tautline_kernel::kit::{Message, Reach, Rule, Stance};
+use tautline_kernel::kit::{Condition, Message, Reach, Rule, Stance};
 
-use crate::engine::{Outcome, assume, require};
+use crate::engine::{Choices, Outcome, Replay, assume, require};
+use crate::judge::AnyCase;
+use crate::judge::kit::{Sent, Wire};
 
 /// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in reach.
 const OFFSETS: u32 = 9;
@@ -117,8 +119,8 @@ pub(super) fn messages() -> String {
 /// Nodes that are told.
 const NODES: [Cell; 4] = [Cell::new(0, 0), Cell::new(3, 3), Cell::new(-2, 7), Cell::new(i16::MAX, i16::MIN)];
 
-/// KIT-9: what is sent is what is read.
-pub(super) fn read_back(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
+/// A message, the number of its request, and what it is.
+fn drawn(oracle: &mut dyn Oracle) -> (Message, u8, &'static str) {
     let kind = oracle.pick(4);
     let node = one_of(oracle, &NODES);
     let sides = Side::ALL
@@ -131,6 +133,37 @@ pub(super) fn read_back(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
         2 => (Message::Response { next: node, sides }, "a response"),
         _ => (Message::ResponseAcknowledged, "an acknowledgement"),
     };
+    (message, number, situation)
+}
+
+/// What these choices of [`read_back`] send and read, written down for the judge.
+pub(super) fn wire(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let answers: Vec<u32> = choices.all().collect();
+    let (message, number, _) = drawn(&mut Replay::new(&answers));
+    let fields = message.encode(number, rule);
+    let written = |message: Message, number: u8| {
+        let (kind, node, sides) = match message {
+            Message::Request { node, sides } => (0, node, sides),
+            Message::Acknowledged => (1, Cell::new(0, 0), Steps::NONE),
+            Message::Response { next, sides } => (2, next, sides),
+            Message::ResponseAcknowledged => (3, Cell::new(0, 0), Steps::NONE),
+        };
+        let order = [Side::North, Side::East, Side::South, Side::West];
+        let sides = order.map(|side| sides.has(Step::Cross(side)));
+        Sent { kind, node: (node.x.into(), node.y.into()), sides, number: number.into() }
+    };
+    Some(Box::new(Wire {
+        clause: "KIT-9",
+        flags: if rule.has(Condition::Flags) { 4 } else { 3 },
+        sent: written(message, number),
+        fields: fields.map(i32::from),
+        read: Message::decode(fields, rule).ok().map(|(message, number)| written(message, number)),
+    }))
+}
+
+/// KIT-9: what is sent is what is read.
+pub(super) fn read_back(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
+    let (message, number, situation) = drawn(oracle);
     let fields = message.encode(number, rule);
     require(Message::decode(fields, rule) == Ok((message, number)), "what is sent is what is read")?;
     let mut spoilt = fields;

@@ -4,10 +4,13 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Steps};
-use tautline_kernel::kit::{Letter, Message, NUMBERS, Outbox, Phase, Rule, Talk};
+use tautline_kernel::kit::{Condition, Letter, Message, NUMBERS, Outbox, Phase, Rule, Talk};
 
-use crate::engine::states::{Bits, System};
+use crate::engine::Choices;
+use crate::engine::states::{Bits, System, steps};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
+use crate::judge::AnyCase;
+use crate::judge::kit::{Act, Said, Talk as Written, Word};
 
 /// A demand on the talks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -323,6 +326,45 @@ impl System for Talks {
         let repeats = |robot: &usize| state.robots[*robot].again(Steps::NONE).is_some();
         let awake = (0..2).filter(repeats).fold(busy, |set, robot| set | 16 << robot);
         state.letters.iter().fold(awake, |set, &(to, ..)| set | 4 << to)
+    }
+}
+
+/// The talk that these choices make, written down for the judge.
+pub(super) fn case(talks: &Talks, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let (mut state, mut acts) = (talks.start(), Vec::new());
+    // The first choice is that of the only start.
+    for number in choices.all().skip(1) {
+        let step = steps(talks, &state).nth(number as usize)?;
+        state = step.state;
+        acts.push(act(state.last)?);
+    }
+    let clause = match talks.demand {
+        Demand::Answered => "KIT-4",
+        Demand::Fresh => "KIT-5",
+    };
+    let (has_turns, faults) = (talks.rule.has(Condition::Turn), usize::from(state.lost + state.doubled));
+    Some(Box::new(Written { clause, has_turns, faults, acts }))
+}
+
+fn act(event: Event) -> Option<Act> {
+    let of = |robot, said, letter: Letter| {
+        let word = match letter.message {
+            Message::Request { .. } => Word::Request,
+            Message::Acknowledged => Word::Acknowledged,
+            Message::Response { next, .. } => Word::Response(next.x as usize),
+            Message::ResponseAcknowledged => return None,
+        };
+        Some(Act { robot, said, word: Some(word) })
+    };
+    let does = |robot, said| Some(Act { robot, said, word: None });
+    match event {
+        Event::Arrives(robot) => does(robot, Said::Arrives),
+        Event::Drives(robot) => does(robot, Said::Drives),
+        Event::Stays(robot) => does(robot, Said::Stays),
+        Event::Hears(robot, letter) => of(robot, Said::Hears, letter),
+        Event::Loses(robot, letter) => of(robot, Said::Misses, letter),
+        Event::Doubles(robot, letter) => of(robot, Said::Doubled, letter),
+        Event::Start | Event::Repeats(_) => None,
     }
 }
 

@@ -9,7 +9,7 @@ use tautline_kernel::mrc::Rule;
 use super::within::Within;
 use super::{Demand, Faults, Leases, LossKind, Misreading, Setting, Subject, records};
 use crate::clause::{Check, Clause, NamedRule};
-use crate::decide::{EveryAnswer, Verdict};
+use crate::decide::{EveryAnswer, Judged, Verdict};
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::rescuing(Rule::REPAIRED));
@@ -288,7 +288,15 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-10",
         sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest under \
                    it and the first node that told it so, and bid by that record.",
-        checks: &[&Check { about: PUBLISHED, expected: Verdict::Refuted, mutants: &[], ..RECORDS }, &RECORDS],
+        checks: &[
+            &Check::new(
+                PUBLISHED,
+                &Judged { method: RECORDS.method, case: records::recorded },
+                Verdict::Refuted,
+                &[],
+            ),
+            &RECORDS,
+        ],
     },
     Clause {
         id: "MRC-11",

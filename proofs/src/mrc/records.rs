@@ -8,7 +8,9 @@ use tautline_kernel::mrc::{
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 use super::{Misreading, Subject};
-use crate::engine::{Outcome, require};
+use crate::engine::{Choices, Outcome, Replay, require};
+use crate::judge::AnyCase;
+use crate::judge::mrc::{Heard, Record};
 
 /// Messages that arrive at a robot or a node.
 const MESSAGES: usize = 3;
@@ -28,6 +30,32 @@ const SENDERS: [NodeId; 2] = [NodeId(5), NodeId(6)];
 
 fn call(oracle: &mut dyn Oracle) -> Call {
     Call { wfr: NodeId(oracle.pick(WFRS)), epoch: Epoch(1 + oracle.pick(CALLS)) }
+}
+
+fn notice(oracle: &mut dyn Oracle) -> Notice {
+    let (call, hops) = (call(oracle), oracle.pick(3) as u16);
+    Notice { call, hops, sender: one_of(oracle, &SENDERS) }
+}
+
+/// The NOTICEs that these choices of [`records`] make, and what a robot has recorded by them, written down for the judge.
+pub(super) fn recorded(observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let answers: Vec<u32> = choices.all().collect();
+    let mut replay = Replay::new(&answers);
+    let (mut robot, mut heard) = (Robot::<{ WFRS as usize }>::new(observed.rule, ROBOT), Vec::new());
+    let written = |call: Call, hops: u16, sender: NodeId| {
+        let [epoch, sender] = [call.epoch.0, sender.0].map(|number| number as i32);
+        Heard { wfr: call.wfr.0 as usize, epoch, hops: hops.into(), sender }
+    };
+    let mut last = None;
+    while replay.asked().len() < answers.len() {
+        let notice = notice(&mut replay);
+        robot = robot.receive(Downward::Notice(notice)).0;
+        heard.push(written(notice.call, notice.hops, notice.sender));
+        last = Some(notice.call.wfr);
+    }
+    let record = robot.request(last?)?;
+    let record = written(record.call, record.hops, record.parent);
+    Some(Box::new(Record { clause: "MRC-10", heard, record }))
 }
 
 /// The bound of [`records`].
@@ -54,9 +82,8 @@ pub(super) fn records(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let mut heard: Vec<Notice> = Vec::new();
     let mut situation = "one call";
     for _ in 0..MESSAGES {
-        let (call, hops) = (call(oracle), oracle.pick(3) as u16);
-        let notice = Notice { call, hops, sender: one_of(oracle, &SENDERS) };
-        let is_other = |known: &Notice| known.call != call;
+        let notice = notice(oracle);
+        let is_other = |known: &Notice| known.call != notice.call;
         if heard.iter().any(is_other) {
             situation = "several calls";
         }

@@ -1,11 +1,15 @@
 //! A check that no state, and no run, breaks a demand within a setting.
 
+use tautline_kernel::mrc::{Rule, Upward, Word};
+
 use super::chart::chart;
-use super::space::{self, Refutation};
+use super::space::{self, Ending, Refutation};
+use super::state::{Action, Message, place};
 use super::{Demand, Setting, Subject};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, ScriptError, Until};
+use crate::judge::{AnyCase, mrc as judge};
 
 /// Every state within a setting is checked for a demand.
 pub(super) struct Within(pub Demand, pub Setting);
@@ -62,4 +66,55 @@ impl Method<Subject> for Within {
         let (of, broken) = space::replay(&setting, self.0, Script::new(choices))?;
         Ok(RefutationPlay { of, evidence: Self::evidence(&setting, &broken) })
     }
+
+    fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        let setting = self.setting(observed);
+        let (_, broken) = space::replay(&setting, self.0, Script::new(choices)).ok()?;
+        written(&setting, &broken)
+    }
+}
+
+/// A run by the published rule, written down for the judge; `None` if more happens in it than the judge knows.
+fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
+    let Refutation { demand, start, ref actions, ref ending } = *broken;
+    if setting.rule != Rule::PUBLISHED || matches!(ending, Ending::Round(_)) {
+        return None;
+    }
+    let mut state = setting.start(start as u32);
+    let hops = |robot: usize| (0..setting.wfrs).map(|wfr| i32::from(state.hops(robot, wfr))).collect();
+    let hops: Vec<Vec<i32>> = (0..setting.robots).map(hops).collect();
+    let does = |what, wfr, robot| {
+        let (fate, epoch, chosen) = (judge::Fate::Arrives, 0, None);
+        Some(judge::Step { what, fate, wfr, robot, epoch, chosen })
+    };
+    let mut steps = Vec::new();
+    for &action in actions {
+        let of = |at: usize, fate| message(state.network()[at], fate);
+        steps.push(match action {
+            Action::Raise(wfr) => does(judge::What::Calls, wfr, 0),
+            Action::Deliver(at) => of(at, judge::Fate::Arrives),
+            Action::Lose(at) => of(at, judge::Fate::IsLost),
+            Action::Duplicate(at) => of(at, judge::Fate::ComesTwice),
+            Action::Arrive(robot) => does(judge::What::Comes, place(state.comes_for(robot)?.wfr), robot),
+            Action::FailRobot(robot) => does(judge::What::Fails, 0, robot),
+            Action::Expire(_) | Action::Lapse(_) | Action::FailNode { .. } => None,
+        }?);
+        state = state.after(setting, action);
+    }
+    let is_fault = |step: &&judge::Step| step.fate != judge::Fate::Arrives || step.what == judge::What::Fails;
+    let faults = steps.iter().filter(is_fault).count();
+    Some(Box::new(judge::Run { clause: demand.clause(), hops, faults, steps }))
+}
+
+/// What becomes of a message, as the judge reads it.
+fn message(message: Message, fate: judge::Fate) -> Option<judge::Step> {
+    let (what, chosen) = match message {
+        Message::Notice(..) => (judge::What::Notice, None),
+        Message::Resb(resb) => (judge::What::Resb, resb.chosen.map(|robot| usize::from(robot.0))),
+        Message::Up(Upward { word: Word::Move { .. }, .. }) => (judge::What::Move, None),
+        Message::Up(_) => return None,
+    };
+    let (call, robot) = (message.call(), usize::from(message.robot().0));
+    let epoch = i32::try_from(call.epoch.0).ok()?;
+    Some(judge::Step { what, fate, wfr: place(call.wfr), robot, epoch, chosen })
 }

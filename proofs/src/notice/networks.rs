@@ -11,6 +11,7 @@ use crate::engine::states::{Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover};
+use crate::judge::{AnyCase, notice as judge};
 
 /// The largest network of which every state is looked at.
 pub(super) const SMALL: usize = 5;
@@ -351,6 +352,27 @@ impl Method<Subject> for Networks {
         let (of, run) = script.play(case, (0, Spread::start(&case.links)), |_| true)?;
         let seen = Depiction::Story(self.story(observed, &choices.once));
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand.1, seen } })
+    }
+
+    fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        let (Demand::Reaches, Rules::Only(k @ 1..)) = (self.demand, self.rules) else { return None };
+        let (&place, choices) = choices.once.split_first()?;
+        let Case { links, rule, .. } = self.cases(observed).nth(place as usize)?;
+        let (mut spread, mut steps) = (Spread::start(&links), Vec::new());
+        for &choice in choices {
+            let event = *spread.events().get(choice as usize)?;
+            spread = spread.after(&rule, &links, event);
+            let (node, from, comes_again) = match event {
+                Event::Arrives { from, to } => (to, Some(from), false),
+                Event::ArrivesAgain { from, to } => (to, Some(from), true),
+                Event::Expires { at } => (at, None, false),
+            };
+            steps.push(judge::Step { node, from, comes_again });
+        }
+        let nodes = links.component().count_ones() as usize;
+        let pairs = (0..nodes).flat_map(|one| ones(links.0[one]).map(move |other| (one, other)));
+        let network = judge::Network { nodes, links: pairs.filter(|(one, other)| one < other).collect() };
+        Some(Box::new(judge::Spread { clause: "NOTICE-5", k: k.into(), network, steps }))
     }
 }
 

@@ -9,7 +9,9 @@ use tautline_kernel::notice::{Count, Node, Reaction};
 use super::Subject;
 use super::networks::SMALL;
 use super::spread::{Demand, Links, Point, Spread, call, hear, notice};
-use crate::engine::{Outcome, require};
+use crate::engine::{Choices, Outcome, Replay, require};
+use crate::judge::AnyCase;
+use crate::judge::notice::{Heard, Later};
 
 /// The largest of the random networks.
 const LARGE: usize = 40;
@@ -123,29 +125,53 @@ pub(super) fn later_events() -> String {
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn second_event(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    let rule = observed.farthest(Some(Count::ONE));
-    let mut node = Node::new(NodeId(1), NodeId(0));
-    let fate = oracle.pick(FATES.len() as u32);
-    match fate {
-        0 => {}
-        1 => {
-            hear(&mut node, &rule, notice(2));
-        }
-        2 => {
-            hear(&mut node, &rule, notice(2));
-            hear(&mut node, &rule, notice(3));
-        }
-        _ => {
-            hear(&mut node, &rule, notice(2));
-            node.expire(0);
-        }
-    }
+    let (fate, news) = drawn(oracle);
+    let (node, reaction) = heard(observed, fate, news);
+    require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
+    require(node.parent() == Some(news.sender), "its sender is the parent")?;
+    require(node.hops() == Some(news.hops + 1), "the node is one hop farther than its sender")?;
+    Ok(FATES[fate])
+}
+
+/// What has become of the first event, and a NOTICE of a later one.
+fn drawn(oracle: &mut dyn Oracle) -> (usize, Notice) {
+    let fate = oracle.pick(FATES.len() as u32) as usize;
     let [events, senders, most_hops] = LATER;
     let (event, sender) = (2 + oracle.pick(events), 2 + oracle.pick(senders));
     let hops = oracle.pick(most_hops) as u16;
-    let reaction = hear(&mut node, &rule, Notice { call: call(event), hops, ..notice(sender as usize) });
-    require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
-    require(node.parent() == Some(NodeId(sender)), "its sender is the parent")?;
-    require(node.hops() == Some(hops + 1), "the node is one hop farther than its sender")?;
-    Ok(FATES[fate as usize])
+    (fate, Notice { call: call(event), hops, ..notice(sender as usize) })
+}
+
+/// The NOTICEs of the first event that a node has heard with this fate.
+fn before(fate: usize) -> impl Iterator<Item = Notice> {
+    [2, 3].map(notice).into_iter().take([0, 1, 2, 1][fate])
+}
+
+/// A node with this fate that hears a NOTICE of a later event, and what it makes of that.
+fn heard(observed: &Subject, fate: usize, news: Notice) -> (Node, Reaction) {
+    let rule = observed.farthest(Some(Count::ONE));
+    let mut node = Node::new(NodeId(1), NodeId(0));
+    for notice in before(fate) {
+        hear(&mut node, &rule, notice);
+    }
+    if FATES[fate] == "through with the first" {
+        node.expire(0);
+    }
+    let reaction = hear(&mut node, &rule, news);
+    (node, reaction)
+}
+
+/// What these choices of [`second_event`] make, written down for the judge.
+pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let answers: Vec<u32> = choices.all().collect();
+    let (fate, news) = drawn(&mut Replay::new(&answers));
+    let (node, reaction) = heard(observed, fate, news);
+    let written = |notice: Notice| {
+        let [event, sender] = [notice.call.epoch.0, notice.sender.0].map(|number| number as i32);
+        Heard { event, sender, hops: notice.hops.into() }
+    };
+    let begins = matches!(reaction, Reaction::Armed { .. });
+    let is_first = begins && node.parent() == Some(news.sender);
+    let before = before(fate).map(written).collect();
+    Some(Box::new(Later { clause: "NOTICE-4", before, news: written(news), is_first }))
 }

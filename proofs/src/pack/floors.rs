@@ -5,10 +5,11 @@ use tautline_kernel::ground::{Area, Cell, neighbours};
 use tautline_kernel::pack::Rule;
 
 use super::gains::Gains;
-use super::played::{Demand, Floor, play, story};
+use super::played::{Demand, Floor, RunOutcome, play, story};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Verdict};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
+use crate::judge::{AnyCase, Floor as Written, pack as judge};
 use crate::plural::counted;
 
 /// Columns and rows.
@@ -163,22 +164,29 @@ fn is_one(cells: &[Cell]) -> bool {
 }
 
 impl Floors {
-    /// The refutation by the run on one floor; `None` if it breaks something else, or nothing.
-    fn evidence(&self, rule: &Rule, [number, set, start]: Place) -> Result<Option<Evidence>, MethodError> {
+    /// The run on one floor; `None` if it breaks something else, or nothing.
+    fn run(
+        &self,
+        rule: &Rule,
+        [number, set, start]: Place,
+    ) -> Result<Option<(RunOutcome, Floor)>, MethodError> {
         let rule = self.bounds.rule(rule)?;
         let (area, sets) = self.bounds.layouts(number)?;
         let Some(&obstacles) = sets.get(set) else { return Ok(None) };
         let starts = self.bounds.starts(area, obstacles).into_iter().nth(start);
         let floor = starts.map(|starts| Floor { area, obstacles, starts });
         let run = floor.and_then(|floor| Some((play(&rule, &floor, self.bounds.gains)?, floor)));
-        let run = run.filter(|(played, _)| played.broken.contains(&self.demand));
-        Ok(run.map(|(played, floor)| Evidence {
-            choices: Choices {
-                once: [number, set, start].map(|place| place as u32).to_vec(),
-                again: Vec::new(),
-            },
+        Ok(run.filter(|(played, _)| played.broken.contains(&self.demand)))
+    }
+
+    /// The refutation by the run on one floor; `None` if it breaks something else, or nothing.
+    fn evidence(&self, rule: &Rule, place: Place) -> Result<Option<Evidence>, MethodError> {
+        let rule_within = self.bounds.rule(rule)?;
+        let choices = Choices { once: place.map(|place| place as u32).to_vec(), again: Vec::new() };
+        Ok(self.run(rule, place)?.map(|(played, floor)| Evidence {
+            choices,
             demand: self.demand.words(),
-            seen: Depiction::Story(story(&rule, &floor, &played)),
+            seen: Depiction::Story(story(&rule_within, &floor, &played)),
         }))
     }
 }
@@ -256,5 +264,31 @@ impl Method<Rule> for Floors {
             self.evidence(rule, [number, set, start]).ok().flatten().ok_or(ScriptError::Unbroken)?;
         let of = [self.bounds.count(), sets.len(), starts].map(|of| of as u32).to_vec();
         Ok(RefutationPlay { of, evidence })
+    }
+
+    fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        let &[number, set, start] = &choices.once[..] else { return None };
+        let place = [number, set, start].map(|place| place as usize);
+        let (played, floor) = self.run(rule, place).ok().flatten()?;
+        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
+        let clause = match (self.demand, self.bounds.starts) {
+            (Demand::Connected, _) => "PACK-1",
+            (Demand::Covers, Starts::Beside) => "PACK-3",
+            (Demand::Covers, Starts::Linked) => "PACK-5",
+            (Demand::Single | Demand::Ends | Demand::Free | Demand::Best, _) => return None,
+        };
+        let area = floor.area;
+        let barred = area.cells().filter(|&cell| !floor.is_free(cell)).map(place).collect();
+        let moves = played
+            .until(self.demand, self.bounds.range_cells)
+            .map(|cells| cells.iter().copied().map(place).collect());
+        Some(Box::new(judge::Run {
+            clause,
+            floor: Written { columns: area.width() as i32, rows: area.height() as i32, barred },
+            sight: self.bounds.sight_cells.into(),
+            range: self.bounds.range_cells.into(),
+            starts: floor.starts.iter().copied().map(place).collect(),
+            moves: moves.collect(),
+        }))
     }
 }

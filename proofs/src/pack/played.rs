@@ -58,7 +58,7 @@ pub(super) struct Floor {
 }
 
 impl Floor {
-    fn is_free(&self, cell: Cell) -> bool {
+    pub(super) fn is_free(&self, cell: Cell) -> bool {
         self.area
             .locate(cell)
             .is_some_and(|(column, row)| self.obstacles >> (row * self.area.width() + column) & 1 == 0)
@@ -129,6 +129,15 @@ pub(super) struct RunOutcome {
     moves: Vec<(MoveKind, Vec<Cell>)>,
     /// The cells within reach that were not explored when it ended.
     left: Vec<Cell>,
+}
+
+impl RunOutcome {
+    /// Where the robots were after each team move, up to the one that breaks a demand of each of them.
+    pub(super) fn until(&self, demand: Demand, range_cells: u16) -> impl Iterator<Item = &Vec<Cell>> {
+        let breaks = move |cells: &Vec<Cell>| demand == Demand::Connected && !is_joined(cells, range_cells);
+        let first = self.moves.iter().position(|(_, cells)| breaks(cells)).unwrap_or(self.moves.len());
+        self.moves.iter().map(|(_, cells)| cells).take(first + 1)
+    }
 }
 
 /// Whether links of R_c by four corners join all robots.

@@ -5,7 +5,9 @@ use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::position::{Area, Point, Range};
 
 use super::way::{Way, WayResult};
-use crate::engine::{Outcome, Stop, assume, require};
+use crate::engine::{Choices, Outcome, Replay, Stop, assume, require};
+use crate::judge::AnyCase;
+use crate::judge::position::{Exact, Moved};
 
 /// The side of the lattice of three anchors and a robot, and of that of four.
 const SIDES: [u32; 2] = [4, 3];
@@ -75,6 +77,24 @@ pub(super) fn is_exact_of_three(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
     is_exact(way, &mut First { oracle, has_picked: false })
 }
 
+/// A place of a lattice in whole metres, or tenths of a length, as the judge reads it.
+fn written(place: Point, per_metre: f64) -> (i32, i32) {
+    ((place.x_m * per_metre).round() as i32, (place.y_m * per_metre).round() as i32)
+}
+
+/// The anchors and the robot that these choices of [`is_exact_of_three`] make, written down for the judge.
+pub(super) fn exact(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let answers: Vec<u32> = choices.all().collect();
+    let mut replay = Replay::new(&answers);
+    let anchors = anchors(&mut replay, 3, SIDES[0]).ok()?;
+    let at = place(&mut replay, SIDES[0]);
+    let ranges: Vec<Range> =
+        anchors.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at))).collect();
+    let is_told = way(&ranges, None).is_ok();
+    let anchors = [anchors[0], anchors[1], anchors[2]].map(|anchor| written(anchor, 1.0));
+    Some(Box::new(Exact { clause: "POSITION-1", anchors, robot: written(at, 1.0), is_told }))
+}
+
 /// The plain case of the first choice.
 struct First<'a> {
     oracle: &'a mut dyn Oracle,
@@ -108,18 +128,42 @@ pub(super) fn moves() -> String {
     )
 }
 
+/// Three anchors, distances to them, and a motion.
+fn motion(oracle: &mut dyn Oracle) -> Result<(Vec<Point>, Vec<f64>, [f64; 6]), Stop> {
+    let anchors = anchors(oracle, 3, SIDES[1])?;
+    assume(!is_line(&anchors))?;
+    let distances: Vec<f64> = anchors.iter().map(|_| one_of(oracle, &DISTANCES_M)).collect();
+    Ok((anchors, distances, one_of(oracle, &MOVES)))
+}
+
+fn moved([xx, xy, yx, yy, x_m, y_m]: [f64; 6], place: Point) -> Point {
+    Point::new(xx * place.x_m + yx * place.y_m + x_m, xy * place.x_m + yy * place.y_m + y_m)
+}
+
+/// The anchors and the motion that these choices of [`follows`] make, written down for the judge.
+pub(super) fn turned(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let answers: Vec<u32> = choices.all().collect();
+    let (anchors, distances, motion) = motion(&mut Replay::new(&answers)).ok()?;
+    let is_told = |of: &dyn Fn(Point) -> Point| {
+        let ranges: Vec<Range> =
+            anchors.iter().zip(&distances).map(|(&anchor, &far)| Range::new(of(anchor), far)).collect();
+        way(&ranges, None).is_ok()
+    };
+    let is_told = [is_told(&|place| place), is_told(&|place| moved(motion, place))];
+    let [xx, xy, yx, yy, x_m, y_m] = motion;
+    let motion = [(xx, xy), (yx, yy), (x_m, y_m)].map(|(x_m, y_m)| written(Point::new(x_m, y_m), 10.0));
+    let distances = [distances[0], distances[1], distances[2]].map(|far| (10.0 * far).round() as i32);
+    let anchors = [anchors[0], anchors[1], anchors[2]].map(|anchor| written(anchor, 1.0));
+    Some(Box::new(Moved { clause: "POSITION-4", anchors, distances, motion, is_told }))
+}
+
 /// POSITION-4: the same anchors and distances after a motion.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn follows(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
-    let anchors = anchors(oracle, 3, SIDES[1])?;
-    assume(!is_line(&anchors))?;
-    let distances: Vec<f64> = anchors.iter().map(|_| one_of(oracle, &DISTANCES_M)).collect();
-    let [xx, xy, yx, yy, x_m, y_m] = one_of(oracle, &MOVES);
-    let moved = |place: Point| {
-        Point::new(xx * place.x_m + yx * place.y_m + x_m, xy * place.x_m + yy * place.y_m + y_m)
-    };
+    let (anchors, distances, motion) = motion(oracle)?;
+    let moved = |place| moved(motion, place);
     let told = |of: &dyn Fn(Point) -> Point| {
         let ranges: Vec<Range> =
             anchors.iter().zip(&distances).map(|(&anchor, &far)| Range::new(of(anchor), far)).collect();

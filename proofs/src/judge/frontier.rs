@@ -1,0 +1,285 @@
+//! The judge of FRONTIER: runs of robots that explore cells (FRONTIER-1 to FRONTIER-5), of one whose fixes are off by parts of a
+//! cell ([`Drift`]: FRONTIER-5), and the occupancy probability ([`Occupancy`]: FRONTIER-8), all by the rules without
+//! repairs. It knows the sentences of `SPEC.md` alone.
+
+mod drift;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::change::plain;
+use super::{Case, Floor, Objection, Place, beside, must};
+pub use drift::{Drift, Move, Occupancy};
+
+/// A run of robots that explore cells.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Run {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// By which rule the robots go.
+    pub rule: Rule,
+    /// The cells, and the obstacles that the robots meet.
+    pub floor: Floor,
+    /// Where each robot starts.
+    pub starts: Vec<Place>,
+    /// What they do.
+    pub steps: Vec<Step>,
+    /// The last of the steps that are said to come again for ever; 0 if the run ends.
+    pub round: usize,
+}
+
+/// The rules without repairs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Rule {
+    /// As published.
+    Published,
+    /// With equation (11) as printed.
+    Printed,
+    /// Obstacles are not stored.
+    Literal,
+    /// A robot without a candidate goes to any explored neighbour.
+    Wanders,
+}
+
+/// A step of a move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Step {
+    /// The robot's place among all.
+    pub robot: usize,
+    /// What it does.
+    pub what: What,
+    /// Through which side of its cell, of one that decides: east, south, west, north, from 0.
+    pub side: Option<usize>,
+    /// The cell that its fix says, of one that arrives.
+    pub fix: Option<Place>,
+}
+
+/// What a robot does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum What {
+    /// It goes to the rim of its cell.
+    Decides,
+    /// It looks into the next cell, sees no obstacle, and enters.
+    Enters,
+    /// It looks into the next cell, and there is an obstacle.
+    IsBarred,
+    /// It arrives.
+    Arrives,
+}
+
+plain!(Run { rule, floor, starts, steps, round });
+plain!(Rule one of Published, Printed, Literal, Wanders);
+plain!(Step { robot, what, side, fix });
+plain!(What one of Decides, Enters, IsBarred, Arrives);
+
+/// Where a robot is in its move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stance {
+    Stands,
+    Tries(usize),
+    Enters(usize),
+}
+
+/// What a robot takes for explored (true), and for an obstacle.
+type Repository = BTreeMap<Place, bool>;
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Robot {
+    /// Where it is, and where it takes itself to be.
+    cell: Place,
+    at: Place,
+    stance: Stance,
+    known: Repository,
+    /// Where each other robot was when it told something last.
+    told: Vec<Place>,
+}
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Team {
+    robots: Vec<Robot>,
+    /// What was entered, and which obstacles were met.
+    entered: BTreeSet<Place>,
+    met: BTreeSet<Place>,
+}
+
+impl Case for Run {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let whole = |what| Objection { at: 0, what };
+        let Self { starts, steps, floor, .. } = self;
+        let alone: BTreeSet<Place> = starts.iter().copied().collect();
+        must(!starts.is_empty() && alone.len() == starts.len(), "robots start in cells of their own")
+            .map_err(whole)?;
+        must(starts.iter().all(|&start| floor.is_free(start)), "a robot starts in no free cell")
+            .map_err(whole)?;
+        must((self.clause == "FRONTIER-3") == (self.round > 0), "FRONTIER-3 is broken by a round alone")
+            .map_err(whole)?;
+        must(self.round <= steps.len(), "there are not so many steps").map_err(whole)?;
+        let known: Repository = alone.iter().map(|&start| (start, true)).collect();
+        let robot = |&at: &Place| Robot {
+            cell: at,
+            at,
+            stance: Stance::Stands,
+            known: known.clone(),
+            told: starts.clone(),
+        };
+        let robots = starts.iter().map(robot).collect();
+        let mut team = Team { robots, entered: alone, met: BTreeSet::new() };
+        let mut before = None;
+        let (mut acting, mut awake) = (BTreeSet::new(), (0..starts.len()).collect::<BTreeSet<_>>());
+        for (number, step) in (1..).zip(steps) {
+            let object = |what| Objection { at: number, what };
+            if number > steps.len() - self.round {
+                before.get_or_insert_with(|| team.clone());
+                acting.insert(step.robot);
+                awake.retain(|&robot| self.is_awake(&team.robots[robot]));
+            }
+            self.step(&mut team, step).map_err(object)?;
+            if let "FRONTIER-2" | "FRONTIER-5" = self.clause {
+                let breaks = if self.clause == "FRONTIER-2" { meets(&team) } else { self.is_wrong(&team) };
+                let what = if breaks { "the clause is broken before" } else { "the clause is not broken" };
+                must(breaks == (number == steps.len()), what).map_err(object)?;
+            }
+        }
+        must(floor.barred.is_subset(&team.met), "an obstacle was never met").map_err(whole)?;
+        let is_over = team.robots.iter().all(|robot| !self.is_awake(robot));
+        match self.clause {
+            "FRONTIER-2" | "FRONTIER-5" => must(!steps.is_empty(), "nothing happens").map_err(whole),
+            "FRONTIER-3" => {
+                must(before.is_some_and(|before| before == team), "the last steps lead elsewhere")
+                    .map_err(whole)?;
+                must(awake.is_subset(&acting), "a robot that may act never does").map_err(whole)
+            }
+            "FRONTIER-1" | "FRONTIER-4" => {
+                must(is_over, "the run goes on").map_err(whole)?;
+                // Without repairs a robot that stops does not know that nothing is left, so that each end breaks FRONTIER-4.
+                let is_left = self.walkable().iter().any(|cell| !team.entered.contains(cell));
+                must(is_left || self.clause == "FRONTIER-4", "every cell is explored").map_err(whole)
+            }
+            _ => Err(whole("the judge does not know this clause")),
+        }
+    }
+}
+
+/// Whether two robots are in one cell, or one enters a cell with another one in it.
+fn meets(team: &Team) -> bool {
+    let cells = |robot: &Robot| {
+        let entering = if let Stance::Enters(side) = robot.stance { beside(robot.cell, side) } else { None };
+        [Some(robot.cell), entering].into_iter().flatten().collect::<Vec<_>>()
+    };
+    let taken: Vec<Vec<Place>> = team.robots.iter().map(cells).collect();
+    (0..taken.len())
+        .any(|one| (0..one).any(|other| taken[one].iter().any(|cell| taken[other].contains(cell))))
+}
+
+/// The sides of a cell in the order of the numbers of the cells beyond: north, west, east, south.
+pub(super) const BY_NUMBER: [usize; 4] = [3, 2, 0, 1];
+
+impl Run {
+    /// Whether a robot has a step to take.
+    fn is_awake(&self, robot: &Robot) -> bool {
+        robot.stance != Stance::Stands || !self.choices(robot).is_empty()
+    }
+
+    /// The sides through which the rule lets a robot go: that of its frontier cell; where it has none, and wanders, any that
+    /// leads into an explored cell.
+    fn choices(&self, robot: &Robot) -> Vec<usize> {
+        let leads = |side: &usize, is: &dyn Fn(Place) -> bool| {
+            beside(robot.at, *side).is_some_and(|cell| self.floor.has(cell) && is(cell))
+        };
+        // The occupancy of a cell is the highest for all robots, as far as it is told: at a midpoint 1, a cell farther 0.
+        // As printed it is 1 a cell from a midpoint.
+        let is_candidate = |cell: Place| {
+            let is_taken = self.rule == Rule::Printed || robot.told.contains(&cell);
+            !robot.known.contains_key(&cell) && !is_taken
+        };
+        if let Some(side) = BY_NUMBER.into_iter().find(|side| leads(side, &is_candidate)) {
+            return vec![side];
+        }
+        let is_explored = |cell: Place| robot.known.get(&cell) == Some(&true);
+        let wanders = |side: &usize| self.rule == Rule::Wanders && leads(side, &is_explored);
+        (0..4).filter(wanders).collect()
+    }
+
+    fn step(&self, team: &mut Team, step: &Step) -> Result<(), &'static str> {
+        let Some(robot) = team.robots.get(step.robot).cloned() else { return Err("there is no such robot") };
+        let own = step.robot;
+        must(
+            step.side.is_some() == (step.what == What::Decides),
+            "a robot that decides has a side, and no other",
+        )?;
+        must(
+            step.fix.is_some() == (step.what == What::Arrives),
+            "a robot that arrives has a fix, and no other",
+        )?;
+        match (step.what, robot.stance) {
+            (What::Decides, Stance::Stands) => {
+                let side = step.side.filter(|side| self.choices(&robot).contains(side));
+                team.robots[own].stance = Stance::Tries(side.ok_or("the rule does not go there")?);
+            }
+            (What::Enters | What::IsBarred, Stance::Tries(side)) => {
+                let cell = beside(robot.cell, side).ok_or("there is no such side")?;
+                let is_barred = step.what == What::IsBarred;
+                must(is_barred != self.floor.is_free(cell), "there is an obstacle, or there is none")?;
+                if is_barred {
+                    team.met.insert(cell);
+                    let taken = beside(robot.at, side).ok_or("there is no such side")?;
+                    team.robots[own].stance = Stance::Stands;
+                    self.tell(team, own, (taken, false));
+                } else {
+                    team.entered.insert(cell);
+                    team.robots[own].stance = Stance::Enters(side);
+                }
+            }
+            (What::Arrives, Stance::Enters(side)) => {
+                let cell = beside(robot.cell, side).ok_or("there is no such side")?;
+                let fix = step.fix.filter(|&fix| self.floor.has(fix)).ok_or("a fix is in the area")?;
+                let is_beside = (fix.0 - cell.0).abs() + (fix.1 - cell.1).abs() == 1;
+                let may_err = is_beside && self.clause == "FRONTIER-5";
+                must(fix == cell || may_err, "only in FRONTIER-5 a fix is off, and by one cell")?;
+                let robot = &mut team.robots[own];
+                (robot.cell, robot.at, robot.stance) = (cell, fix, Stance::Stands);
+                self.tell(team, own, (fix, true));
+            }
+            _ => return Err("a robot does what it cannot do now"),
+        }
+        Ok(())
+    }
+
+    /// A robot stores what it has found, and tells it to all others with where it takes itself to be. What is explored stays so;
+    /// outside of the area nothing is stored. *Literal* stores no obstacle of its own.
+    fn tell(&self, team: &mut Team, own: usize, (cell, is_explored): (Place, bool)) {
+        let at = team.robots[own].at;
+        for (number, robot) in team.robots.iter_mut().enumerate() {
+            robot.told[own] = at;
+            let stores = number != own || is_explored || self.rule != Rule::Literal;
+            if stores && self.floor.has(cell) {
+                let known = robot.known.entry(cell).or_insert(is_explored);
+                *known |= is_explored;
+            }
+        }
+    }
+
+    /// Whether a robot takes a cell for explored where none was, or for an obstacle where there is none.
+    fn is_wrong(&self, team: &Team) -> bool {
+        let is_so = |(cell, is_explored): (&Place, &bool)| {
+            if *is_explored { team.entered.contains(cell) } else { !self.floor.is_free(*cell) }
+        };
+        team.robots.iter().any(|robot| !robot.known.iter().all(is_so))
+    }
+
+    /// The cells that robots can walk to.
+    fn walkable(&self) -> BTreeSet<Place> {
+        let (mut reached, mut rim) = (BTreeSet::new(), self.starts.clone());
+        while let Some(cell) = rim.pop() {
+            if reached.insert(cell) {
+                rim.extend(
+                    (0..4).filter_map(|side| beside(cell, side)).filter(|&next| self.floor.is_free(next)),
+                );
+            }
+        }
+        reached
+    }
+}

@@ -1,0 +1,393 @@
+//! The judge of KIT: runs of robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11), what two robots
+//! say to each other ([`Talk`]: KIT-4, KIT-5), and the fields of a message ([`Wire`]: KIT-9). It knows the sentences of
+//! `SPEC.md` alone.
+
+mod talk;
+mod wire;
+
+use std::collections::BTreeSet;
+
+use super::change::plain;
+use super::{Case, Lattice, Objection, Place, beside, must, path};
+pub use talk::{Act, Said, Talk, Word};
+pub use wire::{Sent, Wire};
+
+/// A run of robots on a lattice.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Run {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// The reading by which the robots go.
+    pub reading: Reading,
+    /// How fast they drive.
+    pub speeds: Speeds,
+    /// The nodes, and the walls that the robots meet.
+    pub lattice: Lattice,
+    /// Where each robot starts.
+    pub starts: Vec<Place>,
+    /// What they do.
+    pub steps: Vec<Step>,
+    /// The last of the steps that are said to come again for ever; 0 if the run ends.
+    pub round: usize,
+}
+
+/// Where the published rule runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reading {
+    /// At every node.
+    Published,
+    /// Only where the way ahead is blocked.
+    Ahead,
+}
+
+/// How fast robots drive.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Speeds {
+    /// At any speeds.
+    Any,
+    /// At equal speeds.
+    Equal,
+}
+
+/// What one robot does.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Step {
+    /// Its place among the robots.
+    pub robot: usize,
+    /// What it does in the end.
+    pub what: What,
+    /// Where it looks before.
+    pub looks: Vec<Look>,
+}
+
+/// What a robot does in the end.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum What {
+    /// It arrives where it drove.
+    Arrives,
+    /// It drives through the side at which it looked last.
+    Drives,
+    /// It stays.
+    Stays,
+}
+
+/// A look at a side.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Look {
+    /// East, south, west, north, from 0.
+    pub side: usize,
+    /// What the robot sees there.
+    pub sees: Sees,
+}
+
+/// What a robot sees at a side.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sees {
+    /// Nothing.
+    Free,
+    /// An obstacle.
+    Obstacle,
+    /// Another robot.
+    Robot,
+}
+
+plain!(Run { reading, speeds, lattice, starts, steps, round });
+plain!(Reading one of Published, Ahead);
+plain!(Speeds one of Any, Equal);
+plain!(Step { robot, what, looks });
+plain!(What one of Arrives, Drives, Stays);
+plain!(Look { side, sees });
+plain!(Sees one of Free, Obstacle, Robot);
+
+/// The clauses that a step breaks, and those that an end breaks.
+const BY_STEP: [&str; 5] = ["KIT-1", "KIT-2", "KIT-3", "KIT-10", "KIT-11"];
+const BY_END: [&str; 2] = ["KIT-6", "KIT-8"];
+
+impl Case for Run {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let whole = |what| Objection { at: 0, what };
+        must(self.starts.len() == 2, "the judge knows runs of two robots").map_err(whole)?;
+        let are_there = self.starts.iter().all(|&start| self.lattice.has(start) && start == self.starts[0]);
+        must(are_there, "both robots start at one node").map_err(whole)?;
+        must((self.clause == "KIT-2") <= (self.speeds == Speeds::Equal), "KIT-2 is about equal speeds")
+            .map_err(whole)?;
+        must((self.clause == "KIT-7") == (self.round > 0), "KIT-7 is broken by a round alone")
+            .map_err(whole)?;
+        must(self.round <= self.steps.len(), "there are not so many steps").map_err(whole)?;
+        let mut team = Team::new(&self.starts);
+        let home = self.steps.len() - self.round;
+        let (mut before, mut acting, mut awake) = (None, BTreeSet::new(), BTreeSet::from([0, 1]));
+        for (number, step) in (1..).zip(&self.steps) {
+            let object = |what| Objection { at: number, what };
+            if number > home {
+                before.get_or_insert_with(|| team.clone());
+                acting.insert(step.robot);
+                awake.retain(|&robot| team.drives(robot) || team.may_decide(robot));
+            }
+            let breaks = self.step(&mut team, step).map_err(object)?;
+            let is_last = number == self.steps.len();
+            if BY_STEP.contains(&self.clause) {
+                must(
+                    breaks == is_last,
+                    if breaks { "the clause is broken before" } else { "the clause is not broken" },
+                )
+                .map_err(object)?;
+            }
+        }
+        must(self.lattice.barred.iter().all(|wall| team.seen.contains(wall)), "a wall was never met")
+            .map_err(whole)?;
+        if self.clause == "KIT-7" {
+            let is_round = before.is_some_and(|before| self.looks_like(&before, &team));
+            must(is_round, "the last steps do not lead back to where they began").map_err(whole)?;
+            return must(awake.is_subset(&acting), "a robot that may act never does").map_err(whole);
+        }
+        if BY_STEP.contains(&self.clause) {
+            return Ok(());
+        }
+        must(BY_END.contains(&self.clause), "the judge does not know this clause").map_err(whole)?;
+        must((0..2).all(|robot| !team.drives(robot) && !team.may_decide(robot)), "the run goes on")
+            .map_err(whole)?;
+        // As published no robot ever knows that all is over, so that the end of a run breaks KIT-8.
+        let is_owed = self.joint_way(&team, team.goals()).is_some();
+        must(is_owed || self.clause == "KIT-8", "no uncovered side is within reach").map_err(whole)
+    }
+}
+
+/// The robots, and what they have found.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Team {
+    /// Both ends of each stance.
+    stances: [[Place; 2]; 2],
+    /// Robots that have entered.
+    entered: usize,
+    /// The side through which each drove last.
+    headings: [Option<usize>; 2],
+    stays: [bool; 2],
+    driven: BTreeSet<(Place, Place)>,
+    /// Paths where an obstacle was seen.
+    seen: BTreeSet<(Place, Place)>,
+    /// Of two that drive, the one that has left first.
+    first: usize,
+}
+
+impl Team {
+    fn new(starts: &[Place]) -> Self {
+        let stances = [[starts[0]; 2], [starts[1]; 2]];
+        let (driven, seen) = (BTreeSet::new(), BTreeSet::new());
+        Self { stances, entered: 1, headings: [None; 2], stays: [false; 2], driven, seen, first: 0 }
+    }
+
+    fn drives(&self, robot: usize) -> bool {
+        self.stances[robot][0] != self.stances[robot][1]
+    }
+
+    /// A robot that stands is answered while the other one drives.
+    fn may_decide(&self, robot: usize) -> bool {
+        let is_answered = self.entered < 2 || self.drives(1 - robot);
+        robot < self.entered && !self.drives(robot) && !self.stays[robot] && is_answered
+    }
+
+    /// Where each robot goes, or stands.
+    fn goals(&self) -> [Place; 2] {
+        self.stances.map(|[_, to]| to)
+    }
+
+    /// The stance of the other robot, if it has entered.
+    fn other(&self, robot: usize) -> Option<[Place; 2]> {
+        (self.entered > 1).then(|| self.stances[1 - robot])
+    }
+}
+
+/// The squared distance in paths.
+fn apart(one: Place, other: Place) -> i32 {
+    (one.0 - other.0).pow(2) + (one.1 - other.1).pow(2)
+}
+
+/// Two nodes at most 10 m apart, each path being 3 m.
+fn in_reach(one: Place, other: Place) -> bool {
+    apart(one, other) <= 11
+}
+
+impl Run {
+    /// Takes a step; whether it breaks the clause.
+    fn step(&self, team: &mut Team, step: &Step) -> Result<bool, &'static str> {
+        let robot = step.robot;
+        must(robot < 2, "there is no such robot")?;
+        if step.what == What::Arrives {
+            must(team.drives(robot) && step.looks.is_empty(), "a robot that does not drive does not arrive")?;
+            let both = self.speeds == Speeds::Equal && team.drives(1 - robot);
+            must(!both || team.first == robot, "at equal speeds the one that has left first arrives first")?;
+            team.stances[robot] = [team.stances[robot][1]; 2];
+            team.first = 1 - robot;
+            team.stays[1 - robot] = false;
+            return Ok(false);
+        }
+        must(team.may_decide(robot), "this robot may not decide now")?;
+        let before = team.clone();
+        self.look(team, step)?;
+        let is_marked = self.clause != "KIT-10" || team.seen.is_empty();
+        if step.what == What::Stays {
+            team.stays[robot] = true;
+            return Ok(!is_marked);
+        }
+        let from = before.stances[robot][0];
+        let side = step.looks.last().map_or(usize::MAX, |look| look.side);
+        let to = beside(from, side).ok_or("a robot drives nowhere")?;
+        let is_broken = !is_marked || self.is_broken_by(&before, (robot, [from, to]), &team.seen);
+        team.stances[robot] = [from, to];
+        team.headings[robot] = Some(side);
+        team.entered = 2;
+        team.first = if before.drives(1 - robot) { before.first } else { robot };
+        team.stays[1 - robot] = false;
+        team.driven.insert(path(from, to));
+        Ok(is_broken)
+    }
+
+    /// Looks at sides in an order of the rule: the way ahead, if that is the reading; then the uncovered sides in any order whose
+    /// ends are in reach of where the other one goes; then all sides, those that lead nearest to it first. The first side that is
+    /// free is driven.
+    fn look(&self, team: &mut Team, step: &Step) -> Result<(), &'static str> {
+        let (robot, from) = (step.robot, team.stances[step.robot][0]);
+        let inside = |side: &usize| beside(from, *side).is_some_and(|to| self.lattice.has(to));
+        let to = |side: usize| beside(from, side).unwrap_or(from);
+        let other = team.other(robot);
+        let is_near = |side: &usize| other.is_none_or(|other| in_reach(to(*side), other[1]));
+        let is_new = |side: &usize| !team.driven.contains(&path(from, to(*side)));
+        let mut ahead = team.headings[robot].filter(|_| self.reading == Reading::Ahead);
+        let mut uncovered: Vec<usize> = (0..4).filter(inside).filter(is_new).filter(is_near).collect();
+        let mut left: Vec<usize> = (0..4).filter(inside).collect();
+        let mut is_free = false;
+        for look in &step.looks {
+            must(!is_free, "a robot looks on though a side is free")?;
+            let far = |side: usize| other.map_or(0, |other| apart(to(side), other[1]));
+            let due = if let Some(ahead) = ahead.take() {
+                look.side == ahead
+            } else if !uncovered.is_empty() {
+                let count = uncovered.len();
+                uncovered.retain(|&side| side != look.side);
+                uncovered.len() < count
+            } else {
+                let nearest = left.iter().map(|&side| far(side)).min();
+                let is_nearest = left.contains(&look.side) && Some(far(look.side)) == nearest;
+                left.retain(|&side| side != look.side);
+                is_nearest
+            };
+            must(due, "the rule does not look there")?;
+            self.sees(team, (robot, from, look))?;
+            is_free = look.sees == Sees::Free;
+        }
+        match step.what {
+            What::Drives => must(is_free, "a robot drives where it sees no free side"),
+            What::Stays | What::Arrives => {
+                let is_through = ahead.is_none() && uncovered.is_empty() && left.is_empty();
+                must(!is_free && is_through, "a robot stays though there is a side to look at")
+            }
+        }
+    }
+
+    /// Whether that is what there is to see.
+    fn sees(&self, team: &mut Team, (robot, from, look): (usize, Place, &Look)) -> Result<(), &'static str> {
+        let to = beside(from, look.side).ok_or("there is no such side")?;
+        let is_wall = !self.lattice.has(to) || self.lattice.barred.contains(&path(from, to));
+        must(
+            is_wall == (look.sees == Sees::Obstacle),
+            "there is an obstacle that is not seen, or the other way round",
+        )?;
+        if is_wall {
+            if self.lattice.has(to) {
+                team.seen.insert(path(from, to));
+            }
+            return Ok(());
+        }
+        // A robot between this node and the next one, or at the next one, is seen; one that leaves or enters the next one
+        // otherwise may be.
+        let ends = team.other(robot).unwrap_or([from; 2]);
+        let is_on = ends.map(|end| end == from || end == to);
+        let is_robot = look.sees == Sees::Robot;
+        match is_on {
+            [true, true] => must(is_robot == (ends != [from; 2]), "another robot is seen, or is not"),
+            [false, false] => must(!is_robot, "no robot is there"),
+            _ => must(!is_robot || ends.contains(&to), "no robot is there"),
+        }
+    }
+
+    /// Whether a drive breaks the clause.
+    fn is_broken_by(
+        &self,
+        team: &Team,
+        (robot, path_of): (usize, [Place; 2]),
+        seen: &BTreeSet<(Place, Place)>,
+    ) -> bool {
+        let [from, to] = path_of;
+        let other = team.other(robot);
+        let other_drives = team.drives(1 - robot);
+        let is_equal = self.speeds == Speeds::Equal;
+        match self.clause {
+            "KIT-1" | "KIT-2" => other.is_some_and(|[left, goal]| {
+                // At equal speeds the one that leaves later is not at its end while the other one is where it left.
+                let is_late = is_equal && other_drives;
+                let corners = [(from, left), (from, goal), (to, goal)];
+                !corners.into_iter().all(|(one, other)| in_reach(one, other))
+                    || !is_late && !in_reach(to, left)
+            }),
+            "KIT-3" => other.is_some_and(|[left, goal]| {
+                let ahead = (goal.0 - left.0, goal.1 - left.1) == (to.0 - from.0, to.1 - from.1);
+                let is_behind = is_equal && other_drives && left == to && ahead;
+                [left, goal].contains(&to) && !is_behind
+            }),
+            "KIT-11" if team.driven.contains(&path(from, to)) => {
+                let team = Team { seen: seen.clone(), ..team.clone() };
+                let now = self.joint_way(&team, team.goals());
+                let mut goals = team.goals();
+                goals[robot] = to;
+                let then = self.joint_way(&team, goals);
+                !matches!((then, now), (Some(then), Some(now)) if then < now)
+            }
+            _ => false,
+        }
+    }
+
+    /// The fewest single drives over covered paths, in contact and to different nodes, until a robot could drive through an
+    /// uncovered side; `None` if there is no such way.
+    fn joint_way(&self, team: &Team, goals: [Place; 2]) -> Option<usize> {
+        let (mut known, mut now) = (BTreeSet::from([goals]), vec![goals]);
+        for length in 0.. {
+            let mut next = Vec::new();
+            for goals in &now {
+                for (robot, side) in (0..2).flat_map(|robot| (0..4).map(move |side| (robot, side))) {
+                    let (from, other) = (goals[robot], goals[1 - robot]);
+                    let Some(to) = beside(from, side).filter(|&to| self.lattice.has(to)) else { continue };
+                    let is_barred = team.seen.contains(&path(from, to)) || to == other;
+                    if is_barred || !in_reach(from, other) || !in_reach(to, other) {
+                        continue;
+                    }
+                    if !team.driven.contains(&path(from, to)) {
+                        return Some(length);
+                    }
+                    let mut after = *goals;
+                    after[robot] = to;
+                    if known.insert(after) {
+                        next.push(after);
+                    }
+                }
+            }
+            if next.is_empty() {
+                break;
+            }
+            now = next;
+        }
+        None
+    }
+
+    /// Whether robots go on from here as from there: what was seen blocked is not kept, as published.
+    fn looks_like(&self, one: &Team, other: &Team) -> bool {
+        let same = one.stances == other.stances && one.stays == other.stays && one.driven == other.driven;
+        let ahead = self.reading == Reading::Published || one.headings == other.headings;
+        let order = self.speeds == Speeds::Any || one.first == other.first;
+        same && one.entered == other.entered && ahead && order
+    }
+}

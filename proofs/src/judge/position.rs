@@ -1,0 +1,84 @@
+//! The judge of POSITION: places where the published equations return no position (POSITION-1), and motions that they do not
+//! follow (POSITION-4). Lengths are whole numbers. It knows the sentences of `SPEC.md` alone.
+
+use super::change::plain;
+use super::{Case, Objection, Place, must};
+
+/// A robot at exact distances from three anchors, and whether the published way returns a position.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Exact {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// A, B and C, in metres.
+    pub anchors: [Place; 3],
+    /// Where the robot is, in metres.
+    pub robot: Place,
+    /// Whether a position is returned.
+    pub is_told: bool,
+}
+
+/// Three anchors and distances to them, before and after a motion, by the published way.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Moved {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// A, B and C, in metres.
+    pub anchors: [Place; 3],
+    /// The distances to them, in tenths of a metre.
+    pub distances: [i32; 3],
+    /// In tenths: what becomes of a metre along x, of one along y, and of the origin.
+    pub motion: [Place; 3],
+    /// Whether a position is returned before the motion, and after it.
+    pub is_told: [bool; 2],
+}
+
+plain!(Exact { anchors, robot, is_told });
+plain!(Moved { anchors, distances, motion, is_told });
+
+/// Whether three places are on one line, or two of them are one.
+fn is_line([a, b, c]: [Place; 3]) -> bool {
+    (b.0 - a.0) * (c.1 - a.1) == (b.1 - a.1) * (c.0 - a.0)
+}
+
+/// Whether the published way returns a position: equation (8) divides by the columns from B to C.
+fn is_told([_, b, c]: [Place; 3]) -> bool {
+    b.0 != c.0
+}
+
+impl Case for Exact {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let whole = |what| Objection { at: 0, what };
+        must(self.clause == "POSITION-1", "the judge does not know this clause").map_err(whole)?;
+        must(!is_line(self.anchors), "the anchors are on one line").map_err(whole)?;
+        must(!self.anchors.contains(&self.robot), "the robot is on an anchor").map_err(whole)?;
+        must(self.is_told == is_told(self.anchors), "the equations return something else").map_err(whole)?;
+        // The equations are right: a position that they return from exact distances is that of the robot.
+        must(!self.is_told, "the position is where the robot is").map_err(whole)
+    }
+}
+
+impl Case for Moved {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let whole = |what| Objection { at: 0, what };
+        let Self { anchors, distances, motion: [x, y, _], .. } = *self;
+        must(self.clause == "POSITION-4", "the judge does not know this clause").map_err(whole)?;
+        must(!is_line(anchors), "the anchors are on one line").map_err(whole)?;
+        must(distances.iter().all(|&far| far > 0), "a robot is on an anchor").map_err(whole)?;
+        let length = |(x, y): Place| x * x + y * y;
+        let keeps = length(x) == 100 && length(y) == 100 && x.0 * y.0 + x.1 * y.1 == 0;
+        must(keeps, "the motion changes distances").map_err(whole)?;
+        // The origin goes along with all, and plays no part in what is divided by.
+        let moved = anchors.map(|(a, b)| (x.0 * a + y.0 * b, x.1 * a + y.1 * b));
+        let due = [is_told(anchors), is_told(moved)];
+        must(self.is_told == due, "the equations return something else").map_err(whole)?;
+        must(due[0] != due[1], "the positions move with the anchors, or there are none").map_err(whole)
+    }
+}

@@ -1,0 +1,45 @@
+//! Each stored refutation that a judge of a scheme reads is accepted, and attacked: every single change of it is refused, or
+//! leaves another counterexample by right. Chains and agents have tests of their own.
+
+use std::fmt::Write;
+
+use tautline_proofs::decide::{Cache, Verdict};
+use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::ledger;
+
+/// Whether a clause has a judge in the file of its scheme, or is tried elsewhere.
+fn is_here(clause: &str) -> bool {
+    !["CHAIN-", "BRICKS-"].iter().any(|scheme| clause.starts_with(scheme))
+}
+
+#[test]
+fn every_refutation_is_judged_and_no_single_change_of_it_passes_unnoticed() {
+    let mut table = "clause       rule       engine      changes refused\n".to_owned();
+    let (mut memory, mut unjudged) = (Cache::default(), Vec::new());
+    for clause in ledger::clauses().filter(|clause| is_here(clause.id)) {
+        for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
+            let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
+            let found = decision.counterexample.expect("what is refuted has a counterexample");
+            let Some(case) = check.case(&found.choices) else {
+                unjudged.push(format!("{} {} {}", clause.id, check.rule(), check.engine()));
+                continue;
+            };
+            assert_eq!(case.clause(), clause.id);
+            assert_eq!(case.judge(), Ok(()), "{case:#?}");
+            let changes = case.changes();
+            let right: Vec<&str> = changes
+                .iter()
+                .filter(|(_, changed)| changed.judge().is_ok())
+                .map(|(what, _)| what.as_str())
+                .collect();
+            let (all, refused) = (changes.len(), changes.len() - right.len());
+            let (rule, engine) = (check.rule(), check.engine());
+            writeln!(table, "{:<12} {rule:<10} {engine:<10} {all:8} {refused:7}", clause.id).expect("text");
+            for what in right {
+                writeln!(table, "             by right: {what}").expect("text");
+            }
+        }
+    }
+    writeln!(table, "not judged: {}", unjudged.join(", ")).expect("text");
+    insta::assert_snapshot!(table);
+}
