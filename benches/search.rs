@@ -60,7 +60,7 @@ enum Copies {
     AtForks,
 }
 
-/// The runs of [`search`], depth first over plain chains: each team move is made for every way in which some of the
+/// The runs of [`search_within`], depth first over plain chains: each team move is made for every way in which some of the
 /// edges that nobody knows are walls.
 fn search_naively(bounds: &Bounds, copies: Copies) -> SearchWork {
     let chain = PlainChain::new(Rule::PUBLISHED, bounds.robots, bounds.base, bounds.area);

@@ -12,8 +12,8 @@ use std::time::Instant;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_proofs::clause::Clause;
-use tautline_proofs::decide::Depiction;
+use tautline_proofs::clause::{Clause, Variant};
+use tautline_proofs::decide::{Depiction, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
@@ -105,10 +105,20 @@ struct Line {
     /// Where it is stored, if it is.
     file: Option<String>,
     mutants: Mutants,
+    /// The other readings of the rule, and the verdict under each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    readings: Vec<ReadingLine>,
     /// Why the check, or a mutant, was not decided, if a step did not end.
     #[serde(skip_serializing_if = "Option::is_none")]
     undecided: Option<String>,
     seconds: f64,
+}
+
+#[derive(JsonSchema, Serialize)]
+struct ReadingLine {
+    name: &'static str,
+    verdict: &'static str,
+    registered: &'static str,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -241,14 +251,14 @@ fn findings(rows: &[Row], room: &MemoryLimit) -> Result<Vec<Case>, Halt> {
     let found = rows.iter().map(|row| {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
-        let survived = decision.survived.iter().map(|mutant| format!("the mutant {mutant:?} survives\n"));
+        let variants = of_variants(row).into_iter().map(|words| words + "\n");
         let outcome = match (row.is_as_registered(), row.undecided) {
             (true, _) => Outcome::Expected,
             (false, Some(undecided)) => Outcome::Unfinished(format!("{undecided}\n")),
             (false, None) if room.was_too_small() => Outcome::Unfinished(too_small(room)),
             (false, None) => Outcome::Broken(
                 format!("{verdict}, registered as {registered}"),
-                survived.collect::<String>() + story(row, None)?.trim_start(),
+                variants.collect::<String>() + story(row, None)?.trim_start(),
             ),
         };
         Ok(Case {
@@ -280,6 +290,7 @@ fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
             of: decision.killed.len() + decision.survived.len(),
             survived: decision.survived.clone(),
         },
+        readings: readings(row),
         undecided: undecided.map(|undecided| undecided.to_string()),
         seconds,
     })
@@ -314,6 +325,27 @@ fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
     Ok(format!("\n{story}{}", file.unwrap_or_default()))
 }
 
+/// The variants that did not come out as they are registered.
+fn of_variants(row: &Row) -> Vec<String> {
+    let mutants = row.decision.survived.iter().map(|mutant| format!("the mutant {mutant:?} survives"));
+    let others = readings(row).into_iter().filter(|reading| reading.verdict != reading.registered);
+    let others = others.map(|ReadingLine { name, verdict, registered }| {
+        format!("under the reading {name:?} {verdict}, registered as {registered}")
+    });
+    mutants.chain(others).collect()
+}
+
+/// The other readings of the rule of a row.
+fn readings(row: &Row) -> Vec<ReadingLine> {
+    let registered = row.check.variants().into_iter().filter_map(Variant::reading);
+    let line = |((name, registered), verdict): ((&'static str, Verdict), &Verdict)| ReadingLine {
+        name,
+        verdict: verdict.word(),
+        registered: registered.word(),
+    };
+    registered.zip(&row.decision.readings).map(line).collect()
+}
+
 fn last_line(rows: &[Row]) -> String {
     let mut text = String::from("\n");
     for row in rows.iter().filter(|row| !row.is_as_registered()) {
@@ -323,8 +355,8 @@ fn last_line(rows: &[Row]) -> String {
         if let Some(undecided) = row.undecided {
             let _ = writeln!(text, "{}: {undecided}", row.clause.id);
         }
-        for mutant in &row.decision.survived {
-            let _ = writeln!(text, "{}: the mutant {mutant:?} survives", row.clause.id);
+        for words in of_variants(row) {
+            let _ = writeln!(text, "{}: {words}", row.clause.id);
         }
     }
     let differ = rows.iter().filter(|row| !row.is_as_registered()).count();

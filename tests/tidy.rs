@@ -22,8 +22,8 @@ const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
     kernel bricks chain frontier kit mrc notice pack position tan:
-    proofs clause decide engine floor_trace plural run step_check team: *
-    proofs judge ledger:
+    proofs clause decide engine floor_trace judge plural run step_check team: *
+    proofs ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain
     proofs ants bricks chain frontier kit mrc notice pack position tan: ledger

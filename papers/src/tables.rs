@@ -2,15 +2,6 @@
 //! that know nothing of each other, and how their results become a text, JSON and pictures. A new table is a file of
 //! its own and one line here.
 
-#![expect(
-    clippy::type_complexity,
-    clippy::format_push_string,
-    clippy::struct_field_names,
-    clippy::needless_pass_by_value,
-    clippy::single_match_else,
-    reason = "rows of a table are data, and read as such"
-)]
-
 pub mod agents;
 pub mod antenna_fig4;
 pub mod atlas;

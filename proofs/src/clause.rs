@@ -26,6 +26,36 @@ impl<R> NamedRule<R> {
     }
 }
 
+/// The rule as another reading of the paper's words has it.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<R> {
+    /// The rule, and what sets it apart.
+    pub rule: NamedRule<R>,
+    /// The verdict that must come out under it.
+    pub expected: Verdict,
+}
+
+impl<R> Reading<R> {
+    /// `rule` under this name, for which `expected` must come out.
+    pub const fn new(name: &'static str, rule: R, expected: Verdict) -> Self {
+        Self { rule: NamedRule::new(name, rule), expected }
+    }
+}
+
+/// The readings that these rules are, with the verdict that must come out under each.
+pub const fn readings<R: Copy, const N: usize>(
+    rules: [(&'static str, R); N],
+    expected: [Verdict; N],
+) -> [Reading<R>; N] {
+    let mut readings = [Reading::new(rules[0].0, rules[0].1, expected[0]); N];
+    let mut number = 1;
+    while number < N {
+        readings[number] = Reading::new(rules[number].0, rules[number].1, expected[number]);
+        number += 1;
+    }
+    readings
+}
+
 /// One way to decide a clause about rules of type `R`.
 pub struct Check<R: 'static> {
     /// The rule it is about.
@@ -36,6 +66,16 @@ pub struct Check<R: 'static> {
     pub expected: Verdict,
     /// Rules for which the check must fail.
     pub mutants: &'static [NamedRule<R>],
+    /// Other readings of the rule, decided in the same way.
+    pub readings: &'static [Reading<R>],
+}
+
+impl<R: Copy> Check<R> {
+    /// The check, also under these other readings of its rule.
+    #[must_use]
+    pub const fn under(self, readings: &'static [Reading<R>]) -> Self {
+        Self { readings, ..self }
+    }
 }
 
 impl<R> Check<R> {
@@ -46,7 +86,13 @@ impl<R> Check<R> {
         expected: Verdict,
         mutants: &'static [NamedRule<R>],
     ) -> Self {
-        Self { about, method, expected, mutants }
+        Self { about, method, expected, mutants, readings: &[] }
+    }
+
+    /// The rule of the variant with this number: of a mutant, or of a reading.
+    fn variant(&self, number: usize) -> Option<&R> {
+        let readings = self.readings.iter().map(|reading| &reading.rule);
+        self.mutants.iter().chain(readings).nth(number).map(|variant| &variant.rule)
     }
 }
 
@@ -76,23 +122,65 @@ pub struct Decision {
     pub killed: Vec<&'static str>,
     /// Mutants that were not: the check is too weak.
     pub survived: Vec<&'static str>,
+    /// The verdicts under the other readings of the rule, in their order.
+    pub readings: Vec<Verdict>,
 }
 
 impl Decision {
-    /// The decision by a check's own rule, no mutant looked at yet.
+    /// The decision by a check's own rule, no variant looked at yet.
     pub fn of(answer: Answer) -> Self {
         let Answer { verdict, cases, given_up, counterexample } = answer;
-        Self { verdict, cases, given_up, counterexample, killed: Vec::new(), survived: Vec::new() }
+        let (killed, survived, readings) = Default::default();
+        Self { verdict, cases, given_up, counterexample, killed, survived, readings }
     }
 
-    /// Adds what came of a mutant.
-    pub fn add(&mut self, mutant: &'static str, verdict: Verdict) {
-        if verdict == Verdict::Refuted { &mut self.killed } else { &mut self.survived }.push(mutant);
+    /// Adds the verdict on a variant.
+    pub fn add(&mut self, variant: Variant, verdict: Verdict) {
+        match (variant, verdict) {
+            (Variant::Mutant(name), Verdict::Refuted) => self.killed.push(name),
+            (Variant::Mutant(name), _) => self.survived.push(name),
+            (Variant::Reading { .. }, _) => self.readings.push(verdict),
+        }
     }
 
     /// Whether `check` came out as it is registered.
     pub fn is_as_registered(&self, check: &dyn AnyCheck) -> bool {
-        self.verdict == check.expected() && self.survived.is_empty()
+        let readings =
+            check.variants().into_iter().filter_map(Variant::reading).map(|(_, expected)| expected);
+        self.verdict == check.expected()
+            && self.survived.is_empty()
+            && readings.eq(self.readings.iter().copied())
+    }
+}
+
+/// A rule beside that of a check, decided in the same way.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Variant {
+    /// One for which the check must fail, by its name.
+    Mutant(&'static str),
+    /// Another reading of the rule.
+    Reading {
+        /// What sets it apart.
+        name: &'static str,
+        /// The verdict that must come out.
+        expected: Verdict,
+    },
+}
+
+impl Variant {
+    /// The name and the registered verdict of a reading.
+    pub fn reading(self) -> Option<(&'static str, Verdict)> {
+        match self {
+            Self::Mutant(_) => None,
+            Self::Reading { name, expected } => Some((name, expected)),
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mutant(name) | Self::Reading { name, .. } => name,
+        }
     }
 }
 
@@ -113,14 +201,14 @@ pub trait AnyCheck: Sync {
     /// The verdict that must come out.
     fn expected(&self) -> Verdict;
 
-    /// The names of its mutants.
-    fn mutants(&self) -> Vec<&'static str>;
+    /// Its mutants, and then the other readings of its rule.
+    fn variants(&self) -> Vec<Variant>;
 
     /// A name for what it shares with the checks of the same name: see [`Method::family`].
     fn family(&self) -> Option<String>;
 
-    /// As [`AnyCheck::family`], for the mutant with this number.
-    fn mutant_family(&self, number: usize) -> Option<String>;
+    /// As [`AnyCheck::family`], for the variant with this number.
+    fn variant_family(&self, number: usize) -> Option<String>;
 
     /// The answer about its own rule.
     ///
@@ -128,19 +216,19 @@ pub trait AnyCheck: Sync {
     /// [`MethodError`] if its method cannot begin.
     fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
 
-    /// The verdict on the mutant with this number; open if there is none. One violation is enough, unless the decision
+    /// The verdict on the variant with this number; open if there is none. One violation is enough, unless the decision
     /// is to tell of more.
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_mutant(
+    fn decide_variant(
         &self,
         number: usize,
         until: Until,
         desk: &mut Context<'_, '_>,
     ) -> Result<Verdict, MethodError>;
 
-    /// Decides it, and whether its mutants are rejected, one after the other. `watch` hears of searches only; a search
+    /// Decides it, and its variants, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
     ///
     /// # Errors
@@ -148,8 +236,8 @@ pub trait AnyCheck: Sync {
     fn decide(&self, memory: &mut Cache, watch: Watch<'_>) -> Result<Decision, MethodError> {
         let mut desk = Context { memory, watch, room: MemoryLimit::any() };
         let mut decision = Decision::of(self.decide_own(&mut desk)?);
-        for (number, name) in self.mutants().into_iter().enumerate() {
-            decision.add(name, self.decide_mutant(number, Until::Violation, &mut desk)?);
+        for (number, variant) in self.variants().into_iter().enumerate() {
+            decision.add(variant, self.decide_variant(number, Until::Violation, &mut desk)?);
         }
         Ok(decision)
     }
@@ -185,30 +273,33 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.expected
     }
 
-    fn mutants(&self) -> Vec<&'static str> {
-        self.mutants.iter().map(|mutant| mutant.name).collect()
+    fn variants(&self) -> Vec<Variant> {
+        let mutants = self.mutants.iter().map(|mutant| Variant::Mutant(mutant.name));
+        let reading =
+            |&Reading { ref rule, expected }: &Reading<R>| Variant::Reading { name: rule.name, expected };
+        mutants.chain(self.readings.iter().map(reading)).collect()
     }
 
     fn family(&self) -> Option<String> {
         self.method.family(&self.about.rule)
     }
 
-    fn mutant_family(&self, number: usize) -> Option<String> {
-        self.method.family(&self.mutants.get(number)?.rule)
+    fn variant_family(&self, number: usize) -> Option<String> {
+        self.method.family(self.variant(number)?)
     }
 
     fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         self.method.decide(&self.about.rule, Until::Exhausted, desk)
     }
 
-    fn decide_mutant(
+    fn decide_variant(
         &self,
         number: usize,
         until: Until,
         desk: &mut Context<'_, '_>,
     ) -> Result<Verdict, MethodError> {
-        let Some(mutant) = self.mutants.get(number) else { return Ok(Verdict::Open) };
-        Ok(self.method.decide(&mutant.rule, until, desk)?.verdict)
+        let Some(rule) = self.variant(number) else { return Ok(Verdict::Open) };
+        Ok(self.method.decide(rule, until, desk)?.verdict)
     }
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -14,7 +14,7 @@ use crate::judge::AnyCase;
 use crate::run::Run;
 
 /// A check's verdict.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Verdict {
     /// Every case within the bound was looked at, and none breaks the clause.
     Holds,

@@ -4,8 +4,9 @@ mod composition;
 mod jobs;
 
 use std::fmt::{self, Write};
+use std::iter;
 
-use crate::clause::{AnyCheck, Clause, Decision};
+use crate::clause::{AnyCheck, Clause, Decision, Variant};
 use crate::decide::Verdict;
 #[cfg(feature = "rooms")]
 use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, pack, position, tan};
@@ -99,6 +100,31 @@ impl Row {
         let words = || composition::words(self.clause.id, self.check.rule());
         (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
+
+    /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone.
+    pub fn readings(&self) -> Option<String> {
+        let others = self.check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name);
+        let all: Vec<(&str, Verdict)> = others.zip(self.decision.readings.iter().copied()).collect();
+        let names = |verdict: Verdict| {
+            let (own, of) = ((self.check.rule(), self.decision.verdict), all.iter().copied());
+            let found: Vec<&str> =
+                iter::once(own).chain(of).filter(|one| one.1 == verdict).map(|one| one.0).collect();
+            (found.len(), found.join(", "))
+        };
+        let ((refuted, which), of) = (names(Verdict::Refuted), all.len() + 1);
+        let mut words = match refuted {
+            0 => "refuted under no reading".to_owned(),
+            1 => format!("refuted under one of {of} readings: {which}"),
+            _ if refuted == of => format!("refuted under all {of} readings: {which}"),
+            _ => format!("refuted under {refuted} of {of} readings: {which}"),
+        };
+        for verdict in [Verdict::Holds, Verdict::Unrefuted, Verdict::Open] {
+            if let (1.., which) = names(verdict) {
+                words += &format!("; {} under {which}", verdict.word());
+            }
+        }
+        (!all.is_empty()).then_some(words)
+    }
 }
 
 /// The checks of `clauses`, in order: the clause, and the number of the check.
@@ -136,7 +162,7 @@ pub fn table(rows: &[Row]) -> String {
     });
     let below = [("bound".to_owned(), None)]
         .into_iter()
-        .chain(rows.iter().map(|row| (row.bound(), row.composition())));
+        .chain(rows.iter().map(|row| (row.bound(), row.readings().or_else(|| row.composition()))));
     let mut text = String::new();
     for (line, (bound, composition)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)
@@ -189,7 +215,8 @@ mod tests {
     #[test]
     fn every_id_is_there_once_and_every_clause_has_a_mutant() {
         for clause in register(ROOMS).expect("ids of their own") {
-            let has_mutant = clause.checks.iter().any(|check| !check.mutants().is_empty());
+            let is_mutant = |variant: &Variant| variant.reading().is_none();
+            let has_mutant = clause.checks.iter().any(|check| check.variants().iter().any(is_mutant));
             assert!(has_mutant, "{} has no mutant", clause.id);
             assert!(clause.sentence.contains("MUST"), "{}", clause.id);
         }

@@ -1,7 +1,7 @@
 //! Tautline's claims, and how they are decided. The clauses of `SPEC.md` stand in the rooms of their schemes, with
 //! their mutants; shared rooms know no scheme, so that anyone can bring a rule of their own.
 //!
-//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`decide`], [`clause`], [`ledger`].
+//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`decide`], [`clause`], [`ledger`], [`judge`].
 
 #[cfg(feature = "rooms")]
 pub mod ants;
@@ -19,7 +19,6 @@ pub mod floor_trace;
 pub mod frontier;
 #[cfg(feature = "rooms")]
 pub mod ground;
-#[cfg(feature = "rooms")]
 pub mod judge;
 #[cfg(feature = "rooms")]
 pub mod kit;

@@ -9,7 +9,7 @@
 ///
 /// ```
 /// use tautline_kernel::choice::Oracle;
-/// use tautline_proofs::clause::Named;
+/// use tautline_proofs::clause::NamedRule;
 /// use tautline_proofs::engine::{Outcome, require};
 ///
 /// /// The largest of two numbers, by some rule.
@@ -30,17 +30,17 @@
 /// }
 ///
 /// tautline_proofs::step_checks! { Larger;
-///     no_less: is_no_less, Named::new("ours", u32::max as Larger), pairs, covers ["two numbers"], unwind 3, mutants {
+///     no_less: is_no_less, NamedRule::new("ours", u32::max as Larger), pairs, covers ["two numbers"], unwind 3, mutants {
 ///         the_first: "the first" => first as Larger,
 ///     };
 /// }
 ///
 /// # fn main() {
 /// use tautline_proofs::clause::AnyCheck;
-/// use tautline_proofs::decide::Memory;
+/// use tautline_proofs::decide::Cache;
 /// use tautline_proofs::engine::tree::unwatched;
 ///
-/// let decision = no_less::CHECK.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+/// let decision = no_less::CHECK.decide(&mut Cache::default(), &mut unwatched).expect("it can be decided");
 /// assert!(decision.is_as_registered(&no_less::CHECK));
 /// # }
 /// ```

@@ -113,6 +113,44 @@ fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
     assert!(judge(&exhibit(&through)).is_err(), "two cells in one turn");
 }
 
+#[test]
+fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
+    let run = |moves: usize| Exhibit {
+        clause: "BRICKS-12".to_owned(),
+        width: 2,
+        height: 1,
+        walls: BTreeSet::new(),
+        blocked: BTreeSet::new(),
+        starts: vec![(0, 0)],
+        turns: (1..=moves as i32).map(|to| Turn { agent: 0, to: (to % 2, 0), is_done: false }).collect(),
+        round: 0,
+    };
+    assert_eq!(judge(&run(5)), Ok(Judgement::Broken));
+    assert!(judge(&run(4)).is_err(), "two moves a cell");
+    assert!(judge(&run(6)).is_err(), "it is broken before");
+    let mut stays = run(5);
+    stays.turns[4].to = (0, 0);
+    assert!(judge(&stays).is_err(), "an agent that stays makes no move");
+    let mut two = run(5);
+    two.starts.push((0, 0));
+    assert!(judge(&two).is_err(), "it is not alone");
+    let tree = ledger::clauses().find(|clause| clause.id == "BRICKS-12").expect("a clause").checks[1];
+    let decision = tree.decide(&mut Cache::default(), &mut unwatched).expect("registered checks fit");
+    let Some(Depiction::Agents(course)) = decision.counterexample.map(|evidence| evidence.seen) else {
+        panic!("a run of an agent")
+    };
+    let exhibit = written_down("BRICKS-12", &course);
+    assert_eq!(judge(&exhibit), Ok(Judgement::Broken));
+    let mut from = exhibit.starts[0];
+    for (index, turn) in exhibit.turns.iter().enumerate() {
+        let mut cut = exhibit.clone();
+        cut.turns.remove(index);
+        // A turn in which it stays is no move.
+        assert_eq!(judge(&cut).is_ok(), turn.to == from, "{turn:?} left out");
+        from = turn.to;
+    }
+}
+
 /// Agents on 3×3 cells, of which the middle one is where all start.
 fn in_the_middle(clause: &str, agents: usize, turns: &[(usize, Place, bool)], round: usize) -> Exhibit {
     Exhibit {

@@ -54,10 +54,12 @@ fn found(bounds: &Bounds) -> Vec<Exhibit> {
 fn counterexamples() -> Vec<Exhibit> {
     let exhausting =
         |observed| Bounds { invariants: vec![Invariant::Exhausts], ..Bounds::new(observed, 3, 3) };
+    let any_order = Bounds { invariants: vec![Invariant::AnyOrder], ..Bounds::new(Subject::REPAIRED, 4, 3) };
     let bounds = [
         Bounds::new(Subject::PUBLISHED, 4, 4),
         exhausting(Subject::PUBLISHED),
         exhausting(Subject::REPAIRED),
+        any_order,
     ];
     bounds.iter().flat_map(found).collect()
 }
@@ -141,6 +143,7 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
             ("CHAIN-13", Repairs::Without),
             ("CHAIN-14", Repairs::Without),
             ("CHAIN-14", Repairs::With),
+            ("CHAIN-19", Repairs::With),
         ]
     );
     for exhibit in exhibits {

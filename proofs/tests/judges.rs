@@ -1,5 +1,5 @@
-//! Each stored refutation that a judge of a scheme reads is accepted, and attacked: every single change of it is refused, or
-//! leaves another counterexample by right. Chains and agents have tests of their own.
+//! Each stored refutation that a judge of a scheme reads is accepted, and attacked: every single change of it is
+//! refused, or leaves another counterexample by right. Chains and agents have tests of their own.
 
 use std::fmt::Write;
 
@@ -16,6 +16,7 @@ fn is_here(clause: &str) -> bool {
 fn every_refutation_is_judged_and_no_single_change_of_it_passes_unnoticed() {
     let mut table = "clause       rule       engine      changes refused\n".to_owned();
     let (mut memory, mut unjudged) = (Cache::default(), Vec::new());
+    let (mut refutations, mut tried, mut by_right) = (0, 0, 0);
     for clause in ledger::clauses().filter(|clause| is_here(clause.id)) {
         for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
             let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
@@ -32,6 +33,7 @@ fn every_refutation_is_judged_and_no_single_change_of_it_passes_unnoticed() {
                 .filter(|(_, changed)| changed.judge().is_ok())
                 .map(|(what, _)| what.as_str())
                 .collect();
+            (refutations, tried, by_right) = (refutations + 1, tried + changes.len(), by_right + right.len());
             let (all, refused) = (changes.len(), changes.len() - right.len());
             let (rule, engine) = (check.rule(), check.engine());
             writeln!(table, "{:<12} {rule:<10} {engine:<10} {all:8} {refused:7}", clause.id).expect("text");
@@ -40,6 +42,9 @@ fn every_refutation_is_judged_and_no_single_change_of_it_passes_unnoticed() {
             }
         }
     }
+    let refused = tried - by_right;
+    writeln!(table, "{refutations} refutations, {tried} changes: {refused} refused, {by_right} by right")
+        .expect("text");
     writeln!(table, "not judged: {}", unjudged.join(", ")).expect("text");
     insta::assert_snapshot!(table);
 }

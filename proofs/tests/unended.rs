@@ -292,7 +292,7 @@ fn a_check_of_any_engine_is_open_if_a_step_does_not_end_and_the_others_are_decid
             decided(vec![check(Rule::Endless(slip), method), check(Rule::Sound, method)], 1);
         slip.release();
         let [endless, sound] = &rows[..] else { panic!("{rows:?}") };
-        assert_eq!(endless.undecided, Some(Indecision::Unended { mutant: None, seconds: 1 }), "{rows:?}");
+        assert_eq!(endless.undecided, Some(Indecision::Unended { variant: None, seconds: 1 }), "{rows:?}");
         assert_eq!((endless.decision.verdict, endless.is_as_registered()), (Verdict::Open, false));
         assert_eq!((sound.undecided, sound.is_as_registered()), (None, true), "{rows:?}");
         assert_eq!(unended, ["COUNT-1"], "{}", method.engine());

@@ -31,7 +31,7 @@ pub(crate) struct HuntReport {
     complete: bool,
     /// `holds`, `refuted`, or `open`.
     verdict: &'static str,
-    /// The outcome in a word.
+    /// The conclusion, in a sentence.
     outcome: String,
     /// The smallest run that breaks each clause.
     counterexamples: Vec<Py<Counterexample>>,
@@ -44,7 +44,7 @@ pub(crate) struct Counterexample {
     clause: &'static str,
     /// How large the run is.
     facts: Py<PyAny>,
-    /// The outcome in a title for people.
+    /// How large the run is, in words.
     title: String,
     /// Where it runs.
     layout: Py<Layout>,

@@ -164,7 +164,7 @@ impl Run {
         Ok(aside)
     }
 
-    /// Writes bytes to a file.
+    /// The bytes that `put` writes to a file.
     fn bytes(
         &self,
         py: Python<'_>,
@@ -176,7 +176,7 @@ impl Run {
         Ok(fs::read(&path)?)
     }
 
-    /// Writes text to a file.
+    /// The text that `put` writes to a file.
     fn text(
         &self,
         py: Python<'_>,

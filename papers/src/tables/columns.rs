@@ -10,7 +10,8 @@ pub(super) struct Columns<'a, L> {
     title: Option<String>,
     lines: Vec<L>,
     gap: usize,
-    columns: Vec<(String, Column, Cell<'a, L>)>,
+    /// The heading of each column, its width, and its cells.
+    cells: Vec<(String, Column, Cell<'a, L>)>,
 }
 
 /// The text of a line's cell in a column.
@@ -19,7 +20,7 @@ type Cell<'a, L> = Box<dyn Fn(L) -> String + 'a>;
 impl<'a, L: Copy + 'a> Columns<'a, L> {
     /// A row for each of `lines`, and no column yet.
     pub(super) fn of(lines: impl IntoIterator<Item = L>) -> Self {
-        Self { title: None, lines: lines.into_iter().collect(), gap: 2, columns: Vec::new() }
+        Self { title: None, lines: lines.into_iter().collect(), gap: 2, cells: Vec::new() }
     }
 
     /// A line above the table, after an empty one.
@@ -75,21 +76,21 @@ impl<'a, L: Copy + 'a> Columns<'a, L> {
     }
 
     fn column(mut self, heading: String, column: Column, cell: Cell<'a, L>) -> Self {
-        self.columns.push((heading, column.after(self.gap), cell));
+        self.cells.push((heading, column.after(self.gap), cell));
         self
     }
 
     /// The whole table. Where no column has a heading, there is no row of them.
     pub(super) fn text(&self) -> String {
-        let mut table = TextTable::new(self.columns.iter().map(|&(_, column, _)| column));
+        let mut table = TextTable::new(self.cells.iter().map(|&(_, column, _)| column));
         if let Some(title) = &self.title {
             table.title(title);
         }
-        if self.columns.iter().any(|(heading, ..)| !heading.is_empty()) {
-            table.row(self.columns.iter().map(|(heading, ..)| heading));
+        if self.cells.iter().any(|(heading, ..)| !heading.is_empty()) {
+            table.row(self.cells.iter().map(|(heading, ..)| heading));
         }
         for &line in &self.lines {
-            table.row(self.columns.iter().map(|(.., cell)| cell(line)));
+            table.row(self.cells.iter().map(|(.., cell)| cell(line)));
         }
         table.text()
     }

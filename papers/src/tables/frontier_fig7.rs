@@ -159,11 +159,12 @@ impl Table for FrontierFig7 {
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
+        type Part<'a> = (&'a str, fn(&Line) -> Option<Estimate>);
         let Settings { layouts, columns, rows, blocked, .. } = settings;
         let moves = format!(
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
         );
-        let parts: [(&str, fn(&Line) -> Option<Estimate>); 4] = [
+        let parts: [Part<'_>; 4] = [
             (&moves, |line| line.moves),
             (
                 "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell",
@@ -172,7 +173,7 @@ impl Table for FrontierFig7 {
             ("Runs that explore every cell, in %; the others are in no mean of team moves", |one| one.whole),
             ("Runs in which two robots are in one cell, in %", |line| line.double),
         ];
-        let part = |(title, of): (&str, fn(&Line) -> Option<Estimate>)| {
+        let part = |(title, of): Part<'_>| {
             let rules = merged.lines.chunks(TEAMS.len());
             let mut columns = Columns::of(rules).title(title).left("rule", 15, |teams| teams[0].rule);
             for (place, robots) in TEAMS.into_iter().enumerate() {

@@ -61,7 +61,7 @@ pub const KIT_FIG9: Kit = Kit::of(
     "How long robots that keep in touch take to find the nodes",
 );
 
-/// The environments driven by both.
+/// Figure 14: how much both robots drive.
 pub const KIT_FIG14: Kit = Kit::of(
     Figure::Overlap,
     "kit-fig14",

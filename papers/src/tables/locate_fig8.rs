@@ -82,6 +82,9 @@ pub struct Sentence {
     pub is_so: bool,
 }
 
+/// An estimate of a solver's errors.
+type Part = fn(&Errors) -> Estimate;
+
 /// A number of a team's errors: of so many robots, by one solver.
 type Metric = fn(&Team, robots: usize, solver: usize) -> f64;
 
@@ -146,19 +149,17 @@ impl Table for LocateFig8 {
         };
         let (without, with) = ((MOST, 0), (MOST, 1));
         let one: (usize, usize) = (1, 1);
-        let sentences: [(&str, Metric, [(usize, usize); 2], f64); 3] = [
-            ("the error falls with the swarm (8 robots, mean)", mean_of, [without, with], -1.0),
-            ("the error grows from 1 robot to 8 (pso, mean)", mean_of, [one, with], 1.0),
-            ("the same of the worst robot of the team", worst_of, [one, with], 1.0),
+        let sentence = |paper: &'static str, of: Metric, [before, after]: [(usize, usize); 2], sign: f64| {
+            let difference_m =
+                estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
+            let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
+            Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
+        };
+        let sentences = vec![
+            sentence("the error falls with the swarm (8 robots, mean)", mean_of, [without, with], -1.0),
+            sentence("the error grows from 1 robot to 8 (pso, mean)", mean_of, [one, with], 1.0),
+            sentence("the same of the worst robot of the team", worst_of, [one, with], 1.0),
         ];
-        let sentence =
-            |(paper, of, [before, after], sign): (&'static str, Metric, [(usize, usize); 2], f64)| {
-                let difference_m =
-                    estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
-                let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
-                Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
-            };
-        let sentences = sentences.map(sentence).into();
         Ok(Summary { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
     }
 
@@ -167,7 +168,7 @@ impl Table for LocateFig8 {
             "Localisation error in metres, {} teams, noise {} dB, exponent {}, seed {}; robots:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
         );
-        let parts: [(&str, fn(&Errors) -> Estimate); 2] = [
+        let parts: [(&str, Part); 2] = [
             ("mean of the team", |errors| errors.mean_m),
             ("worst robot of the team", |errors| errors.worst_m),
         ];
@@ -191,7 +192,7 @@ impl Table for LocateFig8 {
     }
 
     fn draw(&self, _: usize, settings: &Field, merged: &Summary) -> Result<String, Halt> {
-        let series = |number: usize, what: &str, of: fn(&Errors) -> Estimate| {
+        let series = |number: usize, what: &str, of: Part| {
             let point =
                 |size: &Size| chart::Point::of((size.robots as u32).into(), of(&size.solvers[number]));
             Series::measured(format!("{}, {what}", SOLVERS[number].word()), merged.sizes.iter().map(point))

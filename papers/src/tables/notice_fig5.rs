@@ -268,15 +268,12 @@ impl Table for NoticeFig5 {
 
     /// A part of the figure by the number of nodes: (a) the reach of all nodes, (b) the rebroadcasts.
     fn draw(&self, picture: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
-        let (title, y, of): (_, _, fn(&Line) -> Estimate) = match picture {
-            0 => {
-                let y = Axis::new("reach", "%").showing([0.0, 100.0]);
-                ("Nodes that a broadcast reaches", y, |line| line.reach.times(100.0))
-            }
-            _ => {
-                let y = Axis::new("rebroadcasts", "").showing([0.0, 0.0]);
-                ("Nodes that forward a broadcast", y, |line| line.rebroadcasts)
-            }
+        let (title, y, of): (_, _, fn(&Line) -> Estimate) = if picture == 0 {
+            let y = Axis::new("reach", "%").showing([0.0, 100.0]);
+            ("Nodes that a broadcast reaches", y, |line| line.reach.times(100.0))
+        } else {
+            let y = Axis::new("rebroadcasts", "").showing([0.0, 0.0]);
+            ("Nodes that forward a broadcast", y, |line| line.rebroadcasts)
         };
         let schemes = merged.densities.first().map_or(&[][..], |density| &density.schemes);
         let series = |(place, line): (usize, &Line)| {

@@ -32,12 +32,12 @@ pub(super) fn pairs<A: Copy, B: Copy>(
 }
 
 /// The results of the runs at one point.
-pub(super) fn at<P: PartialEq, M>(results: &[(Run<P>, M)], point: P) -> Vec<&M> {
+pub(super) fn at<P: Copy + PartialEq, M>(results: &[(Run<P>, M)], point: P) -> Vec<&M> {
     results.iter().filter(|(run, _)| run.at == point).map(|(_, measured)| measured).collect()
 }
 
 /// The results of the runs at one point, team by team, where each run has a result for every team.
-pub(super) fn of_teams<P: PartialEq, M, const TEAMS: usize>(
+pub(super) fn of_teams<P: Copy + PartialEq, M, const TEAMS: usize>(
     results: &[(Run<P>, [M; TEAMS])],
     point: P,
 ) -> [Vec<&M>; TEAMS] {

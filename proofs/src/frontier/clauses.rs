@@ -3,14 +3,14 @@
 use tautline_kernel::frontier::Condition::{
     self, Claim, Corner, Look, Nearer, Record, Route, Share, Tell, Track, Turn,
 };
-use tautline_kernel::frontier::{Occupancy, Rule};
+use tautline_kernel::frontier::{Occupancy, Otherwise, Rule};
 
 use super::areas::{Areas, Size};
 use super::drift::{self, Drift, PARTS};
 use super::pairs;
 use super::place::{self, ErrorBudget};
 use super::world::Demand;
-use crate::clause::{Check, Clause, NamedRule};
+use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryAnswer, EveryState, Judged, Verdict};
 use crate::step_checks;
 
@@ -20,6 +20,24 @@ const LITERAL: NamedRule<Rule> = NamedRule::new("literal", Rule::LITERAL);
 const PRINTED: NamedRule<Rule> = NamedRule::new("printed", Rule::PRINTED);
 const PLAIN: NamedRule<Rule> = NamedRule::new("plain", Rule::PLAIN);
 const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
+
+/// The readings of the published rule but for the main one: what a robot without a candidate does, how it avoids an
+/// obstacle, and what equation (11) means.
+const READINGS: [(&str, Rule); 7] = [
+    ("wanders", Rule::WANDERS),
+    ("literal", Rule::LITERAL),
+    ("wanders + literal", Rule::WANDERS.without(Record)),
+    ("printed", Rule::PRINTED),
+    ("wanders + printed", wandering(Rule::PRINTED)),
+    ("literal + printed", Rule::PRINTED.without(Record)),
+    ("wanders + literal + printed", wandering(Rule::PRINTED.without(Record))),
+];
+
+const fn wandering(rule: Rule) -> Rule {
+    Rule { otherwise: Otherwise::Wanders, ..rule }
+}
+
+const REFUTED: &[Reading<Rule>] = &readings(READINGS, [Verdict::Refuted; 7]);
 
 /// One condition taken out of a rule, under its name.
 const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
@@ -152,7 +170,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(PRINTED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
             &Check::new(PLAIN, &one(Demand::Covers), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Covers), Verdict::Holds, &[]),
@@ -169,7 +187,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-2",
         sentence: "Two robots MUST never be in one cell.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[plain(Look)]),
             &Check::new(PLAIN, &three(Demand::Alone), Verdict::Holds, &[]),
             &Check::new(PLAIN, &lossy(two(Demand::Alone)), Verdict::Holds, &[]),
@@ -183,6 +201,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-3",
         sentence: "Every run MUST end.",
         checks: &[
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Ends), Verdict::Holds, &[]).under(REFUTED),
             &Check::new(LITERAL, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
             &Check::new(WANDERS, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
             &Check::new(PLAIN, &one(Demand::Ends), Verdict::Holds, &[plain(Record)]),
@@ -200,7 +219,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-4",
         sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Knows), Verdict::Holds, &[]),
             &Check::new(PLAIN, &three(Demand::Knows), Verdict::Holds, &[]),
@@ -216,7 +235,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-5",
         sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
         checks: &[
-            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(
                 PUBLISHED,
                 &Judged {

@@ -100,7 +100,9 @@ fn two(oracle: &mut dyn Oracle) -> [(i32, i32); 2] {
 /// The places that these choices of [`occupies`] make, written down for the judge.
 pub(super) fn occupied(_: &Occupancy, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
-    Some(Box::new(judge::Occupancy { clause: "FRONTIER-8", places: two(&mut Replay::new(&answers)) }))
+    let mut replay = Replay::new(&answers);
+    let places = two(&mut replay);
+    replay.matches().then(|| Box::new(judge::Occupancy { clause: "FRONTIER-8", places }) as Box<dyn AnyCase>)
 }
 
 /// The bound of [`occupies`], in words.

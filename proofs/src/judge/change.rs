@@ -1,6 +1,6 @@
-//! Every single change of plain data: a number that is one more or less, a name that is another one, an entry of a list
-//! that is left out, stands twice, or is exchanged with the next one, a wall or an obstacle more or less. A judge is
-//! attacked with them: a counterexample that is changed is no counterexample, or another one by right.
+//! Every single change of plain data: a number that is one more or less, a name that is another one, an entry of a
+//! list that is left out, stands twice, or is exchanged with the next one, a wall or an obstacle more or less. A
+//! judge is attacked with them: a counterexample that is changed is no counterexample, or another one by right.
 
 use std::collections::BTreeSet;
 use std::fmt::{Debug, Display};
@@ -79,14 +79,14 @@ impl Change {
 
 impl Plain for i32 {
     fn change(&mut self, change: &mut Change) {
-        let others = [self.wrapping_add(1), self.wrapping_sub(1)];
+        let others = [self.saturating_add(1), self.saturating_sub(1)];
         change.another(self, &others);
     }
 }
 
 impl Plain for usize {
     fn change(&mut self, change: &mut Change) {
-        let others = [self.wrapping_add(1), self.wrapping_sub(1)];
+        let others = [self.saturating_add(1), self.saturating_sub(1)];
         change.another(self, &others);
     }
 }
@@ -143,6 +143,7 @@ impl<T: Plain + Clone> Plain for Vec<T> {
 }
 
 /// Makes [`Plain`] of a struct by its parts, or of an enum of names by all of them.
+#[cfg(feature = "rooms")]
 macro_rules! plain {
     ($type:ty { $($part:ident),+ $(,)? }) => {
         impl $crate::judge::change::Plain for $type {
@@ -159,4 +160,52 @@ macro_rules! plain {
         }
     };
 }
+#[cfg(feature = "rooms")]
 pub(super) use plain;
+
+#[cfg(all(test, feature = "rooms"))]
+mod tests {
+    use super::*;
+
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    enum Name {
+        One,
+        Other,
+    }
+
+    #[derive(Clone, PartialEq, Debug)]
+    struct Whole {
+        name: Name,
+        list: Vec<i32>,
+        place: Option<usize>,
+    }
+
+    plain!(Name one of One, Other);
+    plain!(Whole { name, list, place });
+
+    #[test]
+    fn each_part_is_changed_by_itself_and_nothing_comes_out_as_it_was() {
+        let whole = Whole { name: Name::One, list: vec![5, 7], place: Some(0) };
+        let (what, changed): (Vec<String>, Vec<Whole>) = all(&whole).into_iter().unzip();
+        assert_eq!(
+            what,
+            [
+                "name: Other",
+                "list: 1 left out",
+                "list: 1 twice",
+                "list: 1 exchanged with the next",
+                "list: 2 left out",
+                "list: 2 twice",
+                "list 1: 6",
+                "list 1: 4",
+                "list 2: 8",
+                "list 2: 6",
+                "place: there or not",
+                "place: 1",
+            ]
+        );
+        assert_eq!(changed[2].list, [5, 5, 7]);
+        assert_eq!(changed[3].list, [7, 5]);
+        assert_eq!((changed[10].place, changed[11].place), (None, Some(1)));
+    }
+}

@@ -1,6 +1,6 @@
 //! The judge of counterexamples of agents on a sensor floor. It reads a layout, where the agents start and what they do,
-//! turn by turn, as anyone may write it down, and decides from the sentences of `SPEC.md` whether BRICKS-4, BRICKS-5 or
-//! BRICKS-6 is broken by it. It knows walls and where agents have been, and nothing of marks: it shares no code with the
+//! turn by turn, as anyone may write it down, and decides from the sentences of `SPEC.md` whether BRICKS-4, BRICKS-5,
+//! BRICKS-6 or BRICKS-12 is broken by it. It knows walls and where agents have been, and nothing of marks: it shares no code with the
 //! rules, so it does not say whether a rule makes the agents act so. Whoever asks it plays the rule, too.
 
 use std::collections::BTreeSet;
@@ -90,15 +90,21 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
         Court { places: starts.clone(), done: vec![false; starts.len()], explored: BTreeSet::new() };
     court.explored.extend(starts);
     let home = turns.len() - round;
-    let (mut before, mut acting) = (None, BTreeSet::new());
+    let (mut before, mut acting, mut moves) = (None, BTreeSet::new(), 0);
     for (index, turn) in turns.iter().enumerate() {
         if index == home {
             before = Some(court.clone());
         }
+        moves += usize::from(court.places.get(turn.agent).is_some_and(|&from| from != turn.to));
         court.hear(exhibit, turn).map_err(|what| Objection { at: index + 1, what })?;
         acting.extend((index >= home).then_some(turn.agent));
         let is_early = turn.is_done && !due.is_subset(&court.explored);
-        if clause == "BRICKS-4" && is_early && index + 1 < turns.len() {
+        let is_broken = match clause.as_str() {
+            "BRICKS-4" => is_early,
+            "BRICKS-12" => moves > 2 * due.len(),
+            _ => false,
+        };
+        if is_broken && index + 1 < turns.len() {
             return Err(Objection { at: index + 1, what: "the clause is broken before the last turn" });
         }
     }
@@ -112,6 +118,8 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
     match (clause.as_str(), *round) {
         ("BRICKS-4", 0) if last_is_done && is_unexplored => Ok(Judgement::Broken),
         ("BRICKS-4", 0) if last_is_done => Ok(Judgement::Unseen),
+        ("BRICKS-12", 0) if starts.len() == 1 && moves > 2 * due.len() => Ok(Judgement::Broken),
+        ("BRICKS-12", _) => Err(whole("an agent alone makes no more than two moves a cell")),
         ("BRICKS-4", _) => Err(whole("in the last turn no agent is done")),
         ("BRICKS-5" | "BRICKS-6", 0) if is_over && is_unexplored => Ok(Judgement::Broken),
         ("BRICKS-5", 0) => Err(whole("the run is not over, or every cell is explored")),

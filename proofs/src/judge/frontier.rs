@@ -1,6 +1,6 @@
-//! The judge of FRONTIER: runs of robots that explore cells (FRONTIER-1 to FRONTIER-5), of one whose fixes are off by parts of a
-//! cell ([`Drift`]: FRONTIER-5), and the occupancy probability ([`Occupancy`]: FRONTIER-8), all by the rules without
-//! repairs. It knows the sentences of `SPEC.md` alone.
+//! The judge of FRONTIER: runs of robots that explore cells (FRONTIER-1 to FRONTIER-5), of one whose fixes are off
+//! by parts of a cell ([`Drift`]: FRONTIER-5), and the occupancy probability ([`Occupancy`]: FRONTIER-8), all by the
+//! rules without repairs. It knows the sentences of `SPEC.md` alone.
 
 mod drift;
 
@@ -21,7 +21,7 @@ pub struct Run {
     pub floor: Floor,
     /// Where each robot starts.
     pub starts: Vec<Place>,
-    /// What they do.
+    /// The steps, in order.
     pub steps: Vec<Step>,
     /// The last of the steps that are said to come again for ever; 0 if the run ends.
     pub round: usize,
@@ -45,7 +45,7 @@ pub enum Rule {
 pub struct Step {
     /// The robot's place among all.
     pub robot: usize,
-    /// What it does.
+    /// The act.
     pub what: What,
     /// Through which side of its cell, of one that decides: east, south, west, north, from 0.
     pub side: Option<usize>,
@@ -53,7 +53,7 @@ pub struct Step {
     pub fix: Option<Place>,
 }
 
-/// What a robot does.
+/// An act of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum What {
     /// It goes to the rim of its cell.
@@ -79,7 +79,7 @@ enum Stance {
     Enters(usize),
 }
 
-/// What a robot takes for explored (true), and for an obstacle.
+/// The cells that a robot takes for explored (true), and for obstacles.
 type Repository = BTreeMap<Place, bool>;
 
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -96,7 +96,7 @@ struct Robot {
 #[derive(Clone, PartialEq, Eq, Debug)]
 struct Team {
     robots: Vec<Robot>,
-    /// What was entered, and which obstacles were met.
+    /// The cells that were entered, and the obstacles that were met.
     entered: BTreeSet<Place>,
     met: BTreeSet<Place>,
 }
@@ -154,7 +154,8 @@ impl Case for Run {
             }
             "FRONTIER-1" | "FRONTIER-4" => {
                 must(is_over, "the run goes on").map_err(whole)?;
-                // Without repairs a robot that stops does not know that nothing is left, so that each end breaks FRONTIER-4.
+                // Without repairs a robot that stops does not know that nothing is left, so that each end breaks
+                // FRONTIER-4.
                 let is_left = self.walkable().iter().any(|cell| !team.entered.contains(cell));
                 must(is_left || self.clause == "FRONTIER-4", "every cell is explored").map_err(whole)
             }
@@ -183,14 +184,14 @@ impl Run {
         robot.stance != Stance::Stands || !self.choices(robot).is_empty()
     }
 
-    /// The sides through which the rule lets a robot go: that of its frontier cell; where it has none, and wanders, any that
-    /// leads into an explored cell.
+    /// The sides through which the rule lets a robot go: that of its frontier cell; where it has none, and wanders,
+    /// any that leads into an explored cell.
     fn choices(&self, robot: &Robot) -> Vec<usize> {
         let leads = |side: &usize, is: &dyn Fn(Place) -> bool| {
             beside(robot.at, *side).is_some_and(|cell| self.floor.has(cell) && is(cell))
         };
-        // The occupancy of a cell is the highest for all robots, as far as it is told: at a midpoint 1, a cell farther 0.
-        // As printed it is 1 a cell from a midpoint.
+        // The occupancy of a cell is the highest for all robots, as far as it is told: at a midpoint 1, a cell
+        // farther 0. As printed it is 1 a cell from a midpoint.
         let is_candidate = |cell: Place| {
             let is_taken = self.rule == Rule::Printed || robot.told.contains(&cell);
             !robot.known.contains_key(&cell) && !is_taken
@@ -248,8 +249,8 @@ impl Run {
         Ok(())
     }
 
-    /// A robot stores what it has found, and tells it to all others with where it takes itself to be. What is explored stays so;
-    /// outside of the area nothing is stored. *Literal* stores no obstacle of its own.
+    /// A robot stores what it has found, and tells it to all others with where it takes itself to be. What is
+    /// explored stays so; outside of the area nothing is stored. *Literal* stores no obstacle of its own.
     fn tell(&self, team: &mut Team, own: usize, (cell, is_explored): (Place, bool)) {
         let at = team.robots[own].at;
         for (number, robot) in team.robots.iter_mut().enumerate() {

@@ -1,7 +1,8 @@
-//! The judge of KIT: runs of robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11), what two robots
-//! say to each other ([`Talk`]: KIT-4, KIT-5), and the fields of a message ([`Wire`]: KIT-9). It knows the sentences of
-//! `SPEC.md` alone.
+//! The judge of KIT: runs of two robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11),
+//! of three and more by the repaired rule ([`Party`]: KIT-8), what two robots say to each other ([`Talk`]: KIT-4,
+//! KIT-5), and the fields of a message ([`Wire`]: KIT-9). It knows the sentences of `SPEC.md` alone.
 
+mod party;
 mod talk;
 mod wire;
 
@@ -9,6 +10,7 @@ use std::collections::BTreeSet;
 
 use super::change::plain;
 use super::{Case, Lattice, Objection, Place, beside, must, path};
+pub use party::Party;
 pub use talk::{Act, Said, Talk, Word};
 pub use wire::{Sent, Wire};
 
@@ -25,7 +27,7 @@ pub struct Run {
     pub lattice: Lattice,
     /// Where each robot starts.
     pub starts: Vec<Place>,
-    /// What they do.
+    /// The steps, in order.
     pub steps: Vec<Step>,
     /// The last of the steps that are said to come again for ever; 0 if the run ends.
     pub round: usize,
@@ -49,18 +51,18 @@ pub enum Speeds {
     Equal,
 }
 
-/// What one robot does.
+/// A step of one robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Step {
     /// Its place among the robots.
     pub robot: usize,
-    /// What it does in the end.
+    /// The act in the end.
     pub what: What,
     /// Where it looks before.
     pub looks: Vec<Look>,
 }
 
-/// What a robot does in the end.
+/// The end of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum What {
     /// It arrives where it drove.
@@ -69,6 +71,8 @@ pub enum What {
     Drives,
     /// It stays.
     Stays,
+    /// It knows that the run is over.
+    IsDone,
 }
 
 /// A look at a side.
@@ -76,11 +80,11 @@ pub enum What {
 pub struct Look {
     /// East, south, west, north, from 0.
     pub side: usize,
-    /// What the robot sees there.
+    /// The sight there.
     pub sees: Sees,
 }
 
-/// What a robot sees at a side.
+/// The sight at a side.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sees {
     /// Nothing.
@@ -95,7 +99,7 @@ plain!(Run { reading, speeds, lattice, starts, steps, round });
 plain!(Reading one of Published, Ahead);
 plain!(Speeds one of Any, Equal);
 plain!(Step { robot, what, looks });
-plain!(What one of Arrives, Drives, Stays);
+plain!(What one of Arrives, Drives, Stays, IsDone);
 plain!(Look { side, sees });
 plain!(Sees one of Free, Obstacle, Robot);
 
@@ -212,6 +216,31 @@ fn in_reach(one: Place, other: Place) -> bool {
     apart(one, other) <= 11
 }
 
+/// Whether a look sees what there is to see, the other robots being so; the path, if an obstacle is met on it.
+fn sees(
+    lattice: &Lattice,
+    from: Place,
+    look: &Look,
+    others: &[[Place; 2]],
+) -> Result<Option<(Place, Place)>, &'static str> {
+    let to = beside(from, look.side).ok_or("there is no such side")?;
+    let is_wall = !lattice.has(to) || lattice.barred.contains(&path(from, to));
+    let what = "there is an obstacle that is not seen, or the other way round";
+    must(is_wall == (look.sees == Sees::Obstacle), what)?;
+    if is_wall {
+        return Ok(lattice.has(to).then(|| path(from, to)));
+    }
+    // A robot between this node and the next one, or at the next one, is seen; one that leaves or enters the next one
+    // otherwise may be.
+    let is_on = |ends: &[Place; 2]| ends.map(|end| end == from || end == to);
+    let is_sure = others.iter().any(|ends| is_on(ends) == [true; 2] && *ends != [from; 2]);
+    let may_be = others.iter().any(|ends| is_on(ends) != [true; 2] && ends.contains(&to));
+    let is_robot = look.sees == Sees::Robot;
+    must(is_robot || !is_sure, "another robot is seen there")?;
+    must(!is_robot || is_sure || may_be, "no robot is there")?;
+    Ok(None)
+}
+
 impl Run {
     /// Takes a step; whether it breaks the clause.
     fn step(&self, team: &mut Team, step: &Step) -> Result<bool, &'static str> {
@@ -247,9 +276,9 @@ impl Run {
         Ok(is_broken)
     }
 
-    /// Looks at sides in an order of the rule: the way ahead, if that is the reading; then the uncovered sides in any order whose
-    /// ends are in reach of where the other one goes; then all sides, those that lead nearest to it first. The first side that is
-    /// free is driven.
+    /// Looks at sides in an order of the rule: the way ahead, if that is the reading; then the uncovered sides in
+    /// any order whose ends are in reach of where the other one goes; then all sides, those that lead nearest to it
+    /// first. The first side that is free is driven.
     fn look(&self, team: &mut Team, step: &Step) -> Result<(), &'static str> {
         let (robot, from) = (step.robot, team.stances[step.robot][0]);
         let inside = |side: &usize| beside(from, *side).is_some_and(|to| self.lattice.has(to));
@@ -277,41 +306,17 @@ impl Run {
                 is_nearest
             };
             must(due, "the rule does not look there")?;
-            self.sees(team, (robot, from, look))?;
+            let others: Vec<[Place; 2]> = other.into_iter().collect();
+            team.seen.extend(sees(&self.lattice, from, look, &others)?);
             is_free = look.sees == Sees::Free;
         }
         match step.what {
             What::Drives => must(is_free, "a robot drives where it sees no free side"),
+            What::IsDone => Err("as published no robot knows that the run is over"),
             What::Stays | What::Arrives => {
                 let is_through = ahead.is_none() && uncovered.is_empty() && left.is_empty();
                 must(!is_free && is_through, "a robot stays though there is a side to look at")
             }
-        }
-    }
-
-    /// Whether that is what there is to see.
-    fn sees(&self, team: &mut Team, (robot, from, look): (usize, Place, &Look)) -> Result<(), &'static str> {
-        let to = beside(from, look.side).ok_or("there is no such side")?;
-        let is_wall = !self.lattice.has(to) || self.lattice.barred.contains(&path(from, to));
-        must(
-            is_wall == (look.sees == Sees::Obstacle),
-            "there is an obstacle that is not seen, or the other way round",
-        )?;
-        if is_wall {
-            if self.lattice.has(to) {
-                team.seen.insert(path(from, to));
-            }
-            return Ok(());
-        }
-        // A robot between this node and the next one, or at the next one, is seen; one that leaves or enters the next one
-        // otherwise may be.
-        let ends = team.other(robot).unwrap_or([from; 2]);
-        let is_on = ends.map(|end| end == from || end == to);
-        let is_robot = look.sees == Sees::Robot;
-        match is_on {
-            [true, true] => must(is_robot == (ends != [from; 2]), "another robot is seen, or is not"),
-            [false, false] => must(!is_robot, "no robot is there"),
-            _ => must(!is_robot || ends.contains(&to), "no robot is there"),
         }
     }
 
@@ -351,8 +356,8 @@ impl Run {
         }
     }
 
-    /// The fewest single drives over covered paths, in contact and to different nodes, until a robot could drive through an
-    /// uncovered side; `None` if there is no such way.
+    /// The fewest single drives over covered paths, in contact and to different nodes, until a robot could drive
+    /// through an uncovered side; `None` if there is no such way.
     fn joint_way(&self, team: &Team, goals: [Place; 2]) -> Option<usize> {
         let (mut known, mut now) = (BTreeSet::from([goals]), vec![goals]);
         for length in 0.. {

@@ -1,5 +1,5 @@
-//! The judge of MRC: runs of robots and WFRs as published (MRC-1 to MRC-6, MRC-8, MRC-9), and what a robot records ([`Record`]:
-//! MRC-10). It knows the sentences of `SPEC.md` alone.
+//! The judge of MRC: runs of robots and WFRs as published (MRC-1 to MRC-6, MRC-8, MRC-9), and what a robot records
+//! ([`Record`]: MRC-10). It knows the sentences of `SPEC.md` alone.
 
 use std::collections::BTreeSet;
 
@@ -15,16 +15,16 @@ pub struct Run {
     pub hops: Vec<Vec<i32>>,
     /// Messages that are lost or come twice, and robots that fail.
     pub faults: usize,
-    /// What happens.
+    /// The events, in order.
     pub steps: Vec<Step>,
 }
 
-/// What happens.
+/// An event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Step {
     /// An event, a message, or something that a robot does.
     pub what: What,
-    /// What becomes of a message.
+    /// The fate of a message.
     pub fate: Fate,
     /// The WFR that it is about; 0 of a robot that fails.
     pub wfr: usize,
@@ -53,7 +53,7 @@ pub enum What {
     Fails,
 }
 
-/// What becomes of a message.
+/// The fate of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {
     /// It arrives; so is whatever is no message.
@@ -88,13 +88,14 @@ struct Wfr {
     choice: Option<usize>,
     /// The robots whose MOVEs it has received under this call.
     asked: BTreeSet<usize>,
-    /// Whether a message to or from it is on its way: its window. The robots whose MOVE of this call came in it, and the best.
+    /// Whether a message to or from it is on its way: its window. The robots whose MOVE of this call came in it, and
+    /// the best.
     is_open: bool,
     heard: BTreeSet<usize>,
     best: Option<(i32, usize)>,
 }
 
-/// What a robot does.
+/// The task of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Task {
     Free,
@@ -159,7 +160,7 @@ impl Case for Run {
     }
 }
 
-/// What a step has broken that no state shows.
+/// Demands that a step has broken, and no state shows.
 #[derive(Clone, Copy, Default)]
 struct Happened {
     /// A robot has heard a new call, and its SBit is set.
@@ -271,7 +272,8 @@ impl Court<'_> {
         }
     }
 
-    /// A WFR that waits chooses at every MOVE anew among all that have asked, and tells them all; whether it has told others.
+    /// A WFR that waits chooses at every MOVE anew among all that have asked, and tells them all; whether it has
+    /// told others.
     fn hears_move(&mut self, wfr: usize, robot: usize, epoch: i32) -> bool {
         let rank = |robot: usize| (self.run.hops[robot][wfr], robot);
         let own = &mut self.wfrs[wfr];
@@ -340,9 +342,9 @@ impl Court<'_> {
 pub struct Record {
     /// The clause that it is said to break.
     pub clause: &'static str,
-    /// What was heard, in order.
+    /// The NOTICEs that were heard, in order.
     pub heard: Vec<Heard>,
-    /// What is recorded of the WFR of the last NOTICE, the hop count being that of the robot.
+    /// The record of the WFR of the last NOTICE, with the hop count of the robot.
     pub record: Heard,
 }
 

@@ -15,7 +15,7 @@ pub struct Spread {
     pub k: usize,
     /// The network.
     pub network: Network,
-    /// What happens.
+    /// The events, in order.
     pub steps: Vec<Step>,
 }
 
@@ -28,7 +28,7 @@ pub struct Network {
     pub links: BTreeSet<(usize, usize)>,
 }
 
-/// What happens.
+/// An event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Step {
     /// The node that hears or forwards.
@@ -127,12 +127,13 @@ impl Case for Spread {
     }
 }
 
-/// A node that has heard of an event of a source, and hears of a newer one, as published: a NOTICE does not name the event.
+/// A node that has heard of an event of a source, and hears of a newer one, as published: a NOTICE does not name the
+/// event.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Later {
     /// The clause that it is said to break.
     pub clause: &'static str,
-    /// What it has heard before, in order.
+    /// The NOTICEs that it has heard before, in order.
     pub before: Vec<Heard>,
     /// The NOTICE of the newer event.
     pub news: Heard,

@@ -1,5 +1,5 @@
-//! The judge of PACK: runs by the published rule (PACK-1, PACK-3), and packs that no rule gets away (PACK-5). It knows the
-//! sentences of `SPEC.md` alone.
+//! The judge of PACK: runs by the published rule (PACK-1, PACK-3), and packs that no rule gets away (PACK-5). It
+//! knows the sentences of `SPEC.md` alone.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -186,9 +186,10 @@ impl Run {
         team.cells != before
     }
 
-    /// The choice of a robot: of the frontier cells with a link to a cell to which another robot is going, if there is one, and at
-    /// most 2 R_c steps farther than the nearest of them, the first with the greatest V/d, cells being in the order of a flood
-    /// fill that looks east, south, west, north; if V is 0 everywhere, the first of all.
+    /// The choice of a robot: of the frontier cells with a link to a cell to which another robot is going, if there
+    /// is one, and at most 2 R_c steps farther than the nearest of them, the first with the greatest V/d, cells
+    /// being in the order of a flood fill that looks east, south, west, north; if V is 0 everywhere, the first of
+    /// all.
     fn choose(
         &self,
         seen: &BTreeMap<Place, bool>,
@@ -198,17 +199,18 @@ impl Run {
     ) -> Option<Aim> {
         let mut ways = BTreeMap::from([(from, VecDeque::new())]);
         let mut queue = VecDeque::from([from]);
-        let (mut first, mut best): (Option<(usize, Place)>, Option<(usize, usize, Place)>) = (None, None);
+        let mut first: Option<(usize, Place)> = None;
+        let mut best: Option<(usize, usize, Place)> = None;
         while let Some(cell) = queue.pop_front() {
             let way: VecDeque<usize> = ways[&cell].clone();
             for side in 0..SIDES.len() {
                 let Some(next) = beside(cell, side).filter(|next| seen.get(next) == Some(&true)) else {
                     continue;
                 };
-                if !ways.contains_key(&next) {
-                    ways.insert(next, way.iter().copied().chain([side]).collect());
+                ways.entry(next).or_insert_with(|| {
                     queue.push_back(next);
-                }
+                    way.iter().copied().chain([side]).collect()
+                });
             }
             let is_near = others.is_empty() || others.iter().any(|&other| self.links(other, cell));
             if !is_frontier(cell) || !is_near {
@@ -233,8 +235,8 @@ impl Run {
         Some(Aim { cell, way: ways.remove(&cell)? })
     }
 
-    /// The next step of a robot, if no robot is there and links by midpoints join all after it. Two robots that want into each
-    /// other's cells change aims, each as if it had taken the other's step.
+    /// The next step of a robot, if no robot is there and links by midpoints join all after it. Two robots that want
+    /// into each other's cells change aims, each as if it had taken the other's step.
     fn take_step(&self, team: &mut Team, robot: usize) {
         let Some(side) = team.aims[robot].as_ref().and_then(|aim| aim.way.front().copied()) else { return };
         let (from, Some(to)) = (team.cells[robot], beside(team.cells[robot], side)) else { return };
@@ -269,8 +271,8 @@ impl Run {
     }
 }
 
-/// Whether a ray goes straight from the midpoint of a cell to that of another one: no obstacle is in a cell that it crosses
-/// before, and it passes no corner between two.
+/// Whether a ray goes straight from the midpoint of a cell to that of another one: no obstacle is in a cell that it
+/// crosses before, and it passes no corner between two.
 fn sees(from: Place, to: Place, is_obstacle: impl Fn(Place) -> bool) -> bool {
     let (dx, dy) = apart(from, to);
     let (x_step, y_step) = ((to.0 - from.0).signum(), (to.1 - from.1).signum());

@@ -1,5 +1,5 @@
-//! The judge of POSITION: places where the published equations return no position (POSITION-1), and motions that they do not
-//! follow (POSITION-4). Lengths are whole numbers. It knows the sentences of `SPEC.md` alone.
+//! The judge of POSITION: places where the published equations return no position (POSITION-1), and motions that
+//! they do not follow (POSITION-4). Lengths are whole numbers. It knows the sentences of `SPEC.md` alone.
 
 use super::change::plain;
 use super::{Case, Objection, Place, must};

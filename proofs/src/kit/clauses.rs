@@ -3,13 +3,13 @@
 use tautline_kernel::kit::Condition::{
     Apart, Beside, Caravan, Flags, FromInReach, MakesRoom, Marked, NextInReach, Regroup, Repeats, Stays, Turn,
 };
-use tautline_kernel::kit::{Answers as Answering, Filter, Records, Rule, Runs};
+use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule, Runs};
 
 use super::lattices::{Lattices, Pass, Size};
 use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
-use crate::clause::{Check, Clause, NamedRule};
+use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryState, Judged, Verdict};
 use crate::step_checks;
 
@@ -37,6 +37,32 @@ const NO_LOOK_BESIDE: NamedRule<Rule> =
 const NO_CARAVAN: NamedRule<Rule> = NamedRule::new("each goes alone", Rule::REPAIRED.without(Caravan));
 const NO_ROOM: NamedRule<Rule> = NamedRule::new("nobody makes room", Rule::REPAIRED.without(MakesRoom));
 const AHEAD: Rule = Rule { runs: Runs::Ahead, ..Rule::PUBLISHED };
+
+/// The readings of the published rule but for the main one: where KIT runs, whose record counts, and which side is
+/// taken where none is left.
+const READINGS: [(&str, Rule); 7] = [
+    ("ahead", AHEAD),
+    ("the other's record", Rule { records: Records::Others, ..Rule::PUBLISHED }),
+    ("ahead + the other's record", Rule { records: Records::Others, ..AHEAD }),
+    ("any side", Rule { fallback: Fallback::Random, ..Rule::PUBLISHED }),
+    ("ahead + any side", Rule { fallback: Fallback::Random, ..AHEAD }),
+    (
+        "the other's record + any side",
+        Rule { records: Records::Others, fallback: Fallback::Random, ..Rule::PUBLISHED },
+    ),
+    (
+        "ahead + the other's record + any side",
+        Rule { records: Records::Others, fallback: Fallback::Random, ..AHEAD },
+    ),
+];
+
+/// When a robot answers, otherwise than the main reading has it.
+const ANSWERING: [(&str, Rule); 2] = [
+    ("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
+    ("the first goes first", Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED }),
+];
+
+const REFUTED: &[Reading<Rule>] = &readings(READINGS, [Verdict::Refuted; 7]);
 
 step_checks! { Certainty;
     contact: pairs::contact, NamedRule::new("repaired", Certainty::OURS), pairs::pairs,
@@ -142,7 +168,7 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",
         checks: &[
             &contact::CHECK,
-            &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(NamedRule::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[]),
             &Check::new(
                 REPAIRED,
@@ -156,7 +182,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-2",
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
-            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &repaired_at_equal_speeds(Demand::Contact),
@@ -170,8 +196,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST never be nearer to each other than 3 m, once both have left their starts.",
         checks: &[
             &apart::CHECK,
-            &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[]),
-            &Check::new(PUBLISHED, &APART_AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &APART_AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Apart), Verdict::Holds, &[NOT_APART, NO_STAY]),
             &Check::new(
                 REPAIRED,
@@ -193,7 +219,8 @@ pub static CLAUSES: [Clause; 14] = [
                 },
                 Verdict::Refuted,
                 &[],
-            ),
+            )
+            .under(&readings(ANSWERING, [Verdict::Holds; 2])),
             &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
             &Check::new(
                 REPAIRED,
@@ -259,7 +286,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-6",
         sentence: "While an uncovered side is within reach, a robot MUST drive or be able to decide.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Moves), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Moves), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Moves), Verdict::Holds, &[NO_TURN, NO_REGROUP]),
         ],
     },
@@ -267,7 +294,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-7",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Ends), Verdict::Holds, &[NO_STAY]),
             &Check::new(REPAIRED, &side_by_side(Demand::Ends), Verdict::Holds, &[]),
         ],
@@ -276,7 +303,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-8",
         sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know it.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Covers), Verdict::Holds, &[NO_REGROUP, UNMARKED]),
             &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Refuted, &[]),
         ],
@@ -299,7 +326,7 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it blocked, and \
                    no other side.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Marks), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Marks), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Marks), Verdict::Holds, &[UNMARKED, OTHERS]),
         ],
     },
@@ -308,7 +335,7 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while another \
                    one drives a new path.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Shortens), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &published(Demand::Shortens), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Shortens), Verdict::Holds, &[NO_STAY]),
         ],
     },

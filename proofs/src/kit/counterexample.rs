@@ -1,5 +1,5 @@
-//! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is given,
-//! and what happens in it.
+//! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is
+//! given, and what happens in it.
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
 use tautline_kernel::kit::{Next, Rule, Runs, Sight};
@@ -75,30 +75,30 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         events.filter(|event| matches!(event, Event::Decides(.., Next::Drives(_)))).count()
     }
 
-    /// The run of two robots by the published rule, written down for the judge.
+    /// The run of two robots by the published rule, or of three by the repaired one, written down for the judge.
     pub(super) fn case(&self) -> Option<Box<dyn AnyCase>> {
         let Setting { rule, area, speeds, .. } = self.setting;
-        let reading = match rule {
-            Rule::PUBLISHED => judge::Reading::Published,
-            _ if rule == (Rule { runs: Runs::Ahead, ..Rule::PUBLISHED }) => judge::Reading::Ahead,
-            _ => return None,
-        };
-        let (speeds, is_equal) = match speeds {
-            Speeds::Any => (judge::Speeds::Any, false),
-            Speeds::Equal => (judge::Speeds::Equal, true),
-            Speeds::OneByOne => return None,
-        };
-        let clause = match self.run.demand {
-            Demand::Contact if ROBOTS == 2 && is_equal => "KIT-2",
-            demand => demand.clause(ROBOTS),
-        };
         let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
         let walls = self.given()?.0.into_iter();
         let barred = walls.map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side())))).collect();
         let lattice = Lattice { columns: area.width() as i32, rows: area.height() as i32, barred };
         let events = self.steps()?.1.into_iter().flat_map(|turned| turned.events);
         let steps = events.map(|event| written(&event)).collect::<Option<Vec<_>>>()?;
-        let starts = self.starts()?.map(place).to_vec();
+        let (starts, clause) = (self.starts()?.map(place).to_vec(), self.run.demand.clause(ROBOTS));
+        let reading = match rule {
+            Rule::PUBLISHED => judge::Reading::Published,
+            _ if rule == (Rule { runs: Runs::Ahead, ..Rule::PUBLISHED }) => judge::Reading::Ahead,
+            Rule::REPAIRED if ROBOTS > 2 && speeds == Speeds::Any => {
+                return Some(Box::new(judge::Party { clause, lattice, starts, steps }));
+            }
+            _ => return None,
+        };
+        let (speeds, clause) = match (speeds, self.run.demand) {
+            (Speeds::Any, _) => (judge::Speeds::Any, clause),
+            (Speeds::Equal, Demand::Contact) => (judge::Speeds::Equal, "KIT-2"),
+            (Speeds::Equal, _) => (judge::Speeds::Equal, clause),
+            (Speeds::OneByOne, _) => return None,
+        };
         let round = self.run.round().len();
         Some(Box::new(judge::Run { clause, reading, speeds, lattice, starts, steps, round }))
     }
@@ -142,7 +142,8 @@ fn written(event: &Event) -> Option<judge::Step> {
             let what = match next {
                 Next::Drives(_) => judge::What::Drives,
                 Next::Stays => judge::What::Stays,
-                Next::Looks(_) | Next::Done => return None,
+                Next::Done => judge::What::IsDone,
+                Next::Looks(_) => return None,
             };
             (*robot, what, looks.iter().map(look).collect::<Option<Vec<_>>>()?)
         }

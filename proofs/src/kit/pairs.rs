@@ -139,7 +139,8 @@ fn drawn(oracle: &mut dyn Oracle) -> (Message, u8, &'static str) {
 /// What these choices of [`read_back`] send and read, written down for the judge.
 pub(super) fn wire(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
-    let (message, number, _) = drawn(&mut Replay::new(&answers));
+    let mut replay = Replay::new(&answers);
+    let (message, number, _) = drawn(&mut replay);
     let fields = message.encode(number, rule);
     let written = |message: Message, number: u8| {
         let (kind, node, sides) = match message {
@@ -152,13 +153,15 @@ pub(super) fn wire(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         let sides = order.map(|side| sides.has(Step::Cross(side)));
         Sent { kind, node: (node.x.into(), node.y.into()), sides, number: number.into() }
     };
-    Some(Box::new(Wire {
+    let wire = Wire {
         clause: "KIT-9",
         flags: if rule.has(Condition::Flags) { 4 } else { 3 },
         sent: written(message, number),
         fields: fields.map(i32::from),
         read: Message::decode(fields, rule).ok().map(|(message, number)| written(message, number)),
-    }))
+    };
+    // A field that is spoilt is one more choice.
+    replay.matches().then(|| Box::new(wire) as Box<dyn AnyCase>)
 }
 
 /// KIT-9: what is sent is what is read.

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use rayon::Yield;
 
 use super::{Row, checks};
-use crate::clause::{Clause, Decision};
+use crate::clause::{Clause, Decision, Variant};
 use crate::decide::{Answer, Cache, Context, MethodError, Verdict};
 use crate::engine::Until;
 use crate::engine::states::MemoryLimit;
@@ -27,7 +27,7 @@ use crate::engine::watchdog::{BETWEEN_LOOKS, Task, Watchdog};
 pub enum News<'a> {
     /// How far a search is.
     Search(&'a Progress<'a>),
-    /// Another job is done: a check, or a mutant.
+    /// Another job is done: a check, or a variant.
     Done {
         /// The clause that it is about.
         clause: &'static str,
@@ -65,13 +65,13 @@ impl Default for Limits {
     }
 }
 
-/// Why nothing came of a check, or of one of its mutants.
+/// Why nothing came of a check, or of one of its variants.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Indecision {
     /// One of its steps did not end.
     Unended {
-        /// The mutant whose step it was; none if it was a step of the rule.
-        mutant: Option<&'static str>,
+        /// The variant whose step it was; none if it was a step of the rule.
+        variant: Option<Variant>,
         /// How long the step was waited for.
         seconds: u32,
     },
@@ -82,11 +82,15 @@ pub enum Indecision {
 impl fmt::Display for Indecision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unended { mutant: None, seconds } => {
+            Self::Unended { variant: None, seconds } => {
                 write!(f, "a step of the rule did not end within {seconds} s")
             }
-            Self::Unended { mutant: Some(mutant), seconds } => {
-                write!(f, "a step of the mutant {mutant:?} did not end within {seconds} s")
+            Self::Unended { variant: Some(variant), seconds } => {
+                let what = match variant {
+                    Variant::Mutant(_) => "mutant",
+                    Variant::Reading { .. } => "reading",
+                };
+                write!(f, "a step of the {what} {:?} did not end within {seconds} s", variant.name())
             }
             Self::Behind => f.write_str("not decided, since a step of another check did not end"),
         }
@@ -238,13 +242,13 @@ impl Collector<'_> {
             // The thread of a job is at the first question without an answer.
             let mut is_unended = unended.contains(&number);
             for &question in job.questions.iter().filter(|question| !is_answered(question)) {
-                let mutant = question.mutant_name(&self.shared.checks);
-                let came = match mutant {
+                let variant = question.variant(&self.shared.checks);
+                let came = match variant {
                     None => Reply::Own(Answer::new(None, false, Verdict::Open, 0)),
-                    Some(name) => Reply::Mutant(name, Verdict::Open),
+                    Some(variant) => Reply::Variant(variant, Verdict::Open),
                 };
                 let undecided = if is_unended {
-                    Indecision::Unended { mutant, seconds: self.shared.limits.patience_s }
+                    Indecision::Unended { variant, seconds: self.shared.limits.patience_s }
                 } else {
                     Indecision::Behind
                 };
@@ -267,13 +271,13 @@ impl Collector<'_> {
                     let (check, decision) = (clause.checks[number], Decision::of(answer));
                     rows.push(Row { clause, number, check, decision, undecided, seconds });
                 }
-                (Reply::Mutant(name, verdict), Some(row)) => {
-                    row.decision.add(name, verdict);
+                (Reply::Variant(variant, verdict), Some(row)) => {
+                    row.decision.add(variant, verdict);
                     row.undecided = [row.undecided, undecided].into_iter().flatten().min();
                     row.seconds += seconds;
                 }
-                // A check comes before its mutants.
-                (Reply::Mutant(..), None) => {}
+                // A check comes before its variants.
+                (Reply::Variant(..), None) => {}
             }
         }
         rows
@@ -306,19 +310,18 @@ struct Job {
     until: Until,
 }
 
-/// A question to decide: a check, by its place, or one of its mutants, by its number.
+/// A question to decide: a check, by its place, or one of its variants, by its number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Question {
     place: usize,
-    mutant: Option<usize>,
+    variant: Option<usize>,
 }
 
 impl Question {
-    /// The name of the mutant that it is about, if it is about one.
-    fn mutant_name(self, checks: &[(&'static Clause, usize)]) -> Option<&'static str> {
+    /// The variant that it is about, if it is about one.
+    fn variant(self, checks: &[(&'static Clause, usize)]) -> Option<Variant> {
         let (clause, number) = checks[self.place];
-        let mutants = clause.checks[number].mutants();
-        self.mutant.map(|mutant| mutants.get(mutant).copied().unwrap_or_default())
+        self.variant.and_then(|variant| clause.checks[number].variants().get(variant).copied())
     }
 }
 
@@ -333,11 +336,11 @@ struct Completion {
 /// The answer to a question.
 enum Reply {
     Own(Answer),
-    Mutant(&'static str, Verdict),
+    Variant(Variant, Verdict),
 }
 
-/// The checks, those with most others in their family first, as these may take longest, each family with the mutants
-/// about which it tells as much; then the other mutants.
+/// The checks, those with most others in their family first, as these may take longest, each family with the variants
+/// about which it tells as much; then the other variants.
 fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     let of = |place: usize| {
         let (clause, number) = checks[place];
@@ -345,7 +348,7 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     };
     let mut families: Vec<(Option<String>, Vec<Question>)> = Vec::new();
     for place in 0..checks.len() {
-        let (family, question) = (of(place).family(), Question { place, mutant: None });
+        let (family, question) = (of(place).family(), Question { place, variant: None });
         match joined(&mut families, family.as_deref()) {
             Some(questions) => questions.push(question),
             None => families.push((family, vec![question])),
@@ -354,9 +357,9 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     families.sort_by_key(|(_, questions)| Reverse(questions.len()));
     let mut others = Vec::new();
     for place in 0..checks.len() {
-        for number in 0..of(place).mutants().len() {
+        for number in 0..of(place).variants().len() {
             let (family, question) =
-                (of(place).mutant_family(number), Question { place, mutant: Some(number) });
+                (of(place).variant_family(number), Question { place, variant: Some(number) });
             match joined(&mut families, family.as_deref()) {
                 Some(questions) => questions.push(question),
                 None => others.push(Job { questions: vec![question], until: Until::Violation }),
@@ -392,12 +395,11 @@ impl Job {
         let start = Instant::now();
         let (clause, number) = checks[question.place];
         let check = clause.checks[number];
-        let came = match question.mutant {
-            None => Reply::Own(check.decide_own(desk)?),
-            Some(mutant) => {
-                let name = question.mutant_name(checks).unwrap_or_default();
-                Reply::Mutant(name, check.decide_mutant(mutant, self.until, desk)?)
+        let came = match (question.variant, question.variant(checks)) {
+            (Some(number), Some(variant)) => {
+                Reply::Variant(variant, check.decide_variant(number, self.until, desk)?)
             }
+            _ => Reply::Own(check.decide_own(desk)?),
         };
         Ok(Completion { question, seconds: start.elapsed().as_secs_f64(), came, undecided: None })
     }
@@ -411,21 +413,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_question_is_asked_once_and_that_of_a_mutant_with_its_family() {
+    fn every_question_is_asked_once_and_that_of_a_variant_with_its_family() {
         let checks = checks(&clauses().collect::<Vec<_>>());
         let jobs = jobs(&checks);
         let mut asked: Vec<Question> = jobs.iter().flat_map(|job| job.questions.iter().copied()).collect();
         asked.sort_unstable();
         let all = (0..).zip(&checks).flat_map(|(place, (clause, number))| {
-            let mutants = 0..clause.checks[*number].mutants().len();
-            iter::once(None).chain(mutants.map(Some)).map(move |mutant| Question { place, mutant })
+            let variants = 0..clause.checks[*number].variants().len();
+            iter::once(None).chain(variants.map(Some)).map(move |variant| Question { place, variant })
         });
         assert!(asked.into_iter().eq(all));
         let of = |place: usize| (checks[place].0.id, checks[place].0.checks[checks[place].1]);
         let is_published = |question: &Question| {
             let (clause, check) = of(question.place);
-            let is_named = |number: usize| check.mutants()[number] == "as published";
-            (clause, check.engine()) == ("CHAIN-2", "search") && question.mutant.is_some_and(is_named)
+            let is_named = |number: usize| check.variants()[number].name() == "as published";
+            (clause, check.engine()) == ("CHAIN-2", "search") && question.variant.is_some_and(is_named)
         };
         let job = jobs.iter().find(|job| job.questions.iter().any(is_published)).expect("a mutant");
         let (clause, check) = of(job.place());

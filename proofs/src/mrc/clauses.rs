@@ -4,11 +4,11 @@ use tautline_kernel::mrc::Condition::{
     AnswersAgain, ChoiceStands, Consent, Epochs, LeastIdentity, NearestCall, NearestRobot, Renewal,
     Repetition, StillAsks, Window,
 };
-use tautline_kernel::mrc::Rule;
+use tautline_kernel::mrc::{Condition, Rule};
 
 use super::within::Within;
 use super::{Demand, Faults, Leases, LossKind, Misreading, Setting, Subject, records};
-use crate::clause::{Check, Clause, NamedRule};
+use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryAnswer, Judged, Verdict};
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
@@ -64,6 +64,31 @@ const FILLED: Check<Subject> = Check::new(
     &[NamedRule::new("whoever is chosen goes", Subject::rescuing(Rule::REPAIRED.without(StillAsks)))],
 );
 
+/// The readings of the choice of a WFR but for the published one, which chooses anew at each MOVE: that the first MOVE
+/// decides, or all that come until a window closes; and whether a later MOVE is answered.
+const fn chosen(conditions: &[Condition]) -> Subject {
+    let mut rule = Rule::PUBLISHED.with(ChoiceStands);
+    let mut left = conditions;
+    while let [condition, rest @ ..] = left {
+        rule = rule.with(*condition);
+        left = rest;
+    }
+    Subject::rescuing(rule)
+}
+
+const READINGS: [(&str, Subject); 4] = [
+    ("first", chosen(&[])),
+    ("first + answered", chosen(&[AnswersAgain])),
+    ("window", chosen(&[Window])),
+    ("window + answered", chosen(&[Window, AnswersAgain])),
+];
+const REFUTED: &[Reading<Subject>] = &readings(READINGS, [Verdict::Refuted; 4]);
+const HOLDS: &[Reading<Subject>] = &readings(READINGS, [Verdict::Holds; 4]);
+const HOLDS_IN_A_WINDOW: &[Reading<Subject>] =
+    &readings(READINGS, [Verdict::Refuted, Verdict::Refuted, Verdict::Holds, Verdict::Holds]);
+const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] =
+    &readings(READINGS, [Verdict::Refuted, Verdict::Refuted, Verdict::Refuted, Verdict::Holds]);
+
 const REDECIDE: Subject = Subject::rescuing(Rule::REPAIRED.without(ChoiceStands));
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
 const NO_EPOCH: Subject = Subject::rescuing(Rule::REPAIRED.without(Epochs));
@@ -92,7 +117,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-1",
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(HOLDS),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::OneRobotForACall, TWO),
@@ -107,7 +133,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-2",
         sentence: "Two WFRs MUST never count on the same robot.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO), Verdict::Refuted, &[])
+                .under(HOLDS_IN_A_WINDOW),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::OneCallForARobot, TWO),
@@ -122,7 +149,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-3",
         sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::BestOfTheWindow, TWO),
@@ -150,7 +178,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-4",
         sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::CountsOnConsent, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::CountsOnConsent, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::CountsOnConsent, TWO),
@@ -165,7 +194,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-5",
         sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::IsServed, TWO_AND_ONE),
@@ -193,7 +223,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-6",
         sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::AsksAnew, TWO),
@@ -249,7 +280,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot MUST take the lease of a call only when it is told, while it asks for that call, that it is \
                    chosen.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::TakesWhatItAsksFor, TWO),
@@ -270,7 +302,8 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-9",
         sentence: "A WFR MUST tell its choice to every robot whose MOVE of its call it has received, and to no other.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(HOLDS_ANSWERED_IN_A_WINDOW),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::TellsWhoAsked, TWO),

@@ -37,7 +37,8 @@ fn notice(oracle: &mut dyn Oracle) -> Notice {
     Notice { call, hops, sender: one_of(oracle, &SENDERS) }
 }
 
-/// The NOTICEs that these choices of [`records`] make, and what a robot has recorded by them, written down for the judge.
+/// The NOTICEs that these choices of [`records`] make, and what a robot has recorded by them, written down for the
+/// judge.
 pub(super) fn recorded(observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);

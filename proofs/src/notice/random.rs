@@ -164,7 +164,8 @@ fn heard(observed: &Subject, fate: usize, news: Notice) -> (Node, Reaction) {
 /// What these choices of [`second_event`] make, written down for the judge.
 pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
-    let (fate, news) = drawn(&mut Replay::new(&answers));
+    let mut replay = Replay::new(&answers);
+    let (fate, news) = drawn(&mut replay);
     let (node, reaction) = heard(observed, fate, news);
     let written = |notice: Notice| {
         let [event, sender] = [notice.call.epoch.0, notice.sender.0].map(|number| number as i32);
@@ -173,5 +174,6 @@ pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn Any
     let begins = matches!(reaction, Reaction::Armed { .. });
     let is_first = begins && node.parent() == Some(news.sender);
     let before = before(fate).map(written).collect();
-    Some(Box::new(Later { clause: "NOTICE-4", before, news: written(news), is_first }))
+    let later = Later { clause: "NOTICE-4", before, news: written(news), is_first };
+    replay.matches().then(|| Box::new(later) as Box<dyn AnyCase>)
 }

@@ -107,8 +107,8 @@ impl Oracle for First<'_> {
     }
 }
 
-/// Ways to move the plane that keep distances: x and y of what was x, of what was y, and of where the origin goes.
-const MOVES: [[f64; 6]; 6] = [
+/// Ways to move the plane that keep distances.
+const MOVES: [Motion; 6] = [
     [1.0, 0.0, 0.0, 1.0, -7.0, 3.0],
     [0.0, 1.0, -1.0, 0.0, 0.0, 0.0],
     [-1.0, 0.0, 0.0, -1.0, 2.0, 9.0],
@@ -128,15 +128,18 @@ pub(super) fn moves() -> String {
     )
 }
 
+/// x and y of what was x, of what was y, and of where the origin goes.
+type Motion = [f64; 6];
+
 /// Three anchors, distances to them, and a motion.
-fn motion(oracle: &mut dyn Oracle) -> Result<(Vec<Point>, Vec<f64>, [f64; 6]), Stop> {
+fn motion(oracle: &mut dyn Oracle) -> Result<(Vec<Point>, Vec<f64>, Motion), Stop> {
     let anchors = anchors(oracle, 3, SIDES[1])?;
     assume(!is_line(&anchors))?;
     let distances: Vec<f64> = anchors.iter().map(|_| one_of(oracle, &DISTANCES_M)).collect();
     Ok((anchors, distances, one_of(oracle, &MOVES)))
 }
 
-fn moved([xx, xy, yx, yy, x_m, y_m]: [f64; 6], place: Point) -> Point {
+fn moved([xx, xy, yx, yy, x_m, y_m]: Motion, place: Point) -> Point {
     Point::new(xx * place.x_m + yx * place.y_m + x_m, xy * place.x_m + yy * place.y_m + y_m)
 }
 

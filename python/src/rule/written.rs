@@ -24,7 +24,7 @@ pub(super) const MAX_ROBOTS: usize = 8;
 /// Letters of a name.
 const MAX_WORD: usize = 64;
 
-/// The answers that `step` may return.
+/// A hint at what `step` is to return.
 const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the next state and a \
                       string with one letter of E, S, W, N or . for each robot";
 

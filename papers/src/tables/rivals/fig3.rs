@@ -174,8 +174,9 @@ enum Claim {
 /// The sentences of Section E about Fig. 3.
 fn judged(areas: &[Area], pool: u32) -> Vec<Judgement> {
     type Rival = fn(u32, Links) -> Contender;
+    type Sentence<'a> = (&'static str, (usize, Rival, &'a [&'a str], Claim));
     let (full, reference): (Rival, Rival) = (|_, links| Contender::full(links), Contender::pool);
-    let sentences: [(&'static str, (usize, Rival, &[&str], Claim)); 8] = [
+    let sentences: [Sentence<'_>; 8] = [
         (
             "50 %: “definitely better than the reference … for an obstacle-free area or low obstacle density”",
             (0, reference, &DENSITIES[..3], Claim::Sooner),

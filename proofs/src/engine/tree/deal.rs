@@ -58,12 +58,6 @@ impl<D> Deal<D> {
     pub const fn moves(&self) -> u64 {
         self.count.moves
     }
-
-    /// The most parts of a shard.
-    pub fn most_parts(&self) -> usize {
-        let parts = |ways: &Ways| ways.iter().map(Vec::len).sum();
-        self.shards.iter().map(parts).max().unwrap_or(0)
-    }
 }
 
 /// How much is left of all these parts.

@@ -13,6 +13,7 @@ pub(super) fn broken(clause: &str) -> Option<Violation> {
         "CHAIN-2" => Violation::ByMove(|_, made| cell_is_crowded(&made.places)),
         "CHAIN-3" => Violation::ByMove(|court, made| range_is_left(&court.places, &made.places)),
         "CHAIN-13" => Violation::AtEnd(|court| Ok(misses_within_reach(court))),
+        "CHAIN-19" => Violation::ByMove(|court, made| order_loses_contact(&court.places, &made.places)),
         "CHAIN-14" => Violation::AtEnd(|court| misses_reachable(court, MOST_CONFIGURATIONS)),
         _ => return None,
     })
@@ -48,6 +49,15 @@ fn range_is_left(before: &[Place], after: &[Place]) -> bool {
         [before[robot], after[robot]].into_iter().any(|ahead| {
             [before[robot - 1], after[robot - 1]].into_iter().any(|behind| is_far(ahead, behind))
         })
+    })
+}
+
+/// CHAIN-19: some two neighbours lose contact when each of them has gone or not yet.
+fn order_loses_contact(before: &[Place], after: &[Place]) -> bool {
+    let both = |robot: usize| [before[robot], after[robot]];
+    (1..after.len()).any(|ahead| {
+        let pairs = both(ahead - 1).into_iter().flat_map(|one| both(ahead).map(|other| (one, other)));
+        pairs.into_iter().any(|(one, other)| !is_covered(one, other))
     })
 }
 

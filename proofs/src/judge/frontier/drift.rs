@@ -1,5 +1,5 @@
-//! One robot whose fixes are off by parts of a cell (FRONTIER-5), and the occupancy probability (FRONTIER-8). Lengths are
-//! sixteenths of a cell's side.
+//! One robot whose fixes are off by parts of a cell (FRONTIER-5), and the occupancy probability (FRONTIER-8).
+//! Lengths are sixteenths of a cell's side.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -127,7 +127,8 @@ impl Drift {
     }
 }
 
-/// The occupancy probability of the cell 0,0 as printed, at two places in it, the first one no farther from its midpoint.
+/// The occupancy probability of the cell 0,0 as printed, at two places in it, the first one no farther from its
+/// midpoint.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Occupancy {
     /// The clause that it is said to break.
@@ -150,7 +151,8 @@ impl Case for Occupancy {
         must(self.places.iter().all(is_in), "a place is not in the cell").map_err(whole)?;
         let [near, far] = self.places.map(|(x, y)| x * x + y * y);
         must(near <= far, "the second place is nearer").map_err(whole)?;
-        // As printed it is the distance over half a side, at most 1: it is 0 at the midpoint, grows, and is 1 from the rim on.
+        // As printed it is the distance over half a side, at most 1: it is 0 at the midpoint, grows, and is 1 from
+        // the rim on.
         let is_broken = near == 0 || near < far.min(HALF * HALF) || far >= HALF * HALF;
         must(is_broken, "the probability is as demanded").map_err(whole)
     }

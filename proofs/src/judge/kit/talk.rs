@@ -12,22 +12,22 @@ pub struct Talk {
     pub has_turns: bool,
     /// Messages that are lost, and that come twice.
     pub faults: usize,
-    /// What happens.
+    /// The events, in order.
     pub acts: Vec<Act>,
 }
 
-/// What happens.
+/// An event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Act {
     /// The robot that acts, or to which the message is sent.
     pub robot: usize,
-    /// What it does, or what becomes of the message.
+    /// Its act, or the fate of the message.
     pub said: Said,
     /// The message, of one that is on its way.
     pub word: Option<Word>,
 }
 
-/// What a robot does, or what becomes of a message.
+/// An act of a robot, or the fate of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Said {
     /// A robot comes to its node.
@@ -147,7 +147,7 @@ impl Court {
         matches!(self.robots[robot].phase, Phase::Drives | Phase::Decides)
     }
 
-    /// What happens; whether a robot decides by old news.
+    /// Takes an act; whether a robot decides by old news.
     fn act(&mut self, act: &Act) -> Result<bool, &'static str> {
         let robot = act.robot;
         must(robot < 2, "there is no such robot")?;
@@ -224,7 +224,8 @@ impl Court {
         }
     }
 
-    /// A robot that owes an answer gives it while it drives; one with the turn also while it stays, and the turn goes with it.
+    /// A robot that owes an answer gives it while it drives; one with the turn also while it stays, and the turn
+    /// goes with it.
     fn pay(&mut self, robot: usize) -> bool {
         let own = self.robots[robot];
         let is_free = own.phase == Phase::Drives || own.phase == Phase::Stays && self.has_turns;

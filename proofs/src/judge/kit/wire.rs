@@ -10,11 +10,11 @@ pub struct Wire {
     pub clause: &'static str,
     /// How many flags there are: three as published, four with *Flags*.
     pub flags: i32,
-    /// What is sent.
+    /// The message that is sent.
     pub sent: Sent,
     /// Flag, column and row, north, east, south, west.
     pub fields: [i32; 7],
-    /// What is read, if it is a message.
+    /// The message that is read, if it is one.
     pub read: Option<Sent>,
 }
 
