@@ -1,18 +1,20 @@
 //! The cost of an agent's step on a sensor floor: by scheme, among rooms and in the open, on 30×30 and on 512×512
-//! cells. Criterion follows each figure over time; the table at the end relates them to one another.
+//! cells.
+//! Criterion follows each figure over time; the table at the end relates them to one another.
 
 mod common;
 
 use criterion::{BenchmarkId, Criterion};
-use tautline_kernel::ants;
-use tautline_kernel::bricks::Rule;
-use tautline_proofs::bricks::tree as trees;
-use tautline_sim::explore::agents::{Agents, Crew, Way};
-use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
-use tautline_sim::layout::Generator;
+use tautline_kernel::bricks::tree;
+use tautline_kernel::ground::Cell;
+use tautline_kernel::{ants, bricks};
+use tautline_proofs::bricks::tree::mdfs::Mdfs;
+use tautline_proofs::floor::crew::Scheme;
+use tautline_sim::explore::agents::Agents;
 use tautline_sim::layout::generate::Probability;
+use tautline_sim::layout::{Generator, Layout};
 
-use self::common::{group, measure};
+use self::common::{Cost, Group, group, measure};
 
 /// The work of a run.
 #[derive(Clone, Copy, Default)]
@@ -33,31 +35,39 @@ const AGENTS: usize = 20;
 /// The most team moves of a run.
 const MOST: u32 = 20_000;
 
-const SCHEMES: [(&str, Way); 3] = [
-    ("bricks", Way::Bricks(Rule::REPAIRED)),
-    ("bricks-ants", Way::Bricks(Rule::ROBUST)),
-    ("ants", Way::Ants(ants::Rule::Repaired)),
-];
+/// Agents of a scheme that can be measured.
+trait Crew {
+    /// A measurement from these starts.
+    fn cost(&self, group: &mut Group<'_>, name: &str, layout: &Layout, starts: &[Cell]) -> Cost<Work>;
+}
 
-const TREES: [(&str, trees::Way); 4] = [
-    ("bricks (tree)", TREE),
-    ("helpers", HELPERS_ROBUST),
-    ("helpers (trusting)", HELPERS_TRUSTING),
-    ("mdfs", trees::Way::Mdfs),
+const SCHEMES: [(&str, &dyn Crew); 7] = [
+    ("bricks", &bricks::Rule::REPAIRED),
+    ("bricks-ants", &bricks::Rule::ROBUST),
+    ("ants", &ants::Rule::Repaired),
+    ("bricks (tree)", &tree::Rule::TREE),
+    ("helpers", &tree::Rule::ROBUST),
+    ("helpers (trusting)", &tree::Rule::HELPERS),
+    ("mdfs", &Mdfs),
 ];
 
 const LAYOUTS: [&str; 4] = ["office:30x30:4x4", "open:30x30", "office:512x512:16x16", "open:512x512"];
 
-/// A team of ants and one that marks cells as visited are both followed to the end of exploration; the latter until all
-/// agents are done.
-fn follow<C: Crew>(mut team: Agents<C>) -> Work {
-    let mut work = Work::default();
-    while work.team_moves < MOST && !team.is_over() {
-        work.team_moves += 1;
-        work.agent_steps += team.active();
-        team.advance();
+impl<S: Scheme> Crew for S {
+    /// A team of ants and one that marks cells as visited are both followed to the end of exploration; the latter until
+    /// all agents are done.
+    fn cost(&self, group: &mut Group<'_>, name: &str, layout: &Layout, starts: &[Cell]) -> Cost<Work> {
+        let start = Agents::new(*self, layout, starts, Probability::NEVER, 0);
+        measure(group, BenchmarkId::from_parameter(name), || {
+            let (mut team, mut work) = (start.clone(), Work::default());
+            while work.team_moves < MOST && !team.is_over() {
+                work.team_moves += 1;
+                work.agent_steps += team.active();
+                team.advance();
+            }
+            work
+        })
     }
-    work
 }
 
 fn main() {
@@ -68,15 +78,8 @@ fn main() {
         let layout = generator.generate(0).expect("a layout");
         let starts = vec![layout.default_base().expect("a free cell"); AGENTS];
         let mut group = group(&mut criterion, described);
-        for (scheme, way) in SCHEMES {
-            let team = Agents::new(way, &layout, &starts, Probability::NEVER, 0);
-            let cost = measure(&mut group, BenchmarkId::from_parameter(scheme), || follow(team.clone()));
-            rows.push((described, scheme, cost));
-        }
-        for (scheme, way) in TREES {
-            let team = Agents::new(way, &layout, &starts, Probability::NEVER, 0);
-            let cost = measure(&mut group, BenchmarkId::from_parameter(scheme), || follow(team.clone()));
-            rows.push((described, scheme, cost));
+        for (scheme, crew) in SCHEMES {
+            rows.push((described, scheme, crew.cost(&mut group, scheme, &layout, &starts)));
         }
     }
     criterion.final_summary();

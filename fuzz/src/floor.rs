@@ -2,11 +2,12 @@
 //! bytes. When the bytes have ended, the agents act in turn and miss nothing.
 
 use tautline_kernel::ants;
-use tautline_kernel::bricks::{self, Agent, Condition, Next};
+use tautline_kernel::bricks::{Condition, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
+use tautline_kernel::floor::{Floor, Mark, Sensor};
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::engine::Tape;
+use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight};
 use tautline_sim::layout::{Layout, Size};
 
 use super::numbers;
@@ -110,13 +111,6 @@ impl Floor for Patch {
     }
 }
 
-/// The way that agents follow.
-#[derive(Clone, Copy)]
-enum Way {
-    Ants(ants::Rule),
-    Bricks(bricks::Rule),
-}
-
 /// Misses sensors as the bytes say, a bounded number of times.
 struct Misses<'a, 'b> {
     bytes: &'a mut Tape<'b>,
@@ -135,19 +129,13 @@ impl Oracle for Misses<'_, '_> {
     }
 }
 
-struct Body {
-    agent: Agent,
-    cell: Cell,
-    is_done: bool,
-    /// The cells that are connected with its start.
-    part: Cells,
-}
-
 /// Agents on a floor.
-struct Team {
-    way: Way,
+struct Team<S: Scheme> {
+    scheme: S,
     patch: Patch,
-    bodies: Vec<Body>,
+    bodies: Vec<BodyOf<S>>,
+    /// The cells that are connected with the start of each.
+    parts: Vec<Cells>,
     /// Sensors that may still be missed.
     misses: u32,
     /// Whether the clauses promise anything: without missed sensors of the repaired rule, with them of the robust one.
@@ -160,7 +148,24 @@ struct Team {
 pub fn floor(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut bytes = Tape(&numbers);
-    let mut team = Team::new(&mut bytes);
+    match bytes.pick(5) {
+        0 => run_bricks(Rule::REPAIRED, bytes),
+        1 => run_bricks(Rule::ROBUST, bytes),
+        2 => run(ants::Rule::Repaired, [true; 2], bytes),
+        3 => run(ants::Rule::Published, [true; 2], bytes),
+        _ => run_bricks(Rule::PUBLISHED, bytes),
+    }
+}
+
+fn run_bricks(rule: Rule, mut bytes: Tape) {
+    let patience = one_of(&mut bytes, &[rule.patience, 0, 2]);
+    let rule = Rule { patience, reach: one_of(&mut bytes, &[rule.reach, 4]), ..rule };
+    run(rule, [Condition::Laps, Condition::SecondPass].map(|condition| rule.has(condition)), bytes);
+}
+
+/// A run of a scheme of which the clauses promise something without missed sensors, and with them.
+fn run<S: Scheme<Sensor = Sensor>>(scheme: S, promises: [bool; 2], mut bytes: Tape) {
+    let mut team = Team::new(scheme, promises, &mut bytes);
     while !bytes.0.is_empty() {
         let awake = team.awake();
         if awake.is_empty() || team.is_over() {
@@ -181,29 +186,9 @@ pub fn floor(bytes: &[u8]) {
     assert!(!team.is_promised, "the run is still under way:\n{}", team.patch.layout);
 }
 
-impl Team {
-    fn new(bytes: &mut Tape) -> Self {
-        let way = one_of(
-            bytes,
-            &[
-                Way::Bricks(bricks::Rule::REPAIRED),
-                Way::Bricks(bricks::Rule::ROBUST),
-                Way::Ants(ants::Rule::Repaired),
-                Way::Ants(ants::Rule::Published),
-                Way::Bricks(bricks::Rule::PUBLISHED),
-            ],
-        );
-        let way = match way {
-            Way::Ants(_) => way,
-            Way::Bricks(rule) => {
-                let patience = one_of(bytes, &[rule.patience, 0, 2]);
-                Way::Bricks(bricks::Rule { patience, reach: one_of(bytes, &[rule.reach, 4]), ..rule })
-            }
-        };
-        let is_robust = matches!(way, Way::Ants(_))
-            || matches!(way, Way::Bricks(rule) if rule.has(Condition::SecondPass));
+impl<S: Scheme<Sensor = Sensor>> Team<S> {
+    fn new(scheme: S, [is_repaired, is_robust]: [bool; 2], bytes: &mut Tape) -> Self {
         let misses = bytes.pick(MISSES + 1);
-        let is_repaired = !matches!(way, Way::Bricks(rule) if !rule.has(Condition::Laps));
         let (width, height) = (1 + bytes.pick(SIDE), 1 + bytes.pick(SIDE));
         let mut layout = Layout::of(Size::new(width.into(), height.into()).expect("a small layout"));
         let cells: Vec<Cell> = layout.cells().collect();
@@ -220,13 +205,10 @@ impl Team {
         let starts: Vec<Cell> = (0..agents).map(|_| free[bytes.pick(free.len() as u32) as usize]).collect();
         let blank = vec![Sensor::default(); cells.len()];
         let mut patch = Patch { layout, sensors: blank, placed: vec![0; cells.len()] };
-        settle(&mut patch, &starts);
-        let body = |(id, &cell)| {
-            let part = patch.spread(patch.bit(cell), Cells::MAX);
-            Body { agent: Agent::new(id), cell, is_done: false, part }
-        };
-        let bodies = (0..).zip(&starts).map(body).collect();
-        Self { way, patch, bodies, misses, is_promised: is_repaired && (misses == 0 || is_robust) }
+        Sensor::settle(&mut patch, &starts);
+        let parts = starts.iter().map(|&start| patch.spread(patch.bit(start), Cells::MAX)).collect();
+        let bodies = Body::crew(&scheme, &starts);
+        Self { scheme, patch, bodies, parts, misses, is_promised: is_repaired && (misses == 0 || is_robust) }
     }
 
     /// Those who are not done.
@@ -235,57 +217,42 @@ impl Team {
     }
 
     fn is_explored(&self) -> bool {
-        let parts = self.bodies.iter().fold(0, |cells, body| cells | body.part);
-        self.patch.marked(parts, |mark| mark == Mark::Unexplored) == 0
+        self.patch.marked(self.part(), |mark| mark == Mark::Unexplored) == 0
+    }
+
+    /// The cells that are connected with a start.
+    fn part(&self) -> Cells {
+        self.parts.iter().fold(0, |cells, part| cells | part)
     }
 
     /// Ants never know that they are done: for them the run is over when all is explored.
     fn is_over(&self) -> bool {
-        matches!(self.way, Way::Ants(_)) && self.is_explored()
-    }
-
-    /// Whether a cell with such a mark is left to go through.
-    fn is_left(&self, mark: Mark) -> bool {
-        match mark {
-            Mark::Unexplored | Mark::Explored | Mark::Closing => true,
-            Mark::Visited => matches!(self.way, Way::Bricks(rule) if rule.has(Condition::SecondPass)),
-            Mark::Sealed => false,
-        }
+        self.scheme.may_roam(Sight::Whole) && self.is_explored()
     }
 
     /// The cells of a part that are left to go through.
     fn left(&self, part: Cells) -> Cells {
-        self.patch.marked(part, |mark| self.is_left(mark))
+        self.patch.marked(part, |mark| self.scheme.passes(mark))
     }
 
     fn act(&mut self, agent: usize, bytes: &mut Tape<'_>) {
         let before = self.patch.sensors.clone();
         let body = &mut self.bodies[agent];
         let from = body.cell;
-        let scan = Scan::new(&self.patch, from, &mut Misses { bytes, left: &mut self.misses });
-        match self.way {
-            Way::Ants(rule) => {
-                if let Some(side) = ants::act(rule, &mut self.patch, from, &scan) {
-                    body.cell = from.beyond(side);
-                }
-            }
-            Way::Bricks(rule) => {
-                let act = body.agent.decide(rule, &scan);
-                body.cell = bricks::carry_out(&mut self.patch, from, &act);
-                body.is_done = act.next == Next::Done;
-            }
-        }
-        let Body { cell, is_done, part, .. } = self.bodies[agent];
+        let view = Sensor::look(&self.patch, from, &mut Misses { bytes, left: &mut self.misses });
+        let act = self.scheme.decide(&mut body.memory, &view);
+        body.carry_out(&self.scheme, &mut self.patch, &act);
+        let (Body { cell, is_done, .. }, part) = (self.bodies[agent], self.parts[agent]);
         let is_open = |side: &Side| self.patch.layout.is_open(Edge::new(from, *side));
         let is_step = Side::ALL.iter().filter(|&side| is_open(side)).any(|&side| from.beyond(side) == cell);
         assert!(from == cell || is_step, "from {from} to {cell}:\n{}", self.patch.layout);
         for (before, after) in before.iter().zip(&self.patch.sensors) {
             let is_same = before.serial == after.serial;
-            let is_back = !self.is_left(before.mark) && self.is_left(after.mark);
+            let is_back = !self.scheme.passes(before.mark) && self.scheme.passes(after.mark);
             let is_forgotten = before.mark != Mark::Unexplored && after.mark == Mark::Unexplored;
             assert!(!is_same || !is_back && !is_forgotten, "{before:?} is {after:?}");
         }
-        if self.is_promised && matches!(self.way, Way::Bricks(_)) {
+        if self.is_promised && self.scheme.promises(Sight::Whole) {
             let left = self.left(part);
             assert!(self.patch.are_connected(left), "BRICKS-2:\n{}", self.patch.layout);
             let is_all = self.patch.marked(part, |mark| mark == Mark::Unexplored) == 0;
@@ -300,10 +267,9 @@ impl Team {
             return;
         }
         assert!(self.is_explored(), "a cell is unexplored in the end:\n{}", self.patch.layout);
-        if let Way::Bricks(_) = self.way {
-            let parts = self.bodies.iter().fold(0, |cells, body| cells | body.part);
-            let visited = self.patch.marked(parts, |mark| matches!(mark, Mark::Visited | Mark::Sealed));
-            assert_eq!(visited, parts, "BRICKS-6:\n{}", self.patch.layout);
+        if self.scheme.promises(Sight::Whole) {
+            let visited = self.patch.marked(self.part(), |mark| matches!(mark, Mark::Visited | Mark::Sealed));
+            assert_eq!(visited, self.part(), "BRICKS-6:\n{}", self.patch.layout);
         }
     }
 }

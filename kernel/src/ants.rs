@@ -2,7 +2,7 @@
 //! and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never knows
 //! that it is done. Clause: ANTS-1.
 
-use crate::floor::{COMPASS, Floor, Ring, Scan, enter, leave};
+use crate::floor::{COMPASS, Entry, Floor, Ring, Scan, enter, leave};
 use crate::ground::{Cell, Side};
 
 /// The count of a sensor placed where none was, or where one was missed: an ant cannot tell which.
@@ -26,14 +26,23 @@ pub fn least_crossed(scan: &Scan, among: Ring) -> Option<Side> {
         .map(|(_, side)| side)
 }
 
-/// One action of an ant in `cell`, which has seen `scan`: the side that it has gone through, if there was one.
-pub fn act(rule: Rule, floor: &mut impl Floor, cell: Cell, scan: &Scan) -> Option<Side> {
+/// The side that an ant goes through, and what it enters the cell beyond it as; none if it stays.
+pub type Act = Option<(Side, Entry)>;
+
+/// What an ant does after `scan`.
+pub fn decide(rule: Rule, scan: &Scan) -> Act {
     let side = least_crossed(scan, scan.beside)?;
     let entry = match rule {
         Rule::Published => scan.entry(side),
         Rule::Repaired => scan.entry_counting_on(side),
     };
+    Some((side, entry))
+}
+
+/// Writes what an ant in `cell` has decided; where it is then.
+pub fn carry_out(floor: &mut impl Floor, cell: Cell, act: Act) -> Cell {
+    let Some((side, entry)) = act else { return cell };
     leave(floor, cell);
     enter(floor, cell.beyond(side), entry);
-    Some(side)
+    cell.beyond(side)
 }

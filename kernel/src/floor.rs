@@ -15,15 +15,15 @@ use crate::ground::{Cell, Edge, Side};
 /// The sides in the order that settles every tie of [Ferranti 2009]: north, east, south, west.
 pub const COMPASS: [Side; 4] = [Side::North, Side::East, Side::South, Side::West];
 
-/// The sensors of an area and the walls between them.
-pub trait Floor {
-    /// The sensor in `cell`; `None` if the cell is a wall or outside.
-    fn sensor(&self, cell: Cell) -> Option<Sensor>;
+/// The sensors of an area, each of which stores an `S`, and the walls between them.
+pub trait Floor<S = Sensor> {
+    /// What the sensor in `cell` stores; `None` if the cell is a wall or outside.
+    fn sensor(&self, cell: Cell) -> Option<S>;
     /// Changes what the sensor in `cell` stores; no effect where there is none.
-    fn put(&mut self, cell: Cell, sensor: Sensor);
+    fn put(&mut self, cell: Cell, sensor: S);
     /// The identifier of a sensor that is about to be placed in `cell`: not 0, and another than that of any of the 65,534
     /// sensors that have been there last. There are no more, so that a lap during which the sensors of one cell are
-    /// replaced more often than that may take the last for the first.
+    /// replaced more often than that may take the last for the first. Agents that search in trees do not ask for it.
     fn unpack(&mut self, cell: Cell) -> u16;
     /// Whether no wall stands on `edge`, which is between two cells that have sensors.
     fn is_open(&self, edge: Edge) -> bool;

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use tautline_kernel::bricks::tree::{Agent, Condition, Label, Next, Note, Notes, Rule, View};
+use tautline_kernel::bricks::tree::{Agent, Condition, Label, Next, Note, Rule, View};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::COMPASS;
+use tautline_kernel::floor::{self, COMPASS};
 use tautline_kernel::frontier::{Map, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
@@ -20,12 +20,16 @@ fn label(founded: u32) -> Label {
 /// Cells with sensors, and no walls.
 struct Floor<'a>(&'a BTreeMap<Cell, Note>, Note);
 
-impl Notes for Floor<'_> {
-    fn note(&self, cell: Cell) -> Option<Note> {
+impl floor::Floor<Note> for Floor<'_> {
+    fn sensor(&self, cell: Cell) -> Option<Note> {
         if cell == MIDDLE { Some(self.1) } else { self.0.get(&cell).copied() }
     }
 
-    fn write(&mut self, _: Cell, _: Note) {}
+    fn put(&mut self, _: Cell, _: Note) {}
+
+    fn unpack(&mut self, _: Cell) -> u16 {
+        0
+    }
 
     fn is_open(&self, _: Edge) -> bool {
         true

@@ -1,9 +1,10 @@
-//! Small sensor floors, shared by all agents on them: which plans there are, what is missed, and all states of many of
-//! them.
+//! Small sensor floors, shared by all agents on them: what a scheme of agents is, which plans there are, and all states
+//! of many of them.
 
-mod agents;
+pub mod crew;
 pub(crate) mod look;
 pub(crate) mod plans;
+pub(crate) mod series;
 pub(crate) mod small;
+pub(crate) mod team;
 pub mod trap;
-mod way;

@@ -9,13 +9,14 @@ use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Sensor, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_proofs::floor::trap::{Bounds, End, Found, Trap, Way, hunt};
+use tautline_proofs::floor::crew::Scheme;
+use tautline_proofs::floor::trap::{Bounds, End, Trap, TrapReport, hunt};
 
-const fn bounds(way: Way, agents: u32, max_misses: u8, max_side: i16) -> Bounds {
-    Bounds { way, agents, max_misses, max_width: max_side, max_height: max_side, budget_steps: None }
+const fn bounds<S: Scheme>(scheme: S, agents: u32, max_misses: u8, max_side: i16) -> Bounds<S> {
+    Bounds { scheme, agents, max_misses, max_width: max_side, max_height: max_side, budget_steps: None }
 }
 
-fn found(bounds: &Bounds) -> Found {
+fn found(bounds: &Bounds<impl Scheme>) -> TrapReport {
     hunt(bounds, &mut |_| ControlFlow::Continue(()))
 }
 
@@ -135,7 +136,7 @@ fn notched() -> Vec<Cell> {
 #[test]
 fn the_smallest_trap_has_nine_cells_and_one_missed_sensor() {
     for rule in [Rule::REPAIRED, Rule::PUBLISHED] {
-        let found = found(&bounds(Way::Bricks(rule), 1, 2, 4));
+        let found = found(&bounds(rule, 1, 2, 4));
         assert_eq!((found.trap, found.is_complete, found.levels), (Some(smallest()), true, 1));
         assert_eq!(found.layouts, 14_890);
     }
@@ -143,7 +144,7 @@ fn the_smallest_trap_has_nine_cells_and_one_missed_sensor() {
 
 #[test]
 fn two_agents_are_trapped_in_six_cells() {
-    let found = found(&bounds(Way::Bricks(Rule::REPAIRED), 2, 1, 3));
+    let found = found(&bounds(Rule::REPAIRED, 2, 1, 3));
     let trap = found.trap.expect("a trap");
     assert_eq!((trap.width, trap.height, trap.missed.len(), trap.moves), (2, 3, 1, 2));
 }
@@ -196,13 +197,12 @@ fn the_robust_rule_survives_that_layout_with_one_miss_more() {
 
 #[test]
 fn nothing_traps_ants_or_the_robust_rule_in_nine_cells() {
-    let ways = [
-        (Way::Ants(ants::Rule::Published), 169_972),
-        (Way::Ants(ants::Rule::Repaired), 151_247),
-        (Way::Bricks(Rule::ROBUST), 169_999),
+    let found = [
+        (found(&bounds(ants::Rule::Published, 1, 2, 3)), 169_972),
+        (found(&bounds(ants::Rule::Repaired, 1, 2, 3)), 151_247),
+        (found(&bounds(Rule::ROBUST, 1, 2, 3)), 169_999),
     ];
-    for (way, states) in ways {
-        let found = found(&bounds(way, 1, 2, 3));
+    for (found, states) in found {
         assert_eq!((found.trap, found.is_complete, found.levels, found.layouts), (None, true, 3, 990));
         assert_eq!(found.states, states);
     }
@@ -212,10 +212,10 @@ fn nothing_traps_ants_or_the_robust_rule_in_nine_cells() {
 /// patience, with one miss more with that of the rule that runs.
 #[test]
 fn an_agent_that_trusts_what_it_has_not_seen_is_trapped() {
-    let trusting = |patience| Way::Bricks(Rule { patience, ..Rule::ROBUST.without(Condition::SeenOnly) });
-    let robust = |patience| Way::Bricks(Rule { patience, ..Rule::ROBUST });
-    let trap = |way, misses| {
-        let trap = found(&bounds(way, 1, misses, 3)).trap?;
+    let trusting = |patience| Rule { patience, ..Rule::ROBUST.without(Condition::SeenOnly) };
+    let robust = |patience| Rule { patience, ..Rule::ROBUST };
+    let trap = |rule, misses| {
+        let trap = found(&bounds(rule, 1, misses, 3)).trap?;
         Some((trap.width, trap.height, trap.blocked, trap.missed, trap.moves, trap.end))
     };
     let impatient = Some((3, 2, vec![Cell::new(0, 1)], vec![7, 11], 7, End::Done));
@@ -309,7 +309,7 @@ fn two_agents_without_patience_may_keep_each_other_from_ending() {
 
 #[test]
 fn a_hunt_comes_out_the_same_on_any_number_of_threads() {
-    let bounds = bounds(Way::Bricks(Rule::REPAIRED), 1, 1, 3);
+    let bounds = bounds(Rule::REPAIRED, 1, 1, 3);
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| found(&bounds))
@@ -323,7 +323,7 @@ fn a_hunt_comes_out_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_budget_ends_a_hunt_without_a_claim() {
-    let short = Bounds { budget_steps: Some(1000), ..bounds(Way::Bricks(Rule::REPAIRED), 1, 1, 3) };
+    let short = Bounds { budget_steps: Some(1000), ..bounds(Rule::REPAIRED, 1, 1, 3) };
     let found = found(&short);
     assert_eq!((found.is_complete, found.trap, found.levels), (false, None, 0));
 }

@@ -3,8 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tautline_kernel::bricks::tree::{Agent, Condition, Label, Next, Note, Notes, Rule, State, act, settle};
+use tautline_kernel::bricks::tree::{Agent, Condition, Label, Next, Note, Rule, State, act, settle};
 use tautline_kernel::choice::Oracle;
+use tautline_kernel::floor;
 use tautline_kernel::ground::{Cell, Edge};
 
 const WOVEN: [&str; 5] = ["....##", "#.#.##", "....##", ".#...#", "...#.."];
@@ -34,18 +35,22 @@ struct Floor {
     had: BTreeMap<Cell, Vec<(Label, Option<Cell>)>>,
 }
 
-impl Notes for Floor {
-    fn note(&self, cell: Cell) -> Option<Note> {
+impl floor::Floor<Note> for Floor {
+    fn sensor(&self, cell: Cell) -> Option<Note> {
         self.notes.get(&cell).copied()
     }
 
-    fn write(&mut self, cell: Cell, note: Note) {
+    fn put(&mut self, cell: Cell, note: Note) {
         let Some(there) = self.notes.get_mut(&cell) else { return };
         *there = note;
         let had = self.had.entry(cell).or_default();
         if let Some(label) = note.tree().filter(|&label| had.last().is_none_or(|&(last, _)| last != label)) {
             had.push((label, note.side.map(|side| cell.beyond(side))));
         }
+    }
+
+    fn unpack(&mut self, _: Cell) -> u16 {
+        0
     }
 
     fn is_open(&self, edge: Edge) -> bool {

@@ -14,7 +14,6 @@ mod fit;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;
-mod hunt_runs;
 mod hunt_states;
 pub mod kit;
 mod own;
@@ -26,7 +25,6 @@ mod scene;
 mod setup;
 mod states;
 mod survey;
-pub mod trees;
 
 pub use self::catalogue::{Catalogue, Scheme};
 pub use self::clause::ClauseId;

@@ -14,7 +14,6 @@ pub mod ros;
 mod size;
 pub mod text;
 
-use std::collections::BTreeSet;
 use std::fmt;
 use std::num::NonZeroU16;
 use std::str::FromStr;
@@ -133,14 +132,14 @@ impl Layout {
         }
     }
 
-    /// The same layout, with these cells blocked.
+    /// This layout, with these cells blocked.
     #[must_use]
     pub fn with_blocked(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
         cells.into_iter().for_each(|cell| self.block(cell));
         self
     }
 
-    /// The same layout, with walls on these edges.
+    /// This layout, with walls on these edges.
     #[must_use]
     pub fn with_walls(mut self, edges: impl IntoIterator<Item = Edge>) -> Self {
         edges.into_iter().for_each(|edge| self.build_wall(edge));
@@ -149,17 +148,28 @@ impl Layout {
 
     /// The cells that are reached from `starts`, those among them, row by row.
     pub fn reachable(&self, starts: &[Cell]) -> Vec<Cell> {
-        let mut reached: BTreeSet<(i16, i16)> = starts.iter().map(|start| (start.y, start.x)).collect();
-        let mut left = starts.to_vec();
-        while let Some(cell) = left.pop() {
-            for side in Side::ALL {
-                let beside = cell.beyond(side);
-                if self.is_open(Edge::new(cell, side)) && reached.insert((beside.y, beside.x)) {
-                    left.push(beside);
-                }
+        let mut cells = self.spread(starts);
+        cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
+        cells
+    }
+
+    /// The cells that are reached from `starts`, those among them, the nearest first.
+    pub fn spread(&self, starts: &[Cell]) -> Vec<Cell> {
+        let (mut reached, mut cells) = (Bitmap::new(self.size.cells()), Vec::new());
+        let mut reach = |cell: Cell, cells: &mut Vec<Cell>| {
+            if let Some(index) = self.size.index(cell).filter(|&index| !reached.has(index)) {
+                reached.put(index);
+                cells.push(cell);
             }
+        };
+        starts.iter().for_each(|&start| reach(start, &mut cells));
+        let mut next = 0;
+        while let Some(&cell) = cells.get(next) {
+            next += 1;
+            let open = Side::ALL.into_iter().filter(|&side| self.is_open(Edge::new(cell, side)));
+            open.for_each(|side| reach(cell.beyond(side), &mut cells));
         }
-        reached.into_iter().map(|(y, x)| Cell::new(x, y)).collect()
+        cells
     }
 
     /// Makes `cell` free. Walls beside it stay.

@@ -9,17 +9,17 @@ use crate::common::Unwatched;
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use tautline_kernel::bricks::Rule;
-use tautline_kernel::bricks::tree::Label;
+use tautline_kernel::bricks::tree::{Label, Rule as Trees};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_proofs::floor::crew::Scheme;
 use tautline_proofs::floor_trace::{Course, Scene, Turn};
 use tautline_sim::draw::story;
-use tautline_sim::explore::agents::{Agents, Crew, PREMATURE, Way};
+use tautline_sim::explore::agents::{Agents, PREMATURE};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
-use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, MAX_CELLS, Size};
@@ -146,9 +146,9 @@ proptest! {
 }
 
 /// The end of a team in `layout`, all agents starting in `start`: cells, visited cells, and agents that are not done.
-fn ended(way: impl Crew, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
+fn ended(scheme: impl Scheme, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
     let starts = vec![start; agents];
-    let mut team = Agents::new(way, layout, &starts, Probability::NEVER, 0);
+    let mut team = Agents::new(scheme, layout, &starts, Probability::NEVER, 0);
     while !team.is_over() {
         team.advance();
     }
@@ -181,13 +181,17 @@ fn is_visited(name: &str, layout: &Layout, (start, cells): (Cell, u32)) {
     };
     for (rule, agents) in teams {
         assert_eq!(
-            ended(Way::Bricks(rule), layout, start, agents),
+            ended(rule, layout, start, agents),
             (cells, cells, 0),
             "{name}, {agents} agents, {rule:?}"
         );
     }
-    for (way, agents) in [TREE, HELPERS_TRUSTING, HELPERS_ROBUST].into_iter().zip([4, 20, 1]) {
-        assert_eq!(ended(way, layout, start, agents), (cells, cells, 0), "{name}, {agents} agents, {way:?}");
+    for (rule, agents) in [Trees::TREE, Trees::HELPERS, Trees::ROBUST].into_iter().zip([4, 20, 1]) {
+        assert_eq!(
+            ended(rule, layout, start, agents),
+            (cells, cells, 0),
+            "{name}, {agents} agents, {rule:?}"
+        );
     }
 }
 

@@ -7,7 +7,7 @@ use crc32fast::Hasher;
 use insta::assert_snapshot;
 use tautline_kernel::bricks::{Condition, Rule};
 use tautline_kernel::ground::Cell;
-use tautline_sim::explore::agents::{Agents, Way};
+use tautline_sim::explore::agents::Agents;
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
@@ -17,7 +17,7 @@ fn run(rule: Rule, layout: &str, robots: usize, chance: Probability) -> String {
     let layout = generator.generate(5).expect("a layout");
     let free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
     let starts: Vec<Cell> = (0..robots).map(|robot| free[robot * free.len() / robots]).collect();
-    let mut agents = Agents::new(Way::Bricks(rule), &layout, &starts, chance, 5);
+    let mut agents = Agents::new(rule, &layout, &starts, chance, 5);
     let (mut moves, mut done) = (0, Hasher::new());
     while !agents.is_over() && moves < 1500 {
         agents.advance();

@@ -12,6 +12,6 @@ mod rule;
 mod view;
 
 pub use agent::{Act, Agent, Next, act, carry_out};
-pub use note::{Label, Note, Notes, State, settle};
+pub use note::{Label, Note, State, settle};
 pub use rule::{Condition, Conditions, Rule};
 pub use view::View;

@@ -9,55 +9,79 @@
 mod drawn;
 mod printed;
 
+use std::fmt;
+
+use tautline_kernel::bricks::tree;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
-use tautline_proofs::bricks::tree;
+use tautline_proofs::bricks::tree::mdfs::Mdfs;
+use tautline_proofs::floor::crew::Scheme;
 
 use super::prelude::*;
-use tautline_sim::explore::agents::{self as explore, Crew, Way};
+use tautline_sim::explore::agents as explore;
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
-use tautline_sim::explore::trees::{HELPERS_ROBUST, TREE};
-use tautline_sim::explore::{Profile, RuleId};
+use tautline_sim::explore::{Knowledge, Profile, RuleId};
 use tautline_sim::layout::Layout;
 use tautline_sim::layout::generate::Probability;
 
 /// A scheme under one of its rules.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub struct Team {
     /// The scheme.
     pub scheme: &'static Profile,
     /// Its rule.
     pub rule: RuleId,
     #[serde(skip)]
-    pub(super) way: Explorer,
+    pub(super) crew: &'static dyn Crew,
 }
 
-/// How the agents of a team decide.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Explorer {
-    Marks(Way),
-    Trees(tree::Way),
+/// Agents of a scheme that can be run.
+pub(super) trait Crew: fmt::Debug + Sync {
+    /// A run of agents that start in these cells of `layout`, of at most so many steps of all of them.
+    fn run(&self, layout: &Layout, starts: &[Cell], chance: Chance, max_steps: u32) -> Outcome;
 }
 
 /// How likely a sensor is missed, and the seed of what is left to chance.
 type Chance = (Probability, u64);
 
-impl Explorer {
-    /// A run of agents that start in these cells of `layout`, of at most so many steps of all of them.
-    pub(super) fn run(self, layout: &Layout, starts: &[Cell], chance: Chance, max_steps: u32) -> Outcome {
-        let (miss, seed) = chance;
-        match self {
-            Self::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
-            Self::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
+impl<S: Scheme> Crew for S {
+    fn run(&self, layout: &Layout, starts: &[Cell], (miss, seed): Chance, max_steps: u32) -> Outcome {
+        let mut team = explore::Agents::new(*self, layout, starts, miss, seed);
+        let (mut team_moves, mut steps, mut exploration, mut is_early) = (0, 0, None, false);
+        let now =
+            |team: &explore::Agents<S>, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
+        while !team.is_over() && steps < max_steps {
+            team_moves += 1;
+            steps += team.active();
+            team.advance();
+            is_early |= team.is_premature();
+            if exploration.is_none() && team.explored() == team.due() {
+                exploration = Some(now(&team, team_moves));
+            }
+        }
+        Outcome {
+            cells: team.due(),
+            explored: team.explored(),
+            visited: team.visited(),
+            exploration,
+            termination: (team.active() == 0).then(|| now(&team, team_moves)),
+            is_ended: !team.is_over(),
+            is_early,
         }
     }
 }
 
+impl PartialEq for Team {
+    fn eq(&self, other: &Self) -> bool {
+        (self.scheme, self.rule) == (other.scheme, other.rule)
+    }
+}
+
 impl Team {
-    const fn new(scheme: &'static Profile, rule: RuleId, way: Explorer) -> Self {
-        Self { scheme, rule, way }
+    const fn new(scheme: &'static Profile, rule: RuleId, crew: &'static dyn Crew) -> Self {
+        Self { scheme, rule, crew }
     }
 
     /// Its name: the scheme, with its rule where that is not the repaired one.
@@ -69,20 +93,15 @@ impl Team {
     }
 }
 
-const REPAIRED: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::REPAIRED));
-pub(super) const ROBUST: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::ROBUST));
-const ANTS_REPAIRED: Explorer = Explorer::Marks(Way::Ants(ants::Rule::Repaired));
-const ANTS_PUBLISHED: Explorer = Explorer::Marks(Way::Ants(ants::Rule::Published));
-
 /// The teams that are compared.
 pub const TEAMS: [Team; 7] = [
-    Team::new(&BRICKS, RuleId::REPAIRED, REPAIRED),
-    Team::new(&BRICKS_ANTS, RuleId::REPAIRED, ROBUST),
-    Team::new(&ANTS, RuleId::REPAIRED, ANTS_REPAIRED),
-    Team::new(&ANTS, RuleId::PUBLISHED, ANTS_PUBLISHED),
-    Team::new(&BRICKS, RuleId::new("tree"), Explorer::Trees(TREE)),
-    Team::new(&HELPERS, RuleId::REPAIRED, Explorer::Trees(HELPERS_ROBUST)),
-    Team::new(&MDFS, RuleId::PUBLISHED, Explorer::Trees(tree::Way::Mdfs)),
+    Team::new(&BRICKS, RuleId::REPAIRED, &bricks::Rule::REPAIRED),
+    Team::new(&BRICKS_ANTS, RuleId::REPAIRED, &bricks::Rule::ROBUST),
+    Team::new(&ANTS, RuleId::REPAIRED, &ants::Rule::Repaired),
+    Team::new(&ANTS, RuleId::PUBLISHED, &ants::Rule::Published),
+    Team::new(&BRICKS, RuleId::new("tree"), &tree::Rule::TREE),
+    Team::new(&HELPERS, RuleId::REPAIRED, &tree::Rule::ROBUST),
+    Team::new(&MDFS, RuleId::PUBLISHED, &Mdfs),
 ];
 
 /// The sensors that the paper's agents miss, of all.
@@ -110,7 +129,7 @@ pub const BRICKS_FIG12: Agents = Agents::of(
     "What agents explore by the area, with missed sensors",
 );
 
-/// The agents where no sensor is missed.
+/// The work of agents where no sensor is missed.
 pub const BRICKS_IDEAL: Agents = Agents::of(
     Figure::Ideal,
     "bricks-ideal",
@@ -145,7 +164,7 @@ impl Agents {
     }
 }
 
-/// The figure's variable.
+/// The number that is varied in a figure.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Figure {
     /// The number of agents, with missed sensors.
@@ -290,7 +309,7 @@ impl Table for Agents {
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
         let starts = vec![fit(layout.default_base())?; agents.into()];
         let chance = (self.figure.miss(), seed);
-        Ok(TEAMS.map(|team| team.way.run(&layout, &starts, chance, settings.max_steps)))
+        Ok(TEAMS.map(|team| team.crew.run(&layout, &starts, chance, settings.max_steps)))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
@@ -313,45 +332,18 @@ impl Table for Agents {
     }
 }
 
-fn follow<K: Crew>(mut team: explore::Agents<K>, max_steps: u32) -> Outcome {
-    let (mut team_moves, mut steps, mut exploration, mut is_early) = (0, 0, None, false);
-    let now =
-        |team: &explore::Agents<K>, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
-    while !team.is_over() && steps < max_steps {
-        team_moves += 1;
-        steps += team.active();
-        team.advance();
-        is_early |= team.is_premature();
-        if exploration.is_none() && team.explored() == team.due() {
-            exploration = Some(now(&team, team_moves));
-        }
-    }
-    Outcome {
-        cells: team.due(),
-        explored: team.explored(),
-        visited: team.visited(),
-        exploration,
-        termination: (team.active() == 0).then(|| now(&team, team_moves)),
-        is_ended: !team.is_over(),
-        is_early,
-    }
-}
-
 impl Line {
     fn of(team: Team, side: u16, agents: u16, outcomes: &[&Outcome]) -> Option<Self> {
         let percent = |number: fn(&Outcome) -> u32| {
             mean(outcomes.iter().map(|outcome| 100.0 * f64::from(number(outcome)) / f64::from(outcome.cells)))
         };
-        let visited = match team.way {
-            Explorer::Marks(Way::Ants(_)) => None,
-            Explorer::Marks(Way::Bricks(_)) | Explorer::Trees(_) => percent(|outcome| outcome.visited),
-        };
+        let marks = team.scheme.knowledge == Some(Knowledge::Visited);
         Some(Self {
             team,
             side,
             agents,
             explored: percent(|outcome| outcome.explored)?,
-            visited,
+            visited: percent(|outcome| outcome.visited).filter(|_| marks),
             exploration: Duration::of(outcomes.iter().filter_map(|outcome| outcome.exploration)),
             termination: Duration::of(outcomes.iter().filter_map(|outcome| outcome.termination)),
             ended: count(outcomes, |outcome| outcome.is_ended),

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::Cell;
 
 use super::agents::{Outcome, TEAMS, Team};
 use super::prelude::*;
@@ -105,7 +105,7 @@ impl Table for Floors {
         let Settings { maps, seed, miss, max_steps, .. } = settings;
         let (layout, starts) = floor(maps, run, *seed)?;
         let miss = Probability::new(*miss).unwrap_or(Probability::NEVER);
-        Ok(TEAMS.map(|team| team.way.run(&layout, &starts, (miss, run.seed(*seed)), *max_steps)))
+        Ok(TEAMS.map(|team| team.crew.run(&layout, &starts, (miss, run.seed(*seed)), *max_steps)))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
@@ -195,13 +195,8 @@ pub(super) fn file_name(map: &str) -> &str {
 fn largest_part(layout: &Layout) -> Vec<Cell> {
     let mut seen = BTreeSet::new();
     let mut part_from = |first: Cell| {
-        let mut part: Vec<Cell> = Some(first).into_iter().filter(|&first| seen.insert(first)).collect();
-        let mut next = 0;
-        while let Some(&cell) = part.get(next) {
-            next += 1;
-            let open = Side::ALL.into_iter().filter(|&side| layout.is_open(Edge::new(cell, side)));
-            part.extend(open.map(|side| cell.beyond(side)).filter(|&beyond| seen.insert(beyond)));
-        }
+        let part = if seen.contains(&first) { Vec::new() } else { layout.spread(&[first]) };
+        seen.extend(part.iter().copied());
         part
     };
     let parts = layout.cells().filter(|&cell| layout.is_free(cell)).map(&mut part_from);

@@ -1,27 +1,24 @@
-//! The effect of missed sensors on agents that are to know that they are done: how often one of them is done although
-//! it could have got to an unexplored cell, and the cost. Each run has a start, and a generated layout, of its own.
+//! The harm of missed sensors to agents that are to know that they are done: how often one is done although it
+//! could have got to an unexplored cell, and what it costs. Each run has a start, and a generated layout, of its own.
 
+use tautline_kernel::bricks;
 use tautline_kernel::bricks::tree::Rule;
-use tautline_proofs::bricks::tree::Way;
 
-use super::agents::{Explorer, Outcome, ROBUST};
+use super::agents::{Crew, Outcome};
 use super::floors::{Job, file_name, floor, points, probability};
 use super::prelude::*;
 use tautline_sim::layout::generate::Probability;
 
-/// Who is compared: what is robust by going over the floor again, what is robust by looking underfoot, and what doubts.
-const TEAMS: [(&str, Explorer); 6] = [
-    ("bricks-ants", ROBUST),
-    ("helpers", Explorer::Trees(Way::Trees(Rule::ROBUST))),
-    ("helpers (doubting, 1 scan)", doubting(1)),
-    ("helpers (doubting, 2 scans)", doubting(2)),
-    ("helpers (doubting, 3 scans)", doubting(3)),
-    ("helpers (doubting, 4 scans)", doubting(4)),
+/// The teams that are compared: one that is robust by going over the floor again, one by looking underfoot, and those
+/// that doubt.
+const TEAMS: [(&str, &dyn Crew); 6] = [
+    ("bricks-ants", &bricks::Rule::ROBUST),
+    ("helpers", &Rule::ROBUST),
+    ("helpers (doubting, 1 scan)", &Rule::DOUBTING.reading(1)),
+    ("helpers (doubting, 2 scans)", &Rule::DOUBTING.reading(2)),
+    ("helpers (doubting, 3 scans)", &Rule::DOUBTING.reading(3)),
+    ("helpers (doubting, 4 scans)", &Rule::DOUBTING.reading(4)),
 ];
-
-const fn doubting(readings: u8) -> Explorer {
-    Explorer::Trees(Way::Trees(Rule::DOUBTING.reading(readings)))
-}
 
 /// Being done, wrongly and rightly.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +107,7 @@ impl Table for FloorsMissed {
         let seed = run.seed(settings.seed);
         let (layout, starts) = floor(maps, run, seed)?;
         let miss = Probability::new(*miss).unwrap_or(Probability::NEVER);
-        Ok(TEAMS.map(|(_, way)| way.run(&layout, &starts, (miss, seed), *max_steps)))
+        Ok(TEAMS.map(|(_, crew)| crew.run(&layout, &starts, (miss, seed), *max_steps)))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {

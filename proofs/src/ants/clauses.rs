@@ -1,16 +1,33 @@
 //! The clauses of Ants.
 
+use std::convert::Infallible;
+
 use tautline_kernel::ants::Rule;
 
-use super::colony::{Observed, SmallFloors};
 use super::ties;
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryAnswer, Verdict};
+use crate::floor::plans::Area;
+use crate::floor::series::{Deception, Floors, Subject};
+use crate::floor::team::{Demand, Series};
 
-const PUBLISHED: NamedRule<Observed> =
-    NamedRule::new("published", Observed { rule: Rule::Published, counts: true });
-const REPAIRED: NamedRule<Observed> =
-    NamedRule::new("repaired", Observed { rule: Rule::Repaired, counts: true });
+const PUBLISHED: NamedRule<Subject<Rule>> = NamedRule::new("published", Subject::of(Rule::Published));
+const REPAIRED: NamedRule<Subject<Rule>> = NamedRule::new("repaired", Subject::of(Rule::Repaired));
+
+/// Ants whose sensors count nothing.
+const fn uncounted(scheme: Rule) -> NamedRule<Subject<Rule>> {
+    NamedRule::new("sensors count nothing", Subject { scheme, deception: Deception::CountsNothing })
+}
+
+/// A run is over when every cell is explored, since crossings go on to grow for ever.
+const EXPLORES: Floors<Infallible> = Floors::new(
+    &[
+        Series::new(Area::blocked(4, 4), 1),
+        Series::missing(Area::blocked(3, 3), 1, 2),
+        Series::new(Area::blocked(3, 2), 2),
+    ],
+    Demand::Explores,
+);
 
 /// The clauses.
 pub static CLAUSES: [Clause; 2] = [
@@ -19,13 +36,8 @@ pub static CLAUSES: [Clause; 2] = [
         sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
                finite number of times.",
         checks: &[
-            &Check::new(PUBLISHED, &SmallFloors, Verdict::Holds, &[]),
-            &Check::new(
-                REPAIRED,
-                &SmallFloors,
-                Verdict::Holds,
-                &[NamedRule::new("sensors count nothing", Observed { counts: false, ..REPAIRED.rule })],
-            ),
+            &Check::new(PUBLISHED, &EXPLORES, Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &EXPLORES, Verdict::Holds, &[uncounted(Rule::Repaired)]),
         ],
     },
     Clause {
@@ -35,7 +47,7 @@ pub static CLAUSES: [Clause; 2] = [
             PUBLISHED,
             &EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] },
             Verdict::Holds,
-            &[NamedRule::new("sensors count nothing", Observed { counts: false, ..PUBLISHED.rule })],
+            &[uncounted(Rule::Published)],
         )],
     },
 ];

@@ -1,14 +1,14 @@
 //! Where an ant goes (ANTS-2): whatever the sensors beside it count.
 
-use tautline_kernel::ants::least_crossed;
+use tautline_kernel::ants::{Rule, least_crossed};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{COMPASS, Ring, Scan, Sensor};
+use tautline_kernel::floor::{COMPASS, Ring, Scan};
 use tautline_kernel::ground::Side;
 
-use super::colony::Observed;
 use crate::engine::{Outcome, require};
+use crate::floor::series::{Deception, Subject};
 
-/// What a sensor counts at most here.
+/// The most crossings that a sensor counts here.
 const MOST: u32 = 4;
 
 /// The bound of [`ties`].
@@ -20,28 +20,15 @@ pub(super) fn counts() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn ties(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
-    let none = Ring::default();
-    let mut scan = Scan {
-        here: Sensor::default(),
-        unexplored: none,
-        explored: none,
-        closing: none,
-        visited: none,
-        open: none,
-        rims: none,
-        detected: 0,
-        beside: none,
-        crossings: [0; 4],
-        claims: [None; 4],
-        serials: [0; 8],
-    };
+pub(super) fn ties(subject: &Subject<Rule>, oracle: &mut dyn Oracle) -> Outcome {
+    let is_counted = subject.deception != Deception::CountsNothing;
+    let mut scan = Scan::default();
     let mut due: Option<(u32, Side)> = None;
     for (place, side) in COMPASS.into_iter().enumerate() {
         if oracle.flip() {
             let crossings = oracle.pick(MOST + 1);
             scan.beside = scan.beside.or(Ring::of(side));
-            scan.crossings[place] = if observed.counts { crossings } else { 0 };
+            scan.crossings[place] = if is_counted { crossings } else { 0 };
             if due.is_none_or(|(least, _)| crossings < least) {
                 due = Some((crossings, side));
             }

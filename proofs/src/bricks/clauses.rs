@@ -1,61 +1,130 @@
 //! The clauses of Brick&Mortar, in the order of `SPEC.md`.
 
 use tautline_kernel::bricks::Condition::{Alone, Corners, Laps, LeastCrossed, SecondPass, SeenOnly};
+use tautline_kernel::bricks::tree::Condition::{
+    Bricks, Childless, Exit, LowerOnly, Remembers, Restores, Underfoot,
+};
+use tautline_kernel::bricks::tree::Rule as TreeRule;
 use tautline_kernel::bricks::{Precedence, Rule};
+use tautline_kernel::floor::{Ring, Scan};
 
-use super::floors::Floors;
-use super::tree::checks as tree;
-use super::{Deception, Observed, marking};
+use super::floors::{
+    ALONE, AS_SHIPPED, AT_ONCE, COUNTED, FAILING, HALF_BLIND, HELPING, IN_TURNS, ONE_COUNTED, ROUND,
+    SEVEN_MISSED, THREE, THRICE_MISSED, TOGETHER, TREES, TREES_FAILING, TREES_HALF_BLIND, TWICE,
+};
+use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
+use super::tree::mdfs::Mdfs;
+use super::tree::{AmongChildren, Child, Own, labels};
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::Verdict;
+use crate::floor::series::{Deception, Floors, Subject};
+use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
+use crate::floor::team::{Demand, Demands};
 use crate::step_checks;
 
-const PUBLISHED: NamedRule<Observed> = NamedRule::new("published", Observed::marking(Rule::PUBLISHED));
-const REPAIRED: NamedRule<Observed> = NamedRule::new("repaired", Observed::marking(Rule::REPAIRED));
-const ROBUST: NamedRule<Observed> = NamedRule::new("robust", Observed::marking(Rule::ROBUST));
-
-/// Agents that do not look at corners.
-const NO_CORNERS: Observed = Observed::marking(Rule::REPAIRED.without(Corners));
-
-/// Agents that mark cells in which others are.
-const NOT_ALONE: Observed = Observed::marking(Rule::REPAIRED.without(Alone));
-
-/// Agents that walk no laps.
-const NO_LAPS: Observed = Observed::marking(Rule::REPAIRED.without(Laps));
-
-/// Agents that are robust against missed sensors but for one thing.
-const TRUSTING: NamedRule<Observed> =
-    NamedRule::new("ways through what reads as unexplored", Observed::marking_twice_without(SeenOnly));
-const ONCE_OVER: NamedRule<Observed> =
-    NamedRule::new("nothing gone over twice", Observed::marking_twice_without(SecondPass));
-const EARLY_LAPS: NamedRule<Observed> =
-    NamedRule::new("laps in the first pass", Observed::marking_twice_without(LeastCrossed));
-
-/// Agents whose laps are told apart in another way.
-const fn laps(precedence: Precedence) -> Observed {
-    Observed::marking(Rule { precedence, ..Rule::REPAIRED })
+/// Agents that follow `scheme`, under this name.
+const fn named<S>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
+    NamedRule::new(name, Subject::of(scheme))
 }
 
-step_checks! { Observed;
-    neighbourhood: marking::neighbourhood, PUBLISHED, marking::neighbourhoods,
+/// Agents of `scheme` of which some beside each other act at once, under this name.
+const fn at_once<S>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
+    NamedRule::new(name, Subject { scheme, deception: Deception::ActsAtOnce })
+}
+
+const PUBLISHED: NamedRule<Subject<Rule>> = named("published", Rule::PUBLISHED);
+const REPAIRED: NamedRule<Subject<Rule>> = named("repaired", Rule::REPAIRED);
+const ROBUST: NamedRule<Subject<Rule>> = named("robust", Rule::ROBUST);
+
+const NO_CORNERS: Rule = Rule::REPAIRED.without(Corners);
+const NOT_ALONE: NamedRule<Subject<Rule>> =
+    named("marks cells in which others are", Rule::REPAIRED.without(Alone));
+
+/// Agents that are robust against missed sensors but for one thing.
+const TRUSTING: NamedRule<Subject<Rule>> =
+    named("ways through what reads as unexplored", Rule::ROBUST.without(SeenOnly));
+const ONCE_OVER: NamedRule<Subject<Rule>> =
+    named("nothing gone over twice", Rule::ROBUST.without(SecondPass));
+const EARLY_LAPS: NamedRule<Subject<Rule>> =
+    named("laps in the first pass", Rule::ROBUST.without(LeastCrossed));
+
+/// The repaired rule with laps that are told apart in another way.
+const fn laps(precedence: Precedence) -> Rule {
+    Rule { precedence, ..Rule::REPAIRED }
+}
+
+const TREE: NamedRule<Subject<TreeRule>> = named("tree", TreeRule::TREE);
+const HELPERS: NamedRule<Subject<TreeRule>> = named("helpers", TreeRule::HELPERS);
+const CAREFUL: NamedRule<Subject<TreeRule>> = named("careful", TreeRule::ROBUST);
+const MDFS: NamedRule<Subject<Mdfs>> = named("mdfs", Mdfs);
+
+/// Agents that doubt as they run: they believe three scans in a row.
+const DOUBTING: NamedRule<Subject<TreeRule>> = named("doubting", TreeRule::DOUBTING);
+
+/// Agents that believe one scan: three are more to search than larger floors can show.
+const DOUBTING_ONCE: NamedRule<Subject<TreeRule>> = named("doubting-1", DOUBTING_RULE);
+const DOUBTING_RULE: TreeRule = TreeRule::DOUBTING.reading(1);
+
+/// Agents whose trees all have the same label.
+const WRAPPING: NamedRule<Subject<TreeRule>> =
+    named("labels that come again", TreeRule { label_bits: 0, ..TreeRule::TREE });
+const NO_EXITS: NamedRule<Subject<TreeRule>> =
+    named("cells marked without the side left through", TreeRule::TREE.without(Exit));
+const PARENTS_MARKED: NamedRule<Subject<TreeRule>> =
+    named("cells marked that have children", TreeRule::TREE.without(Childless));
+const BELIEVING: NamedRule<Subject<TreeRule>> = named("what is seen is believed", TreeRule::TREE);
+
+/// The words for a rule without [`LowerOnly`].
+const TWICE_ADOPTED: &str = "cells of the same tree adopted once more";
+
+/// The demands on agents that search in trees alone.
+const fn own(own: Own) -> Demand<Own> {
+    Demand::Own(own)
+}
+
+/// A check that holds.
+const fn holds<S: Demands>(
+    about: NamedRule<Subject<S>>,
+    floors: &'static Floors<S::Own>,
+    mutants: &'static [NamedRule<Subject<S>>],
+) -> Check<Subject<S>> {
+    Check::new(about, floors, Verdict::Holds, mutants)
+}
+
+/// A check that is refuted.
+const fn refuted<S: Demands>(
+    about: NamedRule<Subject<S>>,
+    floors: &'static Floors<S::Own>,
+) -> Check<Subject<S>> {
+    Check::new(about, floors, Verdict::Refuted, &[])
+}
+
+step_checks! { Rule;
+    neighbourhood: marking::neighbourhood, NamedRule::new("published", Rule::PUBLISHED), marking::neighbourhoods,
         covers ["explored", "visited"], unwind 17, mutants {
             without_corners: "without corners" => NO_CORNERS,
         };
-    walled: marking::walled, REPAIRED, marking::walled_neighbourhoods,
+    walled: marking::walled, NamedRule::new("repaired", Rule::REPAIRED), marking::walled_neighbourhoods,
         covers ["explored", "visited"], unwind 17, mutants {
             without_corners: "without corners" => NO_CORNERS,
         };
-    localised: marking::localised, PUBLISHED, marking::errors,
+    half_seen: marking::half_seen, NamedRule::new("robust", Rule::ROBUST), marking::readings,
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_seen_only: "ways through what reads as unexplored" => Rule::ROBUST.without(SeenOnly),
+        };
+}
+
+step_checks! { i32;
+    localised: marking::localised, NamedRule::new("published", LESS_THAN_HALF), marking::errors,
         covers ["a sensor"], unwind 9, mutants {
-            badly: "errors of more than half a cell" => Observed::deceiving(Deception::LocalisesBadly),
+            badly: "errors of more than half a cell" => MORE_THAN_HALF,
         };
-    ways_on: marking::most_walled, REPAIRED, marking::ways_on,
+}
+
+step_checks! { Eyes;
+    ways_on: marking::most_walled, NamedRule::new("repaired", (|scan| scan) as Eyes), marking::ways_on,
         covers ["a way on", "nothing unexplored"], unwind 17, mutants {
-            no_corners: "corners are not seen" => Observed::deceiving(Deception::MissesCorners),
-        };
-    half_seen: marking::half_seen, ROBUST, marking::readings,
-        covers ["explored", "visited"], unwind 17, mutants {
-            without_seen_only: "ways through what reads as unexplored" => Observed::marking_twice_without(SeenOnly),
+            no_corners: "corners are not seen" => (|scan| Scan { rims: Ring::default(), ..scan }) as Eyes,
         };
 }
 
@@ -71,78 +140,66 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-2",
         sentence: "The accessible cells MUST stay connected.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &Floors::CONNECTED_ALONE,
-                Verdict::Holds,
-                &[NamedRule::new("without corners", NO_CORNERS)],
-            ),
-            &Check::new(
+            &holds(PUBLISHED, &Floors::new(&ALONE, Connected), &[named("without corners", NO_CORNERS)]),
+            &holds(
                 REPAIRED,
-                &Floors::CONNECTED,
-                Verdict::Holds,
+                &Floors::shared(&TOGETHER, Connected),
                 &[
-                    NamedRule::new("without corners", NO_CORNERS),
-                    NamedRule::new("no lap gives way to another", laps(Precedence::Nobody)),
+                    named("without corners", NO_CORNERS),
+                    named("no lap gives way to another", laps(Precedence::Nobody)),
                 ],
             ),
-            &Check::new(ROBUST, &Floors::CONNECTED_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
-            &tree::TREE_CONNECTED,
-            &tree::HELPERS_CONNECTED,
-            &tree::ROBUST_CONNECTED,
+            &holds(ROBUST, &Floors::shared(&HALF_BLIND, Connected), &[TRUSTING, ONCE_OVER]),
+            &holds(TREE, &Floors::shared(&TREES, Connected), &[PARENTS_MARKED, WRAPPING]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[]),
+            &holds(
+                CAREFUL,
+                &Floors::shared(&TREES_HALF_BLIND, Connected),
+                &[named("cells marked that do not block, as far as is seen", TreeRule::ROBUST.with(Bricks))],
+            ),
         ],
     },
     Clause {
         id: "BRICKS-3",
         sentence: "It MUST be enough for BRICKS-2 that two agents take turns whose scans overlap.",
         checks: &[
-            &Check::new(
+            &holds(
                 REPAIRED,
-                &Floors::CONNECTED_IN_TURNS,
-                Verdict::Holds,
-                &[NamedRule::new(
-                    "agents beside each other act at once",
-                    Observed::deceiving(Deception::ActsAtOnce),
-                )],
+                &Floors::new(&IN_TURNS, Connected),
+                &[at_once("agents beside each other act at once", Rule::REPAIRED)],
             ),
-            &tree::IN_TURNS,
-            &tree::BOTH_AT_ONCE,
+            &holds(
+                TREE,
+                &Floors::new(&IN_TURNS, Connected),
+                &[at_once("agents beside each other act at once", TreeRule::TREE)],
+            ),
+            &refuted(at_once("at-once", TreeRule::TREE), &Floors::new(&AT_ONCE, Connected)),
         ],
     },
     Clause {
         id: "BRICKS-4",
         sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
         checks: &[
-            &Check::new(PUBLISHED, &Floors::KNOWING, Verdict::Refuted, &[]),
-            &Check::new(
-                REPAIRED,
-                &Floors::KNOWING,
-                Verdict::Holds,
-                &[NamedRule::new("marks cells in which others are", NOT_ALONE)],
-            ),
-            &Check::new(PUBLISHED, &Floors::KNOWING_HALF_BLIND, Verdict::Refuted, &[]),
-            &Check::new(
-                ROBUST,
-                &Floors::KNOWING_HALF_BLIND,
-                Verdict::Holds,
-                &[TRUSTING, ONCE_OVER, EARLY_LAPS],
-            ),
-            &tree::TREE_KNOWING,
-            &tree::HELPERS_KNOWING,
-            &tree::MDFS_KNOWING,
-            &tree::TREE_HALF_BLIND,
-            &tree::ROBUST_KNOWING,
-            &tree::DOUBTING_KNOWING,
-            &tree::SHIPPED_KNOWING,
+            &refuted(PUBLISHED, &Floors::shared(&TOGETHER, Knowing)),
+            &holds(REPAIRED, &Floors::shared(&TOGETHER, Knowing), &[NOT_ALONE]),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)),
+            &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
+            &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[]),
+            &refuted(MDFS, &Floors::shared(&TREES, Knowing)),
+            &refuted(TREE, &Floors::shared(&TREES_HALF_BLIND, Knowing)),
+            &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Knowing), &[BELIEVING]),
+            &holds(DOUBTING_ONCE, &Floors::shared(&ROUND, Knowing), &[]),
+            &holds(DOUBTING, &Floors::shared(&AS_SHIPPED, Knowing), &[]),
         ],
     },
     Clause {
         id: "BRICKS-5",
         sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
         checks: &[
-            &Check::new(PUBLISHED, &Floors::EXPLORES_HALF_BLIND, Verdict::Refuted, &[]),
-            &Check::new(ROBUST, &Floors::EXPLORES_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
-            &tree::ROBUST_EXPLORES,
+            &refuted(PUBLISHED, &Floors::new(&HALF_BLIND, Explores)),
+            &holds(ROBUST, &Floors::new(&HALF_BLIND, Explores), &[TRUSTING, ONCE_OVER]),
+            &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Explores), &[BELIEVING]),
         ],
     },
     Clause {
@@ -150,33 +207,42 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Every run in which every agent acts again and again MUST end with every cell visited, whatever \
                    sensors are missed a finite number of times.",
         checks: &[
-            &Check::new(PUBLISHED, &Floors::ENDS_ALONE, Verdict::Refuted, &[]),
-            &Check::new(
+            &refuted(PUBLISHED, &Floors::new(&ALONE, Ends)),
+            &holds(
                 REPAIRED,
-                &Floors::ENDS,
-                Verdict::Holds,
+                &Floors::shared(&TOGETHER, Ends),
                 &[
-                    NamedRule::new("both laps give way", laps(Precedence::Everybody)),
-                    NamedRule::new("marks cells in which others are", NOT_ALONE),
-                    NamedRule::new("walks no laps", NO_LAPS),
+                    named("both laps give way", laps(Precedence::Everybody)),
+                    NOT_ALONE,
+                    named("walks no laps", Rule::REPAIRED.without(Laps)),
                 ],
             ),
-            &Check::new(
-                ROBUST,
-                &Floors::ENDS_TWICE,
-                Verdict::Holds,
-                &[NamedRule::new("walks no laps", Observed::marking_twice_without(Laps))],
+            &holds(ROBUST, &Floors::new(&TWICE, Ends), &[named("walks no laps", Rule::ROBUST.without(Laps))]),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)),
+            &holds(ROBUST, &Floors::shared(&HALF_BLIND, Ends), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
+            &holds(TREE, &Floors::shared(&TREES, Ends), &[PARENTS_MARKED]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[]),
+            &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Ends), &[BELIEVING]),
+            &holds(
+                CAREFUL,
+                &Floors::shared(&ROUND, Ends),
+                &[named("sensors placed unasked", TreeRule::ROBUST.without(Underfoot))],
             ),
-            &Check::new(PUBLISHED, &Floors::ENDS_HALF_BLIND, Verdict::Refuted, &[]),
-            &Check::new(ROBUST, &Floors::ENDS_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
-            &tree::TREE_ENDS,
-            &tree::HELPERS_ENDS,
-            &tree::ROBUST_ENDS,
-            &tree::ROBUST_ENDS_ROUND,
-            &tree::DOUBTING_ENDS,
-            &tree::DOUBTING_ROUND,
-            &tree::SHIPPED_ENDS,
-            &tree::SHIPPED_ROUND,
+            &holds(
+                DOUBTING_ONCE,
+                &Floors::shared(&ROUND, Ends),
+                &[
+                    named("sensors not restored", DOUBTING_RULE.without(Restores)),
+                    named("known sensors replaced", DOUBTING_RULE.without(Remembers)),
+                ],
+            ),
+            &refuted(DOUBTING_ONCE, &Floors::new(&THRICE_MISSED, Ends)),
+            &holds(
+                DOUBTING,
+                &Floors::shared(&AS_SHIPPED, Ends),
+                &[named("two scans are believed", TreeRule::DOUBTING.reading(2))],
+            ),
+            &refuted(DOUBTING, &Floors::new(&SEVEN_MISSED, Ends)),
         ],
     },
     Clause {
@@ -188,37 +254,61 @@ pub static CLAUSES: [Clause; 15] = [
     Clause {
         id: "BRICKS-8",
         sentence: "The cells of a tree MUST stay connected through cells of trees whose labels are not lower.",
-        checks: &[&tree::TREES_WHOLE],
+        checks: &[&holds(TREE, &Floors::shared(&TREES, own(Own::Whole)), &[WRAPPING])],
     },
     Clause {
         id: "BRICKS-9",
         sentence: "Labels MUST never fall from a cell of a tree to its parent.",
-        checks: &[&tree::LABELS_RISE],
+        checks: &[&holds(TREE, &Floors::shared(&TREES, own(Own::Rising)), &[PARENTS_MARKED])],
     },
     Clause {
         id: "BRICKS-10",
         sentence: "As long as there has been one tree at most, an agent MUST make at most four moves a cell.",
-        checks: &[&tree::TREE_BOUNDED, &tree::HELPERS_BOUNDED],
+        checks: &[
+            &holds(
+                TREE,
+                &Floors::new(&COUNTED, own(Own::Bounded)),
+                &[named(TWICE_ADOPTED, TreeRule::TREE.without(LowerOnly))],
+            ),
+            &holds(HELPERS, &Floors::new(&COUNTED, own(Own::Bounded)), &[]),
+        ],
     },
     Clause {
         id: "BRICKS-11",
         sentence: "Agents that fail MUST not keep the others from an end with every cell visited.",
-        checks: &[&Check::new(REPAIRED, &Floors::SURVIVES, Verdict::Refuted, &[]), &tree::SURVIVES],
+        checks: &[
+            &refuted(REPAIRED, &Floors::new(&FAILING, Ends)),
+            &holds(TREE, &Floors::new(&TREES_FAILING, Ends), &[NO_EXITS]),
+        ],
     },
     Clause {
         id: "BRICKS-12",
         sentence: "An agent alone MUST make at most two moves a cell.",
-        checks: &[&tree::HELPERS_TWICE, &tree::TREE_TWICE],
+        checks: &[
+            &holds(
+                HELPERS,
+                &Floors::new(&ONE_COUNTED, own(Own::Twice)),
+                &[named(TWICE_ADOPTED, TreeRule::HELPERS.without(LowerOnly))],
+            ),
+            &refuted(TREE, &Floors::new(&ONE_COUNTED, own(Own::Twice))),
+        ],
     },
     Clause {
         id: "BRICKS-13",
         sentence: "An agent that goes to a child MUST go to one that was entered least.",
-        checks: &[&tree::LEAST_ENTERED, &tree::HELPERS_LEAST_ENTERED],
+        checks: &[
+            &holds(TREE, &Floors::shared(&TREES, own(Own::LeastEntered)), &[]),
+            &holds(
+                named("helpers", AmongChildren { rule: TreeRule::HELPERS, goes_to: Child::Ruled }),
+                &Floors::new(&THREE, own(Own::LeastEntered)),
+                &[named("the first child", AmongChildren { rule: TreeRule::HELPERS, goes_to: Child::First })],
+            ),
+        ],
     },
     Clause {
         id: "BRICKS-14",
         sentence: "Two trees MUST have different labels; the one before which its agent had founded fewer has the greater.",
-        checks: &[&tree::labels_of_trees::CHECK],
+        checks: &[&labels::labels_of_trees::CHECK],
     },
     Clause {
         id: "BRICKS-15",

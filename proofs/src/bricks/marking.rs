@@ -3,39 +3,38 @@
 
 use tautline_kernel::bricks::{Agent, Next, Rule, blocks};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::floor::{COMPASS, Ring, Scan, Sensor};
+use tautline_kernel::floor::{COMPASS, Ring, Scan};
 use tautline_kernel::ground::Side;
 
-use super::{Deception, Observed};
 use crate::engine::{Outcome, require};
 
 /// Cells around a cell.
 const AROUND: usize = 8;
 
-/// What [`neighbourhood`] looks at.
+/// The bound of [`neighbourhood`].
 pub(crate) fn neighbourhoods() -> String {
     format!("all {} neighbourhoods", 1 << AROUND)
 }
 
-/// What [`walled`] looks at.
+/// The bound of [`walled`].
 pub(crate) fn walled_neighbourhoods() -> String {
     format!("{}, walls between cells in every way", neighbourhoods())
 }
 
-/// What a cell around can be and be read as: inaccessible, explored, unexplored, explored but missed, inaccessible but
+/// The states and readings of a cell around: inaccessible, explored, unexplored, explored but missed, inaccessible but
 /// missed.
 const READINGS: u32 = 5;
 
-/// What [`half_seen`] looks at.
+/// The bound of [`half_seen`].
 pub(crate) fn readings() -> String {
     format!("all neighbourhoods, any of {AROUND} sensors missed: {} readings", READINGS.pow(AROUND as u32))
 }
 
-/// What is around a cell, and what is seen of it.
+/// The cells around a cell, and the readings of them.
 struct Around {
     /// Accessible cells, clockwise from the northern one.
     accessible: [bool; AROUND],
-    /// What an agent makes of them: unexplored, explored or inaccessible.
+    /// Their readings: a cell in neither set reads as inaccessible.
     unexplored: Ring,
     explored: Ring,
     /// Whether one can go from each to the next, and from the cell to each side neighbour.
@@ -48,18 +47,11 @@ impl Around {
         let ring =
             |bits: &[bool; 8]| Ring((0..8).fold(0, |ring, place| ring | u8::from(bits[place]) << place));
         Scan {
-            here: Sensor::default(),
             unexplored: self.unexplored,
             explored: self.explored,
-            closing: Ring::default(),
-            visited: Ring::default(),
             open: ring(&self.spokes),
             rims: ring(&self.rims),
-            detected: 0,
-            beside: Ring::default(),
-            crossings: [0; 4],
-            claims: [None; 4],
-            serials: [0; 8],
+            ..Scan::default()
         }
     }
 
@@ -96,7 +88,7 @@ fn decide(rule: Rule, around: &Around) -> Outcome {
 }
 
 /// All 256 neighbourhoods of accessible and inaccessible cells, without walls between them.
-pub(crate) fn neighbourhood(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(crate) fn neighbourhood(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     let accessible = core::array::from_fn(|_| oracle.flip());
     let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
     let around = Around {
@@ -106,21 +98,21 @@ pub(crate) fn neighbourhood(observed: &Observed, oracle: &mut dyn Oracle) -> Out
         rims: core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8]),
         spokes: core::array::from_fn(|place| place % 2 == 0),
     };
-    decide(observed.rule, &around)
+    decide(*rule, &around)
 }
 
 /// All neighbourhoods, and walls between any two of the nine cells.
-pub(crate) fn walled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(crate) fn walled(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     let accessible: [bool; AROUND] = core::array::from_fn(|_| oracle.flip());
     let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
     let rims =
         core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8] && oracle.flip());
     let spokes = core::array::from_fn(|place| place.is_multiple_of(2) && accessible[place] && oracle.flip());
-    decide(observed.rule, &Around { accessible, unexplored: Ring::default(), explored, rims, spokes })
+    decide(*rule, &Around { accessible, unexplored: Ring::default(), explored, rims, spokes })
 }
 
 /// All neighbourhoods, and any of their sensors missed: the rule of the second pass.
-pub(crate) fn half_seen(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(crate) fn half_seen(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     let (mut unexplored, mut explored) = (Ring::default(), Ring::default());
     let accessible: [bool; AROUND] = core::array::from_fn(|place| {
         let what = oracle.pick(READINGS);
@@ -136,16 +128,19 @@ pub(crate) fn half_seen(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome
         rims: core::array::from_fn(|place| is_read(place) && is_read((place + 1) % 8)),
         spokes: core::array::from_fn(|place| place % 2 == 0),
     };
-    decide(observed.rule, &around)
+    decide(*rule, &around)
 }
 
-/// What [`most_walled`] looks at.
+/// The bound of [`most_walled`].
 pub(crate) fn ways_on() -> String {
     format!("all {} neighbourhoods that are explored, unexplored or walls", 3_u32.pow(AROUND as u32))
 }
 
+/// The eyes of an agent: they make of a scan what it sees of it.
+pub(crate) type Eyes = fn(Scan) -> Scan;
+
 /// Where an agent goes to explore: of the unexplored side neighbours each has two corners beside it.
-pub(crate) fn most_walled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+pub(crate) fn most_walled(eyes: &Eyes, oracle: &mut dyn Oracle) -> Outcome {
     let what: [u32; AROUND] = core::array::from_fn(|_| oracle.pick(3));
     let ring = |is_in: &dyn Fn(u32) -> bool| {
         Ring((0..AROUND).fold(0, |ring, place| ring | u8::from(is_in(what[place])) << place))
@@ -166,11 +161,7 @@ pub(crate) fn most_walled(observed: &Observed, oracle: &mut dyn Oracle) -> Outco
             most = Some((walls, side));
         }
     }
-    let mut scan = around.scan();
-    if observed.deception == Deception::MissesCorners {
-        scan.rims = Ring::default();
-    }
-    let next = Agent::new(0).decide(observed.rule, &scan).next;
+    let next = Agent::new(0).decide(Rule::REPAIRED, &eyes(around.scan())).next;
     let Some((_, due)) = most else { return Ok("nothing unexplored") };
     require(
         matches!(next, Next::Goes(side, ..) if side == due),
@@ -188,17 +179,17 @@ const PLACES: [(i32, i32); AROUND] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), 
 /// Errors of each coordinate, in halves of the largest.
 const ERRORS: [i32; 5] = [0, -2, -1, 1, 2];
 
-/// What [`localised`] looks at.
+/// The bound of [`localised`].
 pub(crate) fn errors() -> String {
     format!("{AROUND} sensors, {} errors each, a cell of {} cm", ERRORS.len().pow(2), SIDE / 10)
 }
 
-/// Every sensor around, localised with errors to just under half a side.
-pub(crate) fn localised(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
-    let most = match observed.deception {
-        Deception::LocalisesBadly => i32::from(SIDE) * 3 / 5,
-        Deception::None | Deception::ActsAtOnce | Deception::MissesCorners => i32::from(SIDE) / 2 - 1,
-    };
+/// The largest error of a coordinate in millimetres: just under half a side, or too much.
+pub(crate) const LESS_THAN_HALF: i32 = SIDE as i32 / 2 - 1;
+pub(crate) const MORE_THAN_HALF: i32 = SIDE as i32 * 3 / 5;
+
+/// Every sensor around, localised with errors to `most` millimetres.
+pub(crate) fn localised(most: &i32, oracle: &mut dyn Oracle) -> Outcome {
     let place = oracle.pick(AROUND as u32);
     let (columns, rows) = PLACES[place as usize];
     let error = |oracle: &mut dyn Oracle| most * one_of(oracle, &ERRORS) / 2;

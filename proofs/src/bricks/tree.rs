@@ -1,105 +1,126 @@
-//! Agents that search in trees on small floors (BRICKS-2 to BRICKS-12): brick-tree, helpers and MDFS, as systems whose
+//! Agents that search in trees on small floors (BRICKS-2 to BRICKS-14): brick-tree, helpers and MDFS, as schemes whose
 //! states are all looked at.
 
-pub(super) mod checks;
-mod floors;
-mod labels;
+mod demands;
+pub(super) mod labels;
 pub mod mdfs;
-mod state;
-mod team;
 
-use tautline_kernel::bricks::tree::{Act, Agent, Condition, Rule, View, carry_out};
-use tautline_kernel::bricks::tree::{Next, Notes};
-use tautline_kernel::ground::Cell;
+use std::fmt;
+use std::hash::Hash;
 
-/// How agents that search in trees decide.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Way {
-    /// By trees that several agents share.
-    Trees(Rule),
-    /// Each by a tree of its own.
-    Mdfs,
+use tautline_kernel::bricks::tree::{
+    Act, Agent, Condition, Next, Note, Rule, State, View, carry_out, settle,
+};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::floor::{Floor, Mark, Scan};
+use tautline_kernel::ground::{Cell, Side, Step};
+
+pub(super) use self::demands::{AmongChildren, Child, Own};
+use crate::floor::crew::{Scheme, SensorData, Sight};
+
+/// A rule by which agents search in trees.
+pub trait TreeRule: Copy + PartialEq + fmt::Debug + Send + Sync + 'static {
+    /// The memory of an agent.
+    type Memory: Copy + Eq + Hash + fmt::Debug + Send + Sync + 'static;
+
+    /// The memory of the agent with this id at the start.
+    fn memory(&self, id: u8) -> Self::Memory;
+
+    /// The decision of an agent after a scan.
+    fn decide(&self, memory: &mut Self::Memory, view: &View) -> Act;
+
+    /// The rule by which decisions are written.
+    fn writes(&self) -> Rule;
+
+    /// The trees that an agent has founded.
+    fn founded(memory: &Self::Memory) -> u32;
 }
 
-/// What such an agent remembers.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Memory {
-    /// Of trees that it shares.
-    Shared(Agent),
-    /// Of a tree of its own.
-    Own(mdfs::Agent),
-}
+impl TreeRule for Rule {
+    type Memory = Agent;
 
-impl Way {
-    /// What the agent with this id remembers at the start.
-    pub const fn memory(self, id: u8) -> Memory {
-        match self {
-            Self::Trees(_) => Memory::Shared(Agent::new(id)),
-            Self::Mdfs => Memory::Own(mdfs::Agent::new(id)),
-        }
+    fn memory(&self, id: u8) -> Agent {
+        Agent::new(id)
     }
 
-    /// What an agent does after a scan.
-    pub fn decide(self, memory: &mut Memory, view: &View) -> Act {
-        match (self, memory) {
-            (Self::Trees(rule), Memory::Shared(agent)) => agent.decide(rule, view),
-            (Self::Mdfs, Memory::Own(agent)) => agent.decide(view),
-            (Self::Trees(_), Memory::Own(_)) | (Self::Mdfs, Memory::Shared(_)) => {
-                Act { here: view.here, next: Next::Done }
-            }
-        }
+    fn decide(&self, agent: &mut Agent, view: &View) -> Act {
+        agent.decide(*self, view)
     }
 
-    /// Writes what an agent in `cell` has decided; where it is then.
-    pub fn carry_out(self, floor: &mut impl Notes, cell: Cell, act: &Act) -> Cell {
-        match self {
-            Self::Trees(rule) => carry_out(rule, floor, cell, act),
-            Self::Mdfs => carry_out(Rule::TREE, floor, cell, act),
-        }
+    fn writes(&self) -> Rule {
+        *self
     }
 
-    /// Whether agents find out underfoot that they have missed a sensor, so that nothing is lost.
-    pub const fn looks_underfoot(self) -> bool {
-        match self {
-            Self::Trees(rule) => rule.has(Condition::Underfoot),
-            Self::Mdfs => false,
-        }
+    fn founded(agent: &Agent) -> u32 {
+        agent.founded
     }
 }
 
-impl Memory {
-    /// The trees that the agent has founded.
-    pub const fn founded(self) -> u32 {
-        match self {
-            Self::Shared(agent) => agent.founded,
-            Self::Own(_) => 1,
-        }
+impl<T: TreeRule> Scheme for T {
+    type Sensor = Note;
+    type Memory = T::Memory;
+    type Act = Act;
+
+    fn memory(&self, id: u8) -> T::Memory {
+        TreeRule::memory(self, id)
+    }
+
+    fn decide(&self, memory: &mut T::Memory, view: &View) -> Act {
+        TreeRule::decide(self, memory, view)
+    }
+
+    fn carry_out(&self, floor: &mut impl Floor<Note>, cell: Cell, act: &Act) -> Cell {
+        carry_out(self.writes(), floor, cell, act)
+    }
+
+    fn step(act: &Act) -> Option<Step> {
+        (act.next != Next::Done).then(|| act.next.side().map_or(Step::Stay, Step::Cross))
+    }
+
+    /// Where sensors are missed, by agents that find out underfoot that they have missed one, so that nothing is lost.
+    fn promises(&self, sight: Sight) -> bool {
+        sight == Sight::Whole || self.writes().has(Condition::Underfoot)
     }
 }
 
-/// How the observer of a mutant is deceived.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Deception {
-    /// Not at all.
-    None,
-    /// Agents beside each other scan and write at once.
-    ActsAtOnce,
-    /// Of several children an agent goes to the first in the order of the compass.
-    FirstChild,
-}
+impl SensorData for Note {
+    type View = View;
 
-/// Agents that are observed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Observed {
-    /// How they decide.
-    pub way: Way,
-    /// What is done to them behind their back.
-    pub deception: Deception,
-}
+    const STORES_SIDES: bool = true;
 
-impl Observed {
-    /// Agents that follow `rule`, one after the other.
-    pub const fn following(rule: Rule) -> Self {
-        Self { way: Way::Trees(rule), deception: Deception::None }
+    /// An agent asks whether a sensor has counted itself alone.
+    const ALIKE_FROM: u32 = 2;
+
+    fn settle(floor: &mut impl Floor<Self>, starts: &[Cell]) {
+        settle(floor, starts);
+    }
+
+    fn look(floor: &impl Floor<Self>, cell: Cell, world: &mut (impl Oracle + ?Sized)) -> View {
+        View::new(floor, cell, world)
+    }
+
+    fn scan(view: &View) -> &Scan {
+        &view.scan
+    }
+
+    fn mark(&self) -> Mark {
+        Self::mark(*self)
+    }
+
+    fn crossings(&self) -> u32 {
+        self.crossings.into()
+    }
+
+    fn with_crossings(self, crossings: u32) -> Self {
+        Self { crossings: crossings.min(Self::MOST_CROSSINGS.into()) as u16, ..self }
+    }
+
+    fn side(&self) -> Option<(Side, u8)> {
+        let value = match self.state {
+            State::Unexplored | State::Explored => return None,
+            State::Open => 1,
+            State::Visited => 2,
+        };
+        Some((self.side?, value))
     }
 }

@@ -4,32 +4,33 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::team::{Demands, Team};
 use crate::decide::{Answer, Depiction, Verdict};
-use crate::engine::states::{END, Findings, Limits, Run, System, search};
+use crate::engine::states::{END, Findings, Limits, search};
 use crate::engine::watchdog::Task;
 use crate::engine::{Tally, Until, cover};
 use crate::floor_trace::Course;
 
-/// What the states of small floors have shown.
+/// The outcome of searches of small floors.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Explored {
+pub(crate) struct Report {
     /// A case is a state. The choices of a violation are the numbers of the series, the plan, the start, and the steps.
-    pub tally: Tally,
+    pub(crate) tally: Tally,
     /// Whether no search was cut off.
-    pub is_whole: bool,
-    /// The steps with which it goes round for ever, if it does.
-    pub again: Vec<u32>,
-    /// The run of the violation, where there is more to see in it than choices.
-    pub course: Option<Course>,
+    is_whole: bool,
+    /// The steps with which the violation goes round for ever, if it does.
+    again: Vec<u32>,
+    /// The run of the violation.
+    course: Option<Course>,
 }
 
-impl Explored {
+impl Report {
     /// Nothing yet.
     pub(crate) fn new() -> Self {
         Self { tally: Tally::default(), is_whole: true, again: Vec::new(), course: None }
     }
 
-    /// What it shows.
+    /// The answer to a check that is to show `shown`.
     pub(crate) fn answer(self, shown: Verdict) -> Answer {
         let Self { tally, is_whole, again, course } = self;
         let mut answer = Answer::of_tally(tally, &[END], if is_whole { shown } else { Verdict::Open });
@@ -40,51 +41,50 @@ impl Explored {
         answer
     }
 
-    /// Searches the states of `systems`, which are of the series with this number, from their starts within `limits`
-    /// each, until something is broken: by which system, and how. The tally is the same on any number of threads.
-    pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
+    /// Searches the states of `teams`, which are of the series with this number, within `limits` each, until something
+    /// is broken; returns whether it is. The tally is the same on any number of threads.
+    pub(crate) fn add<S: Demands>(
         &mut self,
         series: u32,
-        systems: &'a [S],
-        starts: impl Fn(&S) -> Vec<S::State> + Sync,
+        teams: &[Team<S>],
         (limits, until): (Limits<'_>, Until),
-    ) -> Option<(&'a S, Run<&'static str>)> {
+    ) -> bool {
         let mut first = None;
-        for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, (limits, until)))
-        {
+        for ((place, team), found) in (0..).zip(teams).zip(search_each(teams, (limits, until))) {
             let Findings { states, covered, broken, is_whole, .. } = found;
             self.tally.cases += states;
             self.is_whole &= is_whole;
             for situation in covered {
                 cover(&mut self.tally.covered, situation);
             }
-            first = first.or(broken.into_iter().next().map(|run| (place, system, run)));
+            first = first.or(broken.into_iter().next().map(|run| (place, team, run)));
         }
-        let (place, system, run) = first?;
+        let Some((place, team, run)) = first else { return false };
         let choices = [&[series, place, run.start as u32], &run.steps[..]].concat();
         self.tally.violation = Some((choices, run.demand));
-        Some((system, run))
+        self.again = run.round().to_vec();
+        self.course = team.starts().nth(run.start).map(|start| team.course(start, &run));
+        true
     }
 }
 
-/// Systems that are looked at between two looks for a violation.
+/// Teams that are looked at between two looks for a violation.
 const WAVE: usize = 64;
 
-/// What is found in each of `systems`, up to the first in which something is broken, or for a whole tally up to the end
-/// of its wave.
-fn search_each<S: System<Demand = &'static str> + Sync>(
-    systems: &[S],
-    starts: impl Fn(&S) -> Vec<S::State> + Sync,
+/// Searches each of `teams`, up to the first of which something is broken, or for a whole tally up to the end of its
+/// wave.
+fn search_each<S: Demands>(
+    teams: &[Team<S>],
     (limits, until): (Limits<'_>, Until),
 ) -> Vec<Findings<&'static str>> {
     let last = AtomicUsize::new(usize::MAX);
     let task = Task::current();
-    let each = systems.par_iter().enumerate().with_max_len(1).map(|(place, system)| {
+    let each = teams.par_iter().enumerate().with_max_len(1).map(|(place, team)| {
         let _working = task.enter();
         if last.load(Ordering::Relaxed) < place {
             return None;
         }
-        let found = search(system, starts(system), limits);
+        let found = search(team, team.starts(), limits);
         if !found.broken.is_empty() {
             let end = match until {
                 Until::Exhausted => place - place % WAVE + WAVE - 1,

@@ -121,12 +121,12 @@ impl FloorPlan {
 pub(crate) struct Area {
     width: i16,
     height: i16,
-    drawn: Drawn,
+    varies: Part,
 }
 
-/// What is drawn in every way.
+/// The part of a plan that is drawn in every way.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Drawn {
+enum Part {
     BlockedCells,
     Walls,
 }
@@ -134,12 +134,12 @@ enum Drawn {
 impl Area {
     /// Blocked cells are drawn in every way.
     pub(crate) const fn blocked(width: i16, height: i16) -> Self {
-        Self { width, height, drawn: Drawn::BlockedCells }
+        Self { width, height, varies: Part::BlockedCells }
     }
 
     /// Walls between free cells are drawn in every way.
     pub(crate) const fn walled(width: i16, height: i16) -> Self {
-        Self { width, height, drawn: Drawn::Walls }
+        Self { width, height, varies: Part::Walls }
     }
 
     /// Its cells, free or blocked.
@@ -149,9 +149,9 @@ impl Area {
 
     /// Every plan of which all free cells are connected.
     pub(crate) fn plans(self) -> Box<dyn Iterator<Item = FloorPlan>> {
-        match self.drawn {
-            Drawn::BlockedCells => Box::new(blocked(self.width, self.height)),
-            Drawn::Walls => Box::new(walled(self.width, self.height)),
+        match self.varies {
+            Part::BlockedCells => Box::new(blocked(self.width, self.height)),
+            Part::Walls => Box::new(walled(self.width, self.height)),
         }
     }
 }
@@ -159,9 +159,9 @@ impl Area {
 impl fmt::Display for Area {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}×{}", self.width, self.height)?;
-        match self.drawn {
-            Drawn::BlockedCells => Ok(()),
-            Drawn::Walls => f.write_str(" with walls"),
+        match self.varies {
+            Part::BlockedCells => Ok(()),
+            Part::Walls => f.write_str(" with walls"),
         }
     }
 }

@@ -7,17 +7,15 @@
 //! among all that are asked about.
 
 use rand_chacha::ChaCha8Rng;
-use tautline_kernel::ants;
-use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Claim, Mark, Scan, Sensor, settle};
+use tautline_kernel::floor::{Claim, Mark, Scan};
 use tautline_kernel::ground::{Cell, Edge, Step};
-pub use tautline_proofs::floor::trap::Way;
+use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::floor::{self, Component, SensorFloor, Stored, is_visited};
+use super::floor::{self, Component, SensorFloor, is_visited};
 use super::run::{End, Team};
 use super::scan_time;
 use super::scene::{Layer, Scene};
@@ -29,7 +27,7 @@ use crate::layout::generate::{self, Probability};
 /// The most agents on a floor: a sensor keeps an id in eight bits, and counts agents in as many.
 const MAX_AGENTS: usize = 255;
 
-/// What is the same in the rows of all agents.
+/// The row of all agents, of which theirs are made.
 pub(super) const AGENTS: Profile = Profile {
     name: "",
     about: "",
@@ -51,9 +49,9 @@ pub const PREMATURE: ClauseId = ClauseId::new("BRICKS-4");
 /// The run has ended, or goes on for ever, and a cell that an agent could get to is not visited.
 pub const UNVISITED: ClauseId = ClauseId::new("BRICKS-6");
 
-/// The world: which sensors are missed, by chance or as it is written down.
+/// The sensors that are missed: by chance, or as it is written down.
 #[derive(Clone)]
-pub struct Misses {
+struct Misses {
     chance: Probability,
     generator: ChaCha8Rng,
     /// The numbers of the questions, counted from 1, that are answered yes; in order.
@@ -62,9 +60,14 @@ pub struct Misses {
 }
 
 impl Misses {
-    /// Whether any sensor is ever missed.
-    fn is_never(&self) -> bool {
-        self.chance.is_never() && self.written.is_empty()
+    /// Whether sensors are ever missed.
+    fn sight(&self) -> Sight {
+        if self.written.is_empty() { self.sight_by_chance() } else { Sight::Partial }
+    }
+
+    /// Whether sensors are missed by chance.
+    fn sight_by_chance(&self) -> Sight {
+        if self.chance.is_never() { Sight::Whole } else { Sight::Partial }
     }
 
     /// Whether no sensor is missed from now on.
@@ -85,125 +88,6 @@ impl Oracle for Misses {
     }
 }
 
-/// How agents on a floor decide, and what their sensors store.
-pub trait Crew: Copy + 'static {
-    /// What a sensor stores.
-    type Stored: Stored;
-    /// What an agent remembers.
-    type Mind: Copy + PartialEq;
-    /// What it sees.
-    type View;
-
-    /// What the agent with this id remembers at the start.
-    fn mind(&self, id: u8) -> Self::Mind;
-
-    /// Puts agents into the cells where they start.
-    fn settle(&self, floor: &mut SensorFloor<Self::Stored>, starts: &[Cell]);
-
-    /// A scan from `cell`; `world` says which sensors are missed.
-    fn look(&self, floor: &SensorFloor<Self::Stored>, cell: Cell, world: &mut Misses) -> Self::View;
-
-    /// The marks that were seen.
-    fn scan(view: &Self::View) -> &Scan;
-
-    /// One action of an agent in `cell` that has seen `view`.
-    fn act(
-        &self,
-        floor: &mut SensorFloor<Self::Stored>,
-        mind: &mut Self::Mind,
-        cell: Cell,
-        view: &Self::View,
-    ) -> Acted;
-
-    /// Whether agents may go on for ever although nothing is left to explore; sensors are missed by chance, or none is.
-    fn may_roam(&self, by_chance: bool) -> bool;
-
-    /// Whether agents that are where they were do as they did, as long as no sensor is missed.
-    fn repeats(&self) -> bool;
-
-    /// Whether it is promised that in the end every cell is visited; sensors are missed, or none is.
-    fn promises(&self, is_blind: bool) -> bool;
-}
-
-/// What an agent did.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Acted {
-    /// Where it went.
-    pub step: Step,
-    /// Whether it is done.
-    pub is_done: bool,
-}
-
-impl Crew for Way {
-    type Stored = Sensor;
-    type Mind = Agent;
-    type View = Scan;
-
-    fn mind(&self, id: u8) -> Agent {
-        Agent::new(id)
-    }
-
-    fn settle(&self, floor: &mut SensorFloor, starts: &[Cell]) {
-        settle(floor, starts);
-    }
-
-    fn look(&self, floor: &SensorFloor, cell: Cell, world: &mut Misses) -> Scan {
-        Scan::new(floor, cell, world)
-    }
-
-    fn scan(view: &Scan) -> &Scan {
-        view
-    }
-
-    fn act(&self, floor: &mut SensorFloor, agent: &mut Agent, cell: Cell, scan: &Scan) -> Acted {
-        let crosses = |side| Acted { step: Step::Cross(side), is_done: false };
-        let stays = |is_done| Acted { step: Step::Stay, is_done };
-        match *self {
-            Self::Ants(rule) => ants::act(rule, floor, cell, scan).map_or(stays(false), crosses),
-            Self::Bricks(rule) => {
-                let act = agent.decide(rule, scan);
-                bricks::carry_out(floor, cell, &act);
-                match act.next {
-                    Next::Goes(side, ..) => crosses(side),
-                    Next::Waits => stays(false),
-                    Next::Done => stays(true),
-                }
-            }
-        }
-    }
-
-    /// Ants, and those that go over visited cells again, to whom missed sensors always show something.
-    fn may_roam(&self, by_chance: bool) -> bool {
-        match self {
-            Self::Ants(_) => true,
-            Self::Bricks(rule) => rule.has(Condition::SecondPass) && by_chance,
-        }
-    }
-
-    /// Unless an agent reads the crossings, which only grow.
-    fn repeats(&self) -> bool {
-        match self {
-            Self::Ants(_) => false,
-            Self::Bricks(rule) => !rule.has(Condition::LeastCrossed),
-        }
-    }
-
-    /// By those who mark cells, where no sensor is missed.
-    fn promises(&self, is_blind: bool) -> bool {
-        match self {
-            Self::Ants(_) => false,
-            Self::Bricks(_) => !is_blind,
-        }
-    }
-}
-
-/// An agent on the floor.
-#[derive(Clone, Copy, PartialEq)]
-struct Body<M> {
-    mind: M,
-    is_done: bool,
-}
-
 /// How long an agent scans and goes in a team move, by the paper's means.
 fn milliseconds(scan: &Scan, step: Step) -> u64 {
     u64::from(match step {
@@ -214,12 +98,12 @@ fn milliseconds(scan: &Scan, step: Step) -> u64 {
 
 /// A team of agents on a floor.
 #[derive(Clone)]
-pub struct Agents<K: Crew = Way> {
-    way: K,
-    floor: SensorFloor<K::Stored>,
-    bodies: Vec<Body<K::Mind>>,
+pub struct Agents<S: Scheme> {
+    scheme: S,
+    floor: SensorFloor<S::Sensor>,
+    bodies: Vec<BodyOf<S>>,
     cells: Vec<Cell>,
-    /// What each agent did in the last team move.
+    /// The step of each agent in the last team move.
     steps: Vec<Step>,
     /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
     is_premature: bool,
@@ -230,17 +114,16 @@ pub struct Agents<K: Crew = Way> {
     unseen: Vec<Cell>,
 }
 
-impl<K: Crew> Agents<K> {
+impl<S: Scheme> Agents<S> {
     /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`,
     /// drawn from `seed`.
-    pub fn new(way: K, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
+    pub fn new(scheme: S, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
         let mut floor = SensorFloor::new(layout, starts);
-        way.settle(&mut floor, starts);
-        let bodies = (0..=u8::MAX).zip(starts).map(|(id, _)| Body { mind: way.mind(id), is_done: false });
+        S::Sensor::settle(&mut floor, starts);
         Self {
-            way,
+            scheme,
             floor,
-            bodies: bodies.collect(),
+            bodies: Body::crew(&scheme, starts),
             cells: starts.to_vec(),
             steps: vec![Step::Stay; starts.len()],
             is_premature: false,
@@ -255,25 +138,14 @@ impl<K: Crew> Agents<K> {
         }
     }
 
-    /// The team of `setup` at its start, which explores by `way`.
-    pub(super) fn of(setup: &Setup, way: K) -> Self {
-        let team = Self::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
-        Self { misses: Misses { written: setup.missed.clone(), ..team.misses }, ..team }
-    }
-
     /// Where the agents are.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
-    /// What each agent did in the last team move.
+    /// The step of each agent in the last team move.
     pub fn steps(&self) -> &[Step] {
         &self.steps
-    }
-
-    /// The floor.
-    pub const fn floor(&self) -> &SensorFloor<K::Stored> {
-        &self.floor
     }
 
     /// How many agents are not done. Ants are never done.
@@ -286,11 +158,6 @@ impl<K: Crew> Agents<K> {
         self.is_premature
     }
 
-    /// How many sensors agents have asked about.
-    pub(super) const fn asked(&self) -> u32 {
-        self.misses.asked
-    }
-
     /// Makes one team move.
     pub fn advance(&mut self) {
         self.floor.forget_changes();
@@ -301,23 +168,20 @@ impl<K: Crew> Agents<K> {
         }
     }
 
-    /// An agent acts; what it does.
+    /// Makes the turn of an agent; returns its step.
     fn act(&mut self, number: usize) -> Step {
         let (body, cell) = (&mut self.bodies[number], self.cells[number]);
-        let view = self.way.look(&self.floor, cell, &mut self.misses);
-        let scan = K::scan(&view);
-        if !self.misses.is_never() {
-            self.unseen.extend(scan.misread(|cell| self.floor.mark(cell), cell));
+        let view = S::Sensor::look(&self.floor, cell, &mut self.misses);
+        if self.misses.sight() == Sight::Partial {
+            self.unseen.extend(unseen(&self.floor, &view, cell));
         }
-        let Acted { step, is_done } = self.way.act(&mut self.floor, &mut body.mind, cell, &view);
-        if let Step::Cross(side) = step {
-            self.cells[number] = cell.beyond(side);
-        }
-        if is_done {
-            body.is_done = true;
+        let act = self.scheme.decide(&mut body.memory, &view);
+        let step = body.carry_out(&self.scheme, &mut self.floor, &act);
+        self.cells[number] = body.cell;
+        if body.is_done {
             self.is_premature |= self.floor.retire(cell);
         }
-        self.milliseconds[number] += milliseconds(scan, step);
+        self.milliseconds[number] += milliseconds(S::Sensor::scan(&view), step);
         step
     }
 
@@ -348,41 +212,35 @@ impl<K: Crew> Agents<K> {
     /// Whether the run is over: every agent is done or, where some may never know that they are, everything is
     /// explored.
     pub fn is_over(&self) -> bool {
-        let may_roam = || self.way.may_roam(!self.misses.chance.is_never());
+        let may_roam = || self.scheme.may_roam(self.misses.sight_by_chance());
         self.active() == 0 || self.explored() == self.due() && may_roam()
-    }
-
-    /// Whether a run that comes back to where it was goes on for ever: nothing is left to chance.
-    fn repeats(&self) -> bool {
-        self.way.repeats() && self.misses.chance.is_never()
     }
 }
 
 /// Agents that may go round for ever.
-struct Watched<K: Crew> {
-    team: Agents<K>,
-    watch: Option<Watch<K::Mind>>,
+struct Patrol<S: Scheme> {
+    team: Agents<S>,
+    /// If a team that comes back to where it was goes on for ever: nothing is left to chance, and no agent reads the
+    /// crossings, which only grow.
+    watch: Option<Watch<S>>,
 }
 
 /// The agents of `setup`, each at its start.
-pub(super) fn start<K: Crew>(setup: &Setup, way: K) -> Box<dyn Team> {
-    let team = Agents::of(setup, way);
-    let watch = team.repeats().then(|| Watch::new(&team));
-    Box::new(Watched { team, watch })
+pub(super) fn start<S: Scheme>(setup: &Setup, scheme: S) -> Box<dyn Team> {
+    let mut team = Agents::new(scheme, &setup.layout, &setup.starts(), setup.miss, setup.seed);
+    team.misses.written.clone_from(&setup.missed);
+    let repeats = !scheme.reads_crossings(Sight::Partial) && setup.miss.is_never();
+    let watch = repeats.then(|| Watch::new(&team));
+    Box::new(Patrol { team, watch })
 }
 
-/// The cells that an agent of `setup` can get to and that are not visited, as `chart` shows.
-pub(super) fn missed(setup: &Setup, chart: &Survey) -> Vec<Cell> {
-    unvisited(&SensorFloor::<Sensor>::new(&setup.layout, &setup.starts()), chart)
-}
-
-/// The cells that an agent can get to and that are not visited, as `chart` shows.
-fn unvisited<S: Stored>(floor: &SensorFloor<S>, chart: &Survey) -> Vec<Cell> {
-    let due = chart.area().cells().filter(|&cell| floor.component(cell).is_some());
+/// The cells of `layout` that agents can get to from `starts` and that are not visited, as `chart` shows.
+pub(super) fn unvisited(layout: &Layout, starts: &[Cell], chart: &Survey) -> Vec<Cell> {
+    let due = layout.reachable(starts).into_iter();
     due.filter(|&cell| !is_visited(chart.mark(cell, u32::MAX))).collect()
 }
 
-impl<K: Crew> Team for Watched<K> {
+impl<S: Scheme> Team for Patrol<S> {
     fn cells(&self) -> &[Cell] {
         self.team.cells()
     }
@@ -404,8 +262,8 @@ impl<K: Crew> Team for Watched<K> {
         self.team.due()
     }
 
-    fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
-        unvisited(self.team.floor(), chart)
+    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
+        unvisited(layout, &self.team.cells, chart)
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
@@ -413,7 +271,7 @@ impl<K: Crew> Team for Watched<K> {
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
-        let is_promised = self.team.way.promises(!self.team.misses.is_never());
+        let is_promised = self.team.scheme.promises(self.team.misses.sight());
         let is_broken = is_promised && self.team.visited() < self.team.due();
         if is_broken { vec![UNVISITED] } else { Vec::new() }
     }
@@ -435,7 +293,7 @@ impl<K: Crew> Team for Watched<K> {
     }
 
     fn layers(&self) -> Vec<Layer> {
-        floor::layers::<K::Stored>()
+        floor::layers::<S::Sensor>()
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
@@ -445,9 +303,8 @@ impl<K: Crew> Team for Watched<K> {
 
 /// Looks for runs that go on for ever: agents and claims that are as they were, with no mark and no side changed in
 /// between, go round (Brent 1980).
-struct Watch<M> {
-    bodies: Vec<Body<M>>,
-    cells: Vec<Cell>,
+struct Watch<S: Scheme> {
+    bodies: Vec<BodyOf<S>>,
     claims: Vec<(usize, Claim)>,
     gains: u64,
     /// Team moves since this was noted, and how many there are until the next note.
@@ -455,11 +312,10 @@ struct Watch<M> {
     due: u64,
 }
 
-impl<M: Copy + PartialEq> Watch<M> {
-    fn new<K: Crew<Mind = M>>(team: &Agents<K>) -> Self {
+impl<S: Scheme> Watch<S> {
+    fn new(team: &Agents<S>) -> Self {
         Self {
             bodies: team.bodies.clone(),
-            cells: team.cells.clone(),
             claims: team.floor.claims().to_vec(),
             gains: team.floor.gains(),
             moves: 0,
@@ -468,16 +324,12 @@ impl<M: Copy + PartialEq> Watch<M> {
     }
 
     /// Whether the team, which has made a team move since the last call, is where it was.
-    fn has_come_round<K: Crew<Mind = M>>(&mut self, team: &Agents<K>) -> bool {
+    fn has_come_round(&mut self, team: &Agents<S>) -> bool {
         if self.gains != team.floor.gains() || !team.misses.is_over() {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;
         }
-        let is_back = self.moves > 0
-            && self.cells == team.cells
-            && self.bodies == team.bodies
-            && self.claims == team.floor.claims();
-        if is_back {
+        if self.moves > 0 && self.bodies == team.bodies && self.claims == team.floor.claims() {
             return true;
         }
         if self.moves == self.due {

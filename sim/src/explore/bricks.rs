@@ -2,37 +2,26 @@
 //! robust against missed sensors. Their rows; the team is that of all agents.
 
 use tautline_kernel::bricks::Rule as Bricks;
+use tautline_kernel::bricks::tree::Rule as Trees;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::floor::trap::Way;
 use tautline_proofs::plural::counted;
 
-use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
-use super::hunt_runs::Tries;
-use super::hunt_states::Traps;
+use super::agents::{AGENTS, PREMATURE, UNVISITED, unvisited};
+use super::hunt_states::crew;
 use super::rule::RuleId;
 use super::run::TeamMove;
 use super::setup::{Clause, Judge, Knowledge, Profile, Rule, Setup};
 use super::survey::Survey;
-use super::trees::TREE;
-
-const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
-const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);
-const ROBUST: Way = Way::Bricks(Bricks::ROBUST);
 
 /// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
 pub static BRICKS: Profile = Profile {
     name: "bricks",
     about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
     rules: &[
-        Rule::published(|setup| Ok(start(setup, PUBLISHED)), &Traps(PUBLISHED)),
-        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), &Traps(REPAIRED)),
-        Rule {
-            name: RuleId::new("tree"),
-            about: "Trees close the loops in place of laps",
-            start: |setup| Ok(start(setup, TREE)),
-            hunt: Some(&Tries(TREE)),
-        },
+        crew!(Rule::published, Bricks::PUBLISHED),
+        crew!(Rule::repaired, Bricks::REPAIRED),
+        crew!(RuleId::new("tree"), "Trees close the loops in place of laps", Trees::TREE),
     ],
     ..MARKING
 };
@@ -41,11 +30,11 @@ pub static BRICKS: Profile = Profile {
 pub static BRICKS_ANTS: Profile = Profile {
     name: "bricks-ants",
     about: "Brick&Mortar with ants' ways, robust against missed sensors",
-    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), &Traps(ROBUST))],
+    rules: &[crew!(Rule::repaired, Bricks::ROBUST)],
     ..MARKING
 };
 
-/// What is the same of all agents that mark cells as visited.
+/// The row of all agents that mark cells as visited.
 pub(super) const MARKING: Profile = Profile {
     knowledge: Some(Knowledge::Visited),
     clauses: &[
@@ -58,6 +47,6 @@ pub(super) const MARKING: Profile = Profile {
 /// How much is left to an agent that is done too early.
 fn premature(setup: &Setup, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
     let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
-    let left = missed(setup, chart).into_iter().filter(is_left).count();
+    let left = unvisited(&setup.layout, &setup.starts(), chart).into_iter().filter(is_left).count();
     vec![format!("So an agent is done, with {} unexplored.", counted(left, "cell"))]
 }

@@ -3,9 +3,9 @@
 
 use std::mem;
 
-use tautline_kernel::bricks::tree::{Note, Notes, State};
-use tautline_kernel::floor::{Claim, Floor, Mark, Sensor};
+use tautline_kernel::floor::{Claim, Floor, Mark};
 use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_proofs::floor::crew::SensorData;
 
 use super::scene::{Ink, Layer, Place as Shown, Scene, Shape, Value};
 use crate::layout::{Layout, Size};
@@ -37,8 +37,12 @@ pub const fn is_visited(mark: Mark) -> bool {
 const MARKS_LAYER: usize = 0;
 const SIDES_LAYER: usize = 1;
 
-/// What a page shows of a sensor floor: the marks, and the sides that sensors store.
-pub(super) fn layers<S: Stored>() -> Vec<Layer> {
+/// The layers of a sensor floor on a page: the marks, and the sides that sensors store.
+pub(super) fn layers<D: SensorData>() -> Vec<Layer> {
+    const SIDES: &[Value] = &[
+        Value { name: "from a child to its parent", ink: Ink::Open },
+        Value { name: "to what was left", ink: Ink::Aim },
+    ];
     const MARKS: &[Value] = &[
         Value { name: "entered by nobody any more", ink: Ink::Closing },
         Value { name: "visited", ink: Ink::Closed },
@@ -46,15 +50,15 @@ pub(super) fn layers<S: Stored>() -> Vec<Layer> {
     ];
     let about = "what the sensors say of cells that are done with".to_owned();
     let mut layers = vec![Layer { name: "marks", about, shape: Shape::Cells(MARKS) }];
-    if !S::SIDES.is_empty() {
+    if D::STORES_SIDES {
         let about = "the side that a sensor stores: of an open cell its parent's, of a visited one the way to what was left";
-        layers.push(Layer { name: "trees", about: about.to_owned(), shape: Shape::Sides(S::SIDES) });
+        layers.push(Layer { name: "trees", about: about.to_owned(), shape: Shape::Sides(SIDES) });
     }
     layers
 }
 
 /// The marks and the stored sides that have changed.
-pub(super) fn show<S: Stored>(floor: &SensorFloor<S>, scene: &mut Scene) {
+pub(super) fn show<D: SensorData>(floor: &SensorFloor<D>, scene: &mut Scene) {
     for &(cell, mark) in &floor.marked {
         let value = match mark {
             Mark::Unexplored | Mark::Explored => 0,
@@ -77,53 +81,13 @@ pub(super) fn show<S: Stored>(floor: &SensorFloor<S>, scene: &mut Scene) {
     }
 }
 
-/// What a sensor stores, whatever that is.
-pub trait Stored: Copy + Default + PartialEq {
-    /// The state of its cell.
-    fn mark(&self) -> Mark;
-
-    /// What a side that it stores can be.
-    const SIDES: &'static [Value] = &[];
-
-    /// The side that it stores, and which of [`Self::SIDES`] that is, counted from 1.
-    fn side(&self) -> Option<(Side, u8)> {
-        None
-    }
-}
-
-impl Stored for Sensor {
-    fn mark(&self) -> Mark {
-        self.mark
-    }
-}
-
-impl Stored for Note {
-    const SIDES: &'static [Value] = &[
-        Value { name: "from a child to its parent", ink: Ink::Open },
-        Value { name: "to what was left", ink: Ink::Aim },
-    ];
-
-    fn mark(&self) -> Mark {
-        Self::mark(*self)
-    }
-
-    fn side(&self) -> Option<(Side, u8)> {
-        let value = match self.state {
-            State::Unexplored | State::Explored => return None,
-            State::Open => 1,
-            State::Visited => 2,
-        };
-        Some((self.side?, value))
-    }
-}
-
 /// The number of a component, counted from 1; 0 stands for the cells that no agent can get to.
 type Number = u8;
 
 /// A cell, or the rim outside the cells.
 #[derive(Clone, Copy, Default)]
-struct Place<S> {
-    sensor: S,
+struct Place<D> {
+    sensor: D,
     /// How many sensors were placed here.
     placed: u16,
     /// One bit for each open side, and `FREE`.
@@ -131,7 +95,7 @@ struct Place<S> {
     component: Number,
 }
 
-impl<S> Place<S> {
+impl<D> Place<D> {
     const FREE: u8 = 1 << 4;
 
     const fn is_free(&self) -> bool {
@@ -141,10 +105,10 @@ impl<S> Place<S> {
 
 /// The floor of a layout.
 #[derive(Clone)]
-pub struct SensorFloor<S = Sensor> {
+pub(super) struct SensorFloor<D> {
     size: Size,
     /// Row by row, with a rim of one cell all round.
-    places: Vec<Place<S>>,
+    places: Vec<Place<D>>,
     components: Vec<Component>,
     /// By place, in order.
     claims: Vec<(usize, Claim)>,
@@ -155,7 +119,7 @@ pub struct SensorFloor<S = Sensor> {
     turned: Vec<Cell>,
 }
 
-impl<S: Stored> SensorFloor<S> {
+impl<D: SensorData> SensorFloor<D> {
     /// The floor of `layout` for agents that start in `starts`, which are free; there are at most 255.
     pub(super) fn new(layout: &Layout, starts: &[Cell]) -> Self {
         let size = layout.size();
@@ -172,41 +136,28 @@ impl<S: Stored> SensorFloor<S> {
         for cell in layout.cells().filter(|&cell| layout.is_free(cell)) {
             let sides = Side::ALL.into_iter().filter(|&side| layout.is_open(Edge::new(cell, side)));
             let index = floor.index(cell);
-            floor.places[index].open = sides.fold(Place::<S>::FREE, |open, side| open | 1 << side as u8);
+            floor.places[index].open = sides.fold(Place::<D>::FREE, |open, side| open | 1 << side as u8);
         }
         for &start in starts {
-            let number = floor.number(start);
-            let component = &mut floor.components[usize::from(number) - 1];
+            let number = match floor.component(start) {
+                Some(number) => number,
+                None => floor.add_component(&layout.reachable(&[start])),
+            };
+            let component = &mut floor.components[number];
             component.robots += 1;
             component.active += 1;
         }
         floor
     }
 
-    /// The number of the component of `start`, which may be new.
-    fn number(&mut self, start: Cell) -> Number {
-        let index = self.index(start);
-        let known = self.places[index].component;
-        if known != 0 {
-            return known;
+    /// The place of a new component of these cells in [`components`](Self::components).
+    fn add_component(&mut self, cells: &[Cell]) -> usize {
+        let number = self.components.len();
+        for &cell in cells {
+            let index = self.index(cell);
+            self.places[index].component = number as Number + 1;
         }
-        let number = self.components.len() as Number + 1;
-        self.places[index].component = number;
-        let (mut cells, mut left) = (1, vec![start]);
-        while let Some(cell) = left.pop() {
-            for side in Side::ALL {
-                if !self.has_open(cell, side) {
-                    continue;
-                }
-                let next = cell.beyond(side);
-                let index = self.index(next);
-                if mem::replace(&mut self.places[index].component, number) == 0 {
-                    cells += 1;
-                    left.push(next);
-                }
-            }
-        }
-        self.components.push(Component { cells, ..Component::default() });
+        self.components.push(Component { cells: cells.len() as u32, ..Component::default() });
         number
     }
 
@@ -216,27 +167,22 @@ impl<S: Stored> SensorFloor<S> {
         (cell.y + 1) as usize * stride + (cell.x + 1) as usize
     }
 
-    fn place(&self, cell: Cell) -> Option<&Place<S>> {
+    fn place(&self, cell: Cell) -> Option<&Place<D>> {
         self.places.get(self.index(cell))
     }
 
     /// Whether an agent can leave `cell` through `side`.
-    pub fn has_open(&self, cell: Cell, side: Side) -> bool {
+    fn has_open(&self, cell: Cell, side: Side) -> bool {
         self.place(cell).is_some_and(|place| place.open & 1 << side as u8 != 0)
     }
 
-    /// The mark of `cell`; unexplored where there is no sensor.
-    pub fn mark(&self, cell: Cell) -> Mark {
-        self.place(cell).map_or(Mark::Unexplored, |place| place.sensor.mark())
-    }
-
     /// The parts of the layout in which agents start, in the order of the first agent of each.
-    pub fn components(&self) -> &[Component] {
+    pub(super) fn components(&self) -> &[Component] {
         &self.components
     }
 
     /// The place in [`SensorFloor::components`] of that of `cell`, if agents can get there.
-    pub fn component(&self, cell: Cell) -> Option<usize> {
+    fn component(&self, cell: Cell) -> Option<usize> {
         self.place(cell).and_then(|place| usize::from(place.component).checked_sub(1))
     }
 
@@ -277,9 +223,7 @@ impl<S: Stored> SensorFloor<S> {
             component.visited -= u32::from(is_visited(was));
         }
     }
-}
 
-impl SensorFloor {
     fn claim(&mut self, index: usize, claim: Option<Claim>) {
         let at = self.claims.binary_search_by_key(&index, |&(index, _)| index);
         match (at, claim) {
@@ -293,26 +237,29 @@ impl SensorFloor {
     }
 }
 
-impl Floor for SensorFloor {
+impl<D: SensorData> Floor<D> for SensorFloor<D> {
     #[inline]
-    fn sensor(&self, cell: Cell) -> Option<Sensor> {
+    fn sensor(&self, cell: Cell) -> Option<D> {
         self.place(cell).filter(|place| place.is_free()).map(|place| place.sensor)
     }
 
     #[inline]
-    fn put(&mut self, cell: Cell, sensor: Sensor) {
+    fn put(&mut self, cell: Cell, sensor: D) {
         let index = self.index(cell);
         let Some(place) = self.places.get_mut(index).filter(|place| place.is_free()) else { return };
         let component = place.component;
         let was = mem::replace(&mut place.sensor, sensor);
-        if (was.mark, was.shut) != (sensor.mark, sensor.shut) {
+        if (was.mark(), was.shut()) != (sensor.mark(), sensor.shut()) {
             self.gains += 1;
         }
-        if was.mark != sensor.mark {
-            self.count(cell, component, was.mark, sensor.mark);
+        if was.side() != sensor.side() {
+            self.turned.push(cell);
         }
-        if was.claim != sensor.claim {
-            self.claim(index, sensor.claim);
+        if was.mark() != sensor.mark() {
+            self.count(cell, component, was.mark(), sensor.mark());
+        }
+        if was.claim() != sensor.claim() {
+            self.claim(index, sensor.claim());
         }
     }
 
@@ -323,32 +270,6 @@ impl Floor for SensorFloor {
             place.placed = place.placed.checked_add(1).unwrap_or(1);
             place.placed
         })
-    }
-
-    #[inline]
-    fn is_open(&self, edge: Edge) -> bool {
-        self.has_open(edge.cell(), edge.side())
-    }
-}
-
-impl Notes for SensorFloor<Note> {
-    #[inline]
-    fn note(&self, cell: Cell) -> Option<Note> {
-        self.place(cell).filter(|place| place.is_free()).map(|place| place.sensor)
-    }
-
-    #[inline]
-    fn write(&mut self, cell: Cell, note: Note) {
-        let index = self.index(cell);
-        let Some(place) = self.places.get_mut(index).filter(|place| place.is_free()) else { return };
-        let component = place.component;
-        let was = mem::replace(&mut place.sensor, note);
-        if Stored::side(&was) != Stored::side(&note) {
-            self.turned.push(cell);
-        }
-        if was.mark() != note.mark() {
-            self.count(cell, component, was.mark(), note.mark());
-        }
     }
 
     #[inline]

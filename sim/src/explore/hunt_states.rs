@@ -1,7 +1,8 @@
 //! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors
 //! that they miss written down.
 
-use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way};
+use tautline_proofs::floor::crew::Scheme as Crew;
+use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, TrapReport};
 use tautline_proofs::plural::counted;
 
 use super::agents::PREMATURE;
@@ -25,69 +26,122 @@ const DEFAULT_MISSES: u8 = 1;
 /// The clause that a run without end breaks.
 const ENDLESS: &str = "BRICKS-5";
 
-/// The way of the agents that are hunted.
+/// The rule of a crew: how it starts, and how it is hunted.
+macro_rules! crew {
+    ($rule:expr, $crew:expr) => {
+        $rule(
+            |setup| Ok($crate::explore::agents::start(setup, $crew)),
+            &$crate::explore::hunt_states::Traps($crew),
+        )
+    };
+    ($name:expr, $about:expr, $crew:expr) => {
+        Rule::new($name, $about, |setup| Ok($crate::explore::agents::start(setup, $crew)))
+            .hunted(&$crate::explore::hunt_states::Traps($crew))
+    };
+}
+pub(super) use crew;
+
+/// The hunt of a crew.
 #[derive(Debug)]
-pub(super) struct Traps(pub(super) Way);
+pub(super) struct Traps<C>(pub(super) C);
 
-impl Each for Traps {
-    type Layouts = Bounds;
+impl<C: Crew> Each for Traps<C> {
+    type Layouts = Bounds<C>;
 
-    const TAKES: &'static [Bound] = TAKEN;
+    const TAKES: &'static [Bound] = &[Bound::Misses];
 
     fn refusal(&self, bound: Bound) -> Option<(String, String)> {
-        Some(refusal(bound))
-    }
-
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Bounds, Diagnostic> {
-        let Sought { agents, max_misses, size } = sought(asked)?;
-        let (max_width, max_height) = (size.width(), size.height());
-        Ok(Bounds { way: self.0, agents, max_misses, max_width, max_height, budget_steps: asked.budget })
-    }
-
-    fn so_far(&self, asked: &Asked<'_>, found: &Found) -> String {
-        so_far(asked, found)
-    }
-
-    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<HuntReport, Diagnostic> {
-        hunted(asked, &found.ended(is_complete), "state")
-    }
-}
-
-/// What is told of a search of so many `what`s: states, or runs.
-pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<HuntReport, Diagnostic> {
-    let Sought { agents, max_misses, size } = sought(asked)?;
-    let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-    let Found { layouts, states, steps, levels, .. } = *found;
-    let done = levels.checked_sub(1);
-    let bound = match done {
-        Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
-        Some(misses) => format!("with at most {misses} missed; the hunt was ended before its bound"),
-        None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
-    };
-    let order = if agents == 1 { "" } else { " that act in turn" };
-    let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, what));
-    Ok(HuntReport {
-        robots: agents.into(),
-        facts: Facts::Floor { size: size.to_string(), layouts, states, steps, max_misses },
-        is_complete: found.is_complete,
-        done: Done::MissesDone(done),
-        title: format!(
-            "{}{order}, at most {max_misses} missed, layouts up to {size}: {all_layouts}, {all_states}, {}",
-            counted(agents, "agent"),
-            counted(steps, "team move")
-        ),
-        through: format!("{all_layouts} and {all_states}"),
-        outcome: match quarries[..] {
-            [] => format!("No agent is trapped {bound}."),
-            _ => {
-                "The fewest missed sensors and the smallest layout with which agents are trapped:".to_owned()
+        let (what, remedy) = match bound {
+            Bound::Walls => (
+                "agents know every wall: no number of walls bounds their search",
+                "give `max-misses` for the sensors, and `size` for the layouts",
+            ),
+            Bound::Resume => (
+                "a hunt for traps is not kept in a file",
+                "leave `resume` out; a smaller `size` or `budget` makes it shorter",
+            ),
+            Bound::Cells => ("the areas of agents are bounded by their size", "give `size` for the layouts"),
+            Bound::Misses | Bound::Losses | Bound::Error => {
+                ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
             }
-        },
-        found: quarries,
-    })
+        };
+        Some((what.to_owned(), remedy.to_owned()))
+    }
+
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Bounds<C>, Diagnostic> {
+        let size = match asked.size {
+            Some(size) => size,
+            None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
+        };
+        let agents = asked.robots.unwrap_or(DEFAULT_AGENTS);
+        let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
+        let agents = fitting.ok_or_else(|| {
+            let what = format!("a hunt for traps of {agents} agents");
+            let remedy = format_args!("give `robots` a number from 1 to {MAX_AGENTS}");
+            Diagnostic::of_field("robots", what, remedy)
+        })?;
+        if size.cells() > MAX_CELLS {
+            let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
+            let remedy = format!("give `size` at most {MAX_CELLS} cells, for example 4x4 or 8x2");
+            return Err(Diagnostic::of_field("size", what, remedy));
+        }
+        Ok(Bounds {
+            scheme: self.0,
+            agents,
+            max_misses: asked.max_misses.unwrap_or(DEFAULT_MISSES),
+            max_width: size.width(),
+            max_height: size.height(),
+            budget_steps: asked.budget,
+        })
+    }
+
+    fn so_far(&self, asked: &Asked<'_>, found: &TrapReport) -> String {
+        let TrapReport { layouts, states, levels, .. } = found;
+        let max_misses = asked.max_misses.unwrap_or(DEFAULT_MISSES);
+        format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
+    }
+
+    fn told(
+        &self,
+        asked: &Asked<'_>,
+        found: TrapReport,
+        is_complete: bool,
+    ) -> Result<HuntReport, Diagnostic> {
+        let Bounds { agents, max_misses, max_width, max_height, .. } = self.layouts(asked)?;
+        let size = format!("{max_width}x{max_height}");
+        let TrapReport { layouts, states, steps, levels, trap, is_complete } = found.ended(is_complete);
+        let found = trap.iter().map(|trap| finding(asked, trap)).collect::<Result<Vec<_>, _>>()?;
+        let done = levels.checked_sub(1);
+        let bound = match done {
+            Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
+            Some(misses) => format!("with at most {misses} missed; the hunt was ended before its bound"),
+            None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
+        };
+        let order = if agents == 1 { "" } else { " that act in turn" };
+        let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, "state"));
+        let (all_agents, all_moves) = (counted(agents, "agent"), counted(steps, "team move"));
+        Ok(HuntReport {
+            robots: agents.into(),
+            title: format!(
+                "{all_agents}{order}, at most {max_misses} missed, layouts up to {size}: {all_layouts}, \
+                 {all_states}, {all_moves}"
+            ),
+            facts: Facts::Floor { size, layouts, states, steps, max_misses },
+            is_complete,
+            done: Done::MissesDone(done),
+            through: format!("{all_layouts} and {all_states}"),
+            outcome: match found[..] {
+                [] => format!("No agent is trapped {bound}."),
+                _ => "The fewest missed sensors and the smallest layout with which agents are trapped:"
+                    .to_owned(),
+            },
+            found,
+        })
+    }
 }
 
-fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
+/// The run that `trap` is, as a hunt tells it.
+fn finding(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
     let (clause, shown) = match trap.end {
@@ -99,70 +153,11 @@ fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
     Ok(Finding { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
 }
 
-/// What a hunt for traps is asked for.
-pub(super) struct Sought {
-    pub(super) agents: u32,
-    pub(super) max_misses: u8,
-    pub(super) size: Size,
-}
-
-/// What is asked for.
-///
-/// # Errors
-/// A [`Diagnostic`] if there are too few or too many agents or cells.
-pub(super) fn sought(asked: &Asked<'_>) -> Result<Sought, Diagnostic> {
-    let size = match asked.size {
-        Some(size) => size,
-        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
-    };
-    let agents = asked.robots.unwrap_or(DEFAULT_AGENTS);
-    let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
-    let agents = fitting.ok_or_else(|| {
-        let what = format!("a hunt for traps of {agents} agents");
-        Diagnostic::of_field("robots", what, format_args!("give `robots` a number from 1 to {MAX_AGENTS}"))
-    })?;
-    if size.cells() > MAX_CELLS {
-        let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
-        let remedy = format!("give `size` at most {MAX_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Diagnostic::of_field("size", what, remedy));
-    }
-    Ok(Sought { agents, max_misses: asked.max_misses.unwrap_or(DEFAULT_MISSES), size })
-}
-
-/// The bounds that hunts for traps take.
-pub(super) const TAKEN: &[Bound] = &[Bound::Misses];
-
-/// Why they do not take `bound`.
-pub(super) fn refusal(bound: Bound) -> (String, String) {
-    let (what, remedy) = match bound {
-        Bound::Walls => (
-            "agents know every wall: no number of walls bounds their search",
-            "give `max-misses` for the sensors, and `size` for the layouts",
-        ),
-        Bound::Resume => (
-            "a hunt for traps is not kept in a file",
-            "leave `resume` out; a smaller `size` or `budget` makes it shorter",
-        ),
-        Bound::Cells => ("the areas of agents are bounded by their size", "give `size` for the layouts"),
-        Bound::Misses | Bound::Losses | Bound::Error => {
-            ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
-        }
-    };
-    (what.to_owned(), remedy.to_owned())
-}
-
-/// How far a hunt is, in words.
-pub(super) fn so_far(asked: &Asked<'_>, found: &Found) -> String {
-    let Found { layouts, states, levels, .. } = found;
-    let max_misses = asked.max_misses.unwrap_or(DEFAULT_MISSES);
-    format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
-}
-
 /// The run that `trap` is; it stops at the violation.
 ///
 /// # Errors
 /// [`Problem`] if the trap does not fit into a layout.
-pub(super) fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
+fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
     let layout = Layout::open(trap.width as u64, trap.height as u64)?;
     let layout = layout.with_blocked(trap.blocked.iter().copied());
     let setup = Asked::new(scheme, rule).setup(layout, trap.starts.clone(), None)?;

@@ -17,7 +17,7 @@ const BETWEEN: u64 = 1 << 14;
 
 /// How large the layouts of a hunt may be, and its teams.
 pub(super) struct Small {
-    /// What a cell is called.
+    /// The word for a cell.
     pub(super) cell: &'static str,
     /// The most cells of a layout.
     pub(super) most_cells: usize,
@@ -27,9 +27,9 @@ pub(super) struct Small {
     pub(super) default_size: (u64, u64),
     /// Sizes that are right.
     pub(super) examples: &'static str,
-    /// What holds the robots.
+    /// The word for the search that holds the robots.
     pub(super) search: &'static str,
-    /// What is wrong with a team without a robot.
+    /// The words for a team without a robot.
     pub(super) no_robots: &'static str,
 }
 
@@ -84,7 +84,7 @@ impl Small {
     }
 }
 
-/// What is told of a hunt for `robots` in layouts up to a size, within these other bounds.
+/// The report of a hunt for `robots` in layouts up to a size, within these other bounds.
 pub(super) fn told(
     (size, robots, within): (Size, u64, &str),
     facts: Facts,
@@ -115,7 +115,7 @@ pub(super) struct Count {
     pub(super) is_complete: bool,
 }
 
-/// Searches a system, watched, as far as the budget goes; what was found, and whether the work was ended.
+/// Searches a system, watched, as far as the budget goes; returns what was found, and whether the work was ended.
 pub(super) fn watched<S: System>(
     system: &S,
     starts: Vec<S::State>,
@@ -125,7 +125,7 @@ pub(super) fn watched<S: System>(
     hunter: &mut dyn Hunter,
 ) -> (Findings<S::Demand>, bool) {
     let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
-    let watched = Watched {
+    let watched = Monitor {
         system,
         hunter: RefCell::new(hunter),
         what,
@@ -138,18 +138,18 @@ pub(super) fn watched<S: System>(
     (found, watched.is_stopped.get())
 }
 
-/// A watched system.
-struct Watched<'a, 'h, S> {
+/// A system that is watched.
+struct Monitor<'a, 'h, S> {
     system: &'a S,
     hunter: RefCell<&'h mut dyn Hunter>,
-    /// What is searched.
+    /// The words for the system.
     what: String,
     states: Cell<u64>,
     /// Whether the work was ended.
     is_stopped: Cell<bool>,
 }
 
-impl<S: System> World for Watched<'_, '_, S> {
+impl<S: System> World for Monitor<'_, '_, S> {
     type State = S::State;
     type Plan = S::Plan;
     type Event = S::Event;
@@ -193,7 +193,7 @@ impl<S: System> World for Watched<'_, '_, S> {
     }
 }
 
-impl<S: System> System for Watched<'_, '_, S> {
+impl<S: System> System for Monitor<'_, '_, S> {
     type Part = S::Part;
 
     fn make_canonical(&self, state: &mut S::State) {
@@ -241,8 +241,8 @@ impl<S: System> System for Watched<'_, '_, S> {
     }
 }
 
-/// The same step, of the system that is watched.
-const fn of_system<'a, S: System>(turn: &Turn<'a, Watched<'_, '_, S>>) -> Turn<'a, S> {
+/// The step of the system that is watched.
+const fn of_system<'a, S: System>(turn: &Turn<'a, Monitor<'_, '_, S>>) -> Turn<'a, S> {
     let Turn { before, planned, after, plan, event, sent } = *turn;
     Turn { before, planned, after, plan, event, sent }
 }

@@ -3,13 +3,13 @@
 
 use core::mem;
 
-use super::note::{Label, Note, Notes, State};
+use super::note::{Label, Note, State};
 use super::rule::{Condition, Rule};
 use super::view::View;
 use crate::bricks::marking::blocks;
 use crate::bricks::rule as paper;
 use crate::choice::Oracle;
-use crate::floor::Ring;
+use crate::floor::{Floor, Ring};
 use crate::ground::{Cell, Side};
 
 /// Cells around that read as unexplored: in the last scan, in the last two, and so on.
@@ -238,12 +238,12 @@ fn least(notes: impl Iterator<Item = (Side, Note)>) -> Option<Side> {
 }
 
 /// Writes what an agent in `cell` has decided; where it is then.
-pub fn carry_out(rule: Rule, floor: &mut impl Notes, cell: Cell, act: &Act) -> Cell {
+pub fn carry_out(rule: Rule, floor: &mut impl Floor<Note>, cell: Cell, act: &Act) -> Cell {
     let Act { here, next } = *act;
-    floor.write(cell, here);
+    floor.put(cell, here);
     let Some(side) = next.side() else { return cell };
     let beyond = cell.beyond(side);
-    let there = floor.note(beyond).unwrap_or_default();
+    let there = floor.sensor(beyond).unwrap_or_default();
     let is_child = match next {
         Next::Goes(_) | Next::Waits | Next::Done => false,
         Next::Adopts(_) => true,
@@ -257,14 +257,14 @@ pub fn carry_out(rule: Rule, floor: &mut impl Notes, cell: Cell, act: &Act) -> C
     let is_new = found.state == State::Unexplored;
     let is_adopted = is_child && (is_new || matches!(next, Next::Adopts(_)));
     let entered = if is_adopted { child(rule, entered, here, side.opposite()) } else { entered };
-    floor.write(beyond, entered);
+    floor.put(beyond, entered);
     beyond
 }
 
 /// One action of `agent` in `cell`: what it did, and where it is then. Whether sensors are missed is asked of `world`.
 pub fn act(
     rule: Rule,
-    floor: &mut impl Notes,
+    floor: &mut impl Floor<Note>,
     agent: &mut Agent,
     cell: Cell,
     world: &mut (impl Oracle + ?Sized),

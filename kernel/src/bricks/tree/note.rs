@@ -2,8 +2,8 @@
 
 use core::hash::{Hash, Hasher};
 
-use crate::floor::Mark;
-use crate::ground::{Cell, Edge, Side};
+use crate::floor::{Floor, Mark};
+use crate::ground::{Cell, Side};
 
 /// The state of a cell's exploration.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -175,21 +175,11 @@ impl Hash for Note {
     }
 }
 
-/// The sensors of an area and the walls between them.
-pub trait Notes {
-    /// The note that the sensor in `cell` stores; `None` if the cell is a wall or outside.
-    fn note(&self, cell: Cell) -> Option<Note>;
-    /// Changes what the sensor in `cell` stores; no effect where there is none.
-    fn write(&mut self, cell: Cell, note: Note);
-    /// Whether no wall stands on `edge`, which is between two cells that have sensors.
-    fn is_open(&self, edge: Edge) -> bool;
-}
-
 /// Puts agents into the cells where they start.
-pub fn settle(floor: &mut impl Notes, starts: &[Cell]) {
+pub fn settle(floor: &mut impl Floor<Note>, starts: &[Cell]) {
     for &start in starts {
-        let note = floor.note(start).unwrap_or_default();
-        floor.write(start, note.entered());
+        let note = floor.sensor(start).unwrap_or_default();
+        floor.put(start, note.entered());
     }
 }
 

@@ -2,10 +2,10 @@
 
 use core::cmp::Reverse;
 
-use super::note::{Label, Note, Notes, State};
+use super::note::{Label, Note, State};
 use crate::bricks::agent::most_walled;
 use crate::choice::Oracle;
-use crate::floor::{COMPASS, Ring, Scan, Sensor};
+use crate::floor::{COMPASS, Floor, Ring, Scan, Sensor};
 use crate::ground::{Cell, Side};
 
 /// One scan: what the sensor underfoot stores, and what was seen around. A sensor that was missed reads as an unexplored cell.
@@ -28,21 +28,21 @@ pub struct View {
 impl View {
     /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an agent
     /// has been at.
-    pub fn new(floor: &impl Notes, cell: Cell, world: &mut (impl Oracle + ?Sized)) -> Self {
+    pub fn new(floor: &impl Floor<Note>, cell: Cell, world: &mut (impl Oracle + ?Sized)) -> Self {
         let sensor = |cell| {
             let sensor = |note: Note| Sensor { mark: note.mark(), ..Sensor::default() };
-            floor.note(cell).map(sensor)
+            floor.sensor(cell).map(sensor)
         };
         let scan = Scan::read(sensor, |edge| floor.is_open(edge), cell, world);
         let seen = scan.explored.or(scan.visited).and(scan.beside);
         let mut beside = [Note::default(); 4];
         for (note, side) in beside.iter_mut().zip(COMPASS) {
             if seen.has(side) {
-                *note = floor.note(cell.beyond(side)).unwrap_or_default();
+                *note = floor.sensor(cell.beyond(side)).unwrap_or_default();
             }
         }
         let known = scan.explored.or(scan.visited);
-        Self { here: floor.note(cell).unwrap_or_default(), scan, beside, known, doubted: Ring::default() }
+        Self { here: floor.sensor(cell).unwrap_or_default(), scan, beside, known, doubted: Ring::default() }
     }
 
     /// The side neighbours that were seen.

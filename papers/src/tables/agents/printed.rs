@@ -4,7 +4,7 @@ use super::super::paper;
 use super::super::prelude::*;
 use super::{Duration, Figure, Line, Summary, TEAMS, Team};
 
-/// The paper's numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
+/// The numbers that the paper prints: of Brick&Mortar in Fig. 11, and that Ants explore everything.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
     let [bricks, _, ants, ants_published, ..] = TEAMS;
     let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));

@@ -1,11 +1,20 @@
 //! The labels of two trees (BRICKS-14).
 
-use tautline_kernel::bricks::tree::Label;
+use tautline_kernel::bricks::tree::{Label, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
 
-use super::{Observed, Way};
+use crate::clause::NamedRule;
 use crate::engine::{Outcome, assume, require};
 use crate::plural::counted;
+use crate::step_checks;
+
+step_checks! { Rule;
+    labels_of_trees: labels, NamedRule::new("tree", Rule::TREE), pairs,
+        covers ["two trees of one agent", "trees of two agents"], unwind 10, mutants {
+            wrapping: "labels that come again" => Rule { label_bits: 0, ..Rule::TREE },
+            by_agent: "labels of 8 bits" => Rule { label_bits: 8, ..Rule::TREE },
+        };
+}
 
 /// How many trees an agent has founded before: the first ones, those around a byte more, and the last ones.
 const FOUNDED: [u32; 9] =
@@ -14,8 +23,8 @@ const FOUNDED: [u32; 9] =
 /// The ids of agents: the first, those around half of them, and the last.
 const IDS: [u8; 6] = [0, 1, 127, 128, 254, u8::MAX];
 
-/// What [`labels`] looks at.
-pub(super) fn pairs() -> String {
+/// The bound of [`labels`].
+fn pairs() -> String {
     let (founded, agents) = (FOUNDED.len() as u64, IDS.len() as u64);
     format!("any two of {} of {}", counted(founded, "tree"), counted(agents, "agent"))
 }
@@ -25,8 +34,7 @@ pub(super) fn pairs() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices are no two trees, or break the clause.
-pub(super) fn labels(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
-    let Way::Trees(rule) = observed.way else { return Ok("no trees") };
+fn labels(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     let mut tree = || (one_of(oracle, &FOUNDED), one_of(oracle, &IDS));
     let [one, other] = [tree(), tree()];
     assume(one != other)?;

@@ -1,0 +1,195 @@
+//! The checks of agents on small floors, whatever their scheme: which plans, how many agents, what they miss, whether
+//! they fail, and what is demanded of every state.
+
+use super::look::Report;
+use super::plans::Area;
+use super::team::{Demand, Demands, Series, Team, Turns};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use crate::engine::states::Limits;
+use crate::engine::{Choices, Script, ScriptError, Until};
+
+/// How the observer of a mutant is deceived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Deception {
+    /// Not at all.
+    None,
+    /// Agents beside each other scan and write at once.
+    ActsAtOnce,
+    /// Sensors do not count who enters a cell again.
+    CountsNothing,
+}
+
+/// A scheme whose agents are observed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Subject<S> {
+    pub(crate) scheme: S,
+    /// The deception of whoever observes the agents.
+    pub(crate) deception: Deception,
+}
+
+impl<S> Subject<S> {
+    /// Agents that follow `scheme`.
+    pub(crate) const fn of(scheme: S) -> Self {
+        Self { scheme, deception: Deception::None }
+    }
+}
+
+impl Series {
+    /// Every action one step, every schedule, nothing missed, nobody fails, no patience.
+    pub(crate) const fn new(area: Area, agents: u32) -> Self {
+        Self {
+            area,
+            agents,
+            max_misses: 0,
+            turns: Turns::Whole,
+            max_streak: None,
+            may_fail: false,
+            patience: 0,
+            most_crossings: None,
+        }
+    }
+
+    /// Some sensors missed.
+    pub(crate) const fn missing(area: Area, agents: u32, max_misses: u8) -> Self {
+        Self { max_misses, ..Self::new(area, agents) }
+    }
+
+    /// All agents but one may fail.
+    pub(crate) const fn failing(area: Area, agents: u32) -> Self {
+        Self { may_fail: true, ..Self::new(area, agents) }
+    }
+
+    /// Two agents, of which scanning and writing are two steps.
+    pub(crate) const fn taking_turns(area: Area) -> Self {
+        Self { turns: Turns::Overlapping, ..Self::new(area, 2) }
+    }
+
+    /// The teams of `subject`, one in each plan.
+    pub(crate) fn teams<S: Demands>(self, subject: &Subject<S>, demand: Demand<S::Own>) -> Vec<Team<S>> {
+        let series = match (subject.deception, self.turns) {
+            (Deception::ActsAtOnce, Turns::Overlapping) => Self { turns: Turns::Free, ..self },
+            (Deception::CountsNothing, _) => Self { most_crossings: Some(1), ..self },
+            (Deception::None | Deception::ActsAtOnce, _) => self,
+        };
+        let scheme = subject.scheme.with_patience(self.patience);
+        self.area.plans().map(|plan| Team { plan, scheme, series, demand }).collect()
+    }
+
+    /// The words for it in a bound, `who` standing for its agents.
+    pub(crate) fn words(self, who: &str) -> String {
+        let Self { area, agents, max_misses, turns, max_streak, may_fail, patience, most_crossings } = self;
+        let turns = match turns {
+            Turns::Whole => None,
+            Turns::Overlapping => Some("scans and writes in every order unless scans overlap".to_owned()),
+            Turns::Free => Some("scans and writes in every order".to_owned()),
+        };
+        let streak = max_streak.filter(|_| agents > 1);
+        let words = [
+            Some(format!("{agents}{who} to {area}")),
+            (max_misses > 0).then(|| format!("{max_misses} missed")),
+            (patience > 0).then(|| format!("patience {patience}")),
+            may_fail.then(|| "all but one may fail".to_owned()),
+            most_crossings.map(|most| format!("crossings counted to {most}")),
+            turns,
+            streak.map(|most| format!("at most {most} acts in a row")),
+        ];
+        words.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The small floors of a check, and what is demanded of every state of the agents on them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Floors<D: 'static> {
+    series: &'static [Series],
+    demand: Demand<D>,
+    /// Whether other clauses are about them, so that all demands are looked at in one pass.
+    is_shared: bool,
+}
+
+impl<D: Copy> Floors<D> {
+    /// Floors that one clause alone is about.
+    pub(crate) const fn new(series: &'static [Series], demand: Demand<D>) -> Self {
+        Self { series, demand, is_shared: false }
+    }
+
+    /// Floors that several clauses are about.
+    pub(crate) const fn shared(series: &'static [Series], demand: Demand<D>) -> Self {
+        Self { series, demand, is_shared: true }
+    }
+
+    /// These floors with the demands of all clauses that are about them, if these are several.
+    fn together(&self) -> Option<Self> {
+        self.is_shared.then_some(Self { demand: Demand::All, ..*self })
+    }
+
+    /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are
+    /// the numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in
+    /// small areas first.
+    fn explore<S: Demands<Own = D>>(
+        &self,
+        subject: &Subject<S>,
+        (limits, until): (Limits<'_>, Until),
+    ) -> Report {
+        let mut report = Report::new();
+        let mut series: Vec<(u32, &Series)> = (0..).zip(self.series).collect();
+        if until == Until::Violation {
+            series.sort_by_key(|(_, series)| (series.patience, series.area.cells()));
+        }
+        for (number, series) in series {
+            if report.add(number, &series.teams(subject, self.demand), (limits, until)) {
+                break;
+            }
+        }
+        report
+    }
+}
+
+impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        let series =
+            (0..).zip(self.series).map(|(place, series)| series.words(S::name(place, series.agents)));
+        series.chain(S::bounds()).collect::<Vec<_>>().join("; ")
+    }
+
+    fn family(&self, subject: &Subject<S>) -> Option<String> {
+        self.together().map(|together| format!("{together:?} {subject:?}"))
+    }
+
+    /// Looks at the demands of several clauses on the same floors in one pass. Where something is broken there, each
+    /// clause looks for its own first violation.
+    fn decide(
+        &self,
+        subject: &Subject<S>,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
+        let limits = Limits { room: desk.room, ..Limits::NONE };
+        let shown = Method::<Subject<S>>::shows(self);
+        let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
+            return Ok(self.explore(subject, (limits, until)).answer(shown));
+        };
+        let key = (together, *subject);
+        let report: Result<&Report, MethodError> =
+            desk.memory.recall(key, |(floors, subject)| Ok(floors.explore(subject, (limits, until))));
+        let report = report?.clone();
+        let is_kept = report.tally.violation.is_none();
+        Ok(if is_kept { report } else { self.explore(subject, (limits, until)) }.answer(shown))
+    }
+
+    fn replay(&self, subject: &Subject<S>, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let mut script = Script::new(choices);
+        let series = self.series[script.choose(self.series.len())?];
+        let teams = series.teams(subject, self.demand);
+        let team = &teams[script.choose(teams.len())?];
+        let mut starts: Vec<_> = team.starts().collect();
+        let number = script.choose(starts.len())?;
+        let start = starts.swap_remove(number);
+        let (of, run) = script.play(team, (number, start.clone()), |_| true)?;
+        let seen = Depiction::Agents(Box::new(team.course(start, &run)));
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
+}
