@@ -1,4 +1,4 @@
-//! What a person sees of a refutation, whoever has found it: `prove` as it decides, `replay` in a file.
+//! A refutation as a person sees it, whoever has found it: `prove` as it decides, `replay` in a file.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -18,7 +18,7 @@ use tautline_sim::named_values::NamedValues;
 /// A refutation as JSON.
 #[derive(JsonSchema, Serialize)]
 #[serde(untagged)]
-pub(super) enum Shown {
+pub(super) enum EvidenceJson {
     Choices {
         demand: &'static str,
         choices: Vec<u32>,
@@ -52,7 +52,7 @@ pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Ha
     Ok(Some(hunt::setup(scheme, rule, run).map_err(Diagnostic::from)?))
 }
 
-/// What anyone sees that a run breaks.
+/// The clause that anyone sees a run break.
 pub(super) fn breach(run: &Run) -> Option<ClauseId> {
     run.breaks.map(ClauseId::new)
 }
@@ -62,28 +62,28 @@ fn drawn(course: &Course) -> Result<String, Halt> {
     Ok(draw::story::of_course(course).map_err(Diagnostic::from)?)
 }
 
-/// What refutes a clause, as data.
-pub(super) fn shown(check: &dyn AnyCheck, evidence: &Evidence) -> Result<Shown, Halt> {
+/// The refutation of a clause, as data.
+pub(super) fn shown(check: &dyn AnyCheck, evidence: &Evidence) -> Result<EvidenceJson, Halt> {
     let Evidence { choices, demand, seen } = evidence;
     let demand = *demand;
     Ok(match seen {
         Depiction::Choices | Depiction::Story(_) => {
-            Shown::Choices { demand, choices: choices.once.clone(), again: choices.again.clone() }
+            EvidenceJson::Choices { demand, choices: choices.once.clone(), again: choices.again.clone() }
         }
         Depiction::Robots(run) => {
             let layout = setup(check, run)?.map_or_else(String::new, |setup| setup.layout.to_string());
-            Shown::Run { demand, walls: run.walls.len(), steps: run.frames.len(), layout }
+            EvidenceJson::Run { demand, walls: run.walls.len(), steps: run.frames.len(), layout }
         }
         Depiction::Agents(course) => {
-            Shown::Course { demand, turns: course.turns.len(), drawing: drawn(course)? }
+            EvidenceJson::Course { demand, turns: course.turns.len(), drawing: drawn(course)? }
         }
         Depiction::Messages { events, chart } => {
-            Shown::Chart { demand, events: *events, chart: chart.clone() }
+            EvidenceJson::Chart { demand, events: *events, chart: chart.clone() }
         }
     })
 }
 
-/// What refutes a clause, drawn.
+/// The refutation of a clause, drawn.
 pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<String, Halt> {
     let (id, rule, demand) = (clause.id, check.rule(), evidence.demand);
     Ok(match &evidence.seen {

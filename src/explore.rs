@@ -15,20 +15,19 @@ use tautline_proofs::plural::counted;
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
 use super::{
-    CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, progress, whole,
+    CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, number, positive, progress, whole,
 };
 use crate::value_parser::{self, chosen};
-use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::draw::page::Page;
-use tautline_sim::draw::svg;
+use tautline_sim::draw::{page, svg};
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
     Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Scheme, Senses, Setup,
-    Stopped, Violation, Watcher, explore, team,
+    Stopped, Violation, explore, team,
 };
 use tautline_sim::failures::Failures;
 use tautline_sim::layout::generate::Probability;
+use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
 use tautline_sim::trace::Summary;
 use tautline_sim::value_parser::probability;
@@ -41,6 +40,40 @@ Examples:
   tautline explore room-32-32-4.map --robots 16 --base 10,12 --format json
   tautline explore office:30x30:4x4 --scheme bricks --robots 20 --replay run.html
   tautline explore office:30x30:4x4 --scheme bricks-ants --robots 2 --miss 0.0556 --start 0,0 --start 29,29";
+
+#[derive(Debug, Args)]
+pub(super) struct LayoutArgs {
+    /// A layout file or a generator.
+    pub(super) layout: String,
+    /// The seed of whatever is left to chance. Without it 0.
+    #[arg(long, value_parser = number::<u64>)]
+    pub(super) seed: Option<u64>,
+    /// The image of a ROS map, in place of the one that it names.
+    #[arg(long, value_name = "FILE")]
+    pub(super) image: Option<PathBuf>,
+}
+
+impl LayoutArgs {
+    pub(super) fn seed(&self) -> u64 {
+        self.seed.unwrap_or(0)
+    }
+
+    /// The files that this is read from.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        layout::inputs(&self.layout, self.image.as_deref())
+    }
+
+    /// The layout.
+    pub(super) fn load(&self) -> Result<Layout, Diagnostic> {
+        layout::load(&self.layout, self.seed(), self.image.as_deref())
+    }
+
+    /// Whether a seed is given that the layout leaves unused.
+    pub(super) fn has_other_seed(&self) -> bool {
+        let is_random = || self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
+        self.seed.is_some() && !is_random()
+    }
+}
 
 /// Explore a layout once, and check every team move.
 #[derive(Debug, Args)]
@@ -68,7 +101,7 @@ pub(super) struct Explore {
     #[arg(help_heading = heading(|scheme| scheme.senses == Senses::Floor))]
     miss: Option<Probability>,
     #[command(flatten)]
-    told: Told,
+    told: SchemeOptions,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -83,7 +116,7 @@ pub(super) struct Explore {
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
-    /// What to draw. Without it the outcome is drawn, if the area is small.
+    /// The drawing to print. Without it the outcome is drawn, if the area is small.
     #[arg(long, value_enum)]
     draw: Option<Draw>,
     /// Store the drawing as a picture: the order, or with `--draw moves` every team move.
@@ -104,15 +137,15 @@ fn heading(is_told: impl Fn(&Profile) -> bool) -> String {
     }
 }
 
-/// What schemes can be told, each by an option of its own.
+/// The options of schemes, each by its own name.
 #[derive(Debug, Default)]
-struct Told {
+struct SchemeOptions {
     options: Options,
-    /// What is wrong, if something is told twice.
+    /// The fault, if something is told twice.
     wrong: Option<Wrong>,
 }
 
-impl Args for Told {
+impl Args for SchemeOptions {
     fn augment_args(command: Command) -> Command {
         command.args(Extra::ALL.map(|extra| {
             let heading = heading(|scheme| scheme.extras.contains(&extra));
@@ -137,7 +170,7 @@ impl Args for Told {
     }
 }
 
-impl FromArgMatches for Told {
+impl FromArgMatches for SchemeOptions {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         let mut told = Self::default();
         told.update_from_arg_matches(matches)?;
@@ -167,7 +200,7 @@ impl FromArgMatches for Told {
     }
 }
 
-/// What is drawn of a run.
+/// The drawing of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Draw {
     /// In each cell, in which team move it was explored.
@@ -203,16 +236,17 @@ impl Explore {
         if let Some(writer) = writer {
             out.keep(writer.end(&report));
         }
-        if let Some(page) = page {
-            play(page, &setup, &report, &(1..=report.steps), out)?;
+        if let Some(mut page) = page {
+            page::write(&mut page, &setup, &report, &(1..=report.steps))?;
+            out.keep(page);
         }
         viewers::store([itf, mcap], &setup, out)?;
         if let Some(mut picture) = picture {
             match self.draw {
-                Some(Draw::Moves) => picture.draw(panels(&setup, &report, &(1..=report.steps)))?,
+                Some(Draw::Moves) => picture.draw(svg::team_moves(&setup, &report, &(1..=report.steps)))?,
                 Some(Draw::Order) | None => {
                     let order = svg::order(&setup, &report.chart);
-                    picture.append(svg::picture(&draw::title_of(&setup), &[order]));
+                    picture.append(svg::picture(&setup.title(), &[order]));
                 }
             }
             out.keep(picture);
@@ -272,59 +306,6 @@ impl Explore {
     }
 }
 
-/// Team moves that a picture can hold.
-const MAX_PANELS: u32 = 200;
-
-/// Checks that a picture can hold a panel for each of `moves`.
-pub(super) fn check_panels(moves: &RangeInclusive<u32>) -> Result<(), Diagnostic> {
-    if moves.end().saturating_sub(*moves.start()) < MAX_PANELS {
-        return Ok(());
-    }
-    let what = format!("a picture of more than {MAX_PANELS} team moves");
-    Err(Diagnostic::usage(
-        what,
-        format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`"),
-    ))
-}
-
-/// Bytes of the panels that a picture can hold.
-const MAX_PANEL_BYTES: usize = 64 << 20;
-
-/// A picture of the team moves in `moves`, one panel each.
-pub(super) fn panels(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
-    check_panels(&(*moves.start()..=report.steps.min(*moves.end())))?;
-    let (mut panels, mut bytes) = (Vec::new(), 0);
-    among(run, moves, &mut |made| {
-        let panel = svg::team_move(run, &report.chart, made);
-        bytes += panel.bytes();
-        if bytes > MAX_PANEL_BYTES {
-            let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
-            return Err(Diagnostic::usage(what, "draw fewer team moves").into());
-        }
-        panels.push(panel);
-        Ok(())
-    })?;
-    Ok(svg::picture(&draw::title_of(run), &panels))
-}
-
-/// Stores a page that plays the team moves in `moves`.
-pub(super) fn play(
-    mut file: AtomicFile,
-    run: &dyn Play,
-    report: &Report,
-    moves: &RangeInclusive<u32>,
-    out: &mut Output,
-) -> Result<(), Halt> {
-    let mut page = Page::new(&mut file, run, report, moves);
-    among(run, &(1..=*moves.end()), &mut |made| {
-        page.add(made);
-        Ok(())
-    })?;
-    page.finish();
-    out.keep(file);
-    Ok(())
-}
-
 /// Draws the team moves in `moves`, a row at a time.
 pub(super) fn draw_moves(
     run: &dyn Play,
@@ -335,14 +316,14 @@ pub(super) fn draw_moves(
 ) -> Result<(), Halt> {
     let drawn = draw::TeamMoves::new(run, &report.chart);
     let mut columns = None;
-    among(run, moves, &mut |made| {
+    run.among(moves, &mut |made| {
         columns = columns.max(Some(drawn.columns(made, pose)));
         Ok(())
     })?;
     let Some(columns) = columns else { return Ok(()) };
     out.text(format_args!("\n{}\n\n", draw::legend(run.setup().scheme.look)))?;
     let mut rows = draw::Rows::new(columns);
-    among(run, moves, &mut |made| {
+    run.among(moves, &mut |made| {
         if out.is_gone() {
             return Ok(());
         }
@@ -351,33 +332,12 @@ pub(super) fn draw_moves(
     Ok(out.text(rows.rest())?)
 }
 
-/// Makes `run` as far as the last of `moves`, and lets `watch` see those.
-pub(super) fn among(
-    run: &dyn Play,
-    moves: &RangeInclusive<u32>,
-    watch: &mut Watcher<'_>,
-) -> Result<(), Halt> {
-    let mut is_over = false;
-    let made = run.play(&mut |made| {
-        is_over = made.step > *moves.end();
-        match (is_over, moves.contains(&made.step)) {
-            (true, _) => Err(Halt::Interrupted),
-            (false, true) => watch(made),
-            (false, false) => Ok(()),
-        }
-    });
-    match made {
-        Err(Halt::Interrupted) if is_over => Ok(()),
-        made => made.map(|_| ()),
-    }
-}
-
-/// What came of a run, in a few lines.
+/// The outcome of a run, in a few lines.
 pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     let percent = report.explored * 100 / report.cells;
     let mut text = format!(
         "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
-        draw::title_of(run),
+        run.setup().title(),
         place(run.setup()),
         counted(report.steps, "team move"),
         report.stopped.words(),
@@ -432,7 +392,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     text + &violations(report)
 }
 
-/// What has failed, in a line or two.
+/// The failures, in a line or two.
 fn failed(faults: &Failures) -> String {
     let Failures { lost_bytes, rounds, died, taken_back, home } = *faults;
     let mut text = String::new();

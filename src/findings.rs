@@ -1,4 +1,5 @@
-//! What a CI shows of a command: annotations, as GitHub reads them on stdout, and a JUnit file, as most others read it.
+//! The findings of a command as a CI shows them: annotations, as GitHub reads them on stdout, and a JUnit file, as
+//! most others read it.
 
 use std::fmt::Write;
 
@@ -6,7 +7,7 @@ use clap::{Args, ValueEnum};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::svg::escaped;
 
-/// What stdout gets of a command that decides something.
+/// The format of a command that decides something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(super) enum Format {
     /// For people.
@@ -20,7 +21,7 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// The same where nothing is decided.
+    /// This format where nothing is decided.
     ///
     /// # Errors
     /// A [`Diagnostic`] if only a decision has this format.
@@ -38,23 +39,23 @@ impl Format {
 
 #[derive(Debug, Args)]
 pub(super) struct FormatArgs {
-    /// What stdout gets.
+    /// How the result is printed.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: Format,
 }
 
 /// One thing that was decided.
 pub(super) struct Case {
-    /// What it is of: a family of clauses, or a scheme.
+    /// The family of clauses, or the scheme, that it is of.
     pub(super) class: String,
-    /// What was decided.
+    /// The name of what was decided.
     pub(super) name: String,
     pub(super) outcome: Outcome,
     /// How long it took, if that was measured.
     pub(super) seconds: Option<f64>,
 }
 
-/// What came of it.
+/// The outcome of a decision.
 pub(super) enum Outcome {
     /// As expected.
     Expected,

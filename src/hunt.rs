@@ -13,9 +13,9 @@ use tautline_proofs::decide::Verdict;
 
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::output::Output;
-use super::shards::{ShardArgs, Wanted};
+use super::shards::{Scope, ShardArgs};
 use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
-use crate::{report, shards, value_parser};
+use crate::{shards, value_parser};
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::story;
@@ -95,8 +95,8 @@ pub(super) struct Hunt {
     format: FormatArgs,
 }
 
-/// What came of a hunt, and where its counterexamples stand.
-struct Told<'a> {
+/// The outcome of a hunt, and where its counterexamples stand.
+struct Answer<'a> {
     asked: &'a Asked<'a>,
     hunted: &'a HuntReport,
     verdict: Verdict,
@@ -106,7 +106,7 @@ struct Told<'a> {
 
 /// The JSON of a hunt.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Printed<'a> {
+pub(super) struct HuntJson<'a> {
     scheme: Scheme,
     rule: RuleId,
     robots: u64,
@@ -119,12 +119,12 @@ pub(super) struct Printed<'a> {
     /// Where the hunt is kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<String>,
-    counterexamples: Vec<Stored<'a>>,
+    counterexamples: Vec<CounterexampleJson<'a>>,
 }
 
 /// A counterexample, and where it stands.
 #[derive(JsonSchema, Serialize)]
-struct Stored<'a> {
+struct CounterexampleJson<'a> {
     clause: &'static str,
     #[serde(flatten)]
     size: RunSize,
@@ -149,10 +149,6 @@ impl Hunter for Watcher<'_> {
         }
     }
 
-    fn is_not_kept(&mut self, fault: &Diagnostic) {
-        tracing::warn!("{}", report::with_flags(&fault.to_string()));
-    }
-
     fn is_left_out(&mut self, fault: &Diagnostic) {
         self.out.leave_out(fault);
     }
@@ -161,9 +157,9 @@ impl Hunter for Watcher<'_> {
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         match self.shard.wanted()? {
-            Wanted::All => self.hunt(out),
-            Wanted::Plan(path, shards) => self.plan(path, shards, out),
-            Wanted::Shard(path, shard) => {
+            Scope::All => self.hunt(out),
+            Scope::Plan(path, shards) => self.plan(path, shards, out),
+            Scope::Shard(path, shard) => {
                 let (plan, format) = (Plan::read(path)?, self.format.format.plain()?);
                 shards::run(&plan, shard, format, out, |far| {
                     let asked = Asked { budget: self.budget, ..hunted(&plan, CATALOGUE)? };
@@ -178,7 +174,7 @@ impl Hunt {
         let asked = self.asked();
         Plan::check(shards)?;
         let (of, dealt) = deal_hunt(&asked, shards)?;
-        let facts = Planned { moves: dealt.moves, of: dealt.of, left: &dealt.left };
+        let facts = PlanFacts { moves: dealt.moves, of: dealt.of, left: &dealt.left };
         let words = dealt.to_string();
         shards::plan(
             (path, shards),
@@ -203,11 +199,7 @@ impl Hunt {
         watcher.spinner.finish_and_clear();
         tracing::info!("hunted through {} in {:.3} s", hunted.through, start.elapsed().as_secs_f64());
         let replaceable = self.force.replaceable(self.resume.clone());
-        Found { asked: &asked, hunted: &hunted, folder: &self.out }.tell(
-            &replaceable,
-            self.format.format,
-            out,
-        )
+        tell((&asked, &hunted), (&self.out, &replaceable), self.format.format, out)
     }
 
     fn asked(&self) -> Asked<'_> {
@@ -227,42 +219,32 @@ impl Hunt {
     }
 }
 
-/// What a hunt has found, and the folder where it is to be stored.
-pub(super) struct Found<'a> {
-    pub(super) asked: &'a Asked<'a>,
-    pub(super) hunted: &'a HuntReport,
-    pub(super) folder: &'a Path,
-}
-
-impl Found<'_> {
-    /// Stores the counterexamples, and tells of them.
-    pub(super) fn tell(
-        &self,
-        replaceable: &Replaceable,
-        format: Format,
-        out: &mut Output,
-    ) -> Result<Exit, Halt> {
-        let &Self { asked, hunted, folder } = self;
-        let store = |quarry: &Finding| stored(quarry, folder, replaceable, out);
-        let files = hunted.found.iter().map(store).collect::<Result<_, _>>()?;
-        let verdict = match (hunted.found.is_empty(), hunted.is_complete) {
-            (false, _) => Verdict::Refuted,
-            (true, true) => Verdict::Holds,
-            (true, false) => Verdict::Open,
-        };
-        let told = Told { asked, hunted, verdict, files };
-        match format {
-            Format::Json => out.json(&told.printed())?,
-            Format::Text => out.text(told.text()?)?,
-            Format::Github => out.text(findings::github(&told.findings()?, &told.headline()))?,
-            Format::Junit => out.text(findings::junit("hunt", &told.findings()?))?,
-        }
-        Ok(match (hunted.is_complete, hunted.found.is_empty()) {
-            (false, _) => Exit::Unfinished,
-            (true, false) => Exit::Violation,
-            (true, true) => Exit::Expected,
-        })
+/// Stores the counterexamples of a hunt in `folder`, and tells what came of it.
+///
+/// # Errors
+/// [`Halt`] if a counterexample is no run, or nothing can be printed.
+pub(super) fn tell(
+    (asked, hunted): (&Asked<'_>, &HuntReport),
+    (folder, replaceable): (&Path, &Replaceable),
+    format: Format,
+    out: &mut Output,
+) -> Result<Exit, Halt> {
+    let store = |quarry: &Finding| stored(quarry, folder, replaceable, out);
+    let files = hunted.found.iter().map(store).collect::<Result<_, _>>()?;
+    let (verdict, exit) = match (hunted.found.is_empty(), hunted.is_complete) {
+        (false, true) => (Verdict::Refuted, Exit::Violation),
+        (false, false) => (Verdict::Refuted, Exit::Unfinished),
+        (true, true) => (Verdict::Holds, Exit::Expected),
+        (true, false) => (Verdict::Open, Exit::Unfinished),
+    };
+    let told = Answer { asked, hunted, verdict, files };
+    match format {
+        Format::Json => out.json(&told.printed())?,
+        Format::Text => out.text(told.text()?)?,
+        Format::Github => out.text(findings::github(&told.findings()?, &told.headline()))?,
+        Format::Junit => out.text(findings::junit("hunt", &told.findings()?))?,
     }
+    Ok(exit)
 }
 
 /// Stores a counterexample in `folder`, if it is one that a file tells; where it stands then.
@@ -277,23 +259,23 @@ fn stored(
     Ok(keep(file, out))
 }
 
-/// What is told of a plan, for programs.
+/// The facts of a plan, for programs.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Planned<'a> {
+pub(super) struct PlanFacts<'a> {
     moves: u64,
     of: &'static str,
     left: &'a [u64],
 }
 
-impl Told<'_> {
-    /// What a program is told.
-    fn printed(&self) -> Printed<'_> {
+impl Answer<'_> {
+    /// The outcome for a program.
+    fn printed(&self) -> HuntJson<'_> {
         let Self { asked, hunted, verdict, files } = self;
         let stored = |(quarry, file)| {
             let &Finding { clause, facts: size, .. } = quarry;
-            Stored { clause, size, file }
+            CounterexampleJson { clause, size, file }
         };
-        Printed {
+        HuntJson {
             scheme: asked.scheme,
             rule: asked.rule,
             robots: hunted.robots,
@@ -306,7 +288,7 @@ impl Told<'_> {
         }
     }
 
-    /// What was searched, and what follows from it.
+    /// The headline: what was searched, and what follows from it.
     fn headline(&self) -> String {
         let Asked { scheme, rule, .. } = self.asked;
         let HuntReport { title, outcome, .. } = self.hunted;
@@ -340,7 +322,7 @@ impl Told<'_> {
         Ok(findings)
     }
 
-    /// What a person is told.
+    /// The outcome for a person.
     fn text(&self) -> Result<String, Halt> {
         let mut text = self.headline();
         for (quarry, file) in self.hunted.found.iter().zip(&self.files) {

@@ -119,7 +119,7 @@ const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::
 
 /// The JSON of trials.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Located<'a> {
+pub(super) struct TrialsJson<'a> {
     #[serde(flatten)]
     setting: &'a Setting,
     #[serde(flatten)]
@@ -128,7 +128,7 @@ pub(super) struct Located<'a> {
 
 /// The JSON of measurements.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Fixes<'a> {
+pub(super) struct FixesJson<'a> {
     solver: Solver,
     noise_db: f64,
     exponent: f64,
@@ -183,7 +183,7 @@ impl Locate {
             out.keep(picture);
         }
         match self.format.format {
-            Format::Json => out.json(&Located { setting: &setting, report: &report })?,
+            Format::Json => out.json(&TrialsJson { setting: &setting, report: &report })?,
             Format::Text => {
                 out.text(text(&setting, &report))?;
                 if self.advice {
@@ -217,7 +217,7 @@ impl Locate {
         match self.format.format {
             Format::Json => {
                 let (noise_db, exponent) = (self.noise_db, self.exponent.exponent());
-                out.json(&Fixes { solver: self.solver, noise_db, exponent, found: &found })?;
+                out.json(&FixesJson { solver: self.solver, noise_db, exponent, found: &found })?;
             }
             Format::Text => out.text(positions(&found))?,
         }

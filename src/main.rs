@@ -49,8 +49,7 @@ use tautline_sim::diagnostic::{Diagnostic, Halt};
 #[cfg(not(feature = "papers"))]
 use tautline_sim::explore::Catalogue;
 use tautline_sim::explore::ClauseId;
-use tautline_sim::explore::catalogue::NoClause;
-use tautline_sim::layout::{self, Generator, Layout, Size};
+use tautline_sim::layout::Size;
 use tautline_sim::value_parser::{number, real, whole};
 
 /// The schemes of this program: without the papers, the chain has no rivals.
@@ -94,13 +93,13 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// What the exit codes say, for the help, the manual pages and the documents.
+/// The meaning of the exit codes, for the help, the manual pages and the documents.
 const EXIT_CODES: &str = "\
 0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, Ctrl-C, \
 SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 4 a merge has gaps · 70 a bug of \
 ours. Where several apply, the code is the first of 70, 2, 4, 3, 1, 0. With --exit-zero 1 is 0.";
 
-/// What becomes of files.
+/// The fate of files.
 const FILES: &str = "\
 Files stand in their places whole or not at all, those of one command together at its end. Only a process that is killed \
 (SIGKILL) can leave a file .tautline-….part behind, which nobody needs.";
@@ -147,7 +146,7 @@ enum Command {
     Man(manual::Manual),
 }
 
-/// What stdout gets.
+/// How the result is printed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Format {
     /// For people.
@@ -161,43 +160,9 @@ const SCHEMA_VERSION: u32 = 1;
 
 #[derive(Debug, Args)]
 struct FormatArgs {
-    /// What stdout gets.
+    /// How the result is printed.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-}
-
-#[derive(Debug, Args)]
-struct LayoutArgs {
-    /// A layout file or a generator.
-    layout: String,
-    /// The seed of whatever is left to chance. Without it 0.
-    #[arg(long, value_parser = number::<u64>)]
-    seed: Option<u64>,
-    /// The image of a ROS map, in place of the one that it names.
-    #[arg(long, value_name = "FILE")]
-    image: Option<PathBuf>,
-}
-
-impl LayoutArgs {
-    fn seed(&self) -> u64 {
-        self.seed.unwrap_or(0)
-    }
-
-    /// The files that this is read from.
-    fn inputs(&self) -> Vec<PathBuf> {
-        layout::inputs(&self.layout, self.image.as_deref())
-    }
-
-    /// The layout.
-    fn load(&self) -> Result<Layout, Diagnostic> {
-        layout::load(&self.layout, self.seed(), self.image.as_deref())
-    }
-
-    /// Whether a seed is given that the layout leaves unused.
-    fn has_other_seed(&self) -> bool {
-        let is_random = || self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
-        self.seed.is_some() && !is_random()
-    }
 }
 
 /// An option that can have no effect.
@@ -205,7 +170,7 @@ fn needless(option: &str, why: &str) -> Diagnostic {
     Diagnostic::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out"))
 }
 
-/// What is done about files that stand where others are to be stored.
+/// The choice about files that stand where others are to be stored.
 #[derive(Debug, Args)]
 struct ForceArgs {
     /// Also replace files that tautline did not write. A file that the command reads is never replaced.
@@ -214,7 +179,7 @@ struct ForceArgs {
 }
 
 impl ForceArgs {
-    /// What a command may replace that reads these files.
+    /// The files that a command may replace which reads `inputs`.
     fn replaceable(&self, inputs: impl IntoIterator<Item = PathBuf>) -> Replaceable {
         Replaceable::new(if self.force { Foreign::Replace } else { Foreign::Keep }, inputs)
     }
@@ -232,7 +197,7 @@ impl ForceArgs {
         AtomicFile::several(paths.map(Option::as_deref), &self.replaceable(inputs))
     }
 
-    /// The same of as many files as there may be, of a command that reads none.
+    /// The files that a command stores, as many as there may be, if it reads none.
     ///
     /// # Errors
     /// As of [`ForceArgs::files`].
@@ -287,7 +252,7 @@ impl FromStr for SizeArg {
 
 /// The id of a clause that a run can break.
 fn clause(id: &str) -> Result<ClauseId, String> {
-    CATALOGUE.clause(&id.to_ascii_uppercase()).map_err(|none: NoClause| format!("{none}; {}", none.remedy()))
+    CATALOGUE.clause(&id.to_ascii_uppercase()).map_err(|fault| fault.to_string())
 }
 
 /// A whole number above 0.

@@ -45,7 +45,7 @@ pub(super) struct Minimise {
 }
 
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Minimised {
+pub(super) struct MinimiseJson {
     scheme: Scheme,
     rule: RuleId,
     clause: ClauseId,
@@ -95,11 +95,11 @@ impl Minimise {
         Ok(Exit::Expected)
     }
 
-    fn store(&self, minimal: &Minimal, out: &mut Output) -> Result<(Minimised, Report), Halt> {
+    fn store(&self, minimal: &Minimal, out: &mut Output) -> Result<(MinimiseJson, Report), Halt> {
         let Minimal { setup, clause, before, after, runs } = minimal;
         let replaceable = self.force.replaceable([self.file.clone()]);
         let (aside, report) = store(&self.out, setup, *clause, &replaceable)?;
-        let minimised = Minimised {
+        let minimised = MinimiseJson {
             scheme: setup.scheme,
             rule: setup.rule,
             clause: *clause,
@@ -112,8 +112,8 @@ impl Minimise {
     }
 }
 
-fn tell(name: &str, minimised: &Minimised) -> String {
-    let Minimised { scheme, rule, clause, before, after, runs, file: _ } = minimised;
+fn tell(name: &str, minimised: &MinimiseJson) -> String {
+    let MinimiseJson { scheme, rule, clause, before, after, runs, file: _ } = minimised;
     let mut text = format!("{} ({rule}), {clause}: {name}\n\n               before   after\n", scheme.name);
     let rows = [
         ("robots", before.robots.to_string(), after.robots.to_string()),

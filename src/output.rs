@@ -1,4 +1,4 @@
-//! What a command gives: text on stdout, and files. A reader that has gone away, as in `tautline … | head`, ends the
+//! The output of a command: text on stdout, and files. A reader that has gone away, as in `tautline … | head`, ends the
 //! printing and not the work, so that the exit code is that of the whole. A file that cannot be stored is left out, and
 //! nothing else.
 
@@ -10,18 +10,18 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{SCHEMA_VERSION, complain};
-use tautline_sim::atomic_file::{self, AtomicFile, Finished};
+use tautline_sim::atomic_file::{self, AtomicFile, FinishedFile};
 use tautline_sim::diagnostic::Diagnostic;
 
 pub(super) struct Output {
     /// Unless its reader has gone away.
     stdout: Option<BufWriter<StdoutLock<'static>>>,
     /// Files that are written to their ends, and stand in their places when the command ends: all, or none of them.
-    files: Vec<Finished>,
+    files: Vec<FinishedFile>,
     has_left_out: bool,
 }
 
-/// What every JSON object begins with.
+/// The beginning of every JSON object.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct Versioned<'a, T> {
     schema_version: u32,

@@ -17,7 +17,7 @@ use tautline_proofs::decide::{Depiction, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
-use super::evidence::{self, Shown, shown};
+use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::keep;
 use super::output::Output;
@@ -101,7 +101,7 @@ struct Line {
     given_up: u64,
     verdict: &'static str,
     registered: &'static str,
-    counterexample: Option<Shown>,
+    counterexample: Option<EvidenceJson>,
     /// Where it is stored, if it is.
     file: Option<String>,
     mutants: Mutants,
@@ -317,7 +317,7 @@ fn stored(
     Ok(keep(file, out))
 }
 
-/// What one sees in a counterexample, and where it is stored.
+/// The story of a counterexample, and where it is stored.
 fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
     let Some(evidence) = &row.decision.counterexample else { return Ok(String::new()) };
     let story = evidence::story(row.clause, row.check, evidence)?;

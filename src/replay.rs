@@ -16,8 +16,8 @@ use tautline_proofs::judge::chain::{Exhibit, judge, judges};
 use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
 
-use super::evidence::{Shown, setup, shown, story};
-use super::explore::{among, check_panels, draw_moves, panels, play, summary};
+use super::evidence::{EvidenceJson, setup, shown, story};
+use super::explore::{draw_moves, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
@@ -27,11 +27,9 @@ use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::counterexample::judge_input::{exhibit, of_agent, of_course, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::draw;
-use tautline_sim::draw::page::in_words;
-use tautline_sim::draw::svg;
+use tautline_sim::draw::{self, page, svg};
 use tautline_sim::explore::{ClauseId, Judge, Play, Report, Setup, team};
-use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Summary, Trace, lines};
+use tautline_sim::trace::{self, ForeignRun, StoredMove, StoredRun, Summary, Trace, lines};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,8 +61,8 @@ pub(super) struct Replay {
     format: FormatArgs,
 }
 
-/// What is stored of a run.
-struct Stores {
+/// The files in which a run is stored.
+struct RunFiles {
     page: Option<AtomicFile>,
     picture: Option<AtomicFile>,
     viewers: ViewerFiles,
@@ -85,7 +83,7 @@ impl FromStr for Moves {
     }
 }
 
-/// What can be replayed.
+/// The remedy that names the files that can be replayed.
 const REPLAYABLE: &str = "name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt`, \
                           `tautline minimise` or `tautline prove --out` wrote";
 
@@ -96,7 +94,7 @@ const SHOWN: u32 = 100;
 const MAX_JUDGED: usize = 1 << 22;
 
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Replayed<'a> {
+pub(super) struct ReplayJson<'a> {
     #[serde(flatten)]
     run: Summary<'a>,
     /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
@@ -105,39 +103,40 @@ pub(super) struct Replayed<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     is_rule_run: Option<bool>,
     #[schemars(with = "Vec<StoredMove>")]
-    moves: ShownMoves<'a>,
+    moves: MovesJson<'a>,
 }
 
 /// Team moves of a run, made one by one as they are written.
-struct ShownMoves<'a> {
+struct MovesJson<'a> {
     run: &'a dyn Play,
     moves: &'a RangeInclusive<u32>,
 }
 
-impl Serialize for ShownMoves<'_> {
+impl Serialize for MovesJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut list = serializer.serialize_seq(None)?;
         let mut written = Ok(());
-        among(self.run, self.moves, &mut |made| {
-            if written.is_ok() {
-                written = list.serialize_element(&StoredMove::new(made.step, made.frame));
-            }
-            Ok(())
-        })
-        .map_err(|_| S::Error::custom("the run cannot be made again"))?;
+        self.run
+            .among(self.moves, &mut |made| {
+                if written.is_ok() {
+                    written = list.serialize_element(&StoredMove::new(made.step, made.frame));
+                }
+                Ok(())
+            })
+            .map_err(|_| S::Error::custom("the run cannot be made again"))?;
         written?;
         list.end()
     }
 }
 
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Refuted {
+pub(super) struct RefutationJson {
     file: String,
     counterexample_to: &'static str,
     rule: &'static str,
     engine: &'static str,
     bound: String,
-    counterexample: Shown,
+    counterexample: EvidenceJson,
     /// Whether a judge who shares no code with the rule has accepted it.
     is_judged: bool,
 }
@@ -161,27 +160,27 @@ impl Replay {
                 self.run_refutation(page, out)
             }
             Some(trace::FORMAT) => {
-                self.run_stored(trace::open(&self.file, CATALOGUE)?, Stores { page, picture, viewers }, out)
+                self.run_stored(trace::open(&self.file, CATALOGUE)?, RunFiles { page, picture, viewers }, out)
             }
             Some(_) | None => {
                 let foreign = |fault: Diagnostic| fault.with_remedy(REPLAYABLE);
                 self.run_stored(
                     trace::open(&self.file, CATALOGUE).map_err(foreign)?,
-                    Stores { page, picture, viewers },
+                    RunFiles { page, picture, viewers },
                     out,
                 )
             }
         }
     }
 
-    fn run_stored(&self, stored: Stored, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_stored(&self, stored: StoredRun, files: RunFiles, out: &mut Output) -> Result<Exit, Halt> {
         match stored {
-            Stored::Known(trace) => self.run_team(trace, files, out),
-            Stored::Foreign(run) => self.run_recorded(&run, files, out),
+            StoredRun::Known(trace) => self.run_team(trace, files, out),
+            StoredRun::Foreign(run) => self.run_recorded(&run, files, out),
         }
     }
 
-    fn run_team(&self, trace: Trace, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_team(&self, trace: Trace, files: RunFiles, out: &mut Output) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         self.check_drawing(team(&setup)?.area(&setup.layout), &files)?;
         let judge = clause.and_then(|clause| setup.scheme.clause(clause)?.judge);
@@ -215,11 +214,11 @@ impl Replay {
             (None, None) => false,
         };
         let said = clause.map(|clause| said(clause.as_str(), is_judged));
-        self.show(&setup, &report, clause, Told { said, is_rule_run: None }, files, out)
+        self.show(&setup, &report, clause, Remarks { said, is_rule_run: None }, files, out)
     }
 
     /// A run of a scheme that this program does not know, as it was written.
-    fn run_recorded(&self, run: &Recorded, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_recorded(&self, run: &ForeignRun, files: RunFiles, out: &mut Output) -> Result<Exit, Halt> {
         let Setup { scheme, rule, layout, .. } = run.setup();
         let scheme = scheme.name;
         self.check_drawing(layout.size().area(), &files)?;
@@ -235,20 +234,20 @@ impl Replay {
             run,
             &report,
             run.clause,
-            Told { said: Some(said + &named), is_rule_run: Some(false) },
+            Remarks { said: Some(said + &named), is_rule_run: Some(false) },
             files,
             out,
         )
     }
 
     /// Checks that a page and a picture can hold what they are to show of `area`.
-    fn check_drawing(&self, area: Area, files: &Stores) -> Result<(), Diagnostic> {
-        let Stores { page, picture, .. } = files;
+    fn check_drawing(&self, area: Area, files: &RunFiles) -> Result<(), Diagnostic> {
+        let RunFiles { page, picture, .. } = files;
         if page.is_some() || picture.is_some() {
             svg::check_size(area)?;
         }
         match (picture, &self.moves) {
-            (Some(_), Some(Moves(moves))) => check_panels(moves),
+            (Some(_), Some(Moves(moves))) => svg::check_moves(moves),
             _ => Ok(()),
         }
     }
@@ -259,19 +258,20 @@ impl Replay {
         run: &dyn Play,
         report: &Report,
         clause: Option<ClauseId>,
-        told: Told,
-        Stores { page, picture, viewers }: Stores,
+        told: Remarks,
+        RunFiles { page, picture, viewers }: RunFiles,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let is_drawn = page.is_none() && picture.is_none();
         let moves = self.moves(report);
-        if let Some(page) = page {
+        if let Some(mut page) = page {
             let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
-            play(page, run, report, &moves, out)?;
+            page::write(&mut page, run, report, &moves)?;
+            out.keep(page);
         }
         if let Some(mut picture) = picture {
             let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
-            picture.draw(panels(run, report, &moves))?;
+            picture.draw(svg::team_moves(run, report, &moves))?;
             out.keep(picture);
         }
         viewers::store(viewers, run, out)?;
@@ -279,8 +279,8 @@ impl Replay {
         match self.format.format {
             Format::Json => {
                 let summary = Summary::new(run, &name, report);
-                let moves = ShownMoves { run, moves: &moves };
-                out.json(&Replayed {
+                let moves = MovesJson { run, moves: &moves };
+                out.json(&ReplayJson {
                     run: summary,
                     counterexample_to: clause,
                     is_rule_run: told.is_rule_run,
@@ -324,7 +324,7 @@ impl Replay {
             store_page(page, clause, check, &evidence, &story, out)?;
         }
         match self.format.format {
-            Format::Json => out.json(&Refuted {
+            Format::Json => out.json(&RefutationJson {
                 file: self.file.display().to_string(),
                 counterexample_to: clause.id,
                 rule,
@@ -396,8 +396,8 @@ impl Replay {
     }
 }
 
-/// Stores the page of a refutation: it plays the run that breaks the clause if the program can make it, and else tells
-/// the story.
+/// RunFiles the page of a refutation: it plays the run that breaks the clause if the program can make it, and else
+/// tells the story.
 fn store_page(
     mut page: AtomicFile,
     clause: &Clause,
@@ -411,17 +411,19 @@ fn store_page(
     {
         let report = setup.play(&mut |_| Ok(()))?;
         if report.violations.iter().any(|broken| broken.clause.as_str() == clause.id) {
-            return play(page, &setup, &report, &(1..=report.steps), out);
+            page::write(&mut page, &setup, &report, &(1..=report.steps))?;
+            out.keep(page);
+            return Ok(());
         }
     }
     let title = format!("{} as {}", clause.id, check.rule());
-    page.append(in_words(&title, &format!("{}: {}", clause.id, clause.sentence), story));
+    page.append(page::in_words(&title, &format!("{}: {}", clause.id, clause.sentence), story));
     out.keep(page);
     Ok(())
 }
 
-/// What is told of a run besides what came of it.
-struct Told {
+/// The words about a run besides its outcome.
+struct Remarks {
     /// Lines of text.
     said: Option<String>,
     is_rule_run: Option<bool>,
@@ -445,7 +447,7 @@ pub(super) fn draw(
 ) -> Result<(), Halt> {
     draw_moves(run, report, moves, draw::Pose::After, out)?;
     if report.violations.iter().any(|violation| moves.contains(&violation.step)) {
-        among(run, moves, &mut |made| {
+        run.among(moves, &mut |made| {
             if made.broken.is_empty() || out.is_gone() {
                 return Ok(());
             }

@@ -2,6 +2,7 @@
 
 use ariadne::{Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
 use tautline_sim::diagnostic::{Diagnostic, Excerpt, Place};
+use tautline_sim::options::Extra;
 
 /// Beyond this line the spot is not drawn: the drawing counts lines from the first.
 const MAX_DRAWN_LINE: usize = 1 << 20;
@@ -15,11 +16,10 @@ pub(crate) enum Colour {
     Plain,
 }
 
-/// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 35] = [
+/// The fields of a request that have a flag of the same name, besides those that are told by an [`Extra`].
+const FIELDS: [&str; 25] = [
     "seed",
     "miss",
-    "speeds",
     "robots",
     "base",
     "size",
@@ -37,17 +37,8 @@ const FIELDS: [&str; 35] = [
     "budget",
     "max-losses",
     "error",
-    "range",
-    "loss",
-    "noise-db",
     "power-dbm",
     "exponent",
-    "speed",
-    "sight",
-    "wall",
-    "fail",
-    "spread",
-    "threshold",
     "rule",
     "plan",
     "shards",
@@ -57,10 +48,10 @@ const FIELDS: [&str; 35] = [
 /// `words` with the flags of the fields that they name.
 pub(crate) fn with_flags(words: &str) -> String {
     let flag = |words: String, field| words.replace(&format!("`{field}`"), &format!("--{field}"));
-    FIELDS.iter().fold(words.to_owned(), flag)
+    FIELDS.into_iter().chain(Extra::ALL.map(|extra| extra.field)).fold(words.to_owned(), flag)
 }
 
-/// What is wrong. Only where it is asked for something are the words our own; elsewhere they may quote a file.
+/// The fault in words. Only where it is asked for something are the words our own; elsewhere they may quote a file.
 fn what(fault: &Diagnostic) -> String {
     match fault.place() {
         Place::Request { .. } => with_flags(fault.what()),

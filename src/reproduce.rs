@@ -36,7 +36,7 @@ Examples:
 #[command(subcommand_value_name = "ID", subcommand_help_heading = "Tables")]
 pub(super) struct Reproduce {
     #[command(subcommand)]
-    table: Option<Wanted>,
+    table: Option<Request>,
     /// A plan, as `reproduce ID --plan FILE --shards N` makes it.
     #[arg(long, value_name = "FILE", requires = "shard")]
     plan: Option<PathBuf>,
@@ -49,7 +49,7 @@ pub(super) struct Reproduce {
 
 /// A table, and what is asked of it.
 #[derive(Debug)]
-struct Wanted {
+struct Request {
     table: &'static dyn Entry,
     /// The options that are given, with their values.
     given: Vec<(String, Vec<String>)>,
@@ -64,14 +64,14 @@ struct Wanted {
 }
 
 #[derive(JsonSchema, Serialize)]
-struct Listed {
+struct ListItem {
     id: &'static str,
     shows: &'static str,
 }
 
 #[derive(JsonSchema, Serialize)]
 pub(super) struct List {
-    reproductions: Vec<Listed>,
+    reproductions: Vec<ListItem>,
 }
 
 impl Reproduce {
@@ -91,12 +91,12 @@ impl Reproduce {
 
     fn list(&self, out: &mut Output) -> Result<Exit, Halt> {
         let about = TABLES.iter().map(|table| table.about());
-        let reproductions: Vec<Listed> =
-            about.map(|about| Listed { id: about.id, shows: about.shows }).collect();
+        let reproductions: Vec<ListItem> =
+            about.map(|about| ListItem { id: about.id, shows: about.shows }).collect();
         match self.format.format {
             Format::Json => out.json(&List { reproductions })?,
             Format::Text => {
-                for Listed { id, shows } in reproductions {
+                for ListItem { id, shows } in reproductions {
                     out.text(format_args!("{id}: {shows}\n"))?;
                 }
             }
@@ -105,7 +105,7 @@ impl Reproduce {
     }
 }
 
-impl Wanted {
+impl Request {
     fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let asked = self.table.asked(&self.given)?;
         if let Some((path, shards)) = &self.dealt {
@@ -126,13 +126,13 @@ impl Wanted {
         let (of, deal, jobs) = deal_table(self.table.about().id, asked)?;
         let words = format!("{} for {}.", counted(jobs, "job"), counted(shards, "shard"));
         let how = (&self.force, self.format.format);
-        shards::plan((path, shards), (of, &deal), (&Planned { jobs }, &words), how, out)
+        shards::plan((path, shards), (of, &deal), (&PlanFacts { jobs }, &words), how, out)
     }
 }
 
-/// What is told of a plan, for programs.
+/// The facts of a plan, for programs.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Planned {
+pub(super) struct PlanFacts {
     jobs: usize,
 }
 
@@ -182,7 +182,7 @@ pub(super) fn tell(made: &dyn Report, files: Files, format: Format, out: &mut Ou
     Ok(if made.is_broken() { Exit::Violation } else { Exit::Expected })
 }
 
-impl Subcommand for Wanted {
+impl Subcommand for Request {
     fn augment_subcommands(command: Command) -> Command {
         TABLES.iter().fold(command, |command, &table| command.subcommand(subcommand(table)))
     }
@@ -196,7 +196,7 @@ impl Subcommand for Wanted {
     }
 }
 
-impl FromArgMatches for Wanted {
+impl FromArgMatches for Request {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         let missing = || Error::raw(ErrorKind::MissingSubcommand, "an id of a table is missing");
         let (id, matches) = matches.subcommand().ok_or_else(missing)?;

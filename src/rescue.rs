@@ -103,7 +103,7 @@ pub(super) struct Rescue {
     /// The first and the last seed, or only one. Each is a rescue.
     #[arg(long, value_name = "A..B", default_value = "0..99")]
     seeds: Seeds,
-    /// What lies between a sender and those who hear it.
+    /// The channel between a sender and those who hear it.
     #[arg(long, value_parser = chosen::<ChannelName>(), default_value = "ideal")]
     channel: ChannelName,
     /// How likely it is that a message is lost, on each link anew, from 0 to 1.
@@ -194,7 +194,7 @@ impl Seeds {
 
 /// The JSON of rescues.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Rescued<'a> {
+pub(super) struct RescueJson<'a> {
     #[serde(flatten)]
     setting: &'a Setting,
     /// The first and the last.
@@ -203,7 +203,7 @@ pub(super) struct Rescued<'a> {
     judged: [&'static str; Demand::ALL.len()],
     #[serde(flatten)]
     summary: &'a Summary,
-    /// What happened, of one rescue alone.
+    /// The events, of one rescue alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     events: Option<&'a [LogEntry]>,
 }
@@ -265,7 +265,7 @@ impl Rescue {
     }
 }
 
-/// What is stored of a rescue.
+/// The files in which a rescue is stored.
 pub(super) struct Files {
     /// Itself.
     pub(super) trace: Option<AtomicFile>,
@@ -324,7 +324,7 @@ fn events_each(setting: &Setting) -> String {
     }
 }
 
-/// What is counted when fates are: where each WFR has one event, WFRs.
+/// The noun for what has a fate: where each WFR has one event, WFRs.
 const fn counted_as(setting: &Setting) -> &'static str {
     match setting.events_per_wfr {
         1 => "WFRs",
@@ -341,7 +341,7 @@ fn print(
     (summary, report): (&Summary, Option<&Report>),
 ) -> Result<Exit, Halt> {
     match format {
-        Format::Json => out.json(&Rescued {
+        Format::Json => out.json(&RescueJson {
             setting,
             seeds: [*seeds.start(), *seeds.end()],
             judged: Demand::ALL.map(Demand::clause),
@@ -461,7 +461,7 @@ fn table(setting: &Setting, summary: &Summary) -> String {
     text
 }
 
-/// What is said where nothing is broken: of which clauses that was looked at.
+/// The line that says that nothing is broken, and which clauses were looked at.
 fn none_broken() -> String {
     let [first, .., last] = Demand::ALL.map(Demand::clause);
     format!("none of {first} to {last} is broken")
@@ -470,7 +470,7 @@ fn none_broken() -> String {
 /// Of so many calls of one WFR, with nothing but calls between them, all are told.
 const CALLS_TOLD: u32 = 3;
 
-/// What happened, event by event. Of more calls that come to nothing the first and the last are told.
+/// The story of a rescue, event by event. Of more calls that come to nothing the first and the last are told.
 fn story(log: &[LogEntry]) -> String {
     let calls =
         |logged: &LogEntry| if let Event::Calls { wfr, .. } = logged.event { Some(wfr) } else { None };

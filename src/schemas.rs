@@ -33,26 +33,26 @@ enum Either<A, B> {
 fn schemas() -> Vec<(String, Value)> {
     let commands = [
         ("prove", printed::<prove::Ledger>("tautline prove")),
-        ("hunt", printed::<hunt::Printed<'_>>("tautline hunt, and tautline merge of a hunt")),
+        ("hunt", printed::<hunt::HuntJson<'_>>("tautline hunt, and tautline merge of a hunt")),
         (
             "plan",
-            printed::<shards::Planned<'_, Either<hunt::Planned<'_>, reproduce::Planned>>>(
+            printed::<shards::PlanJson<'_, Either<hunt::PlanFacts<'_>, reproduce::PlanFacts>>>(
                 "tautline hunt or reproduce with --shards",
             ),
         ),
-        ("shard", printed::<shards::Told>("tautline hunt or reproduce with --shard")),
+        ("shard", printed::<shards::ShardJson>("tautline hunt or reproduce with --shard")),
         ("explore", printed::<Summary<'_>>("tautline explore")),
         (
             "replay",
-            printed::<Either<replay::Replayed<'_>, replay::Refuted>>(
+            printed::<Either<replay::ReplayJson<'_>, replay::RefutationJson>>(
                 "tautline replay of a run of a team, or of a refutation",
             ),
         ),
-        ("minimise", printed::<minimise::Minimised>("tautline minimise")),
-        ("rescue", printed::<rescue::Rescued<'_>>("tautline rescue, and tautline replay of a rescue")),
-        ("locate", printed::<Either<locate::Located<'_>, locate::Fixes<'_>>>("tautline locate")),
-        ("show", printed::<show::Shown<'_>>("tautline show")),
-        ("show-environments", printed::<show::ShownEnvironments>("tautline show environments")),
+        ("minimise", printed::<minimise::MinimiseJson>("tautline minimise")),
+        ("rescue", printed::<rescue::RescueJson<'_>>("tautline rescue, and tautline replay of a rescue")),
+        ("locate", printed::<Either<locate::TrialsJson<'_>, locate::FixesJson<'_>>>("tautline locate")),
+        ("show", printed::<show::LayoutJson<'_>>("tautline show")),
+        ("show-environments", printed::<show::EnvironmentsJson>("tautline show environments")),
         ("reproduce", printed::<reproduce::List>("tautline reproduce")),
     ];
     let commands = commands.into_iter().map(|(name, schema)| (name.to_owned(), schema));

@@ -1,7 +1,6 @@
 //! Work dealt out to many machines: a plan, one of its shards, and `tautline merge`, which makes one of them all.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use clap::Args;
 #[cfg(feature = "papers")]
@@ -11,12 +10,12 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 #[cfg(feature = "papers")]
 use tautline_papers::shards::{merge_table, restored};
+use tautline_sim::checkpoint::{Checkpoint, Facts, Part};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::resumable::{Facts, KEEP_EVERY, Resumable};
-use tautline_sim::shards::{Gap, Keeper, Of, Plan, hunted, merge_hunt};
+use tautline_sim::shards::{Gap, Plan, Work, hunted, merge_hunt};
 
 use super::findings::FormatArgs;
-use super::hunt::{Found, check_folder, shown};
+use super::hunt::{self, check_folder, shown};
 use super::output::Output;
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
@@ -43,8 +42,8 @@ pub(super) struct ShardArgs {
     pub(super) shard: Option<u32>,
 }
 
-/// What is asked with a plan.
-pub(super) enum Wanted<'a> {
+/// The work that is asked for with a plan.
+pub(super) enum Scope<'a> {
     /// The work itself.
     All,
     /// A plan of so many shards.
@@ -54,15 +53,15 @@ pub(super) enum Wanted<'a> {
 }
 
 impl ShardArgs {
-    /// What is asked.
+    /// The work that is asked for.
     ///
     /// # Errors
     /// A [`Diagnostic`] if a plan alone is given.
-    pub(super) fn wanted(&self) -> Result<Wanted<'_>, Diagnostic> {
+    pub(super) fn wanted(&self) -> Result<Scope<'_>, Diagnostic> {
         match (&self.plan, self.shards, self.shard) {
-            (None, ..) => Ok(Wanted::All),
-            (Some(plan), Some(shards), _) => Ok(Wanted::Plan(plan, shards)),
-            (Some(plan), None, Some(shard)) => Ok(Wanted::Shard(plan, shard)),
+            (None, ..) => Ok(Scope::All),
+            (Some(plan), Some(shards), _) => Ok(Scope::Plan(plan, shards)),
+            (Some(plan), None, Some(shard)) => Ok(Scope::Shard(plan, shard)),
             (Some(_), None, None) => {
                 let remedy =
                     "give --shards to make the plan, --shard to run a shard of it, or tautline merge it";
@@ -72,9 +71,9 @@ impl ShardArgs {
     }
 }
 
-/// What is told of a new plan.
+/// The facts of a new plan.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Planned<'a, F> {
+pub(super) struct PlanJson<'a, F> {
     plan: String,
     shards: u32,
     #[serde(flatten)]
@@ -87,14 +86,14 @@ pub(super) struct Planned<'a, F> {
 /// [`Halt`] if it cannot be stored.
 pub(super) fn plan(
     (path, shards): (&Path, u32),
-    (of, deal): (Of, &RawValue),
+    (of, deal): (Work, &RawValue),
     (facts, words): (&impl Serialize, &str),
     (force, format): (&ForceArgs, Format),
     out: &mut Output,
 ) -> Result<Exit, Halt> {
     Plan::store(path, of, shards, deal, &force.replaceable([]))?.keep()?;
     match format {
-        Format::Json => out.json(&Planned { plan: shown(path), shards, facts })?,
+        Format::Json => out.json(&PlanJson { plan: shown(path), shards, facts })?,
         Format::Text => out.text(format_args!("{words}\nThe plan is kept in {}.\n", shown(path)))?,
     }
     Ok(Exit::Expected)
@@ -102,7 +101,7 @@ pub(super) fn plan(
 
 /// How far a shard is, and where it is kept.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Told {
+pub(super) struct ShardJson {
     plan: String,
     shard: u32,
     shards: u32,
@@ -121,34 +120,28 @@ pub(super) fn run<'p>(
     shard: u32,
     format: Format,
     out: &mut Output,
-    part: impl FnOnce(Option<&RawValue>) -> Result<Box<dyn Resumable + 'p>, Halt>,
+    part: impl FnOnce(Option<&RawValue>) -> Result<Box<dyn Part + 'p>, Halt>,
 ) -> Result<Exit, Halt> {
     let path = plan.shard_path(shard);
-    let (mut keeper, far) = Keeper::open(plan, shard, &path)?;
+    let mut kept = Checkpoint::new(Some(&path), plan.task(shard));
+    let far: Option<Box<RawValue>> = kept.read()?;
     let mut part = part(far.as_deref()).map_err(|halt| match halt {
-        Halt::Diagnostic(fault) if far.is_some() => fault.found_in(&path).into(),
-        halt => halt,
+        Halt::Diagnostic(fault) => kept.found(fault).into(),
+        Halt::Interrupted => halt,
     })?;
     interrupt::defer();
     // What cannot be kept is refused before it has cost anything.
-    keeper.keep(&*part)?;
+    kept.keep(&*part)?;
     let spinner = progress::spinner(format!("shard {shard} of {}", plan.shards));
-    let mut written = Instant::now();
     while !interrupt::is_requested() && part.step()? {
         spinner.set_message(part.words());
-        if written.elapsed() > KEEP_EVERY {
-            // There may be room again later on; the last good one stands there until then.
-            if let Err(halt) = keeper.keep(&*part) {
-                tracing::warn!("{halt}");
-            }
-            written = Instant::now();
-        }
+        kept.keep_now_and_then(&*part);
     }
     spinner.finish_and_clear();
-    keeper.keep(&*part)?;
+    kept.keep(&*part)?;
     let kept = shown(&path);
     match format {
-        Format::Json => out.json(&Told {
+        Format::Json => out.json(&ShardJson {
             plan: shown(plan.path()),
             shard,
             shards: plan.shards,
@@ -228,7 +221,7 @@ impl Merge {
         };
         let inputs = files.into_iter().chain([self.plan.clone()]);
         match plan.of {
-            Of::Hunt { .. } => {
+            Work::Hunt { .. } => {
                 if self.csv.is_some() || !self.pictures.is_empty() {
                     return Err(
                         Diagnostic::usage("a hunt has no --picture and no --csv", "leave them out").into()
@@ -237,19 +230,16 @@ impl Merge {
                 check_folder(&self.out)?;
                 let asked = hunted(&plan, CATALOGUE)?;
                 let found = merge_hunt(&plan, &asked, &shards)?;
-                Found { asked: &asked, hunted: &found, folder: &self.out }.tell(
-                    &self.force.replaceable(inputs),
-                    self.format.format,
-                    out,
-                )
+                let replaceable = self.force.replaceable(inputs);
+                hunt::tell((&asked, &found), (&self.out, &replaceable), self.format.format, out)
             }
             #[cfg(not(feature = "papers"))]
-            Of::Table { .. } => {
+            Work::Table { .. } => {
                 let remedy = "build it with the feature `papers`";
                 Err(Diagnostic::usage("this program was built without tables", remedy).into())
             }
             #[cfg(feature = "papers")]
-            Of::Table { .. } => {
+            Work::Table { .. } => {
                 let asked = restored(&plan)?;
                 let made = asked.merge(&merge_table(&plan, &*asked, &shards)?)?;
                 let picture =

@@ -7,8 +7,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
+use super::explore::LayoutArgs;
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless};
+use super::{Exit, ForceArgs, Format, FormatArgs, needless};
 use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::svg::{self, Panel};
@@ -40,7 +41,7 @@ pub(super) struct Show {
 }
 
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Shown<'a> {
+pub(super) struct LayoutJson<'a> {
     layout: &'a str,
     width: i16,
     height: i16,
@@ -53,7 +54,7 @@ pub(super) struct Shown<'a> {
 }
 
 #[derive(JsonSchema, Serialize)]
-struct ShownEnvironment {
+struct EnvironmentJson {
     symbol: &'static str,
     /// Columns and rows from the centre.
     #[schemars(with = "Vec<CellWritten>")]
@@ -61,8 +62,8 @@ struct ShownEnvironment {
 }
 
 #[derive(JsonSchema, Serialize)]
-pub(super) struct ShownEnvironments {
-    environments: [ShownEnvironment; 3],
+pub(super) struct EnvironmentsJson {
+    environments: [EnvironmentJson; 3],
 }
 
 impl Show {
@@ -79,7 +80,7 @@ impl Show {
             store(out, file, "The environments of a cell", &svg::environments());
             match self.format.format {
                 Format::Text => out.text(draw::environments())?,
-                Format::Json => out.json(&ShownEnvironments { environments: Environment::ALL.map(shown) })?,
+                Format::Json => out.json(&EnvironmentsJson { environments: Environment::ALL.map(shown) })?,
             }
             return Ok(Exit::Expected);
         }
@@ -95,7 +96,7 @@ impl Show {
         let drawing = layout.to_string();
         match self.format.format {
             Format::Text => out.text(drawing)?,
-            Format::Json => out.json(&Shown {
+            Format::Json => out.json(&LayoutJson {
                 layout: &self.layout.layout,
                 width: layout.width(),
                 height: layout.height(),
@@ -118,6 +119,6 @@ fn store(out: &mut Output, file: Option<AtomicFile>, title: &str, panels: &[Pane
     }
 }
 
-fn shown(environment: Environment) -> ShownEnvironment {
-    ShownEnvironment { symbol: environment.symbol(), offsets: environment.offsets().collect() }
+fn shown(environment: Environment) -> EnvironmentJson {
+    EnvironmentJson { symbol: environment.symbol(), offsets: environment.offsets().collect() }
 }

@@ -324,6 +324,106 @@ fn a_png_is_read_and_what_is_not_opaque_is_blocked() {
 }
 
 #[test]
+fn a_ros_map_is_the_same_however_its_yaml_is_written() {
+    let image = b"P5 2 1 255\n\x00\xff";
+    let plain = ros_map(YAML, image, None).expect("a map");
+    for (from, to) in [
+        ("map.pgm", "\"map.pgm\"  # the image"),
+        ("map.pgm", "'map.pgm'\t# the image"),
+        ("image:", "---\nimage:"),
+        ("image:", "# by a map saver\n\nimage:"),
+        ("image: ", "image:\t "),
+        ("0.05", "5e-2"),
+        ("0.05", "+0.050000"),
+        ("[-1, 2.5, 0]", "[ -1.0,2.5 , '0' ]  # x, y, yaw"),
+        ("[-1, 2.5, 0]", "\n- -1\n- 2.5\n# yaw\n- 0"),
+        ("[-1, 2.5, 0]", "# below\n  - -1\n  - 2.5\n  - 0"),
+        ("negate: 0", "negate: false"),
+        ("negate: 0", "negate: 0\nmode: \"scale\"\nsaver: {any: [thing]}\nmore:\n  nested: &a\n  - list"),
+        ("\n", "\r\n"),
+        ("free_thresh: 0.196\n", "free_thresh: 0.196"),
+    ] {
+        assert!(YAML.contains(from));
+        let yaml = YAML.replace(from, to);
+        assert_eq!(ros_map(&yaml, image, None).expect(&yaml), plain, "{yaml}");
+    }
+}
+
+#[test]
+fn yaml_that_no_map_needs_is_refused_as_such() {
+    let refused = |from: &str, to: &str| {
+        assert!(YAML.contains(from));
+        let fault = ros_map(&YAML.replacen(from, to, 1), b"P5 1 1 255\n\xff", None).expect_err("a fault");
+        let (what, remedy) = fault.split_once("; ").expect("a remedy");
+        assert!(
+            remedy.starts_with("write one `key: value` a line") || remedy.starts_with("a map has the fields")
+        );
+        format!("{to:?} {what}")
+    };
+    let faults = [
+        ("map.pgm", "&here map.pgm"),
+        ("map.pgm", "!!str map.pgm"),
+        ("map.pgm", "|\n  map.pgm"),
+        ("map.pgm", "map.pgm\n  of two lines"),
+        ("map.pgm", "'map.pgm"),
+        ("map.pgm", "'the map''s.pgm'"),
+        ("map.pgm", "\"map\\x2e.pgm\""),
+        ("map.pgm", "'map'.pgm"),
+        ("map.pgm", "map: pgm"),
+        ("map.pgm", ""),
+        ("map.pgm", "[map.pgm]"),
+        ("image:", "  image:"),
+        ("image:", "\"image\":"),
+        ("image: map", "image:map"),
+        ("image:", "? image\n:"),
+        ("image:", "%YAML 1.2\n---\nimage:"),
+        ("negate:", "---\nnegate:"),
+        ("negate:", "image: again.pgm\nnegate:"),
+        ("negate: 0", "{negate: 0}"),
+        ("[-1, 2.5, 0]", "[-1, 2.5,\n  0]"),
+        ("[-1, 2.5, 0]", "[-1, 2.5, 0] 1"),
+        ("[-1, 2.5, 0]", "[-1, [2.5], 0]"),
+        ("[-1, 2.5, 0]", "[-1, , 0]"),
+        ("[-1, 2.5, 0]", "[]"),
+        ("[-1, 2.5, 0]", "-1, 2.5, 0"),
+        ("[-1, 2.5, 0]", "\n- -1\n- 2.5\n-0"),
+        ("[-1, 2.5, 0]", "[-1, 2.5, east]"),
+        ("0.05", "0x1"),
+    ]
+    .map(|(from, to)| refused(from, to));
+    assert_snapshot!(faults.join("\n"), @r##"
+    "&here map.pgm" map.yaml:1:8: this does not describe a map: this value is YAML that is not read here
+    "!!str map.pgm" map.yaml:1:8: this does not describe a map: this value is YAML that is not read here
+    "|\n  map.pgm" map.yaml:1:8: this does not describe a map: this value is YAML that is not read here
+    "map.pgm\n  of two lines" map.yaml:2:1: this does not describe a map: this line is YAML that is not read here
+    "'map.pgm" map.yaml:1:8: this does not describe a map: the text has no end on its line
+    "'the map''s.pgm'" map.yaml:1:8: this does not describe a map: this value is YAML that is not read here
+    "\"map\\x2e.pgm\"" map.yaml:1:8: this does not describe a map: this value is YAML that is not read here
+    "'map'.pgm" map.yaml:1:13: this does not describe a map: what follows the value is YAML that is not read here
+    "map: pgm" map.yaml:1:8: this does not describe a map: this value is YAML that is not read here
+    "" map.yaml:1:1: this does not describe a map: --image is to have one value
+    "[map.pgm]" map.yaml:1:8: this does not describe a map: --image is to have one value
+    "  image:" map.yaml:1:1: this does not describe a map: this line is YAML that is not read here
+    "\"image\":" map.yaml:1:1: this does not describe a map: this line is YAML that is not read here
+    "image:map" map.yaml:1:1: this does not describe a map: this line is YAML that is not read here
+    "? image\n:" map.yaml:1:1: this does not describe a map: this line is YAML that is not read here
+    "%YAML 1.2\n---\nimage:" map.yaml:1:1: this does not describe a map: this line is YAML that is not read here
+    "---\nnegate:" map.yaml:4:1: this does not describe a map: this line is YAML that is not read here
+    "image: again.pgm\nnegate:" map.yaml:4:1: this does not describe a map: --image stands here again
+    "{negate: 0}" map.yaml:4:1: this does not describe a map: this line is YAML that is not read here
+    "[-1, 2.5,\n  0]" map.yaml:3:9: this does not describe a map: the list has no end on its line
+    "[-1, 2.5, 0] 1" map.yaml:3:22: this does not describe a map: what follows the value is YAML that is not read here
+    "[-1, [2.5], 0]" map.yaml:3:14: this does not describe a map: this value is YAML that is not read here
+    "[-1, , 0]" map.yaml:3:14: this does not describe a map: this value is YAML that is not read here
+    "[]" map.yaml:3:9: this does not describe a map: `origin` is no list of 3 numbers
+    "-1, 2.5, 0" map.yaml:3:9: this does not describe a map: "-1, 2.5, 0" is no number
+    "\n- -1\n- 2.5\n-0" map.yaml:6:1: this does not describe a map: this line is YAML that is not read here
+    "[-1, 2.5, east]" map.yaml:3:19: this does not describe a map: "east" is no number
+    "0x1" map.yaml:2:13: this does not describe a map: "0x1" is no number
+    "##);
+}
+
+#[test]
 fn a_bad_ros_map_is_refused_at_its_place() {
     let image = b"P5 2 1 255\n\x00\xff";
     let bad = |from: &str, to: &str| {
@@ -334,8 +434,8 @@ fn a_bad_ros_map_is_refused_at_its_place() {
     assert_snapshot!(bad("resolution: 0.05\n", ""), @"map.yaml:5:1: this does not describe a map: missing field `resolution`; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
     assert_snapshot!(bad("0.05", "0"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, above 0");
     assert_snapshot!(bad("0.05", ".nan"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, above 0");
-    assert_snapshot!(bad("0.05", "[1"), @"map.yaml:2:13: this does not describe a map: expected string scalar; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
-    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5]"), @"map.yaml:3:1: this does not describe a map: invalid length 2, expected an array of length 3; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
+    assert_snapshot!(bad("0.05", "[1"), @"map.yaml:2:13: this does not describe a map: the list has no end on its line; write one `key: value` a line, where a value is a word, a text between quotes, or a list such as [0, 0, 0]");
+    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5]"), @"map.yaml:3:9: this does not describe a map: `origin` is no list of 3 numbers; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
     assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5, .inf]"), @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians");
     assert_snapshot!(bad("negate: 0", "negate: 2"), @"map.yaml:4:9: `negate` is out of bounds; write 0 or 1");
     assert_snapshot!(bad("negate: 0", "negate: perhaps"), @"map.yaml:4:9: this does not describe a map: expected 0 or 1; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");

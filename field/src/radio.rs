@@ -8,7 +8,6 @@
 
 mod air;
 mod broadcast;
-mod chance;
 mod field;
 mod grid;
 mod names;
@@ -18,9 +17,8 @@ mod queue;
 
 pub use air::{Air, Channel, Faults, Protocol, SharedChannel, run};
 pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
-pub use chance::Chance;
-pub(crate) use chance::checked_deviation;
 pub use field::{Area, Field, MAX_NODES, Obstacle, Point};
 pub use names::ChannelName;
 pub use network::{FREE_SPACE, Link, MAX_RANGE_M, Model, Network, Radio};
 pub use problem::Problem;
+pub(crate) use problem::checked_deviation;

@@ -29,9 +29,11 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{SeededOracle, Tape};
 use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
+use tautline_sim::checkpoint::Checkpoint;
 use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::chain::{CHAIN, Saved, hunt};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::chain::hunt::{self, HuntTask};
 use tautline_sim::explore::hunt::Asked;
 use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
 use tautline_sim::heap_grid::HeapGrid;
@@ -314,7 +316,7 @@ pub fn kept_hunt(bytes: &[u8]) {
             while search.wave() {}
             let folder = tempfile::tempdir().expect("a folder");
             let file = folder.path().join("hunt");
-            Saved::new(&file, &hunted(), bounds).write(&search).expect("it can be written");
+            kept_at(&file, bounds).keep(&search).expect("it can be written");
             let mut kept = fs::read(&file).expect("a kept hunt");
             for _ in 0..number(4) {
                 let place = number(kept.len());
@@ -325,16 +327,16 @@ pub fn kept_hunt(bytes: &[u8]) {
     }
 }
 
-/// The hunt that is kept.
-fn hunted() -> Asked<'static> {
-    Asked::new(&CHAIN, RuleId::PUBLISHED)
+/// The file that keeps the hunt.
+fn kept_at<'a>(path: &'a Path, bounds: &Bounds) -> Checkpoint<'a, HuntTask> {
+    Checkpoint::new(Some(path), HuntTask::new(&Asked::new(&CHAIN, RuleId::PUBLISHED), bounds))
 }
 
 /// The findings of a hunt that goes on from a file with these bytes.
 fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Findings> {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
-    match Saved::new(file.path(), &hunted(), bounds).search(bounds) {
+    match hunt::resume(&mut kept_at(file.path(), bounds), bounds) {
         Ok(mut search) => {
             let mut waves = 0;
             while search.wave() {

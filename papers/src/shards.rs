@@ -6,9 +6,9 @@ use serde_json::value::RawValue;
 use tautline_proofs::plural::counted;
 
 use crate::tables::{Experiment, find};
+use tautline_sim::checkpoint::{Facts, Part, decode, encode};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::resumable::{Facts, Resumable, written};
-use tautline_sim::shards::{Done, Of, Plan};
+use tautline_sim::shards::{Plan, ShardFile, Work};
 
 /// Jobs for each thread that are measured before the results are kept.
 const JOBS_AT_ONCE: usize = 8;
@@ -25,7 +25,7 @@ struct Deal {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ShardProgress {
-    /// Of its jobs, in their order.
+    /// Work its jobs, in their order.
     results: Vec<Box<RawValue>>,
 }
 
@@ -40,18 +40,16 @@ fn raw(text: String) -> Result<Box<RawValue>, Diagnostic> {
         .map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
 }
 
-fn read<'a, T: Deserialize<'a>>(value: &'a RawValue) -> Result<T, Diagnostic> {
-    serde_json::from_str(value.get())
-        .map_err(|error| Diagnostic::usage(error, "take it as tautline wrote it"))
-}
+/// What to do about a plan or a shard that says no such thing.
+const AS_WRITTEN: &str = "take it as tautline wrote it";
 
 /// Deals the jobs of a table out.
 ///
 /// # Errors
 /// [`Halt`] if its settings cannot be measured.
-pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Of, Box<RawValue>, usize), Halt> {
+pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Work, Box<RawValue>, usize), Halt> {
     let (settings, jobs) = (raw(asked.settings()?)?, asked.jobs()?.len());
-    Ok((Of::Table { id: id.to_owned() }, written(&Deal { settings, jobs })?, jobs))
+    Ok((Work::Table { id: id.to_owned() }, encode(&Deal { settings, jobs })?, jobs))
 }
 
 /// The table that a plan deals out.
@@ -61,8 +59,8 @@ pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Of, Box<RawValue>
 pub fn restored(plan: &Plan) -> Result<Box<dyn Experiment>, Diagnostic> {
     let none =
         || Diagnostic::usage("this plan is none of a table", "run it with the command that planned it");
-    let Of::Table { id } = &plan.of else { return Err(none()) };
-    let deal: Deal = read(&plan.deal)?;
+    let Work::Table { id } = &plan.of else { return Err(none()) };
+    let deal: Deal = decode(&plan.deal, AS_WRITTEN)?;
     find(id).ok_or_else(none)?.restored(deal.settings.get())
 }
 
@@ -75,11 +73,14 @@ pub fn table_part<'a>(
     asked: &'a dyn Experiment,
     shard: u32,
     far: Option<&RawValue>,
-) -> Result<Box<dyn Resumable + 'a>, Halt> {
+) -> Result<Box<dyn Part + 'a>, Halt> {
     plan.check_shard(shard)?;
     let (first, of) = (shard as usize - 1, plan.shards as usize);
     let jobs: Vec<String> = asked.jobs()?.into_iter().skip(first).step_by(of).collect();
-    let results = far.map(read::<ShardProgress>).transpose()?.map_or(Vec::new(), |far| far.results);
+    let results = far
+        .map(|far| decode::<ShardProgress>(far, AS_WRITTEN))
+        .transpose()?
+        .map_or(Vec::new(), |far| far.results);
     if results.len() > jobs.len() {
         let what = format!("shard {shard} has {}, and kept are more", counted(jobs.len(), "job"));
         return Err(Diagnostic::usage(what, "remove its file, and run it again").into());
@@ -91,12 +92,15 @@ pub fn table_part<'a>(
 ///
 /// # Errors
 /// [`Halt`] if they do not fit their plan, or a shard has done less than it was dealt.
-pub fn merge_table(plan: &Plan, asked: &dyn Experiment, shards: &[Done]) -> Result<Vec<String>, Halt> {
-    let deal: Deal = read(&plan.deal)?;
+pub fn merge_table(plan: &Plan, asked: &dyn Experiment, shards: &[ShardFile]) -> Result<Vec<String>, Halt> {
+    let deal: Deal = decode(&plan.deal, AS_WRITTEN)?;
     for (number, shard) in (1..).zip(shards) {
         shard.check(table_part(plan, asked, number, Some(&shard.far)))?;
     }
-    let fars = shards.iter().map(|shard| read::<ShardProgress>(&shard.far)).collect::<Result<Vec<_>, _>>()?;
+    let fars = shards
+        .iter()
+        .map(|shard| decode::<ShardProgress>(&shard.far, AS_WRITTEN))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut shards: Vec<_> = fars.into_iter().map(|far| far.results.into_iter()).collect();
     let of = shards.len();
     let next = |job: usize| {
@@ -108,7 +112,7 @@ pub fn merge_table(plan: &Plan, asked: &dyn Experiment, shards: &[Done]) -> Resu
     (0..deal.jobs).map(next).collect()
 }
 
-impl Resumable for Jobs<'_> {
+impl Part for Jobs<'_> {
     fn step(&mut self) -> Result<bool, Halt> {
         let at_once = JOBS_AT_ONCE * rayon::current_num_threads();
         let next = self.all.iter().skip(self.results.len()).take(at_once);
@@ -120,7 +124,7 @@ impl Resumable for Jobs<'_> {
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        written(&ShardProgress { results: self.results.clone() })
+        encode(&ShardProgress { results: self.results.clone() })
     }
 
     fn is_done(&self) -> bool {

@@ -11,8 +11,7 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::run::Frame;
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::diagnostic::Halt;
-use tautline_sim::draw::page::Page;
+use tautline_sim::draw::page::write;
 use tautline_sim::explore::{Report, Setup, explore};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
@@ -131,13 +130,7 @@ fn page(setup: &Setup, moves: &RangeInclusive<u32>) -> (String, Report, Vec<Fram
     });
     let report = report.expect("a run");
     let mut aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
-    let mut page = Page::new(&mut aside, setup, &report, moves);
-    let made = explore(setup, &mut |made| {
-        page.add(made);
-        if made.step == *moves.end() { Err(Halt::Interrupted) } else { Ok(()) }
-    });
-    assert!(made.is_ok() || made == Err(Halt::Interrupted));
-    page.finish();
+    write(&mut aside, setup, &report, moves).expect("a run");
     aside.keep().expect("room");
     (fs::read_to_string(path).expect("a page"), report, frames)
 }

@@ -75,8 +75,6 @@ impl Hunter for StopHunter<'_> {
         if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn is_not_kept(&mut self, _: &Diagnostic) {}
-
     fn is_left_out(&mut self, _: &Diagnostic) {}
 }
 

@@ -21,7 +21,7 @@ use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::hunt::layout as layout_of;
 use tautline_sim::explore::{Limits, Own, Report, Setup, run};
 use tautline_sim::layout::Layout;
-use tautline_sim::trace::{self, Stored, Writer};
+use tautline_sim::trace::{self, StoredRun, Writer};
 
 use self::game::{PythonRule, Questions, setting};
 use self::written::{Demand, RuleScript};
@@ -217,8 +217,8 @@ fn stored(
     let unread = |error| Diagnostic::in_file(&path, error, "make room for temporary files");
     let text = fs::read_to_string(&path).map_err(unread)?;
     match trace::open(&path, CATALOGUE)? {
-        Stored::Foreign(recorded) => Ok((RunSource::Recorded(Box::new(recorded), text), report)),
-        Stored::Known(_) => {
+        StoredRun::Foreign(recorded) => Ok((RunSource::Recorded(Box::new(recorded), text), report)),
+        StoredRun::Known(_) => {
             let what = format!("{} is a scheme of tautline", written.scheme);
             Err(Diagnostic::usage(what, "give the rule's scheme another name").into())
         }

@@ -15,10 +15,9 @@ use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_sim::counterexample::minimise::minimise;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::draw::page::Page;
-use tautline_sim::draw::{story, svg, title_of};
+use tautline_sim::draw::{page, story, svg};
 use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove};
-use tautline_sim::trace::{self, Recorded, Stored, Summary, Writer};
+use tautline_sim::trace::{self, ForeignRun, StoredRun, Summary, Writer};
 
 use crate::arrays::view;
 use crate::diagnostic::{Kind, error, failed, halted, raised};
@@ -37,7 +36,7 @@ pub(crate) enum RunSource {
     /// A rule of the catalogue.
     Known(Box<Setup>),
     /// A file with a rule that the catalogue does not have, and its text.
-    Recorded(Box<Recorded>, String),
+    Recorded(Box<ForeignRun>, String),
 }
 
 impl RunSource {
@@ -86,12 +85,12 @@ impl Run {
         let name = path.display().to_string();
         let stored = trace::open(path, CATALOGUE).map_err(|fault| raised(py, &fault))?;
         let (made, report, clause) = match stored {
-            Stored::Known(stored) => {
+            StoredRun::Known(stored) => {
                 let (setup, clause) = (stored.setup.clone(), stored.clause);
                 let report = wait_for(py, |is_stopped| stored.replay(&mut |_| stopped(is_stopped)))?;
                 (RunSource::Known(Box::new(setup)), report.map_err(|halt| halted(py, &halt))?, clause)
             }
-            Stored::Foreign(run) => {
+            StoredRun::Foreign(run) => {
                 let unread =
                     |_| raised(py, &Diagnostic::in_file(path, "it was there, and is gone", "store it again"));
                 let text = fs::read_to_string(path).map_err(unread)?;
@@ -155,12 +154,7 @@ impl Run {
     fn paged(&self, mut aside: AtomicFile) -> Result<AtomicFile, Halt> {
         let run = self.play();
         svg::check_size(self.report.chart.area())?;
-        let mut page = Page::new(&mut aside, run, &self.report, &(1..=self.report.steps));
-        run.play(&mut |made| {
-            page.add(made);
-            Ok(())
-        })?;
-        page.finish();
+        page::write(&mut aside, run, &self.report, &(1..=self.report.steps))?;
         Ok(aside)
     }
 
@@ -197,7 +191,7 @@ impl Run {
                 panels.push(svg::team_move(run, chart, made));
             }
         })?;
-        Ok(svg::picture(&title_of(run), &panels))
+        Ok(svg::picture(&run.setup().title(), &panels))
     }
 }
 
@@ -366,7 +360,7 @@ impl Run {
             }
             (None, _) => {
                 let run = self.play();
-                Ok(svg::picture(&title_of(run), &[svg::order(run, &self.report.chart)]))
+                Ok(svg::picture(&run.setup().title(), &[svg::order(run, &self.report.chart)]))
             }
         }
     }

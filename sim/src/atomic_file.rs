@@ -60,7 +60,7 @@ pub struct Replaceable {
     inputs: Vec<PathBuf>,
 }
 
-/// What is done about a file that this program did not write.
+/// The fate of a file that this program did not write.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Foreign {
     /// It stays.
@@ -71,7 +71,7 @@ pub enum Foreign {
 }
 
 impl Replaceable {
-    /// What a command may replace that does so with foreign files and reads these.
+    /// The files that a command may replace which does so with `foreign` ones and reads `inputs`.
     pub fn new(foreign: Foreign, inputs: impl IntoIterator<Item = PathBuf>) -> Self {
         Self { foreign, inputs: inputs.into_iter().collect() }
     }
@@ -149,7 +149,7 @@ pub struct AtomicFile {
     path: PathBuf,
     target: PathBuf,
     replaceable: Replaceable,
-    /// What is written so far, or why the file is left out.
+    /// The text written so far, or why the file is left out.
     file: Result<BufWriter<Part>, Diagnostic>,
 }
 
@@ -216,7 +216,7 @@ impl AtomicFile {
         &self.path
     }
 
-    /// The same for each file, however it is written.
+    /// The place of the file, the same however its path is written.
     fn place(&self) -> (Option<PathBuf>, Option<&OsStr>) {
         (folder(&self.target).canonicalize().ok(), self.target.file_name())
     }
@@ -264,7 +264,7 @@ impl AtomicFile {
     /// # Errors
     /// A [`Diagnostic`] as of [`AtomicFile::keep`], or if another process has put a file there.
     pub(crate) fn keep_locked(self, standing: Standing) -> Result<File, Diagnostic> {
-        let Finished { path, target, part, .. } = self.finish()?;
+        let FinishedFile { path, target, part, .. } = self.finish()?;
         lock(&path, part.file.as_file())?;
         let kept = match standing {
             Standing::Held => part.file.persist(&target),
@@ -283,7 +283,7 @@ impl AtomicFile {
     ///
     /// # Errors
     /// A [`Diagnostic`] if that is not possible, or if the file was left out; then nothing of it is left.
-    pub fn finish(self) -> Result<Finished, Diagnostic> {
+    pub fn finish(self) -> Result<FinishedFile, Diagnostic> {
         let Self { path, target, replaceable, file } = self;
         let part = file?.into_inner().map_err(|error| {
             let (error, file) = error.into_parts();
@@ -292,13 +292,13 @@ impl AtomicFile {
         })?;
         // Meanwhile something else may have come there.
         replaceable.check(&path, &target)?;
-        Ok(Finished { path, target, replaceable, part })
+        Ok(FinishedFile { path, target, replaceable, part })
     }
 }
 
 /// A file that is written to its end, and has yet to be put in its place. Dropped before, it leaves nothing behind.
 #[derive(Debug)]
-pub struct Finished {
+pub struct FinishedFile {
     path: PathBuf,
     target: PathBuf,
     replaceable: Replaceable,
@@ -307,9 +307,9 @@ pub struct Finished {
 
 /// Puts files in their places together, so that all of them are the new ones or all the old ones: whoever [`abandon`]s
 /// unfinished files meanwhile waits. Returns the faults of those that have no place.
-pub fn place(files: Vec<Finished>) -> Vec<Diagnostic> {
+pub fn place(files: Vec<FinishedFile>) -> Vec<Diagnostic> {
     let together = unfinished();
-    let put = |Finished { path, target, replaceable, part }: Finished| {
+    let put = |FinishedFile { path, target, replaceable, part }: FinishedFile| {
         let Part { file, entry } = part;
         // Meanwhile something else may have come there.
         let placed = replaceable.check(&path, &target).and_then(|()| {
@@ -323,7 +323,7 @@ pub fn place(files: Vec<Finished>) -> Vec<Diagnostic> {
     faults.into_iter().flatten().collect()
 }
 
-/// What stands in the place of a file that processes lock.
+/// The file that stands in the place of one that processes lock.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Standing {
     /// Nothing: what another process puts there is not replaced.
@@ -437,7 +437,7 @@ fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
     }
 }
 
-/// What goes wrong is told when the file is put in its place.
+/// A fault is told when the file is put in its place.
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.append(bytes);

@@ -1,43 +1,110 @@
-//! Work on its way, as a file of three lines of JSON: what is worked at, how far it is, and the checksum of the two. It
-//! is written aside and put in its place, so the last good one stands there whenever the work is killed. The file that
-//! stands there is locked as long as the work goes on: no other process can go on from it meanwhile.
+//! How work is kept, left and taken up again. There is one protocol. Work is a [`Part`], which goes on in small steps
+//! and can tell how far it is. A [`Checkpoint`] keeps it in a file of three lines of JSON: the [`Task`] that is worked
+//! at, with the version of the file; how far it is; and the checksum of the two. The file is written aside and put in
+//! its place, so the last good one stands there whenever the work is killed. It is locked as long as the work goes on:
+//! no other process can go on from it meanwhile. A file of another version or of another task is refused where the two
+//! differ.
+//!
+//! A hunt is one part. [`shards`](crate::shards) deal a task out in many parts, and make one of them again.
 
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use serde_json::value::{RawValue, to_raw_value};
 
 use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::layout::MAX_FILE_BYTES;
 use crate::trace::lines::{Magic, value_of};
 
 /// The version of every such file.
 pub(crate) const VERSION: u32 = 1;
 
-/// The first line: what is worked at.
-pub(crate) trait Header: Serialize + DeserializeOwned {
+/// How often work on its way is kept.
+const KEEP_EVERY: Duration = Duration::from_secs(5);
+
+/// How much of a part is done, under the names that JSON has for it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(untagged)]
+#[expect(missing_docs, reason = "the fields are named as in the text for people")]
+pub enum Facts {
+    /// Of a hunt of a chain.
+    Chain { runs: u64, moves: u64 },
+    /// Of a hunt on sensor floors.
+    Floor { layouts: usize, moves: u64 },
+    /// Of a table.
+    Table { jobs: usize, jobs_done: usize },
+}
+
+/// Work, or a part of it, that can be left and taken up again.
+pub trait Part {
+    /// Works a little further. Returns whether there is more to do, and to spend.
+    ///
+    /// # Errors
+    /// [`Halt`] if it cannot be done.
+    fn step(&mut self) -> Result<bool, Halt>;
+
+    /// How far it is: enough to go on from here, on any machine.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if that cannot be written.
+    fn far(&self) -> Result<Box<RawValue>, Diagnostic>;
+
+    /// Whether nothing is left to do.
+    fn is_done(&self) -> bool;
+
+    /// How much is done, for programs.
+    fn facts(&self) -> Facts;
+
+    /// How much is done, for people.
+    fn words(&self) -> String;
+}
+
+/// `value` as JSON, as it stands in a file.
+///
+/// # Errors
+/// A [`Diagnostic`] if it cannot be written.
+pub fn encode(value: &impl Serialize) -> Result<Box<RawValue>, Diagnostic> {
+    to_raw_value(value).map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
+}
+
+/// The value that [`encode`] has written.
+///
+/// # Errors
+/// A [`Diagnostic`] with this `remedy` if it is none.
+pub fn decode<'a, T: Deserialize<'a>>(value: &'a RawValue, remedy: &str) -> Result<T, Diagnostic> {
+    serde_json::from_str(value.get()).map_err(|error| Diagnostic::usage(error, remedy))
+}
+
+/// The first line of a file: what is worked at.
+pub trait Task: Serialize + DeserializeOwned {
     /// Its field `format`.
     const FORMAT: &'static str;
-    /// What such a file is called.
+    /// The noun for such a file.
     const NOUN: &'static str;
-    /// What is wrong with one of another work.
+    /// The fault of a file of another task.
     const OTHER: &'static str;
-    /// The fields in which works differ.
+    /// The fields in which tasks differ.
     const FIELDS: &'static [&'static str];
-    /// What to do about a file that is none.
+    /// The remedy for a file that is none.
     const AGAIN: &'static str;
-    /// What to do about one of another work.
+    /// The remedy for a file of another task.
     const ELSEWHERE: &'static str;
 
-    /// The field of `kept` that names what this work does not know, and what is wrong with the name.
+    /// The field of `kept` that names what this task does not know, and what is wrong with the name.
     fn unknown(&self, _kept: &Self) -> Option<(&'static str, String)> {
         None
     }
+
+    /// Notes whether nothing is left to do.
+    fn set_done(&mut self, _is_done: bool) {}
 }
 
 /// The last line.
@@ -48,61 +115,61 @@ struct Seal {
 }
 
 /// A file of three lines.
-pub(crate) struct Lines<H> {
+pub(crate) struct Lines<T> {
     path: PathBuf,
     /// The lines without their ends.
     text: [String; 3],
-    header: H,
+    task: T,
 }
 
-impl<H: Header> Lines<H> {
-    /// The lines of `file`, called `path`, of which the first and the last are sound. If a work is `asked` for, it knows
-    /// the names in the first one.
+impl<T: Task> Lines<T> {
+    /// The lines of `file`, called `path`, of which the first and the last are sound. If a task is `asked` for, it
+    /// knows the names in the first one.
     ///
     /// # Errors
     /// A [`Diagnostic`] if it is no such file, or damaged.
-    pub(crate) fn read(path: &Path, file: &File, asked: Option<&H>) -> Result<Self, Diagnostic> {
-        let whole = |what: String| Diagnostic::in_file(path, what, H::AGAIN);
+    pub(crate) fn read(path: &Path, file: &File, asked: Option<&T>) -> Result<Self, Diagnostic> {
+        let whole = |what: String| Diagnostic::in_file(path, what, T::AGAIN);
         let mut bytes = Vec::new();
         let mut file = file.take(MAX_FILE_BYTES + 1);
         file.read_to_end(&mut bytes).map_err(|error| whole(format!("the file cannot be read: {error}")))?;
         if bytes.len() as u64 > MAX_FILE_BYTES {
-            let noun = H::NOUN;
+            let noun = T::NOUN;
             return Err(whole(format!("{noun} has at most {MAX_FILE_BYTES} bytes, and this file more")));
         }
         let text = String::from_utf8(bytes).map_err(|_| whole("this is not UTF-8 text".to_owned()))?;
         let lines: Vec<&str> = text.lines().collect();
         let [first, second, third] = lines[..] else {
-            return Err(whole(format!("{} has three lines, and this file {}", H::NOUN, lines.len())));
+            return Err(whole(format!("{} has three lines, and this file {}", T::NOUN, lines.len())));
         };
-        let magic: Magic = parse::<H, _>(path, 1, first)?;
-        if let Some((field, what)) = magic.differs(H::FORMAT, VERSION) {
-            return Err(in_header(path, first, field, what, H::AGAIN));
+        let magic: Magic = parse::<T, _>(path, 1, first)?;
+        if let Some((field, what)) = magic.differs(T::FORMAT, VERSION) {
+            return Err(in_header(path, first, field, what, T::AGAIN));
         }
-        let header = parse::<H, H>(path, 1, first)?;
-        if let Some((field, what)) = asked.and_then(|asked| asked.unknown(&header)) {
-            return Err(none::<H>(path, 1, first, value_of(first, field).end.saturating_sub(1), what));
+        let task = parse::<T, T>(path, 1, first)?;
+        if let Some((field, what)) = asked.and_then(|asked| asked.unknown(&task)) {
+            return Err(none::<T>(path, 1, first, value_of(first, field).end.saturating_sub(1), what));
         }
-        let seal: Seal = parse::<H, _>(path, 3, third)?;
+        let seal: Seal = parse::<T, _>(path, 3, third)?;
         let crc32 = crc32fast::hash(format!("{first}\n{second}\n").as_bytes());
         if seal.crc32 != crc32 {
             let what = format!("the file is damaged: its checksum is {}, its lines give {crc32}", seal.crc32);
-            return Err(Diagnostic::in_line(path, 3, third, 0..third.len(), what, H::AGAIN));
+            return Err(Diagnostic::in_line(path, 3, third, 0..third.len(), what, T::AGAIN));
         }
-        Ok(Self { path: path.to_owned(), header, text: [first, second, third].map(str::to_owned) })
+        Ok(Self { path: path.to_owned(), task, text: [first, second, third].map(str::to_owned) })
     }
 
-    /// What is worked at.
-    pub(crate) const fn header(&self) -> &H {
-        &self.header
+    /// The task that is worked at.
+    pub(crate) const fn task(&self) -> &T {
+        &self.task
     }
 
     /// How far it is.
     ///
     /// # Errors
     /// A [`Diagnostic`] if the second line does not tell it.
-    pub(crate) fn far<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
-        parse::<H, _>(&self.path, 2, &self.text[1])
+    pub(crate) fn far<F: DeserializeOwned>(&self) -> Result<F, Diagnostic> {
+        parse::<T, _>(&self.path, 2, &self.text[1])
     }
 
     /// The whole text.
@@ -115,21 +182,21 @@ impl<H: Header> Lines<H> {
         in_header(&self.path, &self.text[0], field, what, remedy)
     }
 
-    /// Checks that it is of the work `asked` for.
+    /// Checks that it is of the task `asked` for.
     ///
     /// # Errors
     /// A [`Diagnostic`] at the field in which they differ.
-    pub(crate) fn check(&self, asked: &H) -> Result<(), Diagnostic> {
-        let (kept, asked) = (json!(self.header), json!(asked));
-        let Some(key) = H::FIELDS.iter().find(|&&key| kept[key] != asked[key]) else { return Ok(()) };
-        let what = format!("{}: {key} {}, asked for is {}", H::OTHER, kept[key], asked[key]);
-        Err(self.in_header(key, what, H::ELSEWHERE))
+    pub(crate) fn check(&self, asked: &T) -> Result<(), Diagnostic> {
+        let (kept, asked) = (json!(self.task), json!(asked));
+        let Some(key) = T::FIELDS.iter().find(|&&key| kept[key] != asked[key]) else { return Ok(()) };
+        let what = format!("{}: {key} {}, asked for is {}", T::OTHER, kept[key], asked[key]);
+        Err(self.in_header(key, what, T::ELSEWHERE))
     }
 }
 
 /// The three lines.
-pub(crate) fn text(header: &impl Header, far: &impl Serialize) -> String {
-    let mut text = line(header) + &line(far);
+pub(crate) fn text(task: &impl Task, far: &RawValue) -> String {
+    let mut text = line(task) + &line(&far);
     text += &line(&Seal { crc32: crc32fast::hash(text.as_bytes()) });
     text
 }
@@ -145,58 +212,80 @@ fn in_header(path: &Path, text: &str, field: &str, what: String, remedy: &str) -
     Diagnostic::in_line(path, 1, text, start..start + field.len(), what, remedy)
 }
 
-fn parse<'b, H: Header, T: Deserialize<'b>>(
+fn parse<'b, T: Task, V: Deserialize<'b>>(
     path: &Path,
     number: usize,
     text: &'b str,
-) -> Result<T, Diagnostic> {
+) -> Result<V, Diagnostic> {
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
-        none::<H>(path, number, text, error.column().saturating_sub(1), message)
+        none::<T>(path, number, text, error.column().saturating_sub(1), message)
     })
 }
 
 /// The fault of a line that is none, in this column from 0 on.
-fn none<H: Header>(path: &Path, number: usize, text: &str, column: usize, what: impl Display) -> Diagnostic {
-    let what = format!("this is no {}: {what}", H::NOUN.trim_start_matches("a "));
-    Diagnostic::in_line(path, number, text, column..column + 1, what, H::AGAIN)
+fn none<T: Task>(path: &Path, number: usize, text: &str, column: usize, what: impl Display) -> Diagnostic {
+    let what = format!("this is no {}: {what}", T::NOUN.trim_start_matches("a "));
+    Diagnostic::in_line(path, number, text, column..column + 1, what, T::AGAIN)
 }
 
-/// Work that is kept in a file.
+/// A part of some task that is kept in a file, if it has a place.
 #[derive(Debug)]
-pub(crate) struct Checkpoint<'a, H> {
-    path: &'a Path,
-    header: H,
-    /// What stands at the path, as far as this work knows.
+pub struct Checkpoint<'a, T> {
+    path: Option<&'a Path>,
+    task: T,
+    /// The file that stands at the path, as far as this process knows.
     standing: Standing,
     /// That file, locked.
     held: Option<File>,
+    /// When it was last tried to write one.
+    tried: Instant,
 }
 
-impl<'a, H: Header> Checkpoint<'a, H> {
-    /// This work, to be kept at `path`.
-    pub(crate) const fn new(path: &'a Path, header: H) -> Self {
-        Self { path, header, standing: Standing::Nothing, held: None }
+impl<'a, T: Task> Checkpoint<'a, T> {
+    /// The part of `task` that is to be kept at `path`; without one it is not kept.
+    pub fn new(path: Option<&'a Path>, task: T) -> Self {
+        Self { path, task, standing: Standing::Nothing, held: None, tried: Instant::now() }
     }
 
-    /// Where it is kept.
-    pub(crate) const fn path(&self) -> &'a Path {
-        self.path
+    /// How far the part was by its file, which is locked from now on; `None` if there is no file.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the file is damaged, of another task or in use.
+    pub fn read<F: DeserializeOwned>(&mut self) -> Result<Option<F>, Diagnostic> {
+        let Some(path) = self.path else { return Ok(None) };
+        let Some(file) = open::<T>(path)? else { return Ok(None) };
+        lock(path, &file)?;
+        // A process that has just let it go may have put a newer one there.
+        if !stands_at(&file, path) {
+            return self.read();
+        }
+        let lines = Lines::<T>::read(path, &file, Some(&self.task))?;
+        (self.standing, self.held) = (Standing::Held, Some(file));
+        lines.check(&self.task)?;
+        lines.far().map(Some)
     }
 
-    /// What is worked at.
-    pub(crate) const fn header_mut(&mut self) -> &mut H {
-        &mut self.header
+    /// The fault of what the file says, if there is one; else of what was asked for.
+    #[must_use]
+    pub fn found(&self, fault: Diagnostic) -> Diagnostic {
+        match self.path {
+            Some(path) if self.standing == Standing::Held => fault.found_in(path),
+            Some(_) | None => fault,
+        }
     }
 
-    /// Keeps how far it is.
+    /// Keeps how far `part` is.
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be written, or another process has put a file there.
-    pub(crate) fn write(&mut self, far: &impl Serialize) -> Result<(), Diagnostic> {
-        let mut aside = AtomicFile::new(self.path, &Replaceable::default())?;
-        aside.append(text(&self.header, far));
+    pub fn keep(&mut self, part: &(impl Part + ?Sized)) -> Result<(), Diagnostic> {
+        let Some(path) = self.path else { return Ok(()) };
+        self.tried = Instant::now();
+        let mut aside = AtomicFile::new(path, &Replaceable::default())?;
+        self.task.set_done(part.is_done());
+        aside.append(text(&self.task, &part.far()?));
         if cfg!(not(unix)) {
             // Elsewhere no file is replaced that is open.
             self.held = None;
@@ -206,26 +295,19 @@ impl<'a, H: Header> Checkpoint<'a, H> {
         Ok(())
     }
 
-    /// How far it was by the file, which is locked from now on; `None` if there is no file.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if the file is damaged, of another work or in use.
-    pub(crate) fn read<T: DeserializeOwned>(&mut self) -> Result<Option<T>, Diagnostic> {
-        let Some(file) = open::<H>(self.path)? else { return Ok(None) };
-        lock(self.path, &file)?;
-        // A process that has just let it go may have put a newer one there.
-        if !stands_at(&file, self.path) {
-            return self.read();
+    /// Keeps how far `part` is, unless that was kept in the last seconds. Where it cannot be written, the last good
+    /// file stands until there is room again; that is logged as a warning.
+    pub fn keep_now_and_then(&mut self, part: &(impl Part + ?Sized)) {
+        if self.tried.elapsed() > KEEP_EVERY
+            && let Err(fault) = self.keep(part)
+        {
+            tracing::warn!("{fault}");
         }
-        let lines = Lines::<H>::read(self.path, &file, Some(&self.header))?;
-        (self.standing, self.held) = (Standing::Held, Some(file));
-        lines.check(&self.header)?;
-        lines.far().map(Some)
     }
 }
 
 /// The file that stands at the path; `None` if none does.
-pub(crate) fn open<H: Header>(path: &Path) -> Result<Option<File>, Diagnostic> {
+pub(crate) fn open<T: Task>(path: &Path) -> Result<Option<File>, Diagnostic> {
     if path.is_dir() {
         return Err(Diagnostic::in_file(path, "this is a folder", "name a file in it"));
     }
@@ -237,7 +319,7 @@ pub(crate) fn open<H: Header>(path: &Path) -> Result<Option<File>, Diagnostic> {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => {
             let what = format_args!("the file cannot be read: {error}");
-            Err(Diagnostic::in_file(path, what, H::AGAIN))
+            Err(Diagnostic::in_file(path, what, T::AGAIN))
         }
     }
 }

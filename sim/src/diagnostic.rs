@@ -1,4 +1,4 @@
-//! What went wrong with something the user gave, where, and what would be right: the one error type of this crate, as
+//! A fault of something the user gave, its place, and its remedy: the one error type of this crate, as
 //! data. How it is shown, and by which flag a field is given, is the caller's business. A fault in a text keeps only
 //! the line it points at, clipped, however large the file.
 
@@ -13,7 +13,7 @@ const CLIP_CHARS: usize = 32;
 /// Longer names and messages are clipped: they may quote the input.
 const MAX_MESSAGE_CHARS: usize = 1_000;
 
-/// What some editors put before a text; it is no part of it.
+/// The byte order mark that some editors put before a text; it is no part of it.
 pub const BOM: char = '\u{feff}';
 
 /// A place, what is wrong there, and the remedy. `Display` is one plain line,
@@ -46,7 +46,7 @@ pub enum Place {
         line: usize,
         /// Column, from 1, in characters.
         column: usize,
-        /// What is there.
+        /// The line there.
         excerpt: Excerpt,
     },
 }
@@ -172,24 +172,24 @@ impl Diagnostic {
         }
     }
 
-    /// What is wrong, without the place.
+    /// The fault in words, without the place.
     pub fn what(&self) -> &str {
         &self.0.what
     }
 
-    /// What would be right.
+    /// The remedy.
     pub fn remedy(&self) -> &str {
         &self.0.remedy
     }
 
-    /// The same fault, which a whole file has made.
+    /// This fault, as one that a whole file has made.
     #[must_use]
     pub fn found_in(mut self, file: impl AsRef<Path>) -> Self {
         self.0.place = Place::File(name(file.as_ref()));
         self
     }
 
-    /// The same fault with another remedy.
+    /// This fault with another remedy.
     #[must_use]
     pub fn with_remedy(mut self, remedy: impl fmt::Display) -> Self {
         self.0.remedy = one_line(&remedy.to_string());

@@ -13,7 +13,6 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::floor_trace::{Scene, Turn};
-use tautline_proofs::plural::counted;
 
 use crate::explore::{Look, Play, Setup, Survey, TeamMove};
 use crate::layout::Layout;
@@ -21,7 +20,7 @@ use crate::layout::Layout;
 /// Drawings beside each other take up at most so many columns.
 const PAGE_COLUMNS: usize = 100;
 
-/// What a drawing of team moves means.
+/// The meaning of the signs in a drawing of team moves.
 pub const fn legend(look: Look) -> &'static str {
     match look {
         Look::Linked { .. } => {
@@ -41,12 +40,6 @@ pub const fn legend(look: Look) -> &'static str {
              x stands where a robot met a wall."
         }
     }
-}
-
-/// What a picture of a run is called.
-pub fn title_of(run: &dyn Play) -> String {
-    let Setup { scheme, rule, robots, .. } = run.setup();
-    format!("{} ({rule}), {}", scheme.name, counted(*robots, scheme.look.robot()))
 }
 
 /// Lines of text with a title above them.
@@ -94,7 +87,7 @@ impl Rows {
         if self.row.len() < across { String::new() } else { self.rest() }
     }
 
-    /// What stands in the row that is not full.
+    /// The blocks in the row that is not full.
     pub fn rest(&mut self) -> String {
         let (row, width) = (mem::take(&mut self.row), self.width);
         if row.is_empty() {
@@ -170,7 +163,7 @@ fn beyond(edge: Edge) -> Cell {
     edge.cell().beyond(edge.side())
 }
 
-/// What a drawing of a team move shows.
+/// The moment that a drawing of a team move shows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Pose {
     /// The robots where they were, each with the arrow of what it tries.
@@ -275,7 +268,7 @@ const fn first_drawn(look: Look) -> usize {
 struct Labels<'a> {
     look: Look,
     cells: &'a [Cell],
-    /// What each robot tries, if arrows are to be drawn.
+    /// The step that each robot tries, if arrows are to be drawn.
     steps: Option<&'a Vec<Step>>,
     /// Cells of sensors that were missed.
     unseen: &'a [Cell],
@@ -398,7 +391,7 @@ pub fn order(run: &dyn Play, chart: &Survey) -> String {
     grid(layout, chart.area(), width, label, |_| false).join("\n") + "\n"
 }
 
-/// What was explored, and where the team is in the end.
+/// The cells that were explored, and where the team is in the end.
 pub fn outcome(run: &dyn Play, chart: &Survey, team: &[Cell]) -> String {
     let Setup { layout, scheme, .. } = run.setup();
     let labels = Labels { look: scheme.look, cells: team, steps: None, unseen: &[] };
@@ -430,7 +423,7 @@ impl Environment {
         }
     }
 
-    /// What it is.
+    /// Its name in words.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Neighbours => "one step or none",

@@ -1,4 +1,4 @@
-//! What can fail while a chain explores: a robot that dies, a wall that appears, bytes that are lost, and robots that
+//! Failures while a chain explores: a robot that dies, a wall that appears, bytes that are lost, and robots that
 //! go at speeds of their own.
 
 use std::fmt;
@@ -136,7 +136,7 @@ impl Going {
     }
 }
 
-/// What has failed in a run, and what came of it.
+/// The failures of a run, and what came of them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
 pub struct Failures {
     /// Bytes that one robot said and another one did not hear.

@@ -24,7 +24,7 @@ use tautline_proofs::run::Frame;
 /// Team moves for each cell without anything new, after which a team is taken to go round for ever.
 const PATIENCE: usize = 100;
 
-/// What each robot did in a team move.
+/// The deeds of each robot in a team move.
 #[derive(Clone, Debug)]
 struct Moves {
     steps: Vec<Step>,
@@ -53,7 +53,7 @@ impl Moves {
     }
 }
 
-/// What came of a team move.
+/// The outcome of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Ended {
     /// No robot will ever do anything, and every robot knows that nothing is left.

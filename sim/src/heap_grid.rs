@@ -39,7 +39,7 @@ pub struct HeapGrid {
 /// The last bearings that are kept: as many as one plan of a reel asks for.
 const MOST_BEARINGS: usize = 64;
 
-/// What [`Grid::bearings`] found.
+/// The findings of [`Grid::bearings`].
 #[derive(Clone, Debug)]
 struct Bearings {
     to: Cell,
@@ -47,7 +47,7 @@ struct Bearings {
     near: Arc<Near>,
 }
 
-/// What [`Grid::stops`] found.
+/// The findings of [`Grid::stops`].
 #[derive(Clone, Debug)]
 struct Walk {
     from: Cell,

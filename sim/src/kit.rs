@@ -93,7 +93,7 @@ pub trait Course {
     /// The paths that were driven, with a bit for each robot that has driven them.
     fn driven(&self) -> &BTreeMap<Edge, u16>;
 
-    /// What `robot` has recorded of the sides of the node that it was at last: whether they can be driven.
+    /// Whether the sides of the node that `robot` was at last can be driven, as it has recorded them.
     fn recorded(&self, robot: usize) -> Vec<(Edge, bool)>;
 
     /// The farthest that robots have been apart, where each is as near as it can be to those that are linked with
@@ -181,7 +181,7 @@ impl<G: Grid + Copy, const NODES: usize> Run<G, NODES> {
         self.apart = self.apart.max(widest_gap(&positions));
     }
 
-    /// What `robot` sees from `node` at `side`.
+    /// The sight that `robot` has from `node` at `side`.
     fn sight(&self, robot: usize, node: Cell, side: Side) -> Sight {
         if !self.layout.is_open(Edge::new(node, side)) {
             return Sight::Obstacle;

@@ -2,7 +2,7 @@
 //! What a person types, and how an error is printed, is the program's business.
 
 pub mod atomic_file;
-mod checkpoint;
+pub mod checkpoint;
 pub mod counterexample;
 pub mod diagnostic;
 pub mod draw;
@@ -15,7 +15,6 @@ pub mod layout;
 pub mod named_values;
 pub mod noise;
 pub mod options;
-pub mod resumable;
 pub mod schema;
 pub mod shards;
 pub mod text_table;

@@ -1,4 +1,4 @@
-//! What a person chooses by a word, on the command line and in a file.
+//! Values that a person chooses by a word, on the command line and in a file.
 
 /// Values that have words.
 pub trait NamedValues: Copy + PartialEq + 'static {

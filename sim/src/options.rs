@@ -1,5 +1,5 @@
-//! What runs of some schemes can be told, and runs of others not. An option is a field of [`Options`], as a stored run
-//! has it, and a row: how it is typed, what it means, and which values make no run.
+//! Options that runs of some schemes can be told, and runs of others not. An option is a field of [`Options`], as a
+//! stored run has it, and a row: how it is typed, what it means, and which values make no run.
 
 use std::fmt::{self, Display};
 
@@ -12,7 +12,8 @@ use crate::layout::Layout;
 use crate::layout::generate::Probability;
 use crate::value_parser::{probability, real, whole};
 
-/// What a run is told besides, if its scheme can be told that. The default is what it is without a word.
+/// The options that a run is told, if its scheme can be told them. The default is an option of which nobody says
+/// anything.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
@@ -46,7 +47,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// What it is without a word.
+    /// The options where nobody says anything.
     pub const USUAL: Self = Self {
         range_cells: None,
         sight_cells: None,
@@ -83,7 +84,7 @@ pub enum Takes {
     Real(&'static str),
 }
 
-/// What is wrong with a value, and what would be right.
+/// The fault of a value, and its remedy.
 pub type Wrong = (String, String);
 
 /// An option as a row.
@@ -94,15 +95,15 @@ pub struct Extra {
     pub alias: Option<&'static str>,
     /// How it is typed.
     pub takes: Takes,
-    /// What it means, for the help.
+    /// Its meaning, for the help.
     pub about: &'static str,
     /// Reads what is typed.
     pub read: fn(&str, &mut Options) -> Result<(), String>,
     /// How it would be typed, if it is told.
     pub typed: fn(&Options) -> Option<String>,
-    /// What is wrong with it for so many robots in a layout.
+    /// Its fault for so many robots in a layout.
     pub wrong: fn(&Options, u16, &Layout) -> Option<Wrong>,
-    /// What is wrong if it is told twice, where that is worth a word.
+    /// Its fault if it is told twice, where that is worth a word.
     pub twice: Option<fn(&str, &str) -> Wrong>,
 }
 
@@ -117,7 +118,7 @@ fn words<T: Display>(value: Option<T>) -> Option<String> {
     value.map(|value| value.to_string())
 }
 
-/// What is wrong with a value, if it is not as it should be.
+/// The fault of a value, if it is not as it should be.
 fn unless(is_right: bool, what: impl Display, remedy: impl Display) -> Option<Wrong> {
     (!is_right).then(|| (what.to_string(), remedy.to_string()))
 }

@@ -48,7 +48,7 @@ impl Column {
         Self { side: Side::Right, width, gap: Self::GAP }
     }
 
-    /// The same with so many characters between the column before and this one.
+    /// This column, with so many characters between the column before and it.
     pub const fn after(self, gap: usize) -> Self {
         Self { gap, ..self }
     }

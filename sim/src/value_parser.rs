@@ -14,7 +14,7 @@ use crate::layout::generate::Probability;
 /// A whole number, as large as its type holds.
 ///
 /// # Errors
-/// What to write.
+/// The words for what to write.
 pub fn number<T: FromStr>(text: &str) -> Result<T, String> {
     let largest = u128::MAX >> (128 - 8 * size_of::<T>());
     text.parse().map_err(|_| format!("write a whole number up to {largest}"))
@@ -23,7 +23,7 @@ pub fn number<T: FromStr>(text: &str) -> Result<T, String> {
 /// A whole number of which something else says how large it may be.
 ///
 /// # Errors
-/// What to write.
+/// The words for what to write.
 pub fn whole<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
     text.parse().map_err(|error: ParseIntError| match error.kind() {
         IntErrorKind::PosOverflow => "write a smaller number",
@@ -49,7 +49,7 @@ where
 /// A number that need not be whole.
 ///
 /// # Errors
-/// What to write.
+/// The words for what to write.
 pub fn real(text: &str) -> Result<f64, &'static str> {
     text.parse().map_err(|_| "write a number")
 }
@@ -57,7 +57,7 @@ pub fn real(text: &str) -> Result<f64, &'static str> {
 /// A number from 0 to 1.
 ///
 /// # Errors
-/// What to write.
+/// The words for what to write.
 pub fn probability(text: &str) -> Result<Probability, String> {
     text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
 }
@@ -65,7 +65,7 @@ pub fn probability(text: &str) -> Result<Probability, String> {
 /// How often something is counted until a node is silent.
 ///
 /// # Errors
-/// What to write.
+/// The words for what to write.
 pub fn count(text: &str) -> Result<Count, String> {
     let count = text.parse().ok().and_then(Count::new);
     count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))

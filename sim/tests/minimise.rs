@@ -11,7 +11,7 @@ use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
 use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::judge_input::exhibit;
-use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
+use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refusal, minimise};
 use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::kit::KIT;
@@ -296,10 +296,10 @@ fn a_run_is_taken_to_its_end_and_no_further() {
     let stopped = Limits { violation: OnViolation::Stop, ..Limits::default() };
     assert_eq!(
         refused(ended(stopped)),
-        Refused::Otherwise { asked: Breach::Crowding.into(), broken: vec![Breach::Contact.into()] }
+        Refusal::Otherwise { asked: Breach::Crowding.into(), broken: vec![Breach::Contact.into()] }
     );
     let short = Limits { max_moves: NonZeroU32::new(1), ..Limits::default() };
-    assert_eq!(refused(ended(short)), Refused::Unbroken);
+    assert_eq!(refused(ended(short)), Refusal::Unbroken);
 }
 
 /// Of KIT a layout of one node is no layout, and its robots see blocked cells before they could meet them: without

@@ -10,7 +10,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::counterexample::minimise::{Broken, Case, Met, minimise, shrink};
+use tautline_sim::counterexample::minimise::{Broken, Case, Obstacles, minimise, shrink};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
@@ -18,7 +18,7 @@ use tautline_sim::explore::{
     Setup, Starts, Stopped, Team, run,
 };
 use tautline_sim::layout::{self, Layout};
-use tautline_sim::trace::{self, Stored, Writer};
+use tautline_sim::trace::{self, StoredRun, Writer};
 
 /// The second robot never comes into the cell of the first.
 const ALONE: ClauseId = ClauseId::new("PAIR-1");
@@ -126,10 +126,10 @@ fn loaded(name: &str) -> (Layout, Cell) {
 
 const STOP: Limits = Limits { until: None, max_moves: None, violation: OnViolation::Stop };
 
-fn foreign(path: &Path) -> Result<trace::Recorded, Diagnostic> {
+fn foreign(path: &Path) -> Result<trace::ForeignRun, Diagnostic> {
     match trace::open(path, Catalogue::OWN)? {
-        Stored::Foreign(run) => Ok(run),
-        Stored::Known(trace) => panic!("{trace:?}"),
+        StoredRun::Foreign(run) => Ok(run),
+        StoredRun::Known(trace) => panic!("{trace:?}"),
     }
 }
 
@@ -194,7 +194,7 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
             edges.extend(made.frame.bumps());
             Ok(())
         })?;
-        let met = Some(Met { area: report.chart.area(), edges });
+        let met = Some(Obstacles { area: report.chart.area(), edges });
         Ok((report.stopped == Stopped::Violation).then_some(Broken { steps: report.steps, met }))
     };
     let case = Case { robots: 2, layout, base };

@@ -9,10 +9,11 @@ use std::collections::VecDeque;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation, Reception};
 
+use tautline_sim::layout::generate::Probability;
 use tautline_sim::noise::deviation_db;
 
-use super::chance::{Chance, checked_deviation};
 use super::network::Link;
+use super::problem::checked_deviation;
 use super::queue::Queue;
 use super::{Network, Problem};
 
@@ -82,18 +83,18 @@ impl SharedChannel {
 /// Faults that may happen on the way.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Faults {
-    loss: Chance,
+    loss: Probability,
     /// The noise of signal strength in dB, and how power falls with the distance.
     noise: Option<(f64, Propagation)>,
 }
 
 impl Faults {
     /// Nothing goes wrong.
-    pub const NONE: Self = Self { loss: Chance::NEVER, noise: None };
+    pub const NONE: Self = Self { loss: Probability::NEVER, noise: None };
 
-    /// Each message is lost with this chance on each link, anew each time.
+    /// Each message is lost with this probability on each link, anew each time.
     #[must_use]
-    pub const fn with_loss(self, loss: Chance) -> Self {
+    pub const fn with_loss(self, loss: Probability) -> Self {
         Self { loss, ..self }
     }
 
@@ -179,7 +180,7 @@ impl<P: Protocol> World<'_, P> {
         reason = "called for every reception, and a tenth of a flood slower otherwise"
     )]
     fn deliver(&mut self, message: P::Message, link: Link, now_ns: u64) -> Option<u64> {
-        if self.faults.loss.happens(self.chance) {
+        if self.faults.loss.is_picked(self.chance) {
             self.air.lost += 1;
             return None;
         }
@@ -495,7 +496,7 @@ mod tests {
         let network = row(50);
         let begin: Vec<(NodeId, u64)> =
             (0..50).map(|node| (NodeId(node), u64::from(node * node % 17) * 40)).collect();
-        let faults = Faults::NONE.with_loss(Chance::new(0.3).expect("a probability"));
+        let faults = Faults::NONE.with_loss(Probability::new(0.3).expect("a probability"));
         let mut talk = Talk { heard: Vec::new() };
         let source = &mut SeededOracle::new(5, 5);
         let air =

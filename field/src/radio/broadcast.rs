@@ -146,7 +146,8 @@ mod tests {
     use tautline_proofs::engine::SeededOracle;
 
     use super::*;
-    use crate::radio::{Area, Chance, Field, Model, Radio, SharedChannel};
+    use crate::radio::{Area, Field, Model, Radio, SharedChannel};
+    use tautline_sim::layout::generate::Probability;
 
     fn network(nodes: usize, seed: u64) -> Network {
         let area = Area::new(300.0, 300.0).expect("an area");
@@ -198,7 +199,7 @@ mod tests {
             let mut chance = SeededOracle::new(seed, 1);
             let source = NodeId(chance.pick(nodes as u32));
             let channel = if is_shared { Channel::Shared(SharedChannel::SENSOR) } else { Channel::Ideal };
-            let faults = Faults::NONE.with_loss(Chance::new(loss).expect("a probability"));
+            let faults = Faults::NONE.with_loss(Probability::new(loss).expect("a probability"));
             let faults = faults.with_noise(loss * 10.0, cubed()).expect("a noise");
             let (report, states) =
                 broadcast(&network, &rule(schemes()[scheme]), channel, &faults, source, &mut chance).expect("a source");
@@ -242,7 +243,7 @@ mod tests {
         let model = Model::Shadowed { exponent: 3.0, deviation_db: 4.0 };
         let radio = Radio::new(25.0, model).expect("a radio");
         let network = Network::new(&field, radio, &mut seeded).expect("a network");
-        let faults = Faults::NONE.with_loss(Chance::new(0.1).expect("a probability"));
+        let faults = Faults::NONE.with_loss(Probability::new(0.1).expect("a probability"));
         let faults = faults.with_noise(2.0, cubed()).expect("a noise");
         let made = schemes().map(|scheme| {
             let channel = Channel::Shared(SharedChannel::SENSOR);

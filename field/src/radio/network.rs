@@ -11,8 +11,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation};
 use tautline_sim::noise::{MOST_DEVIATIONS, deviation_db};
 
-use super::chance::checked_deviation;
 use super::grid::Grid;
+use super::problem::checked_deviation;
 use super::{Field, Point, Problem};
 
 /// The longest range: distances have to fit into 32 bits of micrometres.

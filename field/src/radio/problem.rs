@@ -34,6 +34,12 @@ pub enum Problem {
     NoNode { node: u32, nodes: usize },
 }
 
+/// `deviation_db`, if it can be a standard deviation.
+pub(crate) fn checked_deviation(deviation_db: f64) -> Result<f64, Problem> {
+    let fits = (0.0..=MAX_DEVIATION_DB).contains(&deviation_db);
+    if fits { Ok(deviation_db) } else { Err(Problem::Deviation { deviation_db }) }
+}
+
 /// The longest side of an area.
 pub(super) const MAX_SIDE_M: f64 = 1e6;
 

@@ -10,11 +10,12 @@ use tautline_kernel::notice::{self, Count, Scheme};
 use super::problem::MAX_STATES;
 use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::radio::{
-    self, Area, Chance, Channel, Faults, Field, LONGEST_WAIT_NS, Link, Model, Network, Obstacle, Point, Radio,
+    self, Area, Channel, Faults, Field, LONGEST_WAIT_NS, Link, Model, Network, Obstacle, Point, Radio,
 };
 use crate::rescue::setting::CallTimes;
 use crate::tan::{Equipment, Signal, hops};
 use tautline_sim::explore::RuleName;
+use tautline_sim::layout::generate::Probability;
 
 /// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.
 const THRESHOLD_TENTHS: u64 = 8;
@@ -79,7 +80,9 @@ impl Setting {
             RuleName::Repaired => (Rule::REPAIRED, notice::Conditions::REPAIRED),
         };
         let scheme = self.scheme(range_um)?;
-        let faults = Faults::NONE.with_loss(Chance::new(self.loss)?);
+        let loss =
+            Probability::new(self.loss).ok_or(radio::Problem::Probability { probability: self.loss })?;
+        let faults = Faults::NONE.with_loss(loss);
         let faults = if self.noise_db == 0.0 {
             faults
         } else {

@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell, Circle, Edge};
 use tautline_proofs::run::Frame;
 
 use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_sim::explore::SCHEMES;
 use tautline_sim::explore::{
     By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Team, Zone,
 };

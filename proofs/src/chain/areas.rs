@@ -4,6 +4,7 @@
 
 use std::ops::ControlFlow;
 
+use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell};
 
 use super::bounds::{Bounds, Counterexample};
@@ -30,7 +31,8 @@ pub struct Areas {
 }
 
 /// An area that was searched, from each of its cells as the base.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AreaSearch {
     /// Columns.
     pub columns: i16,

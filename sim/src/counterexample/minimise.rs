@@ -2,7 +2,7 @@
 //! a layout of which nothing can go. Taken alone, without any one of its robots, columns, rows, blocked cells and
 //! walls, the clause is not broken.
 //!
-//! What it is that goes:
+//! The parts that go:
 //! - *A robot*: the team has one less. A chain then has a shorter range, too.
 //! - *A column*: its cells, blocked or free, and the columns on its two sides become neighbours. Between two cells
 //!   that were on its two sides stands a wall if one stood on either side of the cell that was between them. The
@@ -13,7 +13,7 @@
 //! - *A blocked cell*: it is free then. Walls beside it stay.
 //! - *A wall* inside the rim.
 //!
-//! What a run never met goes all at once, before anything else and after everything that goes: the cells out of the
+//! Whatever a run never met goes all at once, before anything else and after everything that goes: the cells out of the
 //! team's reach, and the walls and blocked cells that no robot bumped into. Where robots see what they do not bump
 //! into, as those of KIT do, another run comes of it: what is left is run again, and stays whole if it does not break
 //! the clause. Then the robots are tried, the smallest team first, and columns, rows, blocked cells and walls in this
@@ -37,9 +37,10 @@ use crate::layout::{Layout, Problem};
 /// A run in which nothing can go.
 #[derive(Clone, Debug)]
 pub struct Minimal {
-    /// What makes it. The run stops at the team move that breaks the clause; another clause may be broken before.
+    /// The setup that makes it. The run stops at the team move that breaks the clause; another clause may be broken
+    /// before.
     pub setup: Setup,
-    /// What its last team move breaks.
+    /// The clause that its last team move breaks.
     pub clause: ClauseId,
     /// How large the run was that it is made from.
     pub before: Extent,
@@ -91,7 +92,7 @@ pub struct Progress {
 
 /// Why there is nothing to minimise.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Refused {
+pub enum Refusal {
     /// The run breaks no clause.
     Unbroken,
     /// The run is one of agents: what they never met, their sensors may still have seen.
@@ -100,15 +101,15 @@ pub enum Refused {
     Chosen,
     /// The run breaks other clauses than the one asked for.
     Otherwise {
-        /// What was asked for.
+        /// The clause that was asked for.
         asked: ClauseId,
-        /// What is broken.
+        /// The clauses that are broken.
         broken: Vec<ClauseId>,
     },
 }
 
-impl Refused {
-    /// What would be right.
+impl Refusal {
+    /// The remedy.
     pub fn remedy(&self) -> String {
         match self {
             Self::Unbroken => "name a counterexample of `tautline hunt`, or a trace of a run that ended \
@@ -124,7 +125,7 @@ impl Refused {
     }
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
@@ -137,19 +138,19 @@ impl fmt::Display for Refused {
     }
 }
 
-impl std::error::Error for Refused {}
+impl std::error::Error for Refusal {}
 
 /// Why nothing was minimised.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Failure {
     /// There is nothing to minimise.
-    Refused(Refused),
+    Refused(Refusal),
     /// The work was ended.
     Halted(Halt),
 }
 
-impl From<Refused> for Failure {
-    fn from(refused: Refused) -> Self {
+impl From<Refusal> for Failure {
+    fn from(refused: Refusal) -> Self {
         Self::Refused(refused)
     }
 }
@@ -160,7 +161,7 @@ impl From<Halt> for Failure {
     }
 }
 
-/// What can go smaller of a run.
+/// A part of a run that can go, or become smaller.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// Robots, the base counted.
@@ -176,13 +177,13 @@ pub struct Case {
 pub struct Broken {
     /// Team moves up to the one that breaks it.
     pub steps: u32,
-    /// What the run met; where nothing else makes a difference to it, all the rest can go at once.
-    pub met: Option<Met>,
+    /// The edges and cells that the run met; where nothing else makes a difference to it, all the rest can go at once.
+    pub met: Option<Obstacles>,
 }
 
-/// What a run met.
+/// The edges and cells that a run met.
 #[derive(Clone, Debug)]
-pub struct Met {
+pub struct Obstacles {
     /// The cells in the team's reach.
     pub area: Area,
     /// The edges at which robots stood before a wall or a blocked cell.
@@ -192,9 +193,9 @@ pub struct Met {
 /// Makes the run of a case, and says whether it breaks the clause; it is told how far the work is.
 pub type Breaks<'a> = dyn FnMut(&Case, Progress) -> Result<Option<Broken>, Halt> + 'a;
 
-/// What the work came to.
+/// The result of the work.
 #[derive(Clone, Debug)]
-pub struct Shrunk {
+pub struct Shrinkage {
     /// The smallest case: without any one robot, column, row, blocked cell or wall of it the clause is not broken.
     pub case: Case,
     /// How large it is.
@@ -208,23 +209,23 @@ pub struct Shrunk {
 ///
 /// # Errors
 /// [`Halt`] if `breaks` ended the work.
-pub fn shrink(case: Case, steps: u32, least: u16, breaks: &mut Breaks<'_>) -> Result<Shrunk, Halt> {
+pub fn shrink(case: Case, steps: u32, least: u16, breaks: &mut Breaks<'_>) -> Result<Shrinkage, Halt> {
     let extent = Extent::new(&case, steps);
     let progress = Progress { runs: 0, smallest: extent };
-    let mut shrinking = Shrinking { smallest: case, progress, breaks };
-    shrinking.attempt(&shrinking.smallest.clone())?;
+    let mut shrinker = Shrinker { smallest: case, progress, breaks };
+    shrinker.attempt(&shrinker.smallest.clone())?;
     loop {
-        let last = shrinking.progress.smallest;
-        shrinking.dismiss_robots(least)?;
+        let last = shrinker.progress.smallest;
+        shrinker.dismiss_robots(least)?;
         for part in Part::ALL {
-            shrinking.thin(part)?;
+            shrinker.thin(part)?;
         }
-        if shrinking.progress.smallest == last {
+        if shrinker.progress.smallest == last {
             break;
         }
     }
-    let Shrinking { smallest: case, progress: Progress { runs, smallest: extent }, breaks: _ } = shrinking;
-    Ok(Shrunk { case, extent, runs })
+    let Shrinker { smallest: case, progress: Progress { runs, smallest: extent }, breaks: _ } = shrinker;
+    Ok(Shrinkage { case, extent, runs })
 }
 
 /// The minimal run that the run of `setup` shrinks to; what stays broken is `asked`, or else what the run breaks first.
@@ -239,10 +240,10 @@ pub fn minimise(
 ) -> Result<Minimal, Failure> {
     match setup.scheme.senses {
         Senses::Bumps => {}
-        Senses::Floor => return Err(Refused::OfAgents(setup.scheme).into()),
+        Senses::Floor => return Err(Refusal::OfAgents(setup.scheme).into()),
     }
     if !setup.choices.is_empty() {
-        return Err(Refused::Chosen.into());
+        return Err(Refusal::Chosen.into());
     }
     let case = Case { robots: setup.robots, layout: setup.layout.clone(), base: setup.base };
     let mut before = Extent::new(&case, 0);
@@ -275,24 +276,24 @@ pub fn minimise(
             watch(progress)
         })?;
         let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
-        let met = is_default.then(|| Met { area: report.chart.area(), edges });
+        let met = is_default.then(|| Obstacles { area: report.chart.area(), edges });
         Ok(is_broken.then_some(Broken { steps: report.steps, met }))
     })?;
-    let Shrunk { case, extent: after, runs } = shrunk;
+    let Shrinkage { case, extent: after, runs } = shrunk;
     Ok(Minimal { setup: made(case), clause, before, after, runs })
 }
 
 /// The first violation of what is `asked`, if something is.
-fn first_violation(report: &Report, asked: Option<ClauseId>) -> Result<Violation, Refused> {
+fn first_violation(report: &Report, asked: Option<ClauseId>) -> Result<Violation, Refusal> {
     let mut violations = report.violations.iter();
     let found = violations.find(|violation| asked.is_none_or(|asked| violation.clause == asked));
     found.copied().ok_or_else(|| match asked {
         Some(asked) if !report.violations.is_empty() => {
             let broken: BTreeSet<ClauseId> =
                 report.violations.iter().map(|violation| violation.clause).collect();
-            Refused::Otherwise { asked, broken: broken.into_iter().collect() }
+            Refusal::Otherwise { asked, broken: broken.into_iter().collect() }
         }
-        Some(_) | None => Refused::Unbroken,
+        Some(_) | None => Refusal::Unbroken,
     })
 }
 
@@ -318,7 +319,7 @@ impl Part {
         }
     }
 
-    /// What `case` can become without those in `range`, the first choice first.
+    /// The cases that `case` can become without those in `range`, the first choice first.
     fn without(self, case: &Case, range: &Range<usize>) -> Result<Vec<Case>, Problem> {
         let whole = &case.layout;
         let mut layout = whole.clone();
@@ -347,7 +348,7 @@ fn outside(range: &Range<usize>, count: i16) -> Vec<i16> {
     (0..count).filter(|&line| !range.contains(&(line as usize))).collect()
 }
 
-/// What `case` can become with only these columns and rows: one for each place that the base can have.
+/// The cases that `case` can become with only these columns and rows: one for each place that the base can have.
 fn with_lines(case: &Case, columns: &[i16], rows: &[i16]) -> Result<Vec<Case>, Problem> {
     if columns.is_empty() || rows.is_empty() {
         return Ok(Vec::new());
@@ -394,7 +395,7 @@ fn places(left: &[i16], line: i16) -> impl Iterator<Item = i16> {
 }
 
 /// `case` with nothing but what was met.
-fn cut_down(case: &Case, Met { area, edges }: &Met) -> Result<Case, Problem> {
+fn cut_down(case: &Case, Obstacles { area, edges }: &Obstacles) -> Result<Case, Problem> {
     let whole = &case.layout;
     let origin = area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
@@ -416,14 +417,14 @@ fn cut_down(case: &Case, Met { area, edges }: &Met) -> Result<Case, Problem> {
 }
 
 /// The work under way.
-struct Shrinking<'a, 'b> {
+struct Shrinker<'a, 'b> {
     /// The smallest case so far.
     smallest: Case,
     progress: Progress,
     breaks: &'a mut Breaks<'b>,
 }
 
-impl Shrinking<'_, '_> {
+impl Shrinker<'_, '_> {
     /// Makes the smallest team that breaks the clause in this layout the team.
     fn dismiss_robots(&mut self, least: u16) -> Result<(), Halt> {
         for robots in least..self.smallest.robots {

@@ -3,16 +3,14 @@
 
 use std::path::Path;
 
-use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::run::{Ending, Frame, Run};
+use tautline_proofs::run::{Ending, Run};
 use tautline_proofs::team::{Rule, Setting, Strategy};
 
 use crate::atomic_file::{AtomicFile, Replaceable};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::layout as layout_of;
-use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, Survey, Team, TeamMove, run};
-use crate::layout::Layout;
-use crate::trace::Writer;
+use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, TeamMove, Violation, run};
+use crate::trace::{Player, Writer};
 
 /// A rule of one's own, in the layout of a run that was found.
 pub struct Found<'a, R: Rule> {
@@ -20,7 +18,7 @@ pub struct Found<'a, R: Rule> {
     pub setting: &'a Setting<'a, R>,
     /// The rule, by its name.
     pub rule: (&'a str, &'a R),
-    /// What was found.
+    /// The run that was found.
     pub run: &'a Run,
 }
 
@@ -46,48 +44,20 @@ impl<R: Rule> Found<'_, R> {
             let playing = self.setting.in_layout(self.rule.1, &starts, Vec::new());
             run(&mut Own::new(playing, 0), &setup.layout, limits, &mut add)?
         } else {
-            run(&mut Told::new(self.run, starts), &setup.layout, limits, &mut add)?
+            let Run { frames, ending, .. } = self.run;
+            let last = clause.map(|clause| Violation { clause, step: frames.len() as u32 });
+            let last: Vec<Violation> = last.into_iter().filter(|_| *ending == Ending::Move).collect();
+            let mut player = Player {
+                frames,
+                end: if *ending == Ending::Endless { End::Endless } else { End::Exhausted },
+                broken: &last,
+                broken_at_end: clause.into_iter().collect(),
+                due: setup.layout.free_cells() as u32,
+                cells: starts,
+                made: 0,
+            };
+            run(&mut player, &setup.layout, limits, &mut add)?
         };
         Ok((writer.end(&report), report))
-    }
-}
-
-/// A team that does what a search has found, in whatever order its robots acted.
-struct Told<'a> {
-    found: &'a Run,
-    cells: Vec<Cell>,
-    made: usize,
-}
-
-impl<'a> Told<'a> {
-    const fn new(found: &'a Run, cells: Vec<Cell>) -> Self {
-        Self { found, cells, made: 0 }
-    }
-
-    fn broken(&self) -> Vec<ClauseId> {
-        self.found.breaks.map(ClauseId::new).into_iter().collect()
-    }
-}
-
-impl Team for Told<'_> {
-    fn cells(&self) -> &[Cell] {
-        &self.cells
-    }
-
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        let end = if self.found.ending == Ending::Endless { End::Endless } else { End::Exhausted };
-        let frame = self.found.frames.get(self.made).ok_or(end)?;
-        self.made += 1;
-        self.cells.clone_from(&frame.cells);
-        Ok(frame.clone())
-    }
-
-    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        let is_last = self.made == self.found.frames.len();
-        if is_last && self.found.ending == Ending::Move { self.broken() } else { Vec::new() }
-    }
-
-    fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
-        self.broken()
     }
 }

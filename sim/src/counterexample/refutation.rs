@@ -127,11 +127,11 @@ pub fn store(
 /// A refutation that was read, and played again.
 #[derive(Debug)]
 pub struct Refutation {
-    /// What is refuted.
+    /// The clause that is refuted.
     pub clause: &'static Clause,
     /// The check within whose bound it lies.
     pub check: &'static dyn AnyCheck,
-    /// What it comes to.
+    /// The demand that is broken, and how.
     pub evidence: Evidence,
 }
 

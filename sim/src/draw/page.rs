@@ -1,35 +1,32 @@
-//! A page that plays a run: one file without anything from elsewhere, drawn on a canvas from data. Of each team move it
-//! holds what changes, so that long runs stay small; it is written as the run goes on. What a scheme shows beside its
-//! robots comes from its [`Layer`]s: the page knows no scheme.
+//! A page that plays a run: one file without anything from elsewhere, drawn on a canvas from data. Of each team move
+//! it holds what changes, in words of a few letters that `docs/formats.md` explains, so that long runs stay small; it
+//! is written as the run goes on. What a scheme shows beside its robots comes from its [`Layer`]s: the page knows no
+//! scheme.
 
 pub mod film;
-pub mod line;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
+use std::path::Path;
 
-use tautline_kernel::ground::Cell;
-use tautline_proofs::plural::counted;
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
+use tautline_proofs::run::Frame;
 
 pub use self::film::in_words;
-use self::film::{Again, Board, Ended, Film, Share};
-use self::line::Line;
+use self::film::{Board, EndBreach, Film, Share, again, notes, outcome};
 use super::story;
 use crate::atomic_file::AtomicFile;
-use crate::diagnostic::Diagnostic;
-use crate::explore::{Layer, Look, Milestone, Play, Report, Scene, Setup, Starts, TeamMove};
-use crate::options::{Extra, Takes};
+use crate::diagnostic::{Diagnostic, Halt};
+use crate::explore::{Change, Hearers, Layer, Look, Place, Play, Report, Scene, Survey, TeamMove};
 
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
 
-/// Layouts of more cells are not printed on a page.
-const MOST_PRINTED: usize = 64 * 64;
-
 /// A page in the making. One that grows too large is left out.
 #[derive(Debug)]
-pub struct Page<'a> {
+struct Page<'a> {
     file: &'a mut AtomicFile,
     run: &'a dyn Play,
     report: &'a Report,
@@ -39,7 +36,7 @@ pub struct Page<'a> {
     line: Line,
     /// Where the robots were before the first of the team moves, once that is known.
     start: Option<Vec<Cell>>,
-    /// What is broken in the last of the team moves so far.
+    /// The clauses that the last of the team moves so far breaks.
     broken: Vec<&'static str>,
     /// By clause, what it says.
     clauses: BTreeMap<&'static str, &'static str>,
@@ -48,7 +45,7 @@ pub struct Page<'a> {
 impl<'a> Page<'a> {
     /// The page in `file` that plays these team moves of a run that came out as `report`. All team moves up to the last
     /// one are to be added.
-    pub fn new(
+    fn new(
         file: &'a mut AtomicFile,
         run: &'a dyn Play,
         report: &'a Report,
@@ -66,7 +63,7 @@ impl<'a> Page<'a> {
             broken: Vec::new(),
             clauses: BTreeMap::new(),
         };
-        page.put(&film::head(&super::title_of(run)));
+        page.put(&film::head(&run.setup().title()));
         page
     }
 
@@ -88,7 +85,7 @@ impl<'a> Page<'a> {
     }
 
     /// Adds a team move; those before the first are shown as what the team knows by then.
-    pub fn add(&mut self, made: &TeamMove<'_>) {
+    fn add(&mut self, made: &TeamMove<'_>) {
         if self.line.is_new() {
             self.layers = made.team.layers();
         }
@@ -125,7 +122,7 @@ impl<'a> Page<'a> {
     }
 
     /// Adds what comes after the team moves.
-    pub fn finish(mut self) {
+    fn finish(mut self) {
         let team = self.report.team.clone();
         self.begin(&team);
         let text = film::foot(&self.film());
@@ -139,7 +136,7 @@ impl<'a> Page<'a> {
         let start = self.start.take().unwrap_or_default();
         let ends = self.ends();
         Film {
-            title: super::title_of(self.run),
+            title: self.run.setup().title(),
             outcome: outcome(report),
             unit: "team move",
             robot: scheme.look.robot(),
@@ -158,8 +155,8 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// What the end of the run breaks, if the end is shown.
-    fn ends(&mut self) -> Vec<Ended> {
+    /// The clauses that the end of the run breaks, if the end is shown.
+    fn ends(&mut self) -> Vec<EndBreach> {
         let report = self.report;
         if !self.moves.contains(&report.steps) && report.steps > 0 {
             return Vec::new();
@@ -174,15 +171,34 @@ impl<'a> Page<'a> {
             }
             self.clauses.insert(clause.as_str(), story::sentence(clause).unwrap_or_default());
             let (what, cells) = self.run.missed(clause, &report.chart).unwrap_or(("", Vec::new()));
-            let cells = cells.iter().filter_map(|&cell| line::place_of(report.chart.area(), cell)).collect();
-            ends.push(Ended { clause: clause.as_str(), what, cells });
+            let cells = cells.iter().filter_map(|&cell| place_of(report.chart.area(), cell)).collect();
+            ends.push(EndBreach { clause: clause.as_str(), what, cells });
         }
         ends
     }
 }
 
+/// Writes the page to `file` that plays the team moves in `moves` of a run that came out as `report`.
+///
+/// # Errors
+/// [`Halt`] if the run cannot be made.
+pub fn write(
+    file: &mut AtomicFile,
+    run: &dyn Play,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+) -> Result<(), Halt> {
+    let mut page = Page::new(file, run, report, moves);
+    run.among(&(1..=*moves.end()), &mut |made| {
+        page.add(made);
+        Ok(())
+    })?;
+    page.finish();
+    Ok(())
+}
+
 /// The fault of a page that is too large.
-pub fn too_large(path: &std::path::Path, remedy: &str) -> Diagnostic {
+pub fn too_large(path: &Path, remedy: &str) -> Diagnostic {
     let what = format!("a page of more than {} MB is left out", MAX_BYTES / 1_000_000);
     Diagnostic::in_file(path, what, remedy)
 }
@@ -192,80 +208,289 @@ pub const fn is_too_large(bytes: usize) -> bool {
     bytes > MAX_BYTES
 }
 
-fn outcome(report: &Report) -> String {
-    format!(
-        "{}: {}. {} of {} explored; {}.",
-        counted(report.steps, "team move"),
-        report.stopped.words(),
-        report.explored,
-        counted(report.cells, "cell"),
-        broken(report)
-    )
+/// The sides and layers that are known so far, and so need not be said again.
+#[derive(Debug)]
+struct Line {
+    area: Area,
+    /// Whether a side can be crossed, by its place.
+    known: BTreeMap<u32, bool>,
+    /// The value that a place of a layer has, by layer, robot and place.
+    values: BTreeMap<(usize, Option<usize>, u32), u8>,
+    milliseconds: u64,
+    is_new: bool,
 }
 
-fn broken(report: &Report) -> String {
-    match report.violations.as_slice() {
-        [] => "no clause is broken".to_owned(),
-        [first, ..] => format!("{} is broken in team move {}", first.clause, first.step),
+impl Line {
+    const fn new(area: Area) -> Self {
+        Self { area, known: BTreeMap::new(), values: BTreeMap::new(), milliseconds: 0, is_new: true }
     }
-}
 
-/// What is told beside violations: the milestones and the end.
-fn notes(report: &Report) -> Vec<(u32, String)> {
-    let reached = |milestone: Milestone| {
-        let step = report.reached(milestone)?;
-        Some((step, format!("{} % of the cells are explored", milestone.percent())))
-    };
-    let end = (report.steps, format!("The end: {}", report.stopped.words()));
-    Milestone::ALL.into_iter().filter_map(reached).chain([end]).collect()
-}
-
-/// How to make the run again, and others.
-fn again(setup: &Setup) -> Again {
-    let Setup { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
-        setup;
-    let is_small = setup.layout.size().area().cells().nth(MOST_PRINTED).is_none();
-    let layout = is_small.then(|| {
-        let mut layout = setup.layout.clone();
-        // Without a base where none can stand, the drawing is as good.
-        let _ = layout.place_base(*base);
-        layout.to_string()
-    });
-    let by_search = Again { command: None, layout };
-    if !scheme.is_known() || !choices.is_empty() || !missed.is_empty() {
-        return by_search;
+    /// Whether no team move was told yet.
+    const fn is_new(&self) -> bool {
+        self.is_new
     }
-    let name = scheme.name;
-    let mut command = format!("tautline explore LAYOUT --scheme {name} --rule {rule} --robots {robots}");
-    // Writing to a string cannot fail.
-    match (scheme.starts, starts) {
-        (Starts::Base, _) | (_, None) => {
-            let _ = write!(command, " --base {},{}", base.x, base.y);
-        }
-        (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts)) => {
-            for start in starts {
-                let _ = write!(command, " --start {},{}", start.x, start.y);
+
+    /// Takes in a team move that is not shown.
+    fn take(&mut self, made: &TeamMove<'_>, scene: &Scene) {
+        self.changes(scene);
+        self.milliseconds = made.team.milliseconds().unwrap_or(0);
+        self.is_new = false;
+        for (robot, &from) in made.before.iter().enumerate() {
+            if let Step::Cross(side) = made.frame.steps[robot]
+                && let Some(place) = self.side(Edge::new(from, side))
+            {
+                self.known.insert(place, !made.frame.blocked[robot]);
             }
         }
     }
-    if !miss.is_never() {
-        let _ = write!(command, " --miss {miss}");
+
+    /// All that there is before the first team move that is shown, the one after `step`.
+    fn before(&self, chart: &Survey, step: u32) -> String {
+        let cells = self.area.cells();
+        let explored = cells.filter(|&cell| chart.step(cell).is_some_and(|explored| explored <= step));
+        let explored: Vec<u32> = explored.filter_map(|cell| place_of(self.area, cell)).collect();
+        let mut text = format!("- +{} {}", self.milliseconds, word("x", &explored));
+        for is_open in [true, false] {
+            let sides = self.known.iter().filter(|&(_, &open)| open == is_open).map(|(&place, _)| place);
+            text += &known(is_open, &sides.collect::<Vec<_>>());
+        }
+        let mut puts = Puts::default();
+        for (&(layer, robot, place), &value) in self.values.iter().filter(|&(_, &value)| value > 0) {
+            puts.add(layer, robot, place, value);
+        }
+        text + &puts.text()
     }
-    for extra in Extra::ALL {
-        let _ = match ((extra.typed)(options), extra.takes) {
-            (None, _) => Ok(()),
-            (Some(_), Takes::Nothing) => write!(command, " --{}", extra.field),
-            (Some(word), Takes::Word(_) | Takes::Real(_)) => write!(command, " --{} {word}", extra.field),
+
+    /// A team move.
+    fn of(&mut self, look: Look, made: &TeamMove<'_>, scene: &Scene) -> String {
+        let mut text = steps(made.frame);
+        if made.frame.kind == Kind::Backtrack {
+            text += " b";
+        }
+        if let Some(milliseconds) = made.team.milliseconds() {
+            let later = milliseconds - self.milliseconds.min(milliseconds);
+            // Writing to a string cannot fail.
+            let _ = write!(text, " +{later}");
+            self.milliseconds = milliseconds;
+        }
+        let mut unseen: Vec<u32> = made.unseen.iter().filter_map(|&cell| place_of(self.area, cell)).collect();
+        unseen.sort_unstable();
+        text += &listed("u", &unseen);
+        let mut seen: Vec<u32> =
+            made.team.seen().iter().filter_map(|&cell| place_of(self.area, cell)).collect();
+        seen.sort_unstable();
+        text += &listed("x", &seen);
+        if let Look::Linked { is_lost } = look {
+            let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
+            let lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot as u32);
+            let lost: Vec<u32> = lost.collect();
+            text += &listed("l", &lost);
+        }
+        self.is_new = false;
+        text + &self.changes(scene)
+    }
+
+    /// The changes of a scene, in words; from now on they are known.
+    fn changes(&mut self, scene: &Scene) -> String {
+        let (mut text, mut said) = (String::new(), String::new());
+        let (mut puts, mut sides) = (Puts::default(), [Vec::new(), Vec::new()]);
+        for change in scene.changes() {
+            match change {
+                Change::Clear { layer } => {
+                    let of_layer = (*layer, None, 0)..(layer + 1, None, 0);
+                    let gone: Vec<_> = self.values.range(of_layer).map(|(&key, _)| key).collect();
+                    if !gone.is_empty() {
+                        let _ = write!(text, " c{layer}");
+                    }
+                    for key in gone {
+                        self.values.remove(&key);
+                    }
+                }
+                &Change::Put { layer, robot, place, value } => {
+                    let place = match place {
+                        Place::Cell(cell) => place_of(self.area, cell),
+                        Place::Side(edge) => self.side(edge),
+                    };
+                    let Some(place) = place else { continue };
+                    let before = match value {
+                        0 => self.values.remove(&(layer, robot, place)),
+                        _ => self.values.insert((layer, robot, place), value),
+                    };
+                    if before.unwrap_or(0) != value {
+                        puts.add(layer, robot, place, value);
+                    }
+                }
+                &Change::Know { side, is_open } => {
+                    if let Some(place) = self.side(side)
+                        && self.known.insert(place, is_open) != Some(is_open)
+                    {
+                        sides[usize::from(is_open)].push(place);
+                    }
+                }
+                Change::Say { layer, kind, from, to } => {
+                    let to = match to {
+                        Hearers::All => "*".to_owned(),
+                        Hearers::These(robots) => {
+                            robots.iter().map(usize::to_string).collect::<Vec<_>>().join(",")
+                        }
+                    };
+                    let _ = write!(said, " s{layer}.{kind}:{from}>{to}");
+                }
+                Change::Take { robot, milliseconds } => {
+                    let _ = write!(said, " d{robot}:{milliseconds}");
+                }
+                &Change::Fail { robot } => said += &listed("f", &[robot as u32]),
+            }
+        }
+        let [mut blocked, mut open] = sides;
+        blocked.sort_unstable();
+        open.sort_unstable();
+        text + &known(true, &open) + &known(false, &blocked) + &puts.text() + &said
+    }
+
+    /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its
+    /// southern side; none on the rim.
+    fn side(&self, edge: Edge) -> Option<u32> {
+        let axis = match edge.side() {
+            Side::East | Side::West => 0,
+            Side::South | Side::North => 1,
         };
+        place_of(self.area, edge.cell()).map(|place| 2 * place + axis)
     }
-    if let Some(milestone) = limits.until {
-        let _ = write!(command, " --until {}", milestone.percent());
+}
+
+/// The number of a cell, row by row.
+pub(super) fn place_of(area: Area, cell: Cell) -> Option<u32> {
+    area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
+}
+
+/// The steps that robots tried: a letter each, small where a wall was met; a number before a point is how many robots
+/// in a row stay.
+fn steps(frame: &Frame) -> String {
+    let (mut text, mut resting) = (String::new(), 0);
+    for (step, blocked) in frame.steps.iter().zip(&frame.blocked).map(Some).chain([None]).map(Option::unzip) {
+        let letter = match step {
+            Some(Step::Stay) => {
+                resting += 1;
+                continue;
+            }
+            Some(Step::Cross(side)) => Some(match side {
+                Side::East => 'E',
+                Side::South => 'S',
+                Side::West => 'W',
+                Side::North => 'N',
+            }),
+            None => None,
+        };
+        match resting {
+            0 => {}
+            1 => text.push('.'),
+            many => {
+                let _ = write!(text, "{many}.");
+            }
+        }
+        resting = 0;
+        text.extend(
+            letter.map(|letter| if blocked == Some(&true) { letter.to_ascii_lowercase() } else { letter }),
+        );
     }
-    if let Some(most) = limits.max_moves {
-        let _ = write!(command, " --max-moves {most}");
+    text
+}
+
+/// A word with numbers in rising order: the first, then each as what it is more than the one before, to the base 36.
+pub fn word(name: &str, numbers: &[u32]) -> String {
+    let (mut text, mut last) = (format!("{name}:"), 0);
+    for (place, &number) in numbers.iter().enumerate() {
+        if place > 0 {
+            text.push(',');
+        }
+        base36(&mut text, i64::from(number - last));
+        last = number;
     }
-    if scheme.draws(setup) {
-        let _ = write!(command, " --seed {seed}");
+    text
+}
+
+/// A number to the base 36.
+pub fn base36(text: &mut String, number: i64) {
+    if number < 0 {
+        text.push('-');
     }
-    Again { command: Some(command + " --replay run.html"), ..by_search }
+    let (mut left, mut digits) = (number.unsigned_abs(), Vec::new());
+    loop {
+        digits.extend(char::from_digit((left % 36) as u32, 36));
+        left /= 36;
+        if left == 0 {
+            break;
+        }
+    }
+    text.extend(digits.iter().rev());
+}
+
+/// A word with a blank before it; nothing if there are no numbers.
+fn listed(name: &str, numbers: &[u32]) -> String {
+    if numbers.is_empty() { String::new() } else { format!(" {}", word(name, numbers)) }
+}
+
+fn known(is_open: bool, places: &[u32]) -> String {
+    listed(if is_open { "o" } else { "w" }, places)
+}
+
+/// Values that places get, those of one layer, value and robot together.
+#[derive(Default)]
+struct Puts(BTreeMap<(usize, u8, u32), Vec<Option<usize>>>);
+
+impl Puts {
+    fn add(&mut self, layer: usize, robot: Option<usize>, place: u32, value: u8) {
+        self.0.entry((layer, value, place)).or_default().push(robot);
+    }
+
+    fn text(self) -> String {
+        // Robots that get the same in the same places are told of together.
+        let mut groups = BTreeMap::<(usize, u8, Vec<Option<usize>>), Vec<u32>>::new();
+        for ((layer, value, place), mut robots) in self.0 {
+            robots.sort_unstable();
+            groups.entry((layer, value, robots)).or_default().push(place);
+        }
+        let mut text = String::new();
+        for ((layer, value, robots), places) in groups {
+            let robots: Vec<String> = robots.iter().flatten().map(usize::to_string).collect();
+            let of = if robots.is_empty() { String::new() } else { format!("@{}", robots.join(",")) };
+            text += &listed(&format!("p{layer}.{value}{of}"), &places);
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robots_that_stay_are_counted() {
+        let [east, north] = [Side::East, Side::North].map(Step::Cross);
+        let frame = |steps: &[Step]| Frame {
+            kind: Kind::Advance,
+            blocked: steps.iter().map(|&step| step == north).collect(),
+            steps: steps.to_vec(),
+            cells: vec![Cell::new(0, 0); steps.len()],
+        };
+        let stay = Step::Stay;
+        for (steps_made, text) in [
+            (&[stay, stay, east, stay, north][..], "2.E.n"),
+            (&[stay; 12][..], "12."),
+            (&[east, stay][..], "E."),
+            (&[][..], ""),
+        ] {
+            assert_eq!(steps(&frame(steps_made)), text);
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_as_what_they_are_more() {
+        assert_eq!(word("x", &[0, 35, 36, 1332]), "x:0,z,1,100");
+        assert_eq!(word("x", &[]), "x:");
+        let mut text = String::new();
+        base36(&mut text, -37);
+        assert_eq!(text, "-11");
+    }
 }

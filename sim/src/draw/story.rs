@@ -122,7 +122,7 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
     Ok(format!("{}\n\n{words}\n{}", legend(run.setup().scheme.look), beside(blocks)))
 }
 
-/// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors
+/// The turns of agents in `course`, one by one: every turn before it is made, with what the agent tries and the sensors
 /// that it misses, and the end. Of turns that can go on for ever only those are shown.
 ///
 /// # Errors

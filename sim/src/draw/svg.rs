@@ -2,14 +2,15 @@
 //! moves. Every text is escaped by being made of numbers and our own words.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use super::{Environment, REACH, first_drawn};
 use crate::atomic_file::SVG_HEAD;
-use crate::diagnostic::Diagnostic;
-use crate::explore::{Look, Play, Setup, Survey, TeamMove};
+use crate::diagnostic::{Diagnostic, Halt};
+use crate::explore::{Look, Play, Report, Setup, Survey, TeamMove};
 use crate::layout::Layout;
 
 /// The side of a cell.
@@ -71,13 +72,6 @@ pub struct Panel {
     width: i32,
     height: i32,
     body: String,
-}
-
-impl Panel {
-    /// How many bytes it has in a picture, about.
-    pub fn bytes(&self) -> usize {
-        self.caption.len() + self.body.len()
-    }
 }
 
 /// A whole picture of panels beside each other, as many in a row as the page holds.
@@ -180,6 +174,47 @@ pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     body.push_str(&walls(layout, area));
     body.push_str(&team(scheme.look, frame, made));
     panel(area, super::title(made), body)
+}
+
+/// Team moves that a picture can hold.
+const MAX_PANELS: u32 = 200;
+
+/// Checks that a picture can hold a panel for each of `moves`.
+///
+/// # Errors
+/// A [`Diagnostic`] of the command line.
+pub fn check_moves(moves: &RangeInclusive<u32>) -> Result<(), Diagnostic> {
+    if moves.end().saturating_sub(*moves.start()) < MAX_PANELS {
+        return Ok(());
+    }
+    let what = format!("a picture of more than {MAX_PANELS} team moves");
+    Err(Diagnostic::usage(
+        what,
+        format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`"),
+    ))
+}
+
+/// Bytes of the panels that a picture can hold.
+const MAX_PANEL_BYTES: usize = 64 << 20;
+
+/// A picture of the team moves in `moves` of a run that came out as `report`, one panel each.
+///
+/// # Errors
+/// [`Halt`] if they are too many or too large, or the run cannot be made.
+pub fn team_moves(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
+    check_moves(&(*moves.start()..=report.steps.min(*moves.end())))?;
+    let (mut panels, mut bytes) = (Vec::new(), 0);
+    run.among(moves, &mut |made| {
+        let panel = team_move(run, &report.chart, made);
+        bytes += panel.caption.len() + panel.body.len();
+        if bytes > MAX_PANEL_BYTES {
+            let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
+            return Err(Diagnostic::usage(what, "draw fewer team moves").into());
+        }
+        panels.push(panel);
+        Ok(())
+    })?;
+    Ok(picture(&run.setup().title(), &panels))
 }
 
 /// The ways of robots from cell to cell, beside each other where they go the same way.

@@ -14,13 +14,13 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
+use super::catalogue::{By, Drawn, Look, Profile, Senses, Starts};
 use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, is_visited};
-use super::run::{End, Team};
+use super::run::{End, Survey, Team};
 use super::scan_time;
 use super::scene::{Layer, Scene};
-use super::setup::{By, Drawn, Look, Profile, Senses, Setup, Starts};
-use super::survey::Survey;
+use super::setup::Setup;
 use crate::layout::Layout;
 use crate::layout::generate::{self, Probability};
 

@@ -3,8 +3,9 @@
 use tautline_kernel::ants::Rule as Ants;
 
 use super::agents::AGENTS;
+use super::catalogue::{Knowledge, Profile};
 use super::hunt_states::crew;
-use super::setup::{Knowledge, Profile, Rule};
+use super::rule::Rule;
 
 /// Agents on a sensor floor that go where they have been least; they never know that they are done.
 pub static ANTS: Profile = Profile {

@@ -8,11 +8,12 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, unvisited};
+use super::catalogue::{Knowledge, Profile};
+use super::clause::{Clause, Judge};
 use super::hunt_states::crew;
-use super::rule::RuleId;
-use super::run::TeamMove;
-use super::setup::{Clause, Judge, Knowledge, Profile, Rule, Setup};
-use super::survey::Survey;
+use super::rule::{Rule, RuleId};
+use super::run::{Survey, TeamMove};
+use super::setup::Setup;
 
 /// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
 pub static BRICKS: Profile = Profile {

@@ -1,26 +1,22 @@
-//! The catalogue of schemes: a list of their rows that a program puts together, and what is looked up in it by a word.
+//! A scheme as a row of data, and the catalogue of schemes: a list of rows that a program puts together, and what is
+//! looked up in it by a word.
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::ops::Deref;
+use std::ops::{Deref, RangeInclusive};
 use std::sync::{Mutex, PoisonError};
 
 use serde::{Serialize, Serializer};
+use tautline_kernel::ground::Cell;
 
-use super::ants::ANTS;
-use super::bricks::{BRICKS, BRICKS_ANTS};
-use super::chain::CHAIN;
-use super::clause::ClauseId;
-use super::depth_first::{HELPERS, MDFS};
-use super::frontier::FRONTIER;
-use super::kit::KIT;
-use super::pack::PACK;
-use super::rule::RuleId;
-use super::setup::{Profile, Rule, Senses};
-
-/// The schemes of this library. A program may have others, too.
-pub const SCHEMES: &[&Profile] =
-    &[&CHAIN, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT, &FRONTIER, &PACK];
+use super::SCHEMES;
+use super::clause::{Clause, ClauseId};
+use super::rule::{Rule, RuleId};
+use super::setup::Setup;
+use crate::diagnostic::Diagnostic;
+use crate::kit;
+use crate::layout::Layout;
+use crate::options::Extra;
 
 /// The schemes that a program knows, in lists behind each other.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +50,7 @@ impl Catalogue {
     /// The rule with this name, if a scheme has one.
     ///
     /// # Errors
-    /// What is wrong if none has.
+    /// The fault in words, if none has.
     pub(crate) fn rule(self, name: &str) -> Result<RuleId, String> {
         let names: Vec<RuleId> = self.rules().into_iter().map(|rule| rule.name).collect();
         let found = names.iter().copied().find(|rule| rule.as_str() == name);
@@ -64,7 +60,7 @@ impl Catalogue {
     /// The scheme with this name.
     ///
     /// # Errors
-    /// What is wrong if there is none.
+    /// The fault in words, if there is none.
     pub(crate) fn find_scheme(self, name: &str) -> Result<Scheme, String> {
         self.scheme(name).ok_or_else(|| unknown(name, self.names(|_| true).into_iter()))
     }
@@ -72,21 +68,19 @@ impl Catalogue {
     /// The clause with this id, if runs of a known scheme can break it.
     ///
     /// # Errors
-    /// [`NoClause`] if they cannot.
-    pub fn clause(self, id: &str) -> Result<ClauseId, NoClause> {
-        let found = self.clauses().into_iter().find(|clause| clause.as_str() == id);
-        found.ok_or_else(|| NoClause { id: id.to_owned(), among: self })
-    }
-
-    /// The clauses that runs of the known schemes can break, each once.
-    fn clauses(self) -> Vec<ClauseId> {
-        let mut ids = Vec::new();
+    /// A [`Diagnostic`] that names those they can break.
+    pub fn clause(self, id: &str) -> Result<ClauseId, Diagnostic> {
+        let mut known: Vec<&str> = Vec::new();
         for clause in self.schemes().flat_map(|scheme| scheme.clauses) {
-            if !ids.contains(&clause.id) {
-                ids.push(clause.id);
+            if clause.id.as_str() == id {
+                return Ok(clause.id);
+            }
+            if !known.contains(&clause.id.as_str()) {
+                known.push(clause.id.as_str());
             }
         }
-        ids
+        let remedy = format!("the clauses are {}", known.join(", "));
+        Err(Diagnostic::usage(format_args!("no run can break the clause {id:?}"), remedy))
     }
 
     /// The names of the schemes that are so.
@@ -95,7 +89,7 @@ impl Catalogue {
     }
 }
 
-/// What is wrong with a name that is none of these.
+/// The fault of a name that is none of these.
 fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = known.map(|known| format!("`{known}`")).collect();
     format!("unknown variant `{name}`, expected one of {}", quoted.join(", "))
@@ -129,6 +123,50 @@ impl Scheme {
     /// Whether its catalogue has it.
     pub fn is_known(self) -> bool {
         self.among.scheme(self.name).is_some()
+    }
+
+    /// The rule with this name.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the scheme does not offer it.
+    pub fn find_rule(self, rule: RuleId) -> Result<&'static Rule, Diagnostic> {
+        self.rule(rule).ok_or_else(|| {
+            let what = match rule {
+                RuleId::PUBLISHED => format!("{} is ours: nobody has published it", self.name),
+                rule => format!("{} has no rule {rule}", self.name),
+            };
+            Diagnostic::of_field("rule", what, self.which_rule())
+        })
+    }
+
+    /// Which rules there are, for those who have asked for another one.
+    pub fn which_rule(self) -> String {
+        let names: Vec<&str> = self.rules.iter().map(|rule| rule.name.as_str()).collect();
+        format!("take the rule {}, or another scheme than {}", names.join(" or "), self.name)
+    }
+
+    /// `robots` as the number of a team of the scheme.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if no team has so many.
+    pub fn count(self, robots: u64) -> Result<u16, Diagnostic> {
+        let count = u16::try_from(robots).ok().filter(|&count| self.robots.contains(&count.into()));
+        count.ok_or_else(|| {
+            let (team, robot, has_base) = (self.team, self.look.robot(), self.look.has_base());
+            let what = match (robots, has_base) {
+                (0, _) => format!("no {robot}s are no {team}"),
+                (1, true) => format!("the base alone is no {team}"),
+                (robots, true) => format!("{robots} {robot}s are no {team}"),
+                (robots, false) => format!("{robots} {robot}s are too many for a {team}"),
+            };
+            let (least, most) = (self.robots.start(), self.robots.end());
+            let base = if has_base { ", the base counted" } else { "" };
+            Diagnostic::of_field(
+                "robots",
+                what,
+                format_args!("a {team} has {least} to {most} {robot}s{base}"),
+            )
+        })
     }
 
     /// The names of the schemes whose robots learn of the layout so.
@@ -175,25 +213,218 @@ impl Serialize for Scheme {
     }
 }
 
-/// An id that is of no clause about runs.
-#[derive(Clone, Debug)]
-pub struct NoClause {
-    id: String,
-    among: Catalogue,
+/// A scheme: a way for a team to explore. Whatever is not the scheme's own asks this row.
+pub struct Profile {
+    /// The word for it on the command line and in files.
+    pub name: &'static str,
+    /// One line about it.
+    pub about: &'static str,
+    /// Its rules.
+    pub rules: &'static [Rule],
+    /// The noun for its team.
+    pub team: &'static str,
+    /// How many robots a team can have, the base counted if there is one.
+    pub robots: RangeInclusive<usize>,
+    /// Where its robots start.
+    pub starts: Starts,
+    /// How its robots learn of the layout.
+    pub senses: Senses,
+    /// The options that a run of it can be told.
+    pub extras: &'static [&'static Extra],
+    /// The things that its runs draw by their seed.
+    pub drawn: &'static [Drawn],
+    /// How its team is drawn.
+    pub look: Look,
+    /// The knowledge that its team has of a sensor floor, if it is on one.
+    pub knowledge: Option<Knowledge>,
+    /// The clauses that its runs can break, in order.
+    pub clauses: &'static [Clause],
 }
 
-impl NoClause {
-    /// What would be right.
-    pub fn remedy(&self) -> String {
-        let ids: Vec<&str> = self.among.clauses().into_iter().map(ClauseId::as_str).collect();
-        format!("the clauses are {}", ids.join(", "))
+/// Where the robots of a team start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Starts {
+    /// All of them at the base.
+    Base,
+    /// Each in any free cell.
+    Anywhere,
+    /// Each in any free cell: without another word as published all at the base, and else the first one there and the
+    /// others beside it.
+    Beside,
+    /// Each in a free cell of its own: without another word the first one at the base, and the others beside it.
+    Alone,
+}
+
+/// Something that runs of a scheme draw by their seed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Drawn {
+    /// Its name in words.
+    pub what: &'static str,
+    /// In which runs it is drawn.
+    pub by: By,
+}
+
+/// In which runs something is drawn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum By {
+    /// In all.
+    Every,
+    /// Where sensors are missed by chance.
+    Miss,
+    /// Where this is told.
+    Told(&'static Extra),
+    /// In those of this rule.
+    Rule(RuleId),
+}
+
+impl Drawn {
+    /// Whether it is drawn in a run.
+    fn is_in(&self, setup: &Setup) -> bool {
+        match self.by {
+            By::Every => true,
+            By::Miss => !setup.miss.is_never(),
+            By::Told(extra) => extra.is_told_by(&setup.options),
+            By::Rule(rule) => rule == setup.rule,
+        }
     }
 }
 
-impl fmt::Display for NoClause {
+/// Says what is drawn, and by which field.
+impl fmt::Display for Drawn {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no run can break the clause {:?}", self.id)
+        let Self { what, by } = self;
+        match by {
+            By::Every => f.write_str(what),
+            By::Miss => write!(f, "{what}, with `miss`"),
+            By::Told(extra) => write!(f, "{what}, with `{}`", extra.field),
+            By::Rule(rule) => write!(f, "{what}, with `rule` {rule}"),
+        }
     }
 }
 
-impl std::error::Error for NoClause {}
+/// How a team is drawn and told of.
+#[derive(Clone, Copy, Debug)]
+pub enum Look {
+    /// The first robot is the base, the last one leads, and those beside each other in their order have a link.
+    Linked {
+        /// Whether the link of two robots is lost that go from the first to the second of these pairs of cells.
+        is_lost: fn(&[Cell], &[Cell]) -> bool,
+    },
+    /// The first robot is the base, and links join the robots in a tree.
+    Tree {
+        /// Whether robots in these cells have a link.
+        is_linked: fn(Cell, Cell) -> bool,
+    },
+    /// Every robot is an agent for itself.
+    Apart,
+    /// Every robot is an agent for itself, and is called a robot.
+    Robots,
+}
+
+impl Look {
+    /// Whether the first robot is the base.
+    pub const fn has_base(self) -> bool {
+        match self {
+            Self::Linked { .. } | Self::Tree { .. } => true,
+            Self::Apart | Self::Robots => false,
+        }
+    }
+
+    /// The noun for a robot.
+    pub const fn robot(self) -> &'static str {
+        match self {
+            Self::Linked { .. } | Self::Tree { .. } | Self::Robots => "robot",
+            Self::Apart => "agent",
+        }
+    }
+}
+
+/// The knowledge that agents have of a sensor floor in the end.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Knowledge {
+    /// Nothing: whoever watches them ends the run.
+    None,
+    /// Which cells are visited, and when they are done.
+    Visited,
+}
+
+/// How robots learn of a layout.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Senses {
+    /// A robot knows the edges that were tried. What no robot met can go, and the run stays the same.
+    Bumps,
+    /// Agents read sensors on the floor, and may miss some.
+    Floor,
+}
+
+impl Profile {
+    /// The rule with this name, if the scheme offers it.
+    pub fn rule(&self, name: RuleId) -> Option<&'static Rule> {
+        self.rules.iter().find(|rule| rule.name == name)
+    }
+
+    /// Whether a run of it draws anything: whether its seed has an effect.
+    pub fn draws(&self, setup: &Setup) -> bool {
+        self.drawn.iter().any(|drawn| drawn.is_in(setup))
+    }
+
+    /// Where `robots` of this rule start in `layout` of which nobody says where, if not all start at the base.
+    pub fn default_starts(
+        &self,
+        rule: RuleId,
+        layout: &Layout,
+        base: Cell,
+        robots: u16,
+    ) -> Option<Vec<Cell>> {
+        match self.starts {
+            Starts::Beside if rule != RuleId::PUBLISHED => Some(kit::starts(layout, base, robots.into())),
+            Starts::Alone => Some(kit::starts(layout, base, robots.into())),
+            Starts::Base | Starts::Anywhere | Starts::Beside => None,
+        }
+    }
+
+    /// The clause with this id, if its runs can break it.
+    pub fn clause(&self, id: ClauseId) -> Option<&'static Clause> {
+        self.clauses.iter().find(|clause| clause.id == id)
+    }
+}
+
+impl Profile {
+    /// A row of which nothing is known but its name, which has robots that are apart.
+    pub const fn named(name: &'static str) -> Self {
+        Self {
+            name,
+            about: "",
+            rules: &[],
+            team: "team",
+            robots: 1..=u16::MAX as usize,
+            starts: Starts::Anywhere,
+            senses: Senses::Bumps,
+            extras: &[],
+            drawn: &[],
+            look: Look::Robots,
+            knowledge: None,
+            clauses: &[],
+        }
+    }
+}
+
+impl PartialEq for Profile {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Profile {}
+
+impl Serialize for Profile {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+impl fmt::Debug for Profile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}

@@ -12,20 +12,21 @@ use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::plural::counted;
 
-pub use self::hunt::Saved;
 use self::hunt::Walls;
 use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH};
-use super::rule::RuleId;
+use super::catalogue::{By, Drawn, Look, Profile, Starts};
+use super::clause::{Clause, Judge};
+use super::rule::{Rule, RuleId};
 use super::run::{Team, TeamMove};
-use super::setup::{By, Clause, Drawn, Judge, Look, Profile, Rule, Setup, Starts};
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::heap_grid::HeapGrid;
 use crate::options::Extra;
 
 /// The rule that reels the chain in and out instead of backtracking, and holds contact whoever fails.
 pub const REEL: RuleId = RuleId::new("reel");
-/// The same without *Hold*.
+/// The reel without *Hold*.
 pub const UNHELD: RuleId = RuleId::new("unheld");
 
 /// A base, a leader that seeks the frontier, and followers that keep radio contact.

@@ -9,8 +9,8 @@ use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{Asked, Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, Hunter};
+use crate::checkpoint::{Facts, Part, decode, encode};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::resumable::{Facts, Resumable, written};
 
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
@@ -34,7 +34,7 @@ pub(super) trait Each: fmt::Debug + Sync {
     /// How far a hunt is, in words.
     fn so_far(&self, asked: &Asked<'_>, found: &FoundBy<Self>) -> String;
 
-    /// What is told of a hunt that came to its end, or did not.
+    /// The report of a hunt that came to its end, or did not.
     ///
     /// # Errors
     /// A [`Diagnostic`] if what was found cannot be told.
@@ -46,7 +46,7 @@ pub(super) trait Each: fmt::Debug + Sync {
     ) -> Result<HuntReport, Diagnostic>;
 }
 
-/// What a hunt has found.
+/// The findings of a hunt.
 pub(super) type FoundBy<E> = <<E as Each>::Layouts as Lots>::Found;
 
 impl<E: Each> Hunt for E {
@@ -71,15 +71,13 @@ impl<E: Each> Hunt for E {
     }
 }
 
-/// The looks that a shard has taken, stage by stage.
-fn taken<L: DeserializeOwned>(far: &RawValue) -> Result<Vec<Vec<L>>, Diagnostic> {
-    serde_json::from_str(far.get()).map_err(|error| Diagnostic::usage(error, "run the shard again"))
-}
+/// The remedy for a shard that was never there.
+const AGAIN: &str = "run the shard again";
 
 impl<E: Each> Deals for E {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
-        Ok(Dealt { deal: Deal::written(asked, shards)?, left, of: "layout", moves: 0 })
+        Ok(Dealt { deal: Deal::write(asked, shards)?, left, of: "layout", moves: 0 })
     }
 
     fn part<'a>(
@@ -88,16 +86,16 @@ impl<E: Each> Deals for E {
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-    ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
+    ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
         let (asked, shards) = Deal::<usize>::read(deal, asked)?;
-        let looks = far.map(taken).transpose()?.unwrap_or_default();
+        let looks = far.map(|far| decode(far, AGAIN)).transpose()?.unwrap_or_default();
         let shard = Shard::new(self.layouts(&asked)?, (shard, shards), looks, asked.budget);
         let shard = shard.map_err(Into::into)?;
         if !shard.is_in_order() {
             let what = "this shard has not done what the plan dealt it before it went on";
-            return Err(Diagnostic::usage(what, "run the shard again"));
+            return Err(Diagnostic::usage(what, AGAIN));
         }
-        Ok(Box::new(Looks(shard)))
+        Ok(Box::new(shard))
     }
 
     fn merge(
@@ -107,42 +105,38 @@ impl<E: Each> Deals for E {
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
         let (asked, _) = Deal::<usize>::read(deal, asked)?;
-        let looks = shards.iter().map(|far| taken(far)).collect::<Result<Vec<_>, _>>()?;
+        let looks = shards.iter().map(|far| decode(far, AGAIN)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
         self.told(&asked, found, is_complete)
     }
 }
 
-/// A shard of a hunt.
-struct Looks<L: Lots>(Shard<L>);
-
-impl<L: Lots> Looks<L> {
-    fn count(&self) -> (usize, u64) {
-        let all = || self.0.looks().iter().flatten();
-        (all().count(), all().map(Look::steps).sum())
-    }
+/// The looks that a shard has taken, and their steps.
+fn count<L: Lots>(shard: &Shard<L>) -> (usize, u64) {
+    let all = || shard.looks().iter().flatten();
+    (all().count(), all().map(Look::steps).sum())
 }
 
-impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Resumable for Looks<L> {
+impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Part for Shard<L> {
     fn step(&mut self) -> Result<bool, Halt> {
-        self.0.wave().map_err(|fault| fault.into().into())
+        self.wave().map_err(|fault| fault.into().into())
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        written(&self.0.looks())
+        encode(&self.looks())
     }
 
     fn is_done(&self) -> bool {
-        self.0.is_done()
+        self.is_done()
     }
 
     fn facts(&self) -> Facts {
-        let (layouts, moves) = self.count();
+        let (layouts, moves) = count(self);
         Facts::Floor { layouts, moves }
     }
 
     fn words(&self) -> String {
-        let (layouts, moves) = self.count();
+        let (layouts, moves) = count(self);
         format!("{}, {}", counted(layouts, "layout"), counted(moves, "team move"))
     }
 }

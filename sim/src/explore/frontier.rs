@@ -12,12 +12,12 @@ use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
 use self::hunt::{Searched, Simulated};
-use super::clause::ClauseId;
-use super::rule::RuleId;
-use super::run::{End, Team};
+use super::catalogue::{By, Drawn, Look, Profile, Starts};
+use super::clause::{Clause, ClauseId};
+use super::rule::{Rule, RuleId};
+use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Look, Profile, Rule, Setup, Starts};
-use super::survey::Survey;
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::frontier::{Assigned, Assignment, Ended, Explorers};
 use crate::layout::Layout;

@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::chain::areas::AreaSearch;
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
@@ -20,9 +21,9 @@ use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::Setup;
+use crate::checkpoint::{Part, decode, encode};
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
-use crate::resumable::{Resumable, written};
 
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {
@@ -40,9 +41,21 @@ pub trait Hunt: fmt::Debug + Sync {
     /// A [`Diagnostic`] if it cannot be searched so.
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
-    /// The same hunt dealt out among shards, if that is possible.
+    /// The hunt as one that is dealt out among shards, if that is possible.
     fn deals(&self) -> Option<&dyn Deals> {
         None
+    }
+}
+
+impl Scheme {
+    /// How a rule is hunted.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the scheme does not offer it, or it is not hunted.
+    pub fn hunt(self, rule: RuleId) -> Result<&'static dyn Hunt, Diagnostic> {
+        self.find_rule(rule)?.hunt.ok_or_else(|| {
+            Diagnostic::usage(format_args!("nothing is hunted of {}", self.name), "hunt another scheme")
+        })
     }
 }
 
@@ -65,9 +78,9 @@ pub trait Deals {
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-    ) -> Result<Box<dyn Resumable + 'a>, Diagnostic>;
+    ) -> Result<Box<dyn Part + 'a>, Diagnostic>;
 
-    /// What all shards have found. The scheme and the rule are `asked`.
+    /// The report of what all shards have found. The scheme and the rule are `asked`.
     ///
     /// # Errors
     /// A [`Diagnostic`] if they do not fit their deal.
@@ -92,7 +105,7 @@ pub struct Dealt {
     pub moves: u64,
 }
 
-/// What is asked of a hunt that is dealt out, and how it is: a deal, as a plan has it.
+/// A hunt that is dealt out, and how it is, as a plan has it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Deal<T> {
@@ -106,17 +119,16 @@ pub(super) struct Deal<T> {
 }
 
 impl<T: Serialize + DeserializeOwned> Deal<T> {
-    /// The deal of what is `asked`.
-    pub(super) fn written(asked: &Asked<'_>, how: T) -> Result<Box<RawValue>, Diagnostic> {
+    /// The deal of what is `asked`, as a plan has it.
+    pub(super) fn write(asked: &Asked<'_>, how: T) -> Result<Box<RawValue>, Diagnostic> {
         let &Asked { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
         let size = asked.size.map(|size| (size.width(), size.height()));
-        written(&Self { robots, size, max_walls, max_misses, max_losses, error_cells, how })
+        encode(&Self { robots, size, max_walls, max_misses, max_losses, error_cells, how })
     }
 
-    /// What it is a deal of, and how: the scheme, the rule and the budget stand in `asked`.
+    /// The hunt that is dealt out, and how it is: the scheme, the rule and the budget stand in `asked`.
     pub(super) fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, T), Diagnostic> {
-        let deal: Self =
-            serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))?;
+        let deal = decode(text, "plan anew")?;
         let Self { robots, size, max_walls, max_misses, max_losses, error_cells, how } = deal;
         let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
         let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
@@ -166,7 +178,7 @@ impl Bound {
     }
 }
 
-/// What is asked of a hunt. What is not given is the hunt's to choose.
+/// The question that a hunt answers. Whatever is not given is the hunt's to choose.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// The scheme.
@@ -266,10 +278,7 @@ pub trait Hunter {
     /// The hunt is so far. Whoever breaks ends it.
     fn hears(&mut self, far: Far<'_>) -> ControlFlow<()>;
 
-    /// The file in which the hunt is kept could not be written now; it is tried again later.
-    fn is_not_kept(&mut self, fault: &Diagnostic);
-
-    /// The same at the end: it is not tried again.
+    /// The file in which the hunt is kept could not be written at the end.
     fn is_left_out(&mut self, fault: &Diagnostic);
 }
 
@@ -293,7 +302,7 @@ pub enum Facts {
     /// Of a chain in one area.
     Chain { runs: u64, moves: u64, longest: u32, max_walls: u32 },
     /// Of a chain in all areas of at most so many cells.
-    Areas { runs: u64, moves: u64, max_walls: u32, max_cells: u32, areas: Vec<Area> },
+    Areas { runs: u64, moves: u64, max_walls: u32, max_cells: u32, areas: Vec<AreaSearch> },
     /// Of agents on a sensor floor.
     Floor { size: String, layouts: u64, states: u64, steps: u64, max_misses: u8 },
     /// Of robots that explore frontier cells.
@@ -307,23 +316,6 @@ pub enum Facts {
     },
     /// Of robots that keep in touch.
     Kit { size: String, states: u64, steps: u64, max_walls: Option<u32> },
-}
-
-/// How much was searched of the areas of one size.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-pub struct Area {
-    /// Its columns.
-    pub columns: i16,
-    /// Its rows.
-    pub rows: i16,
-    /// Places of the base.
-    pub bases: u64,
-    /// The most walls up to which every layout was covered.
-    pub walls: u32,
-    /// Runs.
-    pub runs: u64,
-    /// Their team moves.
-    pub moves: u64,
 }
 
 /// The bound up to which every layout was covered, if any was.
@@ -353,7 +345,7 @@ pub enum RunSize {
     Floor { misses: usize, columns: i16, rows: i16, steps: u32 },
 }
 
-/// What came of a hunt.
+/// The outcome of a hunt.
 #[derive(Clone, Debug)]
 pub struct HuntReport {
     /// Robots.
@@ -366,9 +358,9 @@ pub struct HuntReport {
     pub done: Done,
     /// The first line for people, behind the scheme and its rule.
     pub title: String,
-    /// What was searched through, for the log.
+    /// The runs and moves that were searched through, for the log.
     pub through: String,
-    /// What follows from it: the second line for people.
+    /// The conclusion: the second line for people.
     pub outcome: String,
     /// The smallest run that breaks each clause.
     pub found: Vec<Finding>,
@@ -381,7 +373,7 @@ pub struct Finding {
     pub clause: &'static str,
     /// How large the run is.
     pub facts: RunSize,
-    /// The same for people, behind the clause.
+    /// The size of the run for people, behind the clause.
     pub title: String,
     /// The run.
     pub setup: Setup,
@@ -398,7 +390,7 @@ pub enum Shown {
     Endless,
     /// By what happens in it. It is stored as a run that breaks this clause.
     Story(ClauseId, String),
-    /// The same of a run that no file tells.
+    /// By what happens in it. No file tells it.
     Told(String),
 }
 
@@ -409,7 +401,7 @@ impl Shown {
     }
 }
 
-/// What follows from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
+/// The conclusion from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
 /// that it had `covered` by then, if any.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
     let bound = match (is_whole, covered) {

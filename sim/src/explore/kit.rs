@@ -19,11 +19,12 @@ use tautline_proofs::run::Frame;
 
 use self::hunt::Searched;
 
-use super::clause::ClauseId;
-use super::run::{End, Team};
+use super::catalogue::{By, Drawn, Profile, Starts};
+use super::clause::{Clause, ClauseId};
+use super::rule::Rule;
+use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Profile, Rule, Setup, Starts};
-use super::survey::Survey;
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
@@ -200,9 +201,7 @@ impl Team for KitTeam {
     }
 
     fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
-        let mut missed = nodes(&self.due, &self.cells);
-        missed.retain(|&node| chart.step(node).is_none());
-        missed.into_iter().collect()
+        missed(&self.due, &self.cells, chart)
     }
 
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
@@ -248,6 +247,11 @@ impl Team for KitTeam {
 fn nodes(paths: &[Edge], cells: &[Cell]) -> BTreeSet<Cell> {
     let ends = paths.iter().flat_map(|path| [path.cell(), path.cell().beyond(path.side())]);
     ends.chain(cells.iter().copied()).collect()
+}
+
+/// The nodes within reach that no robot has explored.
+fn missed(paths: &[Edge], cells: &[Cell], chart: &Survey) -> Vec<Cell> {
+    nodes(paths, cells).into_iter().filter(|&node| chart.step(node).is_none()).collect()
 }
 
 /// Whether robots hear each other at whatever speeds they drive, directly or over others.

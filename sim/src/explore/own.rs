@@ -12,8 +12,7 @@ use tautline_proofs::run::Frame;
 use tautline_proofs::team::{Rule, Scene, TeamStep, TeamWorld};
 
 use super::clause::ClauseId;
-use super::run::{End, Team};
-use super::survey::Survey;
+use super::run::{End, Survey, Team};
 use crate::layout::Layout;
 
 /// A team that follows a rule of one's own in one layout.
@@ -27,7 +26,7 @@ pub struct Own<'a, R: Rule> {
     been: HashSet<[u64; 2]>,
 }
 
-/// What tells a scene from all others: its hashes behind two different first bytes.
+/// A digest that tells a scene from all others: its hashes behind two different first bytes.
 fn digest(scene: &impl Hash) -> [u64; 2] {
     [0_u8, 1].map(|first| {
         let mut hasher = DefaultHasher::new();

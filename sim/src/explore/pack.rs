@@ -15,12 +15,12 @@ use tautline_kernel::pack::{
 };
 use tautline_proofs::run::Frame;
 
-use super::clause::ClauseId;
-use super::rule::RuleId;
-use super::run::{End, Team};
+use super::catalogue::{Profile, Starts};
+use super::clause::{Clause, ClauseId};
+use super::rule::{Rule, RuleId};
+use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Profile, Rule, Setup, Starts};
-use super::survey::Survey;
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::options::Extra;
@@ -96,7 +96,7 @@ struct PackTeam {
     /// start.
     free: Vec<Cell>,
     obstacles: Vec<Cell>,
-    /// What the last team move was.
+    /// The last team move.
     made: Option<MoveKind>,
     /// Team moves since something new was seen.
     idle: usize,

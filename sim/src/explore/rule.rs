@@ -4,10 +4,14 @@ use std::fmt;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
-use tautline_kernel::chain::Rule;
+use tautline_kernel::chain;
 use tautline_proofs::chain::Subject;
 
 use super::clause::kept;
+use super::hunt::Hunt;
+use super::run::Team;
+use super::setup::Setup;
+use crate::diagnostic::Diagnostic;
 use crate::named_values::NamedValues;
 
 /// Whether a scheme is taken as its paper has it.
@@ -40,7 +44,7 @@ impl RuleName {
     }
 
     /// The chain's rule.
-    pub const fn chain(self) -> Rule {
+    pub const fn chain(self) -> chain::Rule {
         self.observed().rule
     }
 }
@@ -101,5 +105,43 @@ impl fmt::Display for RuleId {
 impl Serialize for RuleId {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.0)
+    }
+}
+
+/// A rule of a scheme.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// Its name.
+    pub name: RuleId,
+    /// One line about it.
+    pub about: &'static str,
+    /// The team of a setup at its start.
+    pub start: Start,
+    /// How it is hunted, if it is.
+    pub hunt: Option<&'static dyn Hunt>,
+}
+
+/// The team of a setup at its start.
+pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Diagnostic>;
+
+impl Rule {
+    /// A rule that is not hunted.
+    pub const fn new(name: RuleId, about: &'static str, start: Start) -> Self {
+        Self { name, about, start, hunt: None }
+    }
+
+    /// This rule, hunted so.
+    pub const fn hunted(self, hunt: &'static dyn Hunt) -> Self {
+        Self { hunt: Some(hunt), ..self }
+    }
+
+    /// As the paper publishes it.
+    pub const fn published(start: Start, hunt: &'static dyn Hunt) -> Self {
+        Self::new(RuleId::PUBLISHED, "As the paper publishes it", start).hunted(hunt)
+    }
+
+    /// With the repairs of its refuted claims.
+    pub const fn repaired(start: Start, hunt: &'static dyn Hunt) -> Self {
+        Self::new(RuleId::REPAIRED, "With the repairs of its refuted claims", start).hunted(hunt)
     }
 }

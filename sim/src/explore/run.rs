@@ -2,6 +2,7 @@
 //! edges it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this
 //! program or not.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::num::NonZeroU32;
 
@@ -14,13 +15,12 @@ use tautline_proofs::run::Frame;
 use super::clause::ClauseId;
 use super::floor::Component;
 use super::scene::{Layer, Scene};
-use super::survey::Survey;
 use crate::diagnostic::Halt;
 use crate::failures::Failures;
 use crate::layout::Layout;
 use crate::named_values::NamedValues;
 
-/// What a run asks of a team. Only where its robots are and how they make a team move is required.
+/// The questions that a run asks of a team. Only where its robots are and how they make a team move is required.
 pub trait Team {
     /// Where the robots are; if one of them is a base, it is the first.
     fn cells(&self) -> &[Cell];
@@ -86,17 +86,18 @@ pub trait Team {
         None
     }
 
-    /// What has failed so far, in a run in which something is to fail.
+    /// The failures so far, in a run in which something is to fail.
     fn faults(&self) -> Option<Failures> {
         None
     }
 
-    /// What a page can show of the team beside its robots and the cells that they enter.
+    /// The layers that a page can show of the team beside its robots and the cells that they enter.
     fn layers(&self) -> Vec<Layer> {
         Vec::new()
     }
 
-    /// What the last team move has changed in [`layers`](Self::layers), whose robots were in the cells `before`.
+    /// Tells `scene` what the last team move has changed in [`layers`](Self::layers), whose robots were in the cells
+    /// `before`.
     fn show(&self, before: &[Cell], scene: &mut Scene) {
         let _ = (before, scene);
     }
@@ -116,7 +117,7 @@ pub struct Limits {
     pub until: Option<Milestone>,
     /// When a robot has entered so many cells.
     pub max_moves: Option<NonZeroU32>,
-    /// What a violation does.
+    /// The effect of a violation.
     pub violation: OnViolation,
 }
 
@@ -128,7 +129,7 @@ impl Limits {
     }
 }
 
-/// What a violation does to a run.
+/// The effect of a violation on a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OnViolation {
@@ -195,7 +196,7 @@ impl Milestone {
 pub enum End {
     /// Every cell of the area is explored.
     Explored,
-    /// What is left cannot be reached.
+    /// The cells that are left cannot be reached.
     Exhausted,
     /// The team goes round and round.
     Endless,
@@ -209,7 +210,7 @@ pub enum End {
 pub enum Stopped {
     /// Every cell of the area is explored.
     Explored,
-    /// What is left cannot be reached.
+    /// The cells that are left cannot be reached.
     Exhausted,
     /// The team goes round and round, and would for ever.
     Endless,
@@ -241,7 +242,7 @@ impl Stopped {
 /// A clause that was broken, and when.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Violation {
-    /// What was broken.
+    /// The clauses that were broken.
     pub clause: ClauseId,
     /// The team move, counted from 1.
     pub step: u32,
@@ -254,11 +255,11 @@ pub struct TeamMove<'a> {
     pub step: u32,
     /// Where the robots were; if one of them is a base, it is the first.
     pub before: &'a [Cell],
-    /// What they did.
+    /// The steps that they made.
     pub frame: &'a Frame,
     /// The cells of the sensors that agents missed before they did it.
     pub unseen: &'a [Cell],
-    /// What was broken.
+    /// The clauses that were broken.
     pub broken: &'a [ClauseId],
     /// Who made it.
     pub team: &'a dyn Team,
@@ -267,7 +268,7 @@ pub struct TeamMove<'a> {
 /// Sees every team move of a run, and may stop the run for good.
 pub type Watcher<'a> = dyn FnMut(&TeamMove<'_>) -> Result<(), Halt> + 'a;
 
-/// What came of a run.
+/// The outcome of a run.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Report {
     /// Team moves, backtracks included.
@@ -280,7 +281,7 @@ pub struct Report {
     pub milestones: [Option<u32>; Milestone::ALL.len()],
     /// Why it is over.
     pub stopped: Stopped,
-    /// What was broken, in order.
+    /// The clauses that were broken, in order.
     pub violations: Vec<Violation>,
     /// Which cell was explored when, and how it was marked.
     pub chart: Survey,
@@ -290,7 +291,7 @@ pub struct Report {
     pub components: Vec<Component>,
     /// How long the run took its slowest robot, where that is known.
     pub milliseconds: Option<u64>,
-    /// What has failed, in a run in which something was to fail.
+    /// The failures, in a run in which something was to fail.
     pub faults: Option<Failures>,
 }
 
@@ -311,7 +312,7 @@ impl Report {
         })
     }
 
-    /// What is known at the start: where the robots are is explored.
+    /// The report of the start: where the robots are is explored.
     fn new(team: &dyn Team, layout: &Layout) -> Self {
         let mut report = Self {
             steps: 0,
@@ -410,5 +411,79 @@ fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
         Some(Stopped::MaxMoves)
     } else {
         None
+    }
+}
+
+/// Which cell was explored when, and how it was marked.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Survey {
+    area: Area,
+    /// Row by row: the team move, or `UNEXPLORED`.
+    steps: Vec<u32>,
+    /// The marks that cells have from a team move on; a cell that has none from before is as explored as `steps` says.
+    marks: BTreeMap<(Cell, u32), Mark>,
+}
+
+const UNEXPLORED: u32 = u32::MAX;
+
+impl Survey {
+    /// Nothing of `area` is explored.
+    fn new(area: Area) -> Self {
+        Self { area, steps: vec![UNEXPLORED; area.width() * area.height()], marks: BTreeMap::new() }
+    }
+
+    /// The cells that robots explore which are in those of `teams` at the start and after each team move.
+    pub fn of<'a>(area: Area, teams: impl IntoIterator<Item = &'a [Cell]>) -> Self {
+        let mut chart = Self::new(area);
+        for (step, team) in (0..).zip(teams) {
+            for &cell in team {
+                chart.enter(cell, step);
+            }
+        }
+        chart
+    }
+
+    /// The cells that it spans.
+    pub const fn area(&self) -> Area {
+        self.area
+    }
+
+    fn place(&self, cell: Cell) -> Option<usize> {
+        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
+    }
+
+    /// The team move in which `cell` was first occupied, 0 for the start; `None` if it never was.
+    pub fn step(&self, cell: Cell) -> Option<u32> {
+        self.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
+    }
+
+    /// The mark of `cell` after team move number `step`.
+    pub fn mark(&self, cell: Cell, step: u32) -> Mark {
+        match self.marks.range((cell, 0)..=(cell, step)).next_back() {
+            Some((_, &mark)) => mark,
+            None if self.step(cell).is_some_and(|explored| explored <= step) => Mark::Explored,
+            None => Mark::Unexplored,
+        }
+    }
+
+    /// All marks that cells got after they were explored: from which team move on, row by row and in order.
+    pub fn marks(&self) -> impl Iterator<Item = (Cell, u32, Mark)> {
+        self.marks.iter().map(|(&(cell, step), &mark)| (cell, step, mark))
+    }
+
+    /// Notes that a robot is in `cell`; whether that is new.
+    fn enter(&mut self, cell: Cell, step: u32) -> bool {
+        let Some(place) = self.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
+            return false;
+        };
+        self.steps[place] = step;
+        true
+    }
+
+    /// Notes that `cell` has this mark from team move number `step` on.
+    fn put(&mut self, cell: Cell, step: u32, mark: Mark) {
+        if mark != self.mark(cell, step) {
+            self.marks.insert((cell, step), mark);
+        }
     }
 }

@@ -1,8 +1,8 @@
-//! How long an agent takes [Ferranti 2009, V.A]: the means that the paper measured, in whole milliseconds. The camera with
-//! which an agent finds sensors (section IV) is not modelled.
+//! How long an agent takes [Ferranti 2009, V.A]: the means that the paper measured, in whole milliseconds. The camera
+//! with which an agent finds sensors (section IV) is not modelled.
 //!
-//! Our reading: each sensor takes up one turn of a scan, in which it is detected, identified and localized; in the other
-//! turns the agent just moves on. A sensor that is missed costs what an empty turn costs.
+//! Our reading: each sensor takes up one turn of a scan, in which it is detected, identified and localized; in the
+//! other turns the agent just moves on. A sensor that is missed costs what an empty turn costs.
 
 /// Turns of a scan, in hundredths: 18.28.
 const TURNS_HUNDREDTHS: u32 = 1_828;
@@ -13,8 +13,8 @@ const TURN_WITHOUT_SENSOR_MILLISECONDS: u32 = 1_810;
 /// The way to the next cell: 55.42 s.
 const TRAVEL_MILLISECONDS: u32 = 55_420;
 
-/// A scan in which that many sensors are detected, rounded to the nearest millisecond. More than 18 take a turn each, and
-/// there are no others.
+/// A scan in which that many sensors are detected, rounded to the nearest millisecond. More than 18 take a turn each,
+/// and there are no others.
 pub(super) const fn scan_milliseconds(sensors: u8) -> u32 {
     let sensors = sensors as u32;
     let empty_hundredths = TURNS_HUNDREDTHS.saturating_sub(100 * sensors);

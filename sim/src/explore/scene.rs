@@ -1,15 +1,15 @@
-//! What a team shows beside its robots and the cells that they enter: named layers, and what each team move changes in
-//! them. A page draws a layer by its shape; it knows no scheme.
+//! The scene that a team shows beside its robots and the cells that they enter: named layers, and what each team move
+//! changes in them. A page draws a layer by its shape; it knows no scheme.
 
 use serde::Serialize;
 use tautline_kernel::ground::{Cell, Edge};
 
-/// What can be shown or hidden on a page.
+/// A layer of a page, which can be shown or hidden.
 #[derive(Clone, Debug)]
 pub struct Layer {
-    /// What it is called in the legend.
+    /// Its name in the legend.
     pub name: &'static str,
-    /// What it means, in one line.
+    /// Its meaning, in one line.
     pub about: String,
     /// How it is drawn.
     pub shape: Shape,
@@ -30,16 +30,16 @@ pub enum Shape {
     Links(Joins, &'static [Zone]),
     /// A circle round each robot, its radius in thousandths of a cell's side.
     Circle(u32),
-    /// What [`Scene::say`] tells, by its kind.
+    /// The messages that [`Scene::say`] tells, by their kinds.
     Messages(&'static [Kind]),
     /// After each team move every robot tells all others what it tried and what came of it.
     Reports,
 }
 
-/// What a cell or a side can be in a layer.
+/// A value that a cell or a side can have in a layer.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Value {
-    /// What it is called in the legend.
+    /// Its name in the legend.
     pub name: &'static str,
     /// How it is painted.
     pub ink: Ink,
@@ -48,7 +48,7 @@ pub struct Value {
 /// A kind of message.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Kind {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// Whether it comes to those whom it is for.
     #[serde(rename = "heard")]
@@ -104,9 +104,9 @@ pub enum Joins {
 /// The cells round a robot in which another one is.
 #[derive(Clone, Copy, Debug)]
 pub struct Zone {
-    /// What it is called in the legend.
+    /// Its name in the legend.
     pub name: &'static str,
-    /// What it means, in one line.
+    /// Its meaning, in one line.
     pub about: &'static str,
     /// Whether the zone round the first cell has the second one, which is at most [`Zone::REACH`] away in columns and
     /// rows.
@@ -143,7 +143,7 @@ pub enum Hearers {
     These(Vec<usize>),
 }
 
-/// What a team move changes.
+/// A change that a team move makes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Change {
     /// A layer, by its place among [`Team::layers`](super::Team::layers), is empty.
@@ -173,7 +173,7 @@ pub enum Change {
     Say {
         /// The layer.
         layer: usize,
-        /// What kind of message it is, by its place in the layer.
+        /// The kind of the message, by its place in the layer.
         kind: usize,
         /// Who says it.
         from: usize,
@@ -194,7 +194,7 @@ pub enum Change {
     },
 }
 
-/// What a team move changes in the layers of its team.
+/// The changes that a team move makes in the layers of its team.
 #[derive(Clone, Debug, Default)]
 pub struct Scene(Vec<Change>);
 

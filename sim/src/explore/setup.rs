@@ -1,305 +1,19 @@
-//! A scheme as a row of data, a run of it before its start, and what is chosen in one where nobody says.
+//! A run before its start: what is chosen in it where nobody says, whether it fits its scheme, and how it is made.
 
-use std::fmt;
 use std::ops::RangeInclusive;
+use std::{fmt, slice};
 
-use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Cell;
+use tautline_proofs::plural::counted;
 
-use super::catalogue::Scheme;
+use super::catalogue::{Drawn, Scheme, Senses, Starts};
 use super::clause::ClauseId;
-use super::hunt::Hunt;
-use super::rule::RuleId;
-use super::run::{Limits, Report, Team, TeamMove, Watcher};
-use super::survey::Survey;
+use super::rule::{Rule, RuleId};
+use super::run::{Limits, Report, Survey, Team, TeamMove, Watcher, run};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::kit;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
 use crate::options::{Extra, Options};
-
-/// A scheme: a way for a team to explore. Whatever is not the scheme's own asks this row.
-pub struct Profile {
-    /// The word for it on the command line and in files.
-    pub name: &'static str,
-    /// One line about it.
-    pub about: &'static str,
-    /// Its rules.
-    pub rules: &'static [Rule],
-    /// What its team is called.
-    pub team: &'static str,
-    /// How many robots a team can have, the base counted if there is one.
-    pub robots: RangeInclusive<usize>,
-    /// Where its robots start.
-    pub starts: Starts,
-    /// How its robots learn of the layout.
-    pub senses: Senses,
-    /// What a run of it can be told besides.
-    pub extras: &'static [&'static Extra],
-    /// What its runs draw by their seed.
-    pub drawn: &'static [Drawn],
-    /// How its team is drawn.
-    pub look: Look,
-    /// What its team knows of a sensor floor, if it is on one.
-    pub knowledge: Option<Knowledge>,
-    /// The clauses that its runs can break, in order.
-    pub clauses: &'static [Clause],
-}
-
-/// A rule of a scheme.
-#[derive(Clone, Copy, Debug)]
-pub struct Rule {
-    /// Its name.
-    pub name: RuleId,
-    /// One line about it.
-    pub about: &'static str,
-    /// The team of a setup at its start.
-    pub start: Start,
-    /// How it is hunted, if it is.
-    pub hunt: Option<&'static dyn Hunt>,
-}
-
-/// The team of a setup at its start.
-pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Diagnostic>;
-
-impl Rule {
-    /// A rule that is not hunted.
-    pub const fn new(name: RuleId, about: &'static str, start: Start) -> Self {
-        Self { name, about, start, hunt: None }
-    }
-
-    /// The same rule, which is hunted so.
-    pub const fn hunted(self, hunt: &'static dyn Hunt) -> Self {
-        Self { hunt: Some(hunt), ..self }
-    }
-
-    /// As the paper publishes it.
-    pub const fn published(start: Start, hunt: &'static dyn Hunt) -> Self {
-        Self::new(RuleId::PUBLISHED, "As the paper publishes it", start).hunted(hunt)
-    }
-
-    /// With the repairs of its refuted claims.
-    pub const fn repaired(start: Start, hunt: &'static dyn Hunt) -> Self {
-        Self::new(RuleId::REPAIRED, "With the repairs of its refuted claims", start).hunted(hunt)
-    }
-}
-
-/// Where the robots of a team start.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Starts {
-    /// All of them at the base.
-    Base,
-    /// Each in any free cell.
-    Anywhere,
-    /// Each in any free cell: without another word as published all at the base, and else the first one there and the
-    /// others beside it.
-    Beside,
-    /// Each in a free cell of its own: without another word the first one at the base, and the others beside it.
-    Alone,
-}
-
-/// Something that runs of a scheme draw by their seed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Drawn {
-    /// What it is.
-    pub what: &'static str,
-    /// In which runs it is drawn.
-    pub by: By,
-}
-
-/// In which runs something is drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum By {
-    /// In all.
-    Every,
-    /// Where sensors are missed by chance.
-    Miss,
-    /// Where this is told.
-    Told(&'static Extra),
-    /// In those of this rule.
-    Rule(RuleId),
-}
-
-impl Drawn {
-    /// Whether it is drawn in a run.
-    fn is_in(&self, setup: &Setup) -> bool {
-        match self.by {
-            By::Every => true,
-            By::Miss => !setup.miss.is_never(),
-            By::Told(extra) => extra.is_told_by(&setup.options),
-            By::Rule(rule) => rule == setup.rule,
-        }
-    }
-}
-
-/// What is drawn, and by which field.
-impl fmt::Display for Drawn {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, by } = self;
-        match by {
-            By::Every => f.write_str(what),
-            By::Miss => write!(f, "{what}, with `miss`"),
-            By::Told(extra) => write!(f, "{what}, with `{}`", extra.field),
-            By::Rule(rule) => write!(f, "{what}, with `rule` {rule}"),
-        }
-    }
-}
-
-/// How a team is drawn and told of.
-#[derive(Clone, Copy, Debug)]
-pub enum Look {
-    /// The first robot is the base, the last one leads, and those beside each other in their order have a link.
-    Linked {
-        /// Whether the link of two robots is lost that go from the first to the second of these pairs of cells.
-        is_lost: fn(&[Cell], &[Cell]) -> bool,
-    },
-    /// The first robot is the base, and links join the robots in a tree.
-    Tree {
-        /// Whether robots in these cells have a link.
-        is_linked: fn(Cell, Cell) -> bool,
-    },
-    /// Every robot is an agent for itself.
-    Apart,
-    /// The same, and agents are called robots.
-    Robots,
-}
-
-impl Look {
-    /// Whether the first robot is the base.
-    pub const fn has_base(self) -> bool {
-        match self {
-            Self::Linked { .. } | Self::Tree { .. } => true,
-            Self::Apart | Self::Robots => false,
-        }
-    }
-
-    /// What a robot is called.
-    pub const fn robot(self) -> &'static str {
-        match self {
-            Self::Linked { .. } | Self::Tree { .. } | Self::Robots => "robot",
-            Self::Apart => "agent",
-        }
-    }
-}
-
-/// What agents know of a sensor floor in the end.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Knowledge {
-    /// Nothing: whoever watches them ends the run.
-    None,
-    /// Which cells are visited, and when they are done.
-    Visited,
-}
-
-/// How robots learn of a layout.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Senses {
-    /// A robot knows the edges that were tried. What no robot met can go, and the run stays the same.
-    Bumps,
-    /// Agents read sensors on the floor, and may miss some.
-    Floor,
-}
-
-/// A clause that a run can break.
-#[derive(Clone, Copy, Debug)]
-pub struct Clause {
-    /// Its id.
-    pub id: ClauseId,
-    /// Which independent judge reads its counterexamples.
-    pub judge: Option<Judge>,
-    /// How a team move breaks it, one line for each pair or cell.
-    pub told: fn(&Setup, &Survey, &TeamMove<'_>) -> Vec<String>,
-    /// If it is about the end of a run: what the cells are that are missed.
-    pub missed: Option<&'static str>,
-}
-
-/// A judge of counterexamples.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Judge {
-    /// The judge of the chain.
-    Chain,
-    /// The judge of agents, for runs of one agent.
-    Agent,
-}
-
-impl Clause {
-    /// The clause with this id, of which the words of the clause itself tell enough, and which has no judge.
-    pub const fn new(id: &'static str) -> Self {
-        Self { id: ClauseId::new(id), judge: None, told: |_, _, _| Vec::new(), missed: None }
-    }
-}
-
-impl Profile {
-    /// The rule with this name, if the scheme offers it.
-    pub fn rule(&self, name: RuleId) -> Option<&'static Rule> {
-        self.rules.iter().find(|rule| rule.name == name)
-    }
-
-    /// Whether a run of it draws anything: whether its seed has an effect.
-    pub fn draws(&self, setup: &Setup) -> bool {
-        self.drawn.iter().any(|drawn| drawn.is_in(setup))
-    }
-
-    /// Where `robots` of this rule start in `layout` of which nobody says where, if not all start at the base.
-    pub fn default_starts(
-        &self,
-        rule: RuleId,
-        layout: &Layout,
-        base: Cell,
-        robots: u16,
-    ) -> Option<Vec<Cell>> {
-        match self.starts {
-            Starts::Beside if rule != RuleId::PUBLISHED => Some(kit::starts(layout, base, robots.into())),
-            Starts::Alone => Some(kit::starts(layout, base, robots.into())),
-            Starts::Base | Starts::Anywhere | Starts::Beside => None,
-        }
-    }
-
-    /// The clause with this id, if its runs can break it.
-    pub fn clause(&self, id: ClauseId) -> Option<&'static Clause> {
-        self.clauses.iter().find(|clause| clause.id == id)
-    }
-}
-
-impl Profile {
-    /// A row of which nothing is known but its name, which has robots that are apart.
-    pub const fn named(name: &'static str) -> Self {
-        Self {
-            name,
-            about: "",
-            rules: &[],
-            team: "team",
-            robots: 1..=u16::MAX as usize,
-            starts: Starts::Anywhere,
-            senses: Senses::Bumps,
-            extras: &[],
-            drawn: &[],
-            look: Look::Robots,
-            knowledge: None,
-            clauses: &[],
-        }
-    }
-}
-
-impl PartialEq for Profile {
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
-    }
-}
-
-impl Eq for Profile {}
-
-impl Serialize for Profile {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name)
-    }
-}
-
-impl fmt::Debug for Profile {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name)
-    }
-}
 
 /// A run before its start: what stands still while it goes on. The same setup makes the same run.
 #[derive(Clone, Debug)]
@@ -322,7 +36,7 @@ pub struct Setup {
     pub miss: Probability,
     /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
     pub missed: Vec<u32>,
-    /// What else the run is told.
+    /// The options that the run is told.
     pub options: Options,
     /// The choices that make the run, where a search has found it; else it is left to chance.
     pub choices: Vec<u32>,
@@ -363,11 +77,17 @@ impl Setup {
         setup.starting_in(starts.to_vec())
     }
 
-    /// The same run with robots in these `starts`.
+    /// This run with robots in these `starts`.
     pub(crate) fn starting_in(self, starts: Vec<Cell>) -> Self {
         let is_elsewhere = starts.iter().any(|&start| start != self.base);
         let starts = Some(starts).filter(|_| is_elsewhere || self.scheme.starts == Starts::Alone);
         Self { starts, ..self }
+    }
+
+    /// The title of a picture of the run.
+    pub fn title(&self) -> String {
+        let Self { scheme, rule, robots, .. } = self;
+        format!("{} ({rule}), {}", scheme.name, counted(*robots, scheme.look.robot()))
     }
 
     /// Where the robots start.
@@ -392,7 +112,7 @@ impl Setup {
 /// Robots of a team when nobody says how many: the team of the paper.
 const DEFAULT_ROBOTS: u16 = 8;
 
-/// What is asked of an exploration.
+/// An exploration that is asked for.
 #[derive(Clone, Debug)]
 pub struct Asked {
     /// The scheme.
@@ -410,7 +130,7 @@ pub struct Asked {
     pub starts: Vec<Cell>,
     /// How likely it is that an agent misses a sensor.
     pub miss: Option<Probability>,
-    /// What else the run is told.
+    /// The options that the run is told.
     pub options: Options,
     /// When the run is stopped.
     pub limits: Limits,
@@ -471,7 +191,7 @@ impl Asked {
 
 /// A run that can be made as often as it is drawn: by its rule, or from what is stored of it.
 pub trait Play {
-    /// What makes it.
+    /// The setup that makes it.
     fn setup(&self) -> &Setup;
 
     /// Makes the run. `watch` sees every team move, and may stop the run for good.
@@ -480,13 +200,33 @@ pub trait Play {
     /// [`Halt`] if the run cannot be made, or whatever `watch` returned.
     fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt>;
 
+    /// Makes the run as far as the last of `moves`, and lets `watch` see those.
+    ///
+    /// # Errors
+    /// As of [`Play::play`].
+    fn among(&self, moves: &RangeInclusive<u32>, watch: &mut Watcher<'_>) -> Result<(), Halt> {
+        let mut is_over = false;
+        let made = self.play(&mut |made| {
+            is_over = made.step > *moves.end();
+            match (is_over, moves.contains(&made.step)) {
+                (true, _) => Err(Halt::Interrupted),
+                (false, true) => watch(made),
+                (false, false) => Ok(()),
+            }
+        });
+        match made {
+            Err(Halt::Interrupted) if is_over => Ok(()),
+            made => made.map(drop),
+        }
+    }
+
     /// How the team move `made` breaks `clause`, one line for each pair or cell.
     fn told(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
         let _ = (clause, chart, made);
         Vec::new()
     }
 
-    /// What the cells are that the end of the run must not miss by `clause`, and those that it misses.
+    /// The noun for the cells that the end of the run must not miss by `clause`, and those that it misses.
     fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
         let _ = (clause, chart);
         None
@@ -496,5 +236,171 @@ pub trait Play {
 impl fmt::Debug for dyn Play + '_ {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.setup().fmt(f)
+    }
+}
+
+/// The team of `setup` at its start.
+///
+/// # Errors
+/// A [`Diagnostic`] if the setup does not fit its scheme.
+pub fn team(setup: &Setup) -> Result<Box<dyn Team>, Diagnostic> {
+    (setup.check()?.start)(setup)
+}
+
+/// Runs `setup`. `watch` sees every team move, and may stop the run for good.
+///
+/// # Errors
+/// [`Halt`] if the setup does not fit its scheme, or whatever `watch` returned.
+pub fn explore(setup: &Setup, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
+    run(&mut *team(setup)?, &setup.layout, setup.limits, watch)
+}
+
+impl Play for Setup {
+    fn setup(&self) -> &Setup {
+        self
+    }
+
+    fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
+        explore(self, watch)
+    }
+
+    fn told(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
+        self.scheme.clause(clause).map_or_else(Vec::new, |clause| (clause.told)(self, chart, made))
+    }
+
+    fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
+        let words = self.scheme.clause(clause)?.missed?;
+        Some((words, team(self).ok()?.missed(&self.layout, chart)))
+    }
+}
+
+/// The fault of choices that no search has made.
+pub(super) fn of_choices(what: impl fmt::Display) -> Diagnostic {
+    Diagnostic::of_field("choices", what, "hunt again: choices come from a counterexample alone")
+}
+
+impl Scheme {
+    /// The fault of a seed by which nothing is drawn.
+    pub fn needless_seed(self) -> Diagnostic {
+        let name = self.name;
+        let drawn: Vec<String> = self.drawn.iter().map(Drawn::to_string).collect();
+        let remedy = match drawn[..] {
+            [] => {
+                format!(
+                    "leave it out: in runs of {name} nothing is drawn but layouts, such as cells:15x15:0.1"
+                )
+            }
+            [..] => format!("leave it out; of {name} there would be drawn: {}", drawn.join("; ")),
+        };
+        Diagnostic::of_field("seed", "`seed` has no effect: nothing here is left to chance", remedy)
+    }
+
+    /// The fault of sensors that are missed where there are none; `what` says what is to be left out.
+    pub(super) fn no_sensors(self, field: &'static str, what: &str) -> Diagnostic {
+        let wrong = format!("the {}s of a {} have no floor sensors to miss", self.look.robot(), self.team);
+        let remedy = format!("take {}, or leave out {what}", self.sensing(Senses::Floor));
+        Diagnostic::of_field(field, wrong, remedy)
+    }
+}
+
+impl Setup {
+    /// The rule of its scheme, if everything fits that.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] that names the first field that does not fit.
+    pub fn check(&self) -> Result<&'static Rule, Diagnostic> {
+        self.scheme.count(self.robots.into())?;
+        let rule = self.scheme.find_rule(self.rule)?;
+        self.check_misses()?;
+        self.check_extras()?;
+        self.check_starts()?;
+        Ok(rule)
+    }
+
+    /// Refuses missed sensors where there are none, and those that make no run.
+    fn check_misses(&self) -> Result<(), Diagnostic> {
+        let Self { scheme, missed, .. } = self;
+        match scheme.senses {
+            Senses::Bumps if !self.miss.is_never() => Err(scheme.no_sensors("miss", "how likely that is")),
+            Senses::Bumps if !missed.is_empty() => Err(scheme.no_sensors("missed", "what is missed")),
+            Senses::Floor if self.miss.is_certain() && self.limits.max_moves.is_none() => {
+                let remedy = "give a probability below 1, or end the run by `max-moves`";
+                Err(Diagnostic::of_field("miss", "agents that miss every sensor go on for ever", remedy))
+            }
+            Senses::Floor if missed.first() == Some(&0) || !missed.is_sorted_by(|a, b| a < b) => {
+                let what = "the numbers of the sensors that are missed are not in order";
+                Err(Diagnostic::of_field("missed", what, "number them from 1 on, in order, each once"))
+            }
+            Senses::Bumps | Senses::Floor => Ok(()),
+        }
+    }
+
+    /// Refuses what the scheme cannot be told, and what is out of bounds.
+    fn check_extras(&self) -> Result<(), Diagnostic> {
+        let Self { scheme, robots, layout, options, .. } = self;
+        let is_refused = |extra: &&Extra| extra.is_told_by(options) && !scheme.extras.contains(extra);
+        if let Some(extra) = Extra::ALL.into_iter().find(is_refused) {
+            let what = format!("`{}` says nothing to the scheme {}", extra.field, scheme.name);
+            let names = scheme.among.names(|scheme| scheme.extras.contains(&extra));
+            let remedy = format!("take the scheme {}, or leave it out", names.join(" or "));
+            return Err(Diagnostic::of_field(extra.field, what, remedy));
+        }
+        let wrong = |extra: &Extra| {
+            let (what, remedy) = (extra.wrong)(options, *robots, layout)?;
+            Some(Diagnostic::of_field(extra.field, what, remedy))
+        };
+        Extra::ALL.into_iter().find_map(wrong).map_or(Ok(()), Err)
+    }
+
+    /// Refuses starts that the scheme does not have.
+    fn check_starts(&self) -> Result<(), Diagnostic> {
+        let Self { scheme, robots, starts, .. } = self;
+        let robot = scheme.look.robot();
+        let wrong = |what: String, remedy: &str| Err(Diagnostic::of_field("starts", what, remedy));
+        let are_not_for_each = |count: usize| {
+            let what = format!("{} for {}", counted(count, "start"), counted(*robots, robot));
+            wrong(what, &format!("give one start for all, or one for each {robot}"))
+        };
+        match (scheme.starts, starts) {
+            (Starts::Alone, None) => return are_not_for_each(1),
+            (Starts::Alone | Starts::Beside, Some(starts)) if self.is_full(starts) => {
+                let (robots, cells) = (counted(*robots, "robot"), starts.len());
+                let reached = counted(cells, "cell");
+                let what = format!("{robots} do not find room: from the base {reached} can be reached");
+                let remedy = format!("give `robots` a number up to {cells}, or take a larger layout");
+                return Err(Diagnostic::of_field("robots", what, remedy));
+            }
+            (Starts::Base, Some(_)) => {
+                let what = format!("the {robot}s of a {} start at the base", scheme.team);
+                return wrong(what, "give the base another place by `base`");
+            }
+            (Starts::Base, None) => {}
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts))
+                if starts.len() != usize::from(*robots) =>
+            {
+                return are_not_for_each(starts.len());
+            }
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, starts) => {
+                for &start in starts.as_deref().unwrap_or(slice::from_ref(&self.base)) {
+                    self.layout
+                        .check_start(start)
+                        .or_else(|problem| wrong(problem.to_string(), problem.remedy()))?;
+                }
+            }
+        }
+        let starts = starts.as_deref().unwrap_or_default();
+        let is_again = |&(place, start): &(usize, &Cell)| starts[..place].contains(start);
+        match starts.iter().enumerate().find(is_again).filter(|_| scheme.starts == Starts::Alone) {
+            Some((_, cell)) => {
+                wrong(format!("two robots start in the cell {cell}"), "give each robot a start of its own")
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Whether there are fewer starts than robots since there is no more room.
+    fn is_full(&self, starts: &[Cell]) -> bool {
+        let is_default = self.scheme.default_starts(self.rule, &self.layout, self.base, self.robots);
+        starts.len() < self.robots.into() && is_default.is_some_and(|found| found == starts)
     }
 }

@@ -24,7 +24,7 @@ pub enum Assignment {
     Greedy,
     /// So that all ways together are shortest (the Hungarian algorithm).
     Hungarian,
-    /// The same, anew at every move.
+    /// By the Hungarian algorithm, anew at every move.
     HungarianAnew,
     /// Each robot in its order takes the nearest cell that no earlier robot has taken, at every move. Where there is
     /// none left, it stays.

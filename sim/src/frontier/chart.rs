@@ -10,7 +10,7 @@ pub struct Chart {
     area: Area,
     /// By place: row by row, with a rim of obstacles around the area, so that every cell has four neighbours.
     cells: Vec<Status>,
-    /// What it has learned, in order.
+    /// The cells that it has learned, in order.
     learned: Vec<(Cell, Status)>,
     /// Unexplored cells beside explored ones.
     frontier: usize,
@@ -29,7 +29,7 @@ impl Chart {
         chart
     }
 
-    /// What it has learned since it knew so much.
+    /// The cells that it has learned since it knew so much.
     pub fn learned(&self, since: usize) -> &[(Cell, Status)] {
         self.learned.get(since..).unwrap_or_default()
     }

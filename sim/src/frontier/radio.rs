@@ -1,4 +1,4 @@
-//! What robots get of the radio: which messages they hear, and where they take themselves to be.
+//! The radio as robots have it: which messages they hear, and where they take themselves to be.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;

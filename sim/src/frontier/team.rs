@@ -195,7 +195,7 @@ impl Explorers {
         if self.slot == robot { Slot::Own } else { Slot::Others }
     }
 
-    /// What a robot does next. Where robots are paired with cells, the waves of the whole team tell it.
+    /// The next action of a robot. Where robots are paired with cells, the waves of the whole team tell it.
     fn next(&mut self, robot: usize) -> Next {
         if !self.rule.has(Condition::Route) || self.rule.ties == Ties::Any {
             return self.next_alone(robot);
@@ -208,7 +208,7 @@ impl Explorers {
         own.follows(way, self.slot(robot))
     }
 
-    /// What a robot does next by the rule of one robot.
+    /// The next action of a robot by the rule of one robot.
     fn next_alone(&mut self, robot: usize) -> Next {
         let others: Vec<Other> = self.told[robot]
             .iter()
@@ -220,7 +220,7 @@ impl Explorers {
         self.robots[robot].next(&self.rule, view, &mut self.memory.scratch(), &mut self.radio.dice)
     }
 
-    /// What `robot` sees that goes through `side`, and where it gets to.
+    /// The sight that `robot` has as it goes through `side`, and where it gets to.
     fn look(&self, robot: usize, side: Side, entering: &[Option<(Cell, Place)>]) -> (Sight, (Cell, Place)) {
         let aim = Place::midpoint(self.robots[robot].at().beyond(side));
         let place = self.places[robot].moved(self.fixes[robot], aim);

@@ -29,7 +29,7 @@ pub(super) enum Knowledge {
 /// So many moves a wave may go round at least.
 const LEAST_SLACK: u32 = 2;
 
-/// What a wave has started from.
+/// The origin of a wave.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Origin {
     cell: Cell,

@@ -1,4 +1,4 @@
-//! What is marked in the cells of a wide grid, row by row, and floods over them.
+//! The marks in the cells of a wide grid, row by row, and floods over them.
 
 use tautline_kernel::ground::{CellMark, EdgeMark, Side};
 

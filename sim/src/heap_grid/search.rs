@@ -4,7 +4,7 @@ use tautline_kernel::ground::EdgeMark;
 
 use super::map::{EXPLORED, Map, Marks, UNREACHED, all_sides};
 
-/// What is known of a cell's distance to the nearest unexplored cell.
+/// The knowledge of a cell's distance to the nearest unexplored cell.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Bound {
     /// It is not less than this many steps; `UNREACHED` if there is no path.

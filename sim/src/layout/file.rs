@@ -1,90 +1,134 @@
-//! The LAYOUT argument of the command line: a generator's description, or a file of one of the three formats.
+//! The part that the readers of all formats share: a file as text or bytes, the lines of a text with their places, and
+//! the faults of what is wrong there.
 
-use std::ffi::OsString;
-use std::iter;
-use std::path::{Path, PathBuf};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::Path;
 
 use tautline_proofs::plural::counted;
 
-use super::generate::Form;
-use super::read::{at, in_file, read_text};
-use super::{Generator, Layout, Misread, Problem, movingai, ros, text};
-use crate::diagnostic::Diagnostic;
+use super::problem::sizes;
+use super::{Misread, Problem};
+use crate::diagnostic::{BOM, Diagnostic};
 
-/// The layout that `description` names: a generator's, for `seed`, or else that of a file: a `MovingAI` map
-/// (`.map`), a ROS map (`.yaml`, `.yml`), or a drawing of ours. `image` takes the place of the image that a
-/// ROS map names. A yaw of a ROS map is logged as a warning, as the cells are those of the image.
-///
-/// # Errors
-/// A [`Diagnostic`] that names the file, the line and the column, or what is wrong with the description.
-pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
-    let layout = make(description, seed, image)?;
-    let (size, free, walls) = (layout.size(), layout.free_cells(), layout.walls().count());
-    tracing::info!(
-        "layout {description}: {size} cells, {free} free, {} between them",
-        counted(walls, "wall")
-    );
-    Ok(layout)
-}
+/// Larger files are refused before they are read. The drawing of the largest layout is smaller.
+pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
-fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
-    let file = Path::new(description);
-    match description.parse::<Generator>() {
-        Ok(_) if image.is_some() => Err(Problem::needless_image().into()),
-        Ok(generator) => generator.generate(seed).map_err(Diagnostic::from),
-        Err(problem) if means_generator(description) && !file.exists() => Err(problem.into()),
-        Err(_) => load_file(file, image),
-    }
-}
-
-/// The files that [`load`] reads for these arguments.
-pub fn inputs(description: &str, image: Option<&Path>) -> Vec<PathBuf> {
-    let file = PathBuf::from(description);
-    if description.parse::<Generator>().is_ok() {
-        return Vec::new();
-    }
-    let image = image.map(Path::to_owned).or_else(|| is_ros(&file).then(|| ros::image(&file)).flatten());
-    iter::once(file).chain(image).collect()
-}
-
-/// The end of a file's name, in small letters.
-fn extension(file: &Path) -> OsString {
-    file.extension().unwrap_or_default().to_ascii_lowercase()
-}
-
-/// Whether the name is that of a ROS map.
-fn is_ros(file: &Path) -> bool {
-    matches!(extension(file).to_str(), Some("yaml" | "yml"))
-}
-
-/// Whether a description that is no generator was meant as one: it names one, or looks like none of the
-/// paths.
-fn means_generator(description: &str) -> bool {
-    Form::of(description).is_some() || description.contains(':') && !description.contains(['/', '\\'])
-}
-
-/// The problem of an image in place of the YAML file that describes it.
-fn bare_image() -> Problem {
-    Problem::new("this is an image alone", "name the .yaml file that describes it")
-}
-
-fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
-    if is_ros(file) {
-        let (layout, frame) = ros::load(file, image)?;
-        if frame.yaw_rad != 0.0 {
-            let name = file.display();
-            tracing::warn!("{name} is turned by {} rad; cells are those of its image", frame.yaw_rad);
-        }
-        return Ok(layout);
-    }
-    let read: fn(&str) -> Result<Layout, Misread> = match extension(file).to_str() {
-        Some("pgm" | "png") => return Err(in_file(file, &bare_image())),
-        Some("map") => movingai::read,
-        Some(_) | None => text::read,
+/// The text of `file`.
+pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
+    let bytes = read_bytes(file).map_err(|problem| in_file(file, &problem))?;
+    let not_text = |byte| {
+        in_file(
+            file,
+            &Problem::new(
+                format!("byte {byte} is not UTF-8 text"),
+                "a layout is a drawing, a MovingAI map or a ROS map's .yaml file",
+            ),
+        )
     };
-    if image.is_some() {
-        return Err(Problem::needless_image().into());
+    String::from_utf8(bytes).map_err(|error| not_text(error.utf8_error().valid_up_to()))
+}
+
+/// The bytes of `file`, at least one and at most [`MAX_FILE_BYTES`].
+pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Problem> {
+    let about = fs::metadata(file).map_err(|error| unreadable(&error))?;
+    if about.is_dir() {
+        return Err(Problem::no_file("this is a directory"));
     }
-    let source = read_text(file)?;
-    read(&source).map_err(|misread| at(file, &source, &misread))
+    if about.len() > MAX_FILE_BYTES {
+        return Err(too_large());
+    }
+    let mut bytes = Vec::new();
+    let opened = File::open(file).map_err(|error| unreadable(&error))?;
+    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
+    match bytes.len() as u64 {
+        0 => Err(Problem::new("the file is empty", "a drawing begins with `tautline layout 1`")),
+        size @ 1..=MAX_FILE_BYTES => {
+            tracing::info!("read {}: {}", file.display(), counted(size, "byte"));
+            Ok(bytes)
+        }
+        _ => Err(too_large()),
+    }
+}
+
+fn too_large() -> Problem {
+    Problem::new(format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20), sizes())
+}
+
+fn unreadable(error: &io::Error) -> Problem {
+    match error.kind() {
+        io::ErrorKind::NotFound => Problem::no_file("there is no such file"),
+        _ => Problem::new(format!("the file cannot be read: {error}"), "make the file readable"),
+    }
+}
+
+/// The fault of a problem in a text.
+pub(super) fn at(file: &Path, source: &str, misread: &Misread) -> Diagnostic {
+    Diagnostic::at(file, source, misread.at.clone(), &misread.problem, misread.problem.remedy())
+}
+
+/// The fault of a problem with a file as a whole.
+pub(super) fn in_file(file: &Path, problem: &Problem) -> Diagnostic {
+    Diagnostic::in_file(file, problem, problem.remedy())
+}
+
+/// A line without its end (`\n` or `\r\n`), and the byte at which it starts.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    pub(super) text: &'a str,
+    start: usize,
+}
+
+/// The lines of `source`, blank ones at its end left out, and a byte order mark before them.
+pub(super) fn lines(source: &str) -> impl Iterator<Item = Line<'_>> {
+    let text = source.strip_prefix(BOM).unwrap_or(source);
+    let begin = source.len() - text.len();
+    text.trim_end_matches(['\r', '\n']).split('\n').scan(begin, |next, raw| {
+        let start = *next;
+        *next += raw.len() + 1;
+        Some(Line { text: raw.strip_suffix('\r').unwrap_or(raw), start })
+    })
+}
+
+/// The end of the last line: where what is missing should have stood.
+pub(super) fn end(source: &str) -> Range<usize> {
+    let end = source.trim_end_matches(['\r', '\n']).len();
+    end..end
+}
+
+impl Line<'_> {
+    /// The problem of the whole line.
+    pub(super) fn misread(&self, problem: Problem) -> Misread {
+        self.misread_at(0..self.text.len(), problem)
+    }
+
+    /// The bytes `range` of this line, as bytes of the whole text.
+    pub(super) const fn at(&self, range: Range<usize>) -> Range<usize> {
+        self.start + range.start..self.start + range.end
+    }
+
+    /// The problem of the bytes `range` of this line.
+    pub(super) fn misread_at(&self, range: Range<usize>, problem: Problem) -> Misread {
+        Misread { at: self.at(range), problem }
+    }
+
+    /// The problem of a symbol that none of the `known` ones is: the characters that begin in the bytes
+    /// `range`.
+    pub(super) fn unknown(&self, range: Range<usize>, known: &'static str) -> Misread {
+        let (start, end) =
+            (self.text.floor_char_boundary(range.start), self.text.ceil_char_boundary(range.end));
+        let what = format!("the symbol {:?} is unknown", &self.text[start..end]);
+        self.misread_at(start..end, Problem::new(what, known))
+    }
+
+    /// Checks that the line has `expected` characters.
+    pub(super) fn check_length(&self, expected: usize) -> Result<(), Misread> {
+        let found = self.text.chars().count();
+        if found == expected {
+            return Ok(());
+        }
+        let what = format!("this row has {}, not {expected}", counted(found, "character"));
+        Err(self.misread(Problem::new(what, "make all rows equally long")))
+    }
 }

@@ -11,6 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::problem::examples;
@@ -22,6 +23,7 @@ const ROOMS_B: &str = include_str!("generate/rooms-b.txt");
 /// The least width and height of a room in an office that is large enough.
 const LEAST_ROOM_CELLS: i16 = 3;
 
+const MILLION: u32 = 1_000_000;
 const TWO_TO_THE_53: f64 = 9_007_199_254_740_992.0;
 
 /// A description of layouts, as `FromStr` reads it and `Display` writes it.
@@ -129,7 +131,7 @@ impl Probability {
         if 0.0 <= p && p <= 1.0 { Some(Self(p)) } else { None }
     }
 
-    /// What never happens.
+    /// The probability of what never happens.
     pub const NEVER: Self = Self(0.0);
 
     /// Whether it never happens.
@@ -146,6 +148,14 @@ impl Probability {
     pub(crate) fn happens(self, rng: &mut ChaCha8Rng) -> bool {
         let threshold = (self.0 * TWO_TO_THE_53) as u64;
         rng.next_u64() >> 11 < threshold
+    }
+
+    /// Asks `oracle` whether it happens this time, to the nearest millionth. The plain case comes first: where nobody
+    /// answers, it does not happen. What never happens is not asked for.
+    #[inline]
+    pub fn is_picked(self, oracle: &mut dyn Oracle) -> bool {
+        let millionths = (self.0 * f64::from(MILLION)).round() as u32;
+        millionths > 0 && oracle.pick(MILLION) >= MILLION - millionths
     }
 }
 
@@ -311,5 +321,24 @@ impl fmt::Display for Generator {
             Self::Office(size, Rooms { across, down }) => write!(f, "office:{size}:{across}x{down}"),
             Self::Cells(size, p) => write!(f, "cells:{size}:{p}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_proofs::engine::{SeededOracle, Tape};
+
+    use super::*;
+
+    #[test]
+    fn a_probability_is_picked_as_often_as_it_says() {
+        let of = |p| Probability::new(p).expect("a probability");
+        let mut source = SeededOracle::new(1, 0);
+        let picked = (0..100_000).filter(|_| of(0.1).is_picked(&mut source)).count();
+        assert!((9_500..10_500).contains(&picked), "{picked}");
+        assert!(!of(0.999).is_picked(&mut Tape(&[])));
+        assert!(of(1.0).is_picked(&mut Tape(&[])));
+        assert!(!Probability::NEVER.is_picked(&mut Tape(&[999_999])));
+        assert!([-0.1, 1.1, f64::NAN].iter().all(|&p| Probability::new(p).is_none()));
     }
 }

@@ -8,7 +8,7 @@
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
-use super::lines::{Line, end, lines};
+use super::file::{Line, end, lines};
 use super::{Layout, MAX_SIDE_CELLS, Misread, Problem};
 
 const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)";

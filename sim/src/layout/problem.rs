@@ -1,4 +1,4 @@
-//! What can be wrong with a layout, in any of its formats: `Display` says what, [`Problem::remedy`] what
+//! The faults of layouts, in any of its formats: `Display` says what, [`Problem::remedy`] what
 //! would be right.
 
 use std::fmt;
@@ -15,11 +15,11 @@ use crate::diagnostic::Diagnostic;
 pub struct Misread {
     /// The bytes of the text.
     pub at: Range<usize>,
-    /// What is wrong with them.
+    /// The fault in them.
     pub problem: Problem,
 }
 
-/// What is wrong with a layout or with the place it should come from.
+/// A fault of a layout, or of the place that it should come from.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Problem {
     what: String,
@@ -29,17 +29,17 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// What is wrong, and what would be right.
+    /// A fault and its remedy.
     pub(super) fn new(what: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { what: what.into(), remedy: remedy.into(), field: None }
     }
 
-    /// The same of the image of a ROS map.
+    /// A fault of the image of a ROS map, and its remedy.
     pub(super) fn of_image(what: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { field: Some("image"), ..Self::new(what, remedy) }
     }
 
-    /// What would be right.
+    /// The remedy.
     pub fn remedy(&self) -> &str {
         &self.remedy
     }

@@ -9,14 +9,13 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-use serde_saphyr::{Location, Spanned};
 use tautline_kernel::ground::Cell;
 
+use super::file::{at, in_file, read_bytes, read_text};
 use super::image::{Pixel, decode};
-use super::read::{at, in_file, read_bytes, read_text};
+use super::yaml::{FIELDS, Mapping, no_map};
 use super::{Layout, Misread, Problem};
-use crate::diagnostic::{BOM, Diagnostic};
+use crate::diagnostic::Diagnostic;
 
 /// Where the cells of a map lie in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -44,36 +43,12 @@ pub struct Description {
     shade: Shade,
 }
 
-/// What a bright pixel means.
+/// The meaning of a bright pixel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Shade {
     BrightIsFree,
     BrightIsOccupied,
 }
-
-/// The fields as they stand in the file; others are passed over.
-#[derive(Deserialize)]
-struct Fields {
-    image: Spanned<String>,
-    resolution: Spanned<f64>,
-    origin: Spanned<[f64; 3]>,
-    negate: Spanned<Negate>,
-    occupied_thresh: Spanned<f64>,
-    free_thresh: Spanned<f64>,
-    mode: Option<Spanned<String>>,
-}
-
-/// Written as 0 and 1 by some map savers, as a truth value by others.
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "expected 0 or 1")]
-enum Negate {
-    Truth(bool),
-    Number(u8),
-}
-
-/// What there is in a description.
-const FIELDS: &str =
-    "a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh";
 
 /// Reads the map that `file` describes; `image` takes the place of the image named there, whose path is
 /// relative to the folder of `file`.
@@ -112,58 +87,52 @@ pub(super) fn image(file: &Path) -> Option<PathBuf> {
 /// The first [`Problem`] and the bytes it lies in: no YAML, a field missing, a number out of bounds, another
 /// mode.
 pub fn describe(source: &str) -> Result<Description, Misread> {
-    let text = source.strip_prefix(BOM).unwrap_or(source);
-    let bytes_of = |location| {
-        let Range { start, end } = bytes_of(text, location);
-        let begin = source.len() - text.len();
-        begin + start..begin + end
+    let map = Mapping::read(source)?;
+    let (image, negate) = (map.scalar("image")?, map.scalar("negate")?);
+    let (metres, metres_at) = map.number("resolution")?;
+    let ([x_m, y_m, yaw_rad], origin_at) = map.numbers("origin")?;
+    let (occupied_above, occupied_at) = map.number("occupied_thresh")?;
+    let (free_below, free_at) = map.number("free_thresh")?;
+    // Written as 0 and 1 by some map savers, as a truth value by others.
+    let shade = match negate.text.as_str() {
+        "0" | "false" => Ok(Shade::BrightIsFree),
+        "1" | "true" => Ok(Shade::BrightIsOccupied),
+        other if other.parse::<u8>().is_ok() => Err(out_of_bounds(&negate.at, "negate", "write 0 or 1")),
+        _ => return Err(no_map(&negate.at, "expected 0 or 1", FIELDS)),
     };
-    let fields: Fields = serde_saphyr::from_str(text).map_err(|error| {
-        let at = error.location().map_or(0..0, bytes_of);
-        let message = error.without_snippet().to_string();
-        // One line of it, without the place, which the fault tells.
-        let message =
-            message.lines().next().and_then(|line| line.split(" at line ").next()).unwrap_or_default();
-        Misread { at, problem: Problem::new(format!("this does not describe a map: {message}"), FIELDS) }
-    })?;
-    let Fields { image, resolution, origin, negate, occupied_thresh, free_thresh, mode } = fields;
-    let wrong = |location, field: &str, allowed: &str| {
-        Err(Misread {
-            at: bytes_of(location),
-            problem: Problem::new(format!("`{field}` is out of bounds"), allowed),
-        })
-    };
-    let (metres, occupied_above, free_below) = (resolution.value, occupied_thresh.value, free_thresh.value);
     if !(metres > 0.0 && metres.is_finite()) {
-        return wrong(resolution.referenced, "resolution", "write the metres of a pixel's side, above 0");
+        return Err(out_of_bounds(&metres_at, "resolution", "write the metres of a pixel's side, above 0"));
     }
-    if !origin.value.iter().all(|number| number.is_finite()) {
-        return wrong(origin.referenced, "origin", "write x and y in metres and the yaw in radians");
+    if ![x_m, y_m, yaw_rad].iter().all(|number| number.is_finite()) {
+        return Err(out_of_bounds(&origin_at, "origin", "write x and y in metres and the yaw in radians"));
     }
     if !(0.0..=1.0).contains(&occupied_above) {
-        return wrong(occupied_thresh.referenced, "occupied_thresh", "write a number from 0 to 1");
+        return Err(out_of_bounds(&occupied_at, "occupied_thresh", "write a number from 0 to 1"));
     }
     if !(0.0..=occupied_above).contains(&free_below) {
-        return wrong(free_thresh.referenced, "free_thresh", "write a number from 0 to `occupied_thresh`");
+        return Err(out_of_bounds(&free_at, "free_thresh", "write a number from 0 to `occupied_thresh`"));
     }
-    let shade = match negate.value {
-        Negate::Truth(false) | Negate::Number(0) => Shade::BrightIsFree,
-        Negate::Truth(true) | Negate::Number(1) => Shade::BrightIsOccupied,
-        Negate::Number(_) => return wrong(negate.referenced, "negate", "write 0 or 1"),
-    };
-    if let Some(mode) = mode.filter(|mode| !matches!(mode.value.as_str(), "trinary" | "scale")) {
-        let what = format!("the mode {:?} is not supported", mode.value);
-        let problem = Problem::new(what, "save the map in mode trinary or scale");
-        return Err(Misread { at: bytes_of(mode.referenced), problem });
+    let shade = shade?;
+    if map.has("mode") {
+        let mode = map.scalar("mode")?;
+        if !matches!(mode.text.as_str(), "trinary" | "scale") {
+            let what = format!("the mode {:?} is not supported", mode.text);
+            let problem = Problem::new(what, "save the map in mode trinary or scale");
+            return Err(Misread { at: mode.at.clone(), problem });
+        }
     }
-    let [x_m, y_m, yaw_rad] = origin.value;
     Ok(Description {
-        image_at: bytes_of(image.referenced),
-        image: image.value,
+        image_at: image.at.clone(),
+        image: image.text.clone(),
         frame: Frame { resolution_m: metres, x_m, y_m, yaw_rad },
         free_below,
         shade,
     })
+}
+
+/// The problem of a field whose value, in the bytes `at`, is out of bounds.
+fn out_of_bounds(at: &Range<usize>, field: &str, allowed: &str) -> Misread {
+    Misread { at: at.clone(), problem: Problem::new(format!("`{field}` is out of bounds"), allowed) }
 }
 
 /// Reads the image that `description` describes, from the `bytes` of its file. The size is checked before the
@@ -191,10 +160,4 @@ impl Description {
         };
         alpha == u8::MAX && f64::from(occupied) / (3.0 * 255.0) < self.free_below
     }
-}
-
-fn bytes_of(source: &str, location: Location) -> Range<usize> {
-    let span = location.span();
-    let start = span.byte_offset().map_or(0, |offset| offset as usize).min(source.len());
-    start..start + span.byte_len().map_or(0, |length| length as usize)
 }

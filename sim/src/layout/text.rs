@@ -19,7 +19,7 @@ use std::num::NonZeroU16;
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use super::lines::{Line, end, lines};
+use super::file::{Line, end, lines};
 use super::{Layout, MAX_SIDE_CELLS, Misread, Problem};
 
 const MAGIC: &str = "tautline layout ";
@@ -97,7 +97,7 @@ fn open_rim() -> Problem {
     Problem::new("the rim has a gap", "close it: `--` in the north and south, `|` in the east and west")
 }
 
-/// What lies south of a row.
+/// The line that lies south of a row.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Below {
     Row,

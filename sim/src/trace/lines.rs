@@ -17,7 +17,7 @@ use crate::layout::MAX_FILE_BYTES;
 /// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
 pub(crate) const MAX_LINE_BYTES: u64 = 1 << 16;
 
-/// What every version of the header begins with.
+/// The beginning of a header, in every version.
 #[derive(Deserialize)]
 pub(crate) struct Magic {
     format: String,
@@ -86,7 +86,7 @@ impl Lines {
         Ok(Self { path: path.to_owned(), input: BufReader::new(file), count: 0, again })
     }
 
-    /// The same lines, with other words for how to make such a file again.
+    /// These lines, with other words for how to make such a file again.
     pub(crate) fn made_by(self, again: &'static str) -> Self {
         Self { again, ..self }
     }
@@ -208,7 +208,7 @@ impl Lines {
         }
     }
 
-    /// What the line says.
+    /// The value that a line holds.
     ///
     /// # Errors
     /// A [`Diagnostic`] where it is no such thing.

@@ -1,4 +1,4 @@
-//! What came of a run, as JSON has it, for the program and for others.
+//! The outcome of a run, as JSON has it, for the program and for others.
 
 use std::collections::BTreeMap;
 
@@ -31,13 +31,13 @@ pub struct Summary<'a> {
     #[schemars(with = "BTreeMap<String, Option<u32>>")]
     milestones: BTreeMap<u32, Option<u32>>,
     stopped: Stopped,
-    /// What has failed, where something was to fail.
+    /// The failures, where something was to fail.
     #[serde(skip_serializing_if = "Option::is_none")]
     faults: Option<Failures>,
     violations: Vec<StoredViolation>,
 }
 
-/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is
+/// The part of a summary about a sensor floor. Ants mark nothing and never know that they are done: of them nothing is
 /// said about that.
 #[derive(JsonSchema, Serialize)]
 struct FloorSummary<'a> {
@@ -46,7 +46,7 @@ struct FloorSummary<'a> {
     #[schemars(with = "Option<Vec<CellWritten>>")]
     starts: Option<&'a [Cell]>,
     #[serde(flatten)]
-    marked: Option<Marked>,
+    marked: Option<MarkSummary>,
     /// How long the slowest agent scanned and went.
     seconds: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -59,9 +59,9 @@ fn seconds(report: &Report) -> f64 {
     report.milliseconds.unwrap_or(0) as f64 / 1000.0
 }
 
-/// What agents that mark cells have done and know.
+/// The deeds and the knowledge of agents that mark cells.
 #[derive(JsonSchema, Serialize)]
-struct Marked {
+struct MarkSummary {
     visited: u32,
     terminated: bool,
 }
@@ -73,10 +73,10 @@ struct Part {
     cells: u32,
     explored: u32,
     #[serde(flatten)]
-    marked: Option<Marked>,
+    marked: Option<MarkSummary>,
 }
 
-impl Marked {
+impl MarkSummary {
     fn of(knowledge: Knowledge, component: &Component) -> Option<Self> {
         match knowledge {
             Knowledge::None => None,
@@ -91,13 +91,13 @@ impl<'a> FloorSummary<'a> {
     fn of(knowledge: Knowledge, setup: &'a Setup, report: &Report) -> Self {
         let part = |component: &Component| {
             let Component { robots, cells, explored, .. } = *component;
-            Part { robots, cells, explored, marked: Marked::of(knowledge, component) }
+            Part { robots, cells, explored, marked: MarkSummary::of(knowledge, component) }
         };
         let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
         Self {
             miss: setup.miss,
             starts: setup.starts.as_deref(),
-            marked: Marked::of(knowledge, &report.whole()),
+            marked: MarkSummary::of(knowledge, &report.whole()),
             seconds: seconds(report),
             components: parts.iter().map(part).collect(),
         }

@@ -13,10 +13,6 @@ impl Hunter for Unwatched {
         ControlFlow::Continue(())
     }
 
-    fn is_not_kept(&mut self, fault: &Diagnostic) {
-        panic!("{fault}");
-    }
-
     fn is_left_out(&mut self, fault: &Diagnostic) {
         panic!("{fault}");
     }

@@ -1,29 +1,33 @@
-//! What stands on a page beside the lines of its data: the ground, who takes part, the layers and what they mean.
+//! The part of a page that stands still beside the lines of its data: the ground, who takes part, the layers and what
+//! they mean, the notes, and how to make the run again.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_proofs::plural::counted;
 
-use super::line::place_of;
+use super::place_of;
 use crate::atomic_file::HTML_HEAD;
 use crate::draw::svg::escaped;
-use crate::explore::{Joins, Kind, Layer, Shape, Value, Zone};
+use crate::explore::{Joins, Kind, Layer, Milestone, Report, Setup, Shape, Starts, Value, Zone};
 use crate::layout::Layout;
+use crate::options::{Extra, Takes};
 
 const TEMPLATE: &str = include_str!("page.html");
 const SCRIPT: &str = include_str!("page.js");
 
-/// What stands still on a page.
+/// The part of a page that stands still.
 #[derive(Serialize)]
 pub struct Film {
     /// The title of the page.
     pub title: String,
-    /// What came of the run, in a sentence.
+    /// The outcome of the run, in a sentence.
     pub outcome: String,
-    /// What a line is.
+    /// The noun for a line.
     pub unit: &'static str,
-    /// What a robot is called.
+    /// The noun for a robot.
     pub robot: &'static str,
     /// How many robots there are.
     pub robots: usize,
@@ -39,19 +43,19 @@ pub struct Film {
     pub share: Share,
     /// Where the robots are.
     pub board: Board,
-    /// What the scheme shows besides.
-    pub layers: Vec<Shown>,
+    /// The layers that the scheme shows besides.
+    pub layers: Vec<LayerJson>,
     /// By clause that is broken, its sentence.
     pub clauses: BTreeMap<&'static str, &'static str>,
-    /// What the end breaks.
-    pub ends: Vec<Ended>,
-    /// What is worth a jump, by the number of its line.
+    /// The clauses that the end breaks.
+    pub ends: Vec<EndBreach>,
+    /// The lines worth a jump, by their numbers.
     pub notes: Vec<(u32, String)>,
     /// How to make the run again.
     pub again: Again,
 }
 
-/// What the curve under the board counts.
+/// The count that the curve under the board shows.
 #[derive(Serialize)]
 pub struct Share {
     /// The count at which it is whole.
@@ -62,7 +66,7 @@ pub struct Share {
 
 /// A clause that the end of the run breaks, and the cells that are missed.
 #[derive(Serialize)]
-pub struct Ended {
+pub struct EndBreach {
     /// The id of the clause.
     pub clause: &'static str,
     /// The sentence of what is missed.
@@ -110,7 +114,7 @@ pub enum Board {
         nodes: Vec<[u32; 2]>,
         /// Who waits for robots.
         callers: Vec<[u32; 2]>,
-        /// What one of them is called.
+        /// The noun for one of them.
         caller: &'static str,
         /// Robot by robot where it was: milliseconds, east and south, each as what it is more than before.
         paths: Vec<String>,
@@ -146,7 +150,7 @@ impl Board {
 
 /// A layer as the page reads it.
 #[derive(Default, Serialize)]
-pub struct Shown {
+pub struct LayerJson {
     name: &'static str,
     about: String,
     shape: &'static str,
@@ -174,20 +178,23 @@ struct Reach {
 }
 
 /// A layer as the page reads it.
-pub fn layer(layer: &Layer) -> Shown {
-    let plain = Shown { name: layer.name, about: layer.about.clone(), ..Shown::default() };
+pub fn layer(layer: &Layer) -> LayerJson {
+    let plain = LayerJson { name: layer.name, about: layer.about.clone(), ..LayerJson::default() };
     let reach = |zone: &Zone| Reach { name: zone.name, about: zone.about, cells: zone.offsets() };
     match layer.shape {
-        Shape::Cells(values) => Shown { shape: "cells", values, ..plain },
-        Shape::Sides(values) => Shown { shape: "sides", values, ..plain },
-        Shape::CellsOfEach(values) => Shown { shape: "cells", each: true, values, ..plain },
-        Shape::SidesOfEach(values) => Shown { shape: "sides", each: true, values, ..plain },
-        Shape::Links(joins, zones) => {
-            Shown { shape: "links", zones: zones.iter().map(reach).collect(), joins: Some(joins), ..plain }
-        }
-        Shape::Circle(radius) => Shown { shape: "circle", radius: Some(radius), ..plain },
-        Shape::Messages(kinds) => Shown { shape: "messages", kinds, ..plain },
-        Shape::Reports => Shown { shape: "reports", ..plain },
+        Shape::Cells(values) => LayerJson { shape: "cells", values, ..plain },
+        Shape::Sides(values) => LayerJson { shape: "sides", values, ..plain },
+        Shape::CellsOfEach(values) => LayerJson { shape: "cells", each: true, values, ..plain },
+        Shape::SidesOfEach(values) => LayerJson { shape: "sides", each: true, values, ..plain },
+        Shape::Links(joins, zones) => LayerJson {
+            shape: "links",
+            zones: zones.iter().map(reach).collect(),
+            joins: Some(joins),
+            ..plain
+        },
+        Shape::Circle(radius) => LayerJson { shape: "circle", radius: Some(radius), ..plain },
+        Shape::Messages(kinds) => LayerJson { shape: "messages", kinds, ..plain },
+        Shape::Reports => LayerJson { shape: "reports", ..plain },
     }
 }
 
@@ -220,7 +227,7 @@ fn halves() -> (&'static str, &'static str) {
     TEMPLATE.split_once("{{lines}}\n").unwrap_or((TEMPLATE, ""))
 }
 
-/// What is told at the end of a line beside its words.
+/// The data at the end of a line, beside its words.
 pub fn told(told: &impl Serialize) -> String {
     format!("\t{}", json(told))
 }
@@ -229,4 +236,86 @@ pub fn told(told: &impl Serialize) -> String {
 fn json(value: &impl Serialize) -> String {
     // Strings and numbers are always JSON.
     serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
+}
+
+/// Layouts of more cells are not printed on a page.
+const MOST_PRINTED: usize = 64 * 64;
+
+/// The outcome of a run, in a sentence.
+pub(super) fn outcome(report: &Report) -> String {
+    format!(
+        "{}: {}. {} of {} explored; {}.",
+        counted(report.steps, "team move"),
+        report.stopped.words(),
+        report.explored,
+        counted(report.cells, "cell"),
+        broken(report)
+    )
+}
+
+fn broken(report: &Report) -> String {
+    match report.violations.as_slice() {
+        [] => "no clause is broken".to_owned(),
+        [first, ..] => format!("{} is broken in team move {}", first.clause, first.step),
+    }
+}
+
+/// The notes beside violations: the milestones and the end.
+pub(super) fn notes(report: &Report) -> Vec<(u32, String)> {
+    let reached = |milestone: Milestone| {
+        let step = report.reached(milestone)?;
+        Some((step, format!("{} % of the cells are explored", milestone.percent())))
+    };
+    let end = (report.steps, format!("The end: {}", report.stopped.words()));
+    Milestone::ALL.into_iter().filter_map(reached).chain([end]).collect()
+}
+
+/// How to make the run again, and others.
+pub(super) fn again(setup: &Setup) -> Again {
+    let Setup { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
+        setup;
+    let is_small = setup.layout.size().area().cells().nth(MOST_PRINTED).is_none();
+    let layout = is_small.then(|| {
+        let mut layout = setup.layout.clone();
+        // Without a base where none can stand, the drawing is as good.
+        let _ = layout.place_base(*base);
+        layout.to_string()
+    });
+    let by_search = Again { command: None, layout };
+    if !scheme.is_known() || !choices.is_empty() || !missed.is_empty() {
+        return by_search;
+    }
+    let name = scheme.name;
+    let mut command = format!("tautline explore LAYOUT --scheme {name} --rule {rule} --robots {robots}");
+    // Writing to a string cannot fail.
+    match (scheme.starts, starts) {
+        (Starts::Base, _) | (_, None) => {
+            let _ = write!(command, " --base {},{}", base.x, base.y);
+        }
+        (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts)) => {
+            for start in starts {
+                let _ = write!(command, " --start {},{}", start.x, start.y);
+            }
+        }
+    }
+    if !miss.is_never() {
+        let _ = write!(command, " --miss {miss}");
+    }
+    for extra in Extra::ALL {
+        let _ = match ((extra.typed)(options), extra.takes) {
+            (None, _) => Ok(()),
+            (Some(_), Takes::Nothing) => write!(command, " --{}", extra.field),
+            (Some(word), Takes::Word(_) | Takes::Real(_)) => write!(command, " --{} {word}", extra.field),
+        };
+    }
+    if let Some(milestone) = limits.until {
+        let _ = write!(command, " --until {}", milestone.percent());
+    }
+    if let Some(most) = limits.max_moves {
+        let _ = write!(command, " --max-moves {most}");
+    }
+    if scheme.draws(setup) {
+        let _ = write!(command, " --seed {seed}");
+    }
+    Again { command: Some(command + " --replay run.html"), ..by_search }
 }

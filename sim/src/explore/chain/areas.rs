@@ -1,14 +1,14 @@
 //! The hunt of chains over areas: whatever their columns and rows, and wherever the base is.
 
 use tautline_proofs::chain::Subject;
-use tautline_proofs::chain::areas::{AreaSearch, Areas, Findings, Smallest, most_edges, search};
+use tautline_proofs::chain::areas::{Areas, Findings, Smallest, most_edges, search};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{bounds, fault, team};
 use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    Area, Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown, outcome, setup,
+    Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown, outcome, setup,
 };
 
 /// Searches all areas of at most so many cells.
@@ -66,7 +66,7 @@ fn areas(observed: Subject, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, 
     })
 }
 
-/// What is told of a search.
+/// The report of a search.
 fn told(asked: &Asked<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
     let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
@@ -78,13 +78,7 @@ fn told(asked: &Asked<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport
     let covered = found.cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     Ok(HuntReport {
         robots,
-        facts: Facts::Areas {
-            runs,
-            moves,
-            max_walls,
-            max_cells,
-            areas: found.searched.iter().map(area).collect(),
-        },
+        facts: Facts::Areas { runs, moves, max_walls, max_cells, areas: found.searched.clone() },
         is_complete: found.is_complete,
         done: Done::CellsDone(found.cells),
         title: format!(
@@ -98,12 +92,6 @@ fn told(asked: &Asked<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport
         outcome: outcome(&quarries, found.is_complete, covered),
         found: quarries,
     })
-}
-
-/// The certificate of one area.
-const fn area(searched: &AreaSearch) -> Area {
-    let &AreaSearch { columns, rows, bases, walls, runs, moves } = searched;
-    Area { columns, rows, bases, walls, runs, moves }
 }
 
 fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {

@@ -1,7 +1,5 @@
-//! The hunt of chains: all layouts, decided wall by wall as the team meets them; and a hunt on its way, kept in a file.
-
-use std::path::Path;
-use std::time::Instant;
+//! The hunt of chains: all layouts, decided wall by wall as the team meets them, in one process that can be left and
+//! taken up again, or dealt out.
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
@@ -12,7 +10,7 @@ use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
 use super::areas;
-use crate::checkpoint::{self, Checkpoint, Header};
+use crate::checkpoint::{self, Checkpoint, Part, Task, decode, encode};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::{
     Asked, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown,
@@ -20,7 +18,6 @@ use crate::explore::hunt::{
 };
 use crate::explore::{Catalogue, ClauseId};
 use crate::layout::Size;
-use crate::resumable::{self, KEEP_EVERY, Resumable, written};
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;
@@ -76,7 +73,7 @@ impl Deals for Walls {
         let search = start(&self.bounds(asked)?)?;
         let deal = search.deal(shards);
         let (left, moves) = (deal.left().to_vec(), deal.moves());
-        Ok(Dealt { deal: Deal::written(asked, deal)?, left, of: "team move", moves })
+        Ok(Dealt { deal: Deal::write(asked, deal)?, left, of: "team move", moves })
     }
 
     fn part<'a>(
@@ -85,14 +82,14 @@ impl Deals for Walls {
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-    ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
+    ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
         let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
         let bounds = self.bounds(&asked)?;
         let search = match far {
             None => Search::shard(&bounds, &deal, shard),
-            Some(far) => Search::shard_at(&bounds, &deal, shard, &position(far)?),
+            Some(far) => Search::shard_at(&bounds, &deal, shard, &decode::<Position>(far, RUN_AGAIN)?),
         };
-        Ok(Box::new(Shard(search.map_err(fault)?)))
+        Ok(Box::new(search.map_err(fault)?))
     }
 
     fn merge(
@@ -103,39 +100,36 @@ impl Deals for Walls {
     ) -> Result<HuntReport, Diagnostic> {
         let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
         let bounds = self.bounds(&asked)?;
-        let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
+        let positions =
+            shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<Position>, _>>()?;
         let merged = Search::merged(&bounds, &deal, &positions).map_err(fault)?;
         told(&asked, &bounds, &merged.found())
     }
 }
 
-fn position(far: &RawValue) -> Result<Position, Diagnostic> {
-    serde_json::from_str(far.get()).map_err(|error| Diagnostic::usage(error, "run the shard again"))
-}
+/// The remedy for a shard that was never there.
+const RUN_AGAIN: &str = "run the shard again";
 
-/// A shard of a hunt.
-struct Shard(Search);
-
-impl Resumable for Shard {
+impl Part for Search {
     fn step(&mut self) -> Result<bool, Halt> {
-        Ok(self.0.wave())
+        Ok(self.wave())
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        written(&self.0.position())
+        encode(&self.position())
     }
 
     fn is_done(&self) -> bool {
-        self.0.is_complete()
+        self.is_complete()
     }
 
-    fn facts(&self) -> resumable::Facts {
-        let Progress { runs, moves, .. } = self.0.progress();
-        resumable::Facts::Chain { runs, moves }
+    fn facts(&self) -> checkpoint::Facts {
+        let Progress { runs, moves, .. } = self.progress();
+        checkpoint::Facts::Chain { runs, moves }
     }
 
     fn words(&self) -> String {
-        let Progress { runs, moves, .. } = self.0.progress();
+        let Progress { runs, moves, .. } = self.progress();
         format!("{}, {}", counted(runs, "run"), counted(moves, "team move"))
     }
 }
@@ -145,7 +139,7 @@ pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
     (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS))
 }
 
-/// What is told of a search, and of each run that it found.
+/// The report of a search, and of each run that it found.
 fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
@@ -186,29 +180,27 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntRepo
 }
 
 fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Findings, Diagnostic> {
-    let mut saved = asked.resume.map(|path| Saved::new(path, asked, bounds));
-    let mut search = match &mut saved {
-        Some(saved) => saved.search(bounds)?,
-        None => start(bounds)?,
-    };
+    let mut kept = Checkpoint::new(asked.resume, HuntTask::new(asked, bounds));
+    let mut search = resume(&mut kept, bounds)?;
     // What cannot be kept is refused before it has cost anything.
-    if let Some(saved) = &mut saved {
-        saved.write(&search)?;
-    }
-    let mut written = Instant::now();
+    kept.keep(&search)?;
     while hunter.hears(Far::Tree(&search.progress())).is_continue() && search.wave() {
-        if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
-            // There may be room again later on; the last good one stands there until then.
-            if let Err(fault) = saved.write(&search) {
-                hunter.is_not_kept(&fault);
-            }
-            written = Instant::now();
-        }
+        kept.keep_now_and_then(&search);
     }
-    if let Some(Err(fault)) = saved.as_mut().map(|saved| saved.write(&search)) {
+    if let Err(fault) = kept.keep(&search) {
         hunter.is_left_out(&fault);
     }
     Ok(search.found())
+}
+
+/// The search as it is in the file of `kept`, or from the start if there is no file.
+///
+/// # Errors
+/// A [`Diagnostic`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
+pub fn resume(kept: &mut Checkpoint<'_, HuntTask>, bounds: &Bounds) -> Result<Search, Diagnostic> {
+    let position: Option<Position> = kept.read()?;
+    let search = position.map_or_else(|| Search::new(bounds), |position| Search::at(bounds, &position));
+    search.map_err(|refused| kept.found(fault(refused)))
 }
 
 /// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
@@ -277,13 +269,13 @@ pub(super) fn fault(refused: Unsearchable) -> Diagnostic {
     }
 }
 
-/// What to do about a file that is no hunt of ours.
+/// The remedy for a file that is no hunt of ours.
 const AGAIN: &str = "name another file, or remove it and hunt from the start";
 
-/// What is hunted.
+/// The hunt that a file keeps.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Kept {
+pub struct HuntTask {
     format: String,
     version: u32,
     scheme: String,
@@ -297,7 +289,7 @@ struct Kept {
     known: Option<Catalogue>,
 }
 
-impl Header for Kept {
+impl Task for HuntTask {
     const FORMAT: &'static str = "tautline hunt";
     const NOUN: &'static str = "a kept hunt";
     const OTHER: &'static str = "this is another hunt";
@@ -312,16 +304,12 @@ impl Header for Kept {
     }
 }
 
-/// A hunt that is kept in a file.
-#[derive(Debug)]
-pub struct Saved<'a>(Checkpoint<'a, Kept>);
-
-impl<'a> Saved<'a> {
-    /// The hunt that is `asked`, within `bounds`, to be kept at `path`.
-    pub fn new(path: &'a Path, asked: &Asked<'_>, bounds: &Bounds) -> Self {
+impl HuntTask {
+    /// The hunt that is `asked`, within `bounds`.
+    pub fn new(asked: &Asked<'_>, bounds: &Bounds) -> Self {
         let area = bounds.reach().unwrap_or(bounds.area);
-        let header = Kept {
-            format: Kept::FORMAT.to_owned(),
+        Self {
+            format: Self::FORMAT.to_owned(),
             version: checkpoint::VERSION,
             scheme: asked.scheme.name.to_owned(),
             rule: asked.rule.to_string(),
@@ -329,28 +317,6 @@ impl<'a> Saved<'a> {
             area: [area.first(), area.last()],
             base: bounds.base,
             known: Some(asked.scheme.among),
-        };
-        Self(Checkpoint::new(path, header))
-    }
-
-    /// The search as it is in the file, or from the start if there is no file.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
-    pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Diagnostic> {
-        match self.0.read()? {
-            None => start(bounds),
-            Some(position) => {
-                Search::at(bounds, &position).map_err(|refused| fault(refused).found_in(self.0.path()))
-            }
         }
-    }
-
-    /// Keeps where `search` is.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if it cannot be written, or another process has put a file there.
-    pub fn write(&mut self, search: &Search) -> Result<(), Diagnostic> {
-        self.0.write(&search.position())
     }
 }

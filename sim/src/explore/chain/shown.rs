@@ -1,4 +1,4 @@
-//! What a page shows of a chain: its links by E_S and E_C, the virtual obstacles of its leader, and its messages.
+//! The layers of a page of a chain: its links by E_S and E_C, the virtual obstacles of its leader, and its messages.
 
 use tautline_kernel::ground::{Cell, Circle, Edge, EdgeMark, Grid, Step};
 

@@ -53,7 +53,7 @@ fn left_out(layout: &Layout, chart: &Survey, base: Cell, robots: usize) -> Vec<C
     due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
 }
 
-/// What the robots that are left are.
+/// The state of the robots that are left.
 enum Whole<G, const ROBOTS: usize> {
     /// A chain.
     Chain(Box<Chain<G, ROBOTS>>),
@@ -75,7 +75,7 @@ pub(super) struct ChainTeam<G, const ROBOTS: usize> {
     whole: Option<Whole<G, ROBOTS>>,
     seed: u64,
     log: Vec<u8>,
-    /// What was before the death: how far it was taken back, and its log.
+    /// The run before the death: how far it was taken back, and its log.
     before: Option<(Option<Parts>, Vec<u8>)>,
     /// Where all robots are, the dead one included.
     cells: Vec<Cell>,
@@ -266,7 +266,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
         self.barriers[to].hear(from + 1, byte).ok()
     }
 
-    /// The same in numbers of all robots, the base being 0.
+    /// Those robots in numbers of all robots, the base being 0.
     fn told(&self, unheard: Vec<Vec<usize>>) -> Vec<(usize, Vec<usize>)> {
         let robot = |mover: usize| self.left[mover + 1];
         let spoken = unheard.into_iter().enumerate().filter(|(_, to)| !to.is_empty());

@@ -216,7 +216,7 @@ fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
     format!("{columns}x{rows} cells, {} blocked, {}", walls, counted(moves, "move"))
 }
 
-/// What is told of a hunt.
+/// The report of a hunt.
 fn report(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
     let &Count { states, steps, cells, .. } = count;
     let &Asked { max_walls, error_cells: error, .. } = asked;

@@ -8,16 +8,15 @@ use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::frontier::areas::setting;
-use tautline_proofs::frontier::world::{Demand, Event, Setting, World};
+use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
 use tautline_proofs::run::Frame;
 
 use super::{COVERS, KNOWS};
 use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
-use crate::explore::fit::of_choices;
-use crate::explore::run::{End, Team};
-use crate::explore::setup::Setup;
-use crate::explore::survey::Survey;
+use crate::explore::run::{End, Survey, Team};
+use crate::explore::script::Script;
+use crate::explore::setup::{Setup, of_choices};
 use crate::layout::Layout;
 
 /// The team of `setup`, which has choices.
@@ -49,50 +48,24 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
         return Err(of_choices("the layout is too large for choices"));
     };
     let due = layout.reachable(&starts);
-    let scripted = Scripted {
-        setting,
-        world,
-        choices: choices.to_vec(),
-        made: 0,
-        cells: starts,
-        due,
-        broken: Vec::new(),
-    };
-    Ok(Box::new(scripted))
+    Ok(Box::new(Scripted { script: Script::new(setting, world, choices), cells: starts, due }))
 }
 
 struct Scripted<const ROBOTS: usize> {
-    setting: Setting<ROBOTS>,
-    world: World<ROBOTS>,
-    choices: Vec<u32>,
-    /// Choices so far.
-    made: usize,
+    script: Script<Setting<ROBOTS>>,
     cells: Vec<Cell>,
     due: Vec<Cell>,
-    /// What the last team move has broken.
-    broken: Vec<Demand>,
 }
 
 impl<const ROBOTS: usize> Scripted<ROBOTS> {
-    /// Makes the next choice, if it is a look as wanted or not.
-    fn choose(&mut self, wanted: Wanted) -> Option<Event> {
-        let number = *self.choices.get(self.made)?;
-        let turned = self.setting.turns(&self.world).into_iter().nth(number as usize)?;
-        let is_look = matches!(turned.event, Event::Looks(..));
-        if is_look != (wanted == Wanted::Look) {
-            return None;
-        }
-        self.made += 1;
-        self.broken.extend(turned.breaks);
-        self.world = turned.world;
-        Some(turned.event)
+    /// Makes the choices up to the next look.
+    fn go_on(&mut self) {
+        while self.script.choose(|turned| !is_look(turned)).is_some() {}
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Wanted {
-    Look,
-    NoLook,
+fn is_look<const ROBOTS: usize>(turned: &Successor<ROBOTS>) -> bool {
+    matches!(turned.event, Event::Looks(..))
 }
 
 impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
@@ -101,19 +74,18 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     }
 
     fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        self.broken.clear();
-        while self.choose(Wanted::NoLook).is_some() {}
-        let Some(Event::Looks(robot, side, sight, ..)) = self.choose(Wanted::Look) else {
-            return Err(End::Exhausted);
-        };
-        while self.choose(Wanted::NoLook).is_some() {}
+        self.script.broken.clear();
+        self.go_on();
+        let look = self.script.choose(is_look).map(|turned| turned.event);
+        let Some(Event::Looks(robot, side, sight, ..)) = look else { return Err(End::Exhausted) };
+        self.go_on();
         let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
         match sight {
             Sight::Open => steps[robot] = Step::Cross(side),
             Sight::Obstacle => (steps[robot], blocked[robot]) = (Step::Cross(side), true),
             Sight::Robot => {}
         }
-        self.cells = self.world.cells().to_vec();
+        self.cells = self.script.state.cells().to_vec();
         Ok(Frame { kind: Kind::Advance, steps, blocked, cells: self.cells.clone() })
     }
 
@@ -126,15 +98,15 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        let broken = Demand::ALL.into_iter().filter(|demand| self.broken.contains(demand));
+        let broken = Demand::ALL.into_iter().filter(|demand| self.script.broken.contains(demand));
         broken.map(|demand| ClauseId::new(demand.clause())).collect()
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, _: End) -> Vec<ClauseId> {
-        let is_still = self.setting.turns(&self.world).is_empty();
+        let is_still = self.script.is_over();
         let is_short = is_still && !self.missed(layout, chart).is_empty();
-        let knows = Setting { demand: Some(Demand::Knows), ..self.setting };
-        let knows_not = is_still && knows.broken_at_end(&self.world, &[]).contains(&Demand::Knows);
+        let knows = Setting { demand: Some(Demand::Knows), ..self.script.system };
+        let knows_not = is_still && knows.broken_at_end(&self.script.state, &[]).contains(&Demand::Knows);
         [is_short.then_some(COVERS), knows_not.then_some(KNOWS)].into_iter().flatten().collect()
     }
 }

@@ -1,6 +1,6 @@
-//! What a page shows of robots that explore cells: each robot's repository, the cells that they have claimed, how far
-//! they are heard, and who misses what they say; of rivals the obstacles that all know, and who is assigned to which
-//! cell.
+//! The layers of a page of robots that explore cells: each robot's repository, the cells that they have claimed, how
+//! far they are heard, and who misses what they say; of rivals the obstacles that all know, and who is assigned to
+//! which cell.
 
 use tautline_kernel::frontier::Status;
 
@@ -42,7 +42,7 @@ pub(super) fn layers_of_assigned() -> Vec<Layer> {
     ]
 }
 
-/// What robots have met in the last team move, and who is assigned to which cell from now on.
+/// The obstacles that robots have met in the last team move, and who is assigned to which cell from now on.
 pub(super) fn show_assigned(robots: &Assigned, scene: &mut Scene) {
     for cell in robots.met() {
         scene.put(OBSTACLES, Place::Cell(cell), 1);
@@ -74,7 +74,7 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
     layers
 }
 
-/// What robots have learned, claimed and told in the last team move.
+/// The cells that robots have learned, claimed and told in the last team move.
 pub(super) fn show(robots: &Explorers, scene: &mut Scene) {
     for (robot, news) in robots.news() {
         for &(cell, status) in news {

@@ -34,7 +34,7 @@ const SMALL: Small = Small {
 #[derive(Debug)]
 pub(super) struct Searched(pub(super) Kit);
 
-/// What is looked for in one search.
+/// The demand that one search looks for.
 #[derive(Clone, Copy)]
 struct Pass {
     speeds: Speeds,

@@ -5,18 +5,16 @@
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
-use tautline_proofs::engine::states::{Bits, System};
 use tautline_proofs::engine::world::World as _;
-use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, World};
+use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
-use super::{COVERS, ENDS, EQUAL, MOVES, WHOLE, nodes};
+use super::{COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes};
 use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
-use crate::explore::fit::of_choices;
-use crate::explore::run::{End, Team};
-use crate::explore::setup::Setup;
-use crate::explore::survey::Survey;
+use crate::explore::run::{End, Survey, Team};
+use crate::explore::script::Script;
+use crate::explore::setup::{Setup, of_choices};
 use crate::kit::paths;
 use crate::layout::Layout;
 
@@ -65,62 +63,19 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>,
         return Err(of_choices("the robots cannot start so"));
     };
     let due = paths(layout, setup.base);
-    let choices = choices.to_vec();
-    let (past, broken) = (Vec::new(), Vec::new());
-    Ok(Box::new(Scripted { setting, world, choices, past, cells: starts, due, broken }))
+    Ok(Box::new(Scripted { script: Script::new(setting, world, choices), cells: starts, due }))
 }
 
 struct Scripted<const ROBOTS: usize> {
-    setting: Setting<ROBOTS>,
-    world: World<ROBOTS>,
-    choices: Vec<u32>,
-    /// The world before each choice so far, and whose it was.
-    past: Vec<(World<ROBOTS>, usize)>,
+    script: Script<Setting<ROBOTS>>,
     cells: Vec<Cell>,
     /// The paths within reach.
     due: Vec<Edge>,
-    /// What the last team move has broken.
-    broken: Vec<Demand>,
-}
-
-/// What is to happen next.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Wanted {
-    Decision,
-    Arrival,
 }
 
 impl<const ROBOTS: usize> Scripted<ROBOTS> {
-    /// Makes the next choice, if it is what is wanted.
-    fn choose(&mut self, wanted: Wanted) -> Option<Event> {
-        let number = *self.choices.get(self.past.len())?;
-        let turned = self.setting.turns(&self.world).into_iter().nth(number as usize)?;
-        let event = turned.events.into_iter().next()?;
-        let (robot, is_wanted) = match event {
-            Event::Arrives(robot, _) => (robot, wanted == Wanted::Arrival),
-            Event::Decides(robot, ..) => (robot, wanted == Wanted::Decision),
-        };
-        if !is_wanted {
-            return None;
-        }
-        self.past.push((self.world, robot));
-        self.broken.extend(turned.breaks);
-        self.world = turned.world;
-        Some(event)
-    }
-
-    /// Whether the choices have led back to where the robots were, and keep nobody from acting: so they can go on for
-    /// ever.
-    fn goes_round(&self) -> bool {
-        let Some(home) = self.past.iter().position(|(world, _)| *world == self.world) else { return false };
-        let round = &self.past[home..];
-        let awake = round.iter().fold(Bits::MAX, |awake, (world, _)| awake & self.setting.awake(world));
-        let acting = round.iter().fold(0, |acting, (_, robot)| acting | 1 << robot);
-        awake & !acting == 0
-    }
-
     fn clause(&self, demand: Demand) -> ClauseId {
-        let is_at_equal_speeds = self.setting.speeds == Speeds::Equal && demand == Demand::Contact;
+        let is_at_equal_speeds = self.script.system.speeds == Speeds::Equal && demand == Demand::Contact;
         if is_at_equal_speeds { EQUAL } else { ClauseId::new(demand.clause(ROBOTS)) }
     }
 }
@@ -131,11 +86,14 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     }
 
     fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        self.broken.clear();
-        let Some(Event::Decides(robot, looks, next)) = self.choose(Wanted::Decision) else {
-            return Err(if self.goes_round() { End::Endless } else { End::Exhausted });
+        self.script.broken.clear();
+        let decides = |turned: &Successor<ROBOTS>| matches!(turned.events.first(), Some(Event::Decides(..)));
+        let decision = self.script.choose(decides).and_then(|turned| turned.events.into_iter().next());
+        let Some(Event::Decides(robot, looks, next)) = decision else {
+            return Err(if self.script.goes_round() { End::Endless } else { End::Exhausted });
         };
-        while self.choose(Wanted::Arrival).is_some() {}
+        let arrives = |turned: &Successor<ROBOTS>| matches!(turned.events.first(), Some(Event::Arrives(..)));
+        while self.script.choose(arrives).is_some() {}
         let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
         match (next, looks.last()) {
             (Next::Drives(to), Some(&(side, _))) => {
@@ -155,13 +113,12 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     }
 
     fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
-        let mut missed = nodes(&self.due, &self.cells);
-        missed.retain(|&node| chart.step(node).is_none());
-        missed.into_iter().collect()
+        missed(&self.due, &self.cells, chart)
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        let mut broken: Vec<ClauseId> = self.broken.iter().map(|&demand| self.clause(demand)).collect();
+        let mut broken: Vec<ClauseId> =
+            self.script.broken.iter().map(|&demand| self.clause(demand)).collect();
         broken.sort_unstable();
         broken.dedup();
         broken
@@ -171,7 +128,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         if end == End::Endless {
             return vec![ENDS];
         }
-        if !self.setting.turns(&self.world).is_empty() {
+        if !self.script.is_over() {
             return Vec::new();
         }
         let ends = [
@@ -180,8 +137,8 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
             (Demand::Whole, Starts::SideBySide, WHOLE),
         ];
         let is_broken = |&(demand, starts, _): &(Demand, Starts, ClauseId)| {
-            let asked = Setting { demand: Some(demand), starts, ..self.setting };
-            asked.broken_at_end(&self.world, &[]).contains(&demand)
+            let asked = Setting { demand: Some(demand), starts, ..self.script.system };
+            asked.broken_at_end(&self.script.state, &[]).contains(&demand)
         };
         ends.iter().filter(|end| is_broken(end)).map(|&(.., clause)| clause).collect()
     }

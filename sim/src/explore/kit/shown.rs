@@ -1,5 +1,5 @@
-//! What a page shows of robots that keep in touch: the radio circle, who hears whom at all speeds, each robot's record,
-//! and who asks before it drives.
+//! The layers of a page of robots that keep in touch: the radio circle, who hears whom at all speeds, each robot's
+//! record, and who asks before it drives.
 
 use tautline_kernel::kit::Reach;
 
@@ -53,7 +53,7 @@ pub(super) fn layers() -> Vec<Layer> {
     ]
 }
 
-/// What the team has learned when a drive begins, and how long the drive takes.
+/// The changes that the team has learned of when a drive begins, and how long the drive takes.
 pub(super) fn show(course: &dyn Course, drive: Drive, robots: usize, scene: &mut Scene) {
     for robot in 0..robots {
         for (side, is_open) in course.recorded(robot) {

@@ -1,4 +1,4 @@
-//! What a page shows of a pack: the obstacles that it has seen, where its robots are going, and how far they see and
+//! The layers of a page of a pack: the obstacles that it has seen, where its robots are going, and how far they see and
 //! hear.
 
 use tautline_kernel::ground::Cell;

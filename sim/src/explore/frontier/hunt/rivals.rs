@@ -70,7 +70,7 @@ pub(in crate::explore::frontier) struct Blocked {
     set: u32,
 }
 
-/// What was seen in a layout.
+/// The findings in a layout.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::explore::frontier) struct Tried {

@@ -6,8 +6,8 @@ use serde::de::IgnoredAny;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
-use super::format::{Header, Line, StoredEnd, StoredViolation, drawn};
 use super::lines::{Lines, MAX_LINE_BYTES};
+use super::{Header, Line, StoredEnd, StoredViolation, drawn};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
     ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Survey, Team, Violation, Watcher, run,
@@ -30,7 +30,7 @@ fn is_word(name: &str) -> bool {
 
 /// A run as it was written, which agrees with itself.
 #[derive(Clone, Debug)]
-pub struct Recorded {
+pub struct ForeignRun {
     /// The clause that the file says it breaks, if it is a counterexample.
     pub clause: Option<ClauseId>,
     setup: Setup,
@@ -42,7 +42,7 @@ pub struct Recorded {
 /// A header that does not say when a run is stopped.
 type Named = Header<IgnoredAny>;
 
-impl Recorded {
+impl ForeignRun {
     /// Reads the lines of a run behind its header, which is `text`.
     pub(super) fn read(lines: Lines, text: &str) -> Result<Self, Diagnostic> {
         let mut lines = lines.made_by(AGAIN);
@@ -94,13 +94,22 @@ impl Recorded {
     }
 
     fn run(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
-        let mut player = Player { recorded: self, made: 0, cells: self.setup.starts() };
+        let at_start = self.violations.iter().filter(|broken| self.frames.is_empty() && broken.step == 0);
+        let mut player = Player {
+            frames: &self.frames,
+            end: End::Exhausted,
+            broken: &self.violations,
+            broken_at_end: at_start.map(|broken| broken.clause).collect(),
+            due: self.end.cells,
+            cells: self.setup.starts(),
+            made: 0,
+        };
         let report = run(&mut player, &self.setup.layout, Limits::default(), watch)?;
         Ok(Report { stopped: self.end.stopped, ..report })
     }
 }
 
-impl Play for Recorded {
+impl Play for ForeignRun {
     fn setup(&self) -> &Setup {
         &self.setup
     }
@@ -168,20 +177,20 @@ fn read_moves(
     }
 }
 
-/// A team that does what is written down.
-struct Player<'a> {
-    recorded: &'a Recorded,
+/// A team that does what is written down, in whatever order its robots acted.
+pub(crate) struct Player<'a> {
+    pub(crate) frames: &'a [Frame],
+    /// How the run ends behind the last team move.
+    pub(crate) end: End,
+    /// The clauses that team moves are said to break.
+    pub(crate) broken: &'a [Violation],
+    /// The clauses that the end is said to break.
+    pub(crate) broken_at_end: Vec<ClauseId>,
+    /// How many cells there are to explore.
+    pub(crate) due: u32,
+    pub(crate) cells: Vec<Cell>,
     /// Team moves so far.
-    made: usize,
-    cells: Vec<Cell>,
-}
-
-impl Player<'_> {
-    /// The clauses that the last team move is said to have broken.
-    fn broken(&self) -> Vec<ClauseId> {
-        let broken = self.recorded.violations.iter();
-        broken.filter(|broken| broken.step as usize == self.made).map(|broken| broken.clause).collect()
-    }
+    pub(crate) made: usize,
 }
 
 impl Team for Player<'_> {
@@ -190,22 +199,22 @@ impl Team for Player<'_> {
     }
 
     fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        let frame = self.recorded.frames.get(self.made).ok_or(End::Exhausted)?;
+        let frame = self.frames.get(self.made).ok_or(self.end)?;
         self.made += 1;
         self.cells.clone_from(&frame.cells);
         Ok(frame.clone())
     }
 
     fn due(&self, _: &Layout) -> u32 {
-        self.recorded.end.cells
+        self.due
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        self.broken()
+        let broken = self.broken.iter().filter(|broken| broken.step as usize == self.made);
+        broken.map(|broken| broken.clause).collect()
     }
 
-    /// What is broken before the first team move.
     fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
-        if self.made == 0 { self.broken() } else { Vec::new() }
+        self.broken_at_end.clone()
     }
 }

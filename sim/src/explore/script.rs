@@ -1,0 +1,52 @@
+//! A run that a search has found: the search's world makes it again by its choices.
+
+use std::mem;
+
+use tautline_proofs::engine::states::{Bits, System, steps};
+
+/// A world of a search, and the choices by which it makes a run again.
+pub(super) struct Script<S: System> {
+    pub(super) system: S,
+    pub(super) state: S::State,
+    choices: Vec<u32>,
+    /// The state before each choice so far, and who acted then.
+    past: Vec<(S::State, Bits)>,
+    /// The demands that the choices have broken since this was last cleared.
+    pub(super) broken: Vec<S::Demand>,
+}
+
+impl<S: System> Script<S> {
+    pub(super) fn new(system: S, state: S::State, choices: &[u32]) -> Self {
+        Self { system, state, choices: choices.to_vec(), past: Vec::new(), broken: Vec::new() }
+    }
+
+    /// Makes the next choice, if what happens then `is_wanted`.
+    pub(super) fn choose(&mut self, is_wanted: impl FnOnce(&S::Event) -> bool) -> Option<S::Event> {
+        let number = *self.choices.get(self.past.len())?;
+        let step = steps(&self.system, &self.state).nth(number as usize)?;
+        if !is_wanted(&step.event) {
+            return None;
+        }
+        self.past.push((mem::replace(&mut self.state, step.state), step.acting));
+        self.broken.extend(step.breaks);
+        Some(step.event)
+    }
+
+    /// Whether nothing can happen any more.
+    pub(super) fn is_over(&self) -> bool {
+        steps(&self.system, &self.state).next().is_none()
+    }
+
+    /// Whether the choices have led back to where the robots were, and keep nobody from acting: so they can go on for
+    /// ever.
+    pub(super) fn goes_round(&self) -> bool
+    where
+        S::State: PartialEq,
+    {
+        let Some(home) = self.past.iter().position(|(state, _)| *state == self.state) else { return false };
+        let round = &self.past[home..];
+        let awake = round.iter().fold(Bits::MAX, |awake, (state, _)| awake & self.system.awake(state));
+        let acting = round.iter().fold(0, |acting, (_, robots)| acting | robots);
+        awake & !acting == 0
+    }
+}
