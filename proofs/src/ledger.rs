@@ -120,7 +120,8 @@ impl Row {
         };
         for verdict in [Verdict::Holds, Verdict::Unrefuted, Verdict::Open] {
             if let (1.., which) = names(verdict) {
-                words += &format!("; {} under {which}", verdict.word());
+                // Writing to a string cannot fail.
+                let _ = write!(words, "; {} under {which}", verdict.word());
             }
         }
         (!all.is_empty()).then_some(words)

@@ -27,7 +27,7 @@ use self::game::{PythonRule, Questions, setting};
 use self::written::{Demand, RuleScript};
 use crate::diagnostic::{Kind, error, halted};
 use crate::hunt::verdict;
-use crate::run::{RunSource, Run};
+use crate::run::{Run, RunSource};
 use crate::wait::wait;
 
 /// The outcome of a hunt of a rule written in Python.

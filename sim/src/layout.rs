@@ -167,7 +167,9 @@ impl Layout {
                 cells.push(cell);
             }
         };
-        starts.iter().for_each(|&start| reach(start, &mut cells));
+        for &start in starts {
+            reach(start, &mut cells);
+        }
         let mut next = 0;
         while let Some(&cell) = cells.get(next) {
             next += 1;

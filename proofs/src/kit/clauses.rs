@@ -182,7 +182,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-2",
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
-            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
             &Check::new(
                 REPAIRED,
                 &repaired_at_equal_speeds(Demand::Contact),
@@ -220,7 +220,7 @@ pub static CLAUSES: [Clause; 14] = [
                 Verdict::Refuted,
                 &[],
             )
-            .under(&readings(ANSWERING, [Verdict::Holds; 2])),
+            .under(&readings(ANSWERING, [Verdict::Refuted; 2])),
             &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
             &Check::new(
                 REPAIRED,

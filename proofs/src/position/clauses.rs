@@ -195,21 +195,3 @@ pub static CLAUSES: [Clause; 6] = [
         ],
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::decide::Cache;
-    use crate::engine::tree::unwatched;
-
-    #[test]
-    fn the_checks_come_out_as_they_are_registered() {
-        for clause in &CLAUSES {
-            for check in clause.checks {
-                let decision =
-                    check.decide(&mut Cache::default(), &mut unwatched).expect("a body can be decided");
-                assert!(decision.is_as_registered(*check), "{} {check:?}: {decision:?}", clause.id);
-            }
-        }
-    }
-}

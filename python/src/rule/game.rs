@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::team::{
-    Act, Cover, Demand, Ground, TeamStep, Places, Rule, Scene, Senses, Setting, View, Which,
+    Act, Cover, Demand, Ground, Places, Rule, Scene, Senses, Setting, TeamStep, View, Which,
 };
 
-use super::written::{WallHits, Cells, MAX_ROBOTS, Move, When, RuleScript};
+use super::written::{Cells, MAX_ROBOTS, Move, RuleScript, WallHits, When};
 
 /// The rule, asked as a robot asks it.
 #[derive(Clone)]

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 /// One team move of a rule written in Python.
-#[pyclass(frozen, module = "pytautline", get_all)]
+#[pyclass(name = "Moved", frozen, module = "pytautline", get_all)]
 pub(crate) struct TeamMove {
     /// The state with which the rule was asked for this move.
     pub(crate) before: Py<PyAny>,
