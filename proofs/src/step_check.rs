@@ -112,7 +112,8 @@ macro_rules! step_checks {
                 #[kani::unwind($unwind)]
                 #[kani::should_panic]
                 fn $mutant() {
-                    $crate::engine::symbolic::prove($body, &$wrong);
+                    let wrong: $rule = $wrong;
+                    $crate::engine::symbolic::prove($body, &wrong);
                 })*
             }
         }
