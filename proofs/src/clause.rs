@@ -68,9 +68,20 @@ pub struct Check<R: 'static> {
     pub mutants: &'static [NamedRule<R>],
     /// Other readings of the rule, decided in the same way.
     pub readings: &'static [Reading<R>],
+    /// How its counterexamples are written down for a judge, where its method does not know.
+    pub case: Option<Case<R>>,
 }
 
+/// The counterexample to a rule that choices make, written down for a judge; `None` if they make none.
+pub type Case<R> = fn(&R, &Choices) -> Option<Box<dyn AnyCase>>;
+
 impl<R: Copy> Check<R> {
+    /// The check, whose counterexamples `case` writes down for a judge.
+    #[must_use]
+    pub const fn judged(self, case: Case<R>) -> Self {
+        Self { case: Some(case), ..self }
+    }
+
     /// The check, also under these other readings of its rule.
     #[must_use]
     pub const fn under(self, readings: &'static [Reading<R>]) -> Self {
@@ -86,7 +97,7 @@ impl<R> Check<R> {
         expected: Verdict,
         mutants: &'static [NamedRule<R>],
     ) -> Self {
-        Self { about, method, expected, mutants, readings: &[] }
+        Self { about, method, expected, mutants, readings: &[], case: None }
     }
 
     /// The rule of the variant with this number: of a mutant, or of a reading.
@@ -307,7 +318,8 @@ impl<R: Sync> AnyCheck for Check<R> {
     }
 
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>> {
-        self.method.case(&self.about.rule, choices)
+        let rule = &self.about.rule;
+        self.case.map_or_else(|| self.method.case(rule, choices), |case| case(rule, choices))
     }
 }
 

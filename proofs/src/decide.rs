@@ -216,44 +216,6 @@ pub trait Method<R>: Sync {
     }
 }
 
-/// A method whose counterexamples are written down for a judge.
-pub struct Judged<R: 'static> {
-    /// The method.
-    pub method: &'static dyn Method<R>,
-    /// The counterexample that choices make, written down; `None` if they make none.
-    pub case: fn(&R, &Choices) -> Option<Box<dyn AnyCase>>,
-}
-
-impl<R> Method<R> for Judged<R> {
-    fn engine(&self) -> &'static str {
-        self.method.engine()
-    }
-
-    fn bound(&self) -> String {
-        self.method.bound()
-    }
-
-    fn shows(&self) -> Verdict {
-        self.method.shows()
-    }
-
-    fn family(&self, rule: &R) -> Option<String> {
-        self.method.family(rule)
-    }
-
-    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
-        self.method.decide(rule, until, desk)
-    }
-
-    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        self.method.replay(rule, choices)
-    }
-
-    fn case(&self, rule: &R, choices: &Choices) -> Option<Box<dyn AnyCase>> {
-        (self.case)(rule, choices)
-    }
-}
-
 /// A body: one case of a clause about `rule`, made by the choices that the oracle answers.
 pub type Body<R> = fn(rule: &R, oracle: &mut dyn Oracle) -> Outcome;
 

@@ -102,7 +102,7 @@ impl Row {
     }
 
     /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone.
-    pub fn readings(&self) -> Option<String> {
+    fn readings(&self) -> Option<String> {
         let others = self.check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name);
         let all: Vec<(&str, Verdict)> = others.zip(self.decision.readings.iter().copied()).collect();
         let names = |verdict: Verdict| {
@@ -161,11 +161,11 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let below = [("bound".to_owned(), None)]
+    let below = [("bound".to_owned(), [None, None])]
         .into_iter()
-        .chain(rows.iter().map(|row| (row.bound(), row.readings().or_else(|| row.composition()))));
+        .chain(rows.iter().map(|row| (row.bound(), [row.composition(), row.readings()])));
     let mut text = String::new();
-    for (line, (bound, composition)) in lines.iter().zip(below) {
+    for (line, (bound, beyond)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)
             .zip(line.iter().zip(widths))
             .map(|(column, (cell, width))| match column {
@@ -175,7 +175,7 @@ pub fn table(rows: &[Row]) -> String {
             .collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", padded.join("  ").trim_end());
-        for words in [Some(bound), composition].into_iter().flatten() {
+        for words in iter::once(bound).chain(beyond.into_iter().flatten()) {
             text.push_str(&indented(widths[0] + 2, &words));
         }
     }

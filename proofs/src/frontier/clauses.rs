@@ -11,7 +11,7 @@ use super::pairs;
 use super::place::{self, ErrorBudget};
 use super::world::Demand;
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
-use crate::decide::{EveryAnswer, EveryState, Judged, Verdict};
+use crate::decide::{EveryAnswer, EveryState, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
@@ -276,15 +276,8 @@ pub static CLAUSES: [Clause; 9] = [
         sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
         checks: &[
             &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(MARKS),
-            &Check::new(
-                PUBLISHED,
-                &Judged {
-                    method: &OFF_QUARTER,
-                    case: |rule, choices| drift_of(rule, QUARTER).case(&SMALLEST, choices),
-                },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(PUBLISHED, &OFF_QUARTER, Verdict::Refuted, &[])
+                .judged(|rule, choices| drift_of(rule, QUARTER).case(&SMALLEST, choices)),
             &Check::new(PUBLISHED, &OFF_LESS, Verdict::Holds, &[]),
             &Check::new(PLAIN, &OFF_HALF, Verdict::Holds, &[plain(Track)]),
             &Check::new(PLAIN, &wrong(Demand::Marks), Verdict::Holds, &[plain(Track)]),
@@ -317,10 +310,11 @@ pub static CLAUSES: [Clause; 9] = [
         checks: &[
             &Check::new(
                 NamedRule::new("published", Occupancy::Printed),
-                &Judged { method: occupancy::CHECK.method, case: place::occupied },
+                occupancy::CHECK.method,
                 Verdict::Refuted,
                 &[],
-            ),
+            )
+            .judged(place::occupied),
             &occupancy::CHECK,
         ],
     },

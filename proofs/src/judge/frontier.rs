@@ -156,7 +156,8 @@ impl Case for Run {
                 must(is_over, "the run goes on").map_err(whole)?;
                 // Without repairs a robot that stops does not know that nothing is left, so that each end breaks
                 // FRONTIER-4.
-                let is_left = self.walkable().iter().any(|cell| !team.entered.contains(cell));
+                let is_left =
+                    self.floor.walkable(&self.starts).iter().any(|cell| !team.entered.contains(cell));
                 must(is_left || self.clause == "FRONTIER-4", "every cell is explored").map_err(whole)
             }
             _ => Err(whole("the judge does not know this clause")),
@@ -269,18 +270,5 @@ impl Run {
             if *is_explored { team.entered.contains(cell) } else { !self.floor.is_free(*cell) }
         };
         team.robots.iter().any(|robot| !robot.known.iter().all(is_so))
-    }
-
-    /// The cells that robots can walk to.
-    fn walkable(&self) -> BTreeSet<Place> {
-        let (mut reached, mut rim) = (BTreeSet::new(), self.starts.clone());
-        while let Some(cell) = rim.pop() {
-            if reached.insert(cell) {
-                rim.extend(
-                    (0..4).filter_map(|side| beside(cell, side)).filter(|&next| self.floor.is_free(next)),
-                );
-            }
-        }
-        reached
     }
 }

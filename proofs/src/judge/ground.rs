@@ -52,6 +52,17 @@ impl Floor {
     pub(super) fn is_free(&self, place: Place) -> bool {
         self.has(place) && !self.barred.contains(&place)
     }
+
+    /// The cells that one can walk to from `starts`, those among them.
+    pub(super) fn walkable(&self, starts: &[Place]) -> BTreeSet<Place> {
+        let (mut reached, mut rim) = (BTreeSet::new(), starts.to_vec());
+        while let Some(cell) = rim.pop() {
+            if reached.insert(cell) {
+                rim.extend((0..4).filter_map(|side| beside(cell, side)).filter(|&next| self.is_free(next)));
+            }
+        }
+        reached
+    }
 }
 
 impl Lattice {

@@ -92,7 +92,8 @@ impl Case for Run {
                     self.advance(&mut team)
                 };
                 must(!goes_on, "the run goes on").map_err(whole)?;
-                let is_left = self.walkable().iter().any(|cell| !team.seen.contains_key(cell));
+                let is_left =
+                    self.floor.walkable(&self.starts).iter().any(|cell| !team.seen.contains_key(cell));
                 must(is_left, "every cell is explored").map_err(whole)
             }
             _ => Err(whole("the judge does not know this clause")),
@@ -255,19 +256,6 @@ impl Run {
         } else {
             team.cells[robot] = from;
         }
-    }
-
-    /// The cells that robots can walk to.
-    fn walkable(&self) -> BTreeSet<Place> {
-        let (mut reached, mut rim) = (BTreeSet::new(), self.starts.clone());
-        while let Some(cell) = rim.pop() {
-            if reached.insert(cell) {
-                rim.extend(
-                    (0..4).filter_map(|side| beside(cell, side)).filter(|&next| self.floor.is_free(next)),
-                );
-            }
-        }
-        reached
     }
 }
 

@@ -10,7 +10,7 @@ use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
-use crate::decide::{EveryState, Judged, Verdict};
+use crate::decide::{EveryState, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
@@ -211,28 +211,13 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-4",
         sentence: "A robot that waits for an answer MUST be answered in the end.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &Judged {
-                    method: &ANSWERED,
-                    case: |rule, choices| talks::case(&talks(rule, talks::Demand::Answered), choices),
-                },
-                Verdict::Refuted,
-                &[],
-            )
-            .under(&readings(ANSWERING, [Verdict::Refuted; 2])),
+            &Check::new(PUBLISHED, &ANSWERED, Verdict::Refuted, &[])
+                .judged(|rule, choices| talks::case(&talks(rule, talks::Demand::Answered), choices))
+                .under(&readings(ANSWERING, [Verdict::Refuted; 2])),
             &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
-            &Check::new(
-                REPAIRED,
-                &Judged {
-                    method: &ANSWERED_THOUGH_LOST,
-                    case: |rule, choices| {
-                        talks::case(&Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) }, choices)
-                    },
-                },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(REPAIRED, &ANSWERED_THOUGH_LOST, Verdict::Refuted, &[]).judged(|rule, choices| {
+                talks::case(&Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) }, choices)
+            }),
             &Check::new(
                 ROBUST,
                 &ANSWERED_THOUGH_LOST,
@@ -263,17 +248,9 @@ pub static CLAUSES: [Clause; 14] = [
                 Verdict::Holds,
                 &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
             ),
-            &Check::new(
-                REPAIRED,
-                &Judged {
-                    method: &FRESH_THOUGH_DOUBLED,
-                    case: |rule, choices| {
-                        talks::case(&Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) }, choices)
-                    },
-                },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(REPAIRED, &FRESH_THOUGH_DOUBLED, Verdict::Refuted, &[]).judged(|rule, choices| {
+                talks::case(&Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) }, choices)
+            }),
             &Check::new(
                 ROBUST,
                 &FRESH_THOUGH_LOST,
@@ -312,12 +289,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-9",
         sentence: "Every message MUST be read as it was sent, and fields that are no message MUST be refused.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &Judged { method: read_back::CHECK.method, case: pairs::wire },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(PUBLISHED, read_back::CHECK.method, Verdict::Refuted, &[]).judged(pairs::wire),
             &read_back::CHECK,
         ],
     },

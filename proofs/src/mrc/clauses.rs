@@ -9,7 +9,7 @@ use tautline_kernel::mrc::{Condition, Rule};
 use super::within::Within;
 use super::{Demand, Faults, Leases, LossKind, Misreading, Setting, Subject, records};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
-use crate::decide::{EveryAnswer, Judged, Verdict};
+use crate::decide::{EveryAnswer, Verdict};
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::rescuing(Rule::REPAIRED));
@@ -322,12 +322,7 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest under \
                    it and the first node that told it so, and bid by that record.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &Judged { method: RECORDS.method, case: records::recorded },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(PUBLISHED, RECORDS.method, Verdict::Refuted, &[]).judged(records::recorded),
             &RECORDS,
         ],
     },

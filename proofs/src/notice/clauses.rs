@@ -4,7 +4,7 @@ use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastH
 
 use super::{Subject, networks, random};
 use crate::clause::{Check, Clause, NamedRule};
-use crate::decide::{Judged, RandomAnswers, Verdict};
+use crate::decide::{RandomAnswers, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLISHED);
@@ -103,12 +103,7 @@ pub static CLAUSES: [Clause; 6] = [
         sentence: "A node MUST take the first NOTICE of a newer event of a source as a first one, whatever it has \
                    made of the events before.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &Judged { method: second_event::CHECK.method, case: random::later },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(PUBLISHED, second_event::CHECK.method, Verdict::Refuted, &[]).judged(random::later),
             &second_event::CHECK,
         ],
     },

@@ -7,7 +7,7 @@ use super::refused;
 use super::swarm::{self, Best, Conduct};
 use super::way::{self, Way};
 use crate::clause::{Check, Clause, NamedRule};
-use crate::decide::{EveryAnswer, Judged, RandomAnswers, Verdict};
+use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 
 const PUBLISHED: NamedRule<Way> = NamedRule::new("published", way::published);
 const REPAIRED: NamedRule<Way> = NamedRule::new("repaired", way::repaired);
@@ -85,17 +85,15 @@ pub static CLAUSES: [Clause; 6] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &Judged {
-                    method: &EveryAnswer {
-                        body: lattice::is_exact_of_three,
-                        range: lattice::places_of_three,
-                        covers: &["three anchors"],
-                    },
-                    case: lattice::exact,
+                &EveryAnswer {
+                    body: lattice::is_exact_of_three,
+                    range: lattice::places_of_three,
+                    covers: &["three anchors"],
                 },
                 Verdict::Refuted,
                 &[],
-            ),
+            )
+            .judged(lattice::exact),
             &Check::new(REPAIRED, &EXACT, Verdict::Holds, &INEXACT),
             &Check::new(METRES, &EXACT, Verdict::Holds, &INEXACT),
             &Check::new(DECIBELS, &EXACT, Verdict::Holds, &INEXACT),
@@ -145,12 +143,7 @@ pub static CLAUSES: [Clause; 6] = [
         id: "POSITION-4",
         sentence: "When anchors are moved, turned and mirrored, positions MUST be moved, turned and mirrored with them.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &Judged { method: &FOLLOWS, case: lattice::turned },
-                Verdict::Refuted,
-                &[],
-            ),
+            &Check::new(PUBLISHED, &FOLLOWS, Verdict::Refuted, &[]).judged(lattice::turned),
             &Check::new(REPAIRED, &FOLLOWS, Verdict::Holds, &UNMOVED),
             &Check::new(METRES, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
             &Check::new(DECIBELS, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
