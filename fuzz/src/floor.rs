@@ -152,7 +152,7 @@ pub fn floor(bytes: &[u8]) {
         0 => run_bricks(Rule::REPAIRED, bytes),
         1 => run_bricks(Rule::ROBUST, bytes),
         2 => run(ants::Rule::Repaired, [true; 2], bytes),
-        3 => run(ants::Rule::Published, [true; 2], bytes),
+        3 => run(ants::Rule::PUBLISHED, [true; 2], bytes),
         _ => run_bricks(Rule::PUBLISHED, bytes),
     }
 }

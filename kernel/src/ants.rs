@@ -1,19 +1,24 @@
 //! Ants [Ferranti 2009, II.A, after Svennebring and Koenig 2004]: every cell counts how many times an agent has entered it,
 //! and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never knows
-//! that it is done. Clause: ANTS-1.
+//! that it is done. Clauses: ANTS-1 … ANTS-3.
 
-use crate::floor::{COMPASS, Entry, Floor, Ring, Scan, enter, leave};
+use crate::floor::{COMPASS, Entry, Floor, Replaced, Ring, Scan, enter, leave};
 use crate::ground::{Cell, Side};
 
 /// The count of a sensor placed where none was, or where one was missed: an ant cannot tell which.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rule {
-    /// From nothing, as published: it says 1.
-    Published,
+    /// From nothing: it says 1, as published. The paper leaves open what becomes of a sensor that was only missed.
+    Published(Replaced),
     /// Repair: from what the cell counts that the ant comes from. A missed sensor takes its count with it, and one that
     /// says 1 draws ants back to where they have been.
     Repaired,
+}
+
+impl Rule {
+    /// As the paper publishes it, where the count of a missed sensor is lost.
+    pub const PUBLISHED: Self = Self::Published(Replaced::Lost);
 }
 
 /// Where an agent goes: the side neighbour of `among` with the fewest crossings, ties in the order of the compass.
@@ -33,7 +38,7 @@ pub type Act = Option<(Side, Entry)>;
 pub fn decide(rule: Rule, scan: &Scan) -> Act {
     let side = least_crossed(scan, scan.beside)?;
     let entry = match rule {
-        Rule::Published => scan.entry(side),
+        Rule::Published(replaced) => scan.entry(side, replaced),
         Rule::Repaired => scan.entry_counting_on(side),
     };
     Some((side, entry))

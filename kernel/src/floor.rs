@@ -29,6 +29,19 @@ pub trait Floor<S = Sensor> {
     fn is_open(&self, edge: Edge) -> bool;
 }
 
+/// The fate of a sensor that an agent has missed, when the agent places a new one in its cell [Ferranti 2009, V.A]. The
+/// paper says no more than that the agent "marks it with the state 1". Sensors of one cell are seen or missed together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Replaced {
+    /// Whatever it stored is lost.
+    Lost,
+    /// It stays beside the new one: agents read the higher state and the higher count of the two.
+    Beside,
+    /// The new one takes its state over, and counts on from its count.
+    Counted,
+}
+
 /// The sensor that an agent expects in the cell that it enters.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -39,27 +52,31 @@ pub enum Entry {
     New {
         /// The new sensor's count before the agent enters.
         crossings: u32,
+        /// The fate of an old sensor that was only missed.
+        replaced: Replaced,
     },
 }
 
-/// Enters `cell`: its sensor counts an agent more. Where the agent is to find none it places a new one, and whatever an
-/// old one stored that was only missed is lost; the agents that are in the cell register with the new one.
+/// Enters `cell`: its sensor counts an agent more. Where the agent is to find none it places a new one; an old one may have
+/// been missed only, and the agents that are in the cell register with the new one.
 pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
     let there = floor.sensor(cell).unwrap_or_default();
-    let known = match entry {
-        Entry::Known => there,
-        Entry::New { crossings } => {
-            Sensor { serial: floor.unpack(cell), agents: there.agents, crossings, ..Sensor::default() }
+    let entered = match entry {
+        Entry::Known => there.entered(),
+        Entry::New { crossings, replaced } => {
+            let placed =
+                Sensor { serial: floor.unpack(cell), agents: there.agents, crossings, ..Sensor::default() };
+            placed.entered_beside(there, replaced)
         }
     };
-    floor.put(cell, known.entered());
+    floor.put(cell, entered);
 }
 
 /// Puts agents into the cells where they start: the first in a cell places the sensor there.
 pub fn settle(floor: &mut impl Floor, starts: &[Cell]) {
     for &start in starts {
         let entry = match floor.sensor(start).unwrap_or_default().mark {
-            Mark::Unexplored => Entry::New { crossings: 0 },
+            Mark::Unexplored => Entry::New { crossings: 0, replaced: Replaced::Lost },
             Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
         };
         enter(floor, start, entry);

@@ -1,6 +1,7 @@
 //! Ants (ANTS): what is promised of agents that go where they have been least, over all states on small floors.
 
 pub mod clauses;
+mod replaced;
 mod ties;
 
 use std::convert::Infallible;

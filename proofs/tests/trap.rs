@@ -198,7 +198,7 @@ fn the_robust_rule_survives_that_layout_with_one_miss_more() {
 #[test]
 fn nothing_traps_ants_or_the_robust_rule_in_nine_cells() {
     let found = [
-        (found(&bounds(ants::Rule::Published, 1, 2, 3)), 169_972),
+        (found(&bounds(ants::Rule::PUBLISHED, 1, 2, 3)), 169_972),
         (found(&bounds(ants::Rule::Repaired, 1, 2, 3)), 151_247),
         (found(&bounds(Rule::ROBUST, 1, 2, 3)), 169_999),
     ];

@@ -287,7 +287,11 @@ enum LapOutcome {
 /// How the neighbour beyond `side` is entered. Missed sensors take their counts with them: under
 /// [`Condition::SecondPass`] new ones count on, lest agents be drawn back again and again.
 fn entry(rule: Rule, scan: &Scan, side: Side) -> Entry {
-    if rule.has(Condition::SecondPass) { scan.entry_counting_on(side) } else { scan.entry(side) }
+    if rule.has(Condition::SecondPass) {
+        scan.entry_counting_on(side)
+    } else {
+        scan.entry(side, rule.replaced)
+    }
 }
 
 /// The unexplored neighbour with the most inaccessible sides, as far as the scan shows them; ties in the order of the

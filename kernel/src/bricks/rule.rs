@@ -1,6 +1,7 @@
 //! The rule of Brick&Mortar as a set of named conditions.
 
 use crate::conditions;
+use crate::floor::Replaced;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
@@ -47,6 +48,8 @@ pub struct Rule {
     pub patience: u8,
     /// Moves after which the first lap is cut short, under [`Condition::Laps`].
     pub reach: u8,
+    /// The fate of a missed sensor where a new one is placed. Under [`Condition::SecondPass`] it is lost.
+    pub replaced: Replaced,
 }
 
 impl Rule {
@@ -56,6 +59,7 @@ impl Rule {
         precedence: Precedence::Higher,
         patience: 32,
         reach: 255,
+        replaced: Replaced::Lost,
     };
 
     /// With loop closure.

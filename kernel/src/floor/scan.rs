@@ -1,6 +1,6 @@
 //! An agent's scan of the cells around it [Ferranti 2009, I: localisation and querying].
 
-use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor};
+use super::{COMPASS, Claim, Entry, Floor, Mark, Replaced, Ring, Sensor};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, Side, Step};
 
@@ -142,15 +142,17 @@ impl Scan {
         reads.map(move |(_, (columns, rows, _))| cell.at_offset(columns, rows)).filter(is_known)
     }
 
-    /// How the neighbour beyond `side`, which has a sensor, is entered.
-    pub const fn entry(&self, side: Side) -> Entry {
-        if self.unexplored.has(side) { Entry::New { crossings: 0 } } else { Entry::Known }
+    /// How the neighbour beyond `side`, which has a sensor, is entered; `replaced` is the fate of a sensor that was missed.
+    pub const fn entry(&self, side: Side, replaced: Replaced) -> Entry {
+        if self.unexplored.has(side) { Entry::New { crossings: 0, replaced } } else { Entry::Known }
     }
 
-    /// As [`Self::entry`]; if a sensor is placed, it counts on from this cell's.
+    /// As [`Self::entry`]; if a sensor is placed, it counts on from this cell's, and one that was missed is lost.
     pub fn entry_counting_on(&self, side: Side) -> Entry {
-        match self.entry(side) {
-            Entry::New { .. } => Entry::New { crossings: self.here.crossings.saturating_sub(1) },
+        match self.entry(side, Replaced::Lost) {
+            Entry::New { replaced, .. } => {
+                Entry::New { crossings: self.here.crossings.saturating_sub(1), replaced }
+            }
             Entry::Known => Entry::Known,
         }
     }

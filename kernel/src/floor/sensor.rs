@@ -2,6 +2,7 @@
 
 use core::hash::{Hash, Hasher};
 
+use super::Replaced;
 use crate::ground::Steps;
 
 /// The state of a cell [Ferranti 2009, II.A]. Walls have no sensor.
@@ -62,6 +63,18 @@ impl Sensor {
         };
         let (crossings, agents) = (self.crossings.saturating_add(1), self.agents.saturating_add(1));
         Self { mark, crossings, agents, ..self }
+    }
+
+    /// The sensor, just placed in a cell in which `old` may lie, once one agent has entered.
+    pub(super) fn entered_beside(self, old: Self, replaced: Replaced) -> Self {
+        let placed = self.entered();
+        let crossings = match replaced {
+            Replaced::Lost => return placed,
+            Replaced::Beside => old.crossings.max(placed.crossings),
+            Replaced::Counted => old.crossings.max(self.crossings).saturating_add(1),
+        };
+        let Self { serial, agents, .. } = placed;
+        Self { mark: old.mark.max(placed.mark), serial, agents, crossings, ..old }
     }
 
     /// The sensor once one agent has left.
@@ -139,6 +152,26 @@ mod tests {
         }
         for wrong in [5, 1 << 48, 1 << Sensor::BITS] {
             assert_eq!(Sensor::from_bits(wrong), None, "{wrong:b}");
+        }
+    }
+
+    #[test]
+    fn a_new_sensor_counts_from_one_or_as_the_old_one_did_or_on_from_it() {
+        let side = Steps::only(Step::Cross(Side::West));
+        let old = Sensor { mark: Mark::Visited, crossings: 5, agents: 1, shut: side, claim: None, serial: 7 };
+        let placed = Sensor { serial: 8, agents: 1, ..Sensor::default() };
+        let entered = |replaced| placed.entered_beside(old, replaced);
+        let new = Sensor { mark: Mark::Explored, crossings: 1, agents: 2, serial: 8, ..Sensor::default() };
+        assert_eq!(entered(Replaced::Lost), new);
+        let beside = Sensor { mark: Mark::Visited, crossings: 5, shut: side, ..new };
+        assert_eq!(entered(Replaced::Beside), beside);
+        assert_eq!(entered(Replaced::Counted), Sensor { crossings: 6, ..beside });
+        for replaced in [Replaced::Lost, Replaced::Beside, Replaced::Counted] {
+            let known = placed.entered_beside(Sensor::default(), replaced);
+            assert_eq!(known, placed.entered(), "no old one, {replaced:?}");
+            let fewer = Sensor { crossings: 2, ..Sensor::default() };
+            let counting = Sensor { crossings: 4, ..placed }.entered_beside(fewer, replaced);
+            assert_eq!(counting.crossings, 5, "{replaced:?}");
         }
     }
 }

@@ -98,7 +98,7 @@ pub const TEAMS: [Team; 7] = [
     Team::new(&BRICKS, RuleId::REPAIRED, &bricks::Rule::REPAIRED),
     Team::new(&BRICKS_ANTS, RuleId::REPAIRED, &bricks::Rule::ROBUST),
     Team::new(&ANTS, RuleId::REPAIRED, &ants::Rule::Repaired),
-    Team::new(&ANTS, RuleId::PUBLISHED, &ants::Rule::Published),
+    Team::new(&ANTS, RuleId::PUBLISHED, &ants::Rule::PUBLISHED),
     Team::new(&BRICKS, RuleId::new("tree"), &tree::Rule::TREE),
     Team::new(&HELPERS, RuleId::REPAIRED, &tree::Rule::ROBUST),
     Team::new(&MDFS, RuleId::PUBLISHED, &Mdfs),

@@ -3,16 +3,28 @@
 use std::convert::Infallible;
 
 use tautline_kernel::ants::Rule;
+use tautline_kernel::floor::Replaced::{Beside, Counted};
 
-use super::ties;
-use crate::clause::{Check, Clause, NamedRule};
+use super::{replaced, ties};
+use crate::clause::{Check, Clause, NamedRule, readings};
 use crate::decide::{EveryAnswer, Verdict};
 use crate::floor::plans::Area;
 use crate::floor::series::{Deception, Floors, Subject};
 use crate::floor::team::{Demand, Series};
 
-const PUBLISHED: NamedRule<Subject<Rule>> = NamedRule::new("published", Subject::of(Rule::Published));
+const PUBLISHED: NamedRule<Subject<Rule>> = NamedRule::new("published", Subject::of(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject<Rule>> = NamedRule::new("repaired", Subject::of(Rule::Repaired));
+
+/// The readings of the published rule but for the main one, which loses the sensor that was missed: that it stays beside the
+/// new one, or that this one counts on from it.
+const BESIDE: NamedRule<Rule> = NamedRule::new("beside", Rule::Published(Beside));
+const COUNTED: NamedRule<Rule> = NamedRule::new("counted", Rule::Published(Counted));
+const READINGS: [(&str, Rule); 2] = [(BESIDE.name, BESIDE.rule), (COUNTED.name, COUNTED.rule)];
+const EXPLORING: [(&str, Subject<Rule>); 2] =
+    [(BESIDE.name, Subject::of(BESIDE.rule)), (COUNTED.name, Subject::of(COUNTED.rule))];
+
+/// Ants that lose what a missed sensor counts.
+const LOST: &[NamedRule<Rule>] = &[NamedRule::new("the missed sensor is lost", Rule::PUBLISHED)];
 
 /// Ants whose sensors count nothing.
 const fn uncounted(scheme: Rule) -> NamedRule<Subject<Rule>> {
@@ -29,14 +41,21 @@ const EXPLORES: Floors<Infallible> = Floors::new(
     Demand::Explores,
 );
 
+const KEEPS: EveryAnswer<Rule> = EveryAnswer {
+    body: replaced::keeps,
+    range: replaced::pairs,
+    covers: &["a missed sensor", "a sensor that is seen"],
+};
+
 /// The clauses.
-pub static CLAUSES: [Clause; 2] = [
+pub static CLAUSES: [Clause; 3] = [
     Clause {
         id: "ANTS-1",
         sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
                finite number of times.",
         checks: &[
-            &Check::new(PUBLISHED, &EXPLORES, Verdict::Holds, &[]),
+            &Check::new(PUBLISHED, &EXPLORES, Verdict::Holds, &[])
+                .under(&readings(EXPLORING, [Verdict::Holds; 2])),
             &Check::new(REPAIRED, &EXPLORES, Verdict::Holds, &[uncounted(Rule::Repaired)]),
         ],
     },
@@ -47,7 +66,20 @@ pub static CLAUSES: [Clause; 2] = [
             PUBLISHED,
             &EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] },
             Verdict::Holds,
-            &[uncounted(Rule::Published)],
+            &[uncounted(Rule::PUBLISHED)],
         )],
+    },
+    Clause {
+        id: "ANTS-3",
+        sentence: "A cell MUST NOT count fewer agents after a missed sensor was replaced than before.",
+        checks: &[
+            &Check::new(NamedRule::new("published", Rule::PUBLISHED), &KEEPS, Verdict::Refuted, &[])
+                .under(&readings(READINGS, [Verdict::Holds; 2]))
+                .judged(replaced::replacement),
+            &Check::new(BESIDE, &KEEPS, Verdict::Holds, LOST),
+            &Check::new(COUNTED, &KEEPS, Verdict::Holds, LOST),
+            &Check::new(NamedRule::new("repaired", Rule::Repaired), &KEEPS, Verdict::Refuted, &[])
+                .judged(replaced::replacement),
+        ],
     },
 ];

@@ -6,7 +6,7 @@ use tautline_kernel::bricks::tree::Condition::{
 };
 use tautline_kernel::bricks::tree::Rule as TreeRule;
 use tautline_kernel::bricks::{Precedence, Rule};
-use tautline_kernel::floor::{Ring, Scan};
+use tautline_kernel::floor::{Replaced, Ring, Scan};
 
 use super::floors::{
     ALONE, AS_SHIPPED, AT_ONCE, COUNTED, FAILING, HALF_BLIND, HELPING, IN_TURNS, ONE_COUNTED, ROUND,
@@ -15,7 +15,7 @@ use super::floors::{
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
 use super::tree::{AmongChildren, Child, Own, labels};
-use crate::clause::{Check, Clause, NamedRule};
+use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::Verdict;
 use crate::floor::series::{Deception, Floors, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
@@ -35,6 +35,24 @@ const fn at_once<S>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
 const PUBLISHED: NamedRule<Subject<Rule>> = named("published", Rule::PUBLISHED);
 const REPAIRED: NamedRule<Subject<Rule>> = named("repaired", Rule::REPAIRED);
 const ROBUST: NamedRule<Subject<Rule>> = named("robust", Rule::ROBUST);
+
+/// The readings of the published rule but for the main one: whether a cell is marked in which another agent is, and what
+/// becomes of a sensor that was missed, where some are.
+const READINGS: [(&str, Subject<Rule>); 5] = [
+    ("alone", Subject::of(Rule::PUBLISHED.with(Alone))),
+    ("beside", replacing(Rule::PUBLISHED, Replaced::Beside)),
+    ("alone + beside", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside)),
+    ("counted", replacing(Rule::PUBLISHED, Replaced::Counted)),
+    ("alone + counted", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted)),
+];
+
+const fn replacing(rule: Rule, replaced: Replaced) -> Subject<Rule> {
+    Subject::of(Rule { replaced, ..rule })
+}
+
+const REFUTED: &[Reading<Subject<Rule>>] = &readings(READINGS, [Verdict::Refuted; 5]);
+/// Those that differ where no sensor is missed.
+const SEEING: &[Reading<Subject<Rule>>] = REFUTED.split_at(1).0;
 
 const NO_CORNERS: Rule = Rule::REPAIRED.without(Corners);
 const NOT_ALONE: NamedRule<Subject<Rule>> =
@@ -180,9 +198,9 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-4",
         sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::shared(&TOGETHER, Knowing)),
+            &refuted(PUBLISHED, &Floors::shared(&TOGETHER, Knowing)).under(SEEING),
             &holds(REPAIRED, &Floors::shared(&TOGETHER, Knowing), &[NOT_ALONE]),
-            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(REFUTED),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
             &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[]),
@@ -197,7 +215,7 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-5",
         sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::new(&HALF_BLIND, Explores)),
+            &refuted(PUBLISHED, &Floors::new(&HALF_BLIND, Explores)).under(REFUTED),
             &holds(ROBUST, &Floors::new(&HALF_BLIND, Explores), &[TRUSTING, ONCE_OVER]),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Explores), &[BELIEVING]),
         ],
@@ -207,7 +225,7 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Every run in which every agent acts again and again MUST end with every cell visited, whatever \
                    sensors are missed a finite number of times.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::new(&ALONE, Ends)),
+            &refuted(PUBLISHED, &Floors::new(&ALONE, Ends)).under(SEEING),
             &holds(
                 REPAIRED,
                 &Floors::shared(&TOGETHER, Ends),
@@ -218,7 +236,7 @@ pub static CLAUSES: [Clause; 15] = [
                 ],
             ),
             &holds(ROBUST, &Floors::new(&TWICE, Ends), &[named("walks no laps", Rule::ROBUST.without(Laps))]),
-            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)).under(REFUTED),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Ends), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Ends), &[PARENTS_MARKED]),
             &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[]),

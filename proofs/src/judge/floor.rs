@@ -6,6 +6,9 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
+use super::change::plain;
+use super::{Case, must};
+
 /// Column and row.
 pub type Place = (i32, i32);
 
@@ -189,5 +192,57 @@ impl Court {
         self.done[agent] = is_done;
         self.explored.insert(to);
         Ok(())
+    }
+}
+
+/// The count of a sensor that is placed where one was missed, as its reading has it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Count {
+    /// It says 1, and the old one is lost.
+    FromNothing,
+    /// It says 1, and of it and the old one the higher is read.
+    TheHigher,
+    /// It counts on from the old one.
+    OnFromOld,
+    /// It counts on from the cell that the ant comes from.
+    OnFromCell,
+}
+
+/// A cell whose sensor an ant has missed and replaced.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Replacement {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// The reading.
+    pub count: Count,
+    /// The count of the cell that the ant comes from.
+    pub from: i32,
+    /// The count of the cell that it enters, before.
+    pub before: i32,
+    /// The count afterwards.
+    pub after: i32,
+}
+
+plain!(Count one of FromNothing, TheHigher, OnFromOld, OnFromCell);
+plain!(Replacement { count, from, before, after });
+
+impl Case for Replacement {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), super::Objection> {
+        let whole = |what| super::Objection { at: 0, what };
+        let Self { clause, count, from, before, after } = *self;
+        must(clause == "ANTS-3", "the judge does not know this clause").map_err(whole)?;
+        must(from > 0 && before > 0, "there is no sensor where no agent has been").map_err(whole)?;
+        let due = match count {
+            Count::FromNothing => 1,
+            Count::TheHigher => before.max(1),
+            Count::OnFromOld => before + 1,
+            Count::OnFromCell => from,
+        };
+        must(after == due, "the new sensor counts otherwise").map_err(whole)?;
+        must(after < before, "the cell counts no fewer agents").map_err(whole)
     }
 }

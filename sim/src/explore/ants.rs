@@ -1,17 +1,27 @@
 //! Ants [Ferranti 2009]: agents that go where they have been least. Their row; the team is that of all agents.
 
 use tautline_kernel::ants::Rule as Ants;
+use tautline_kernel::floor::Replaced::{Beside, Counted};
 
 use super::agents::AGENTS;
 use super::catalogue::{Knowledge, Profile};
 use super::hunt_states::crew;
-use super::rule::Rule;
+use super::rule::{Rule, RuleId};
 
 /// Agents on a sensor floor that go where they have been least; they never know that they are done.
 pub static ANTS: Profile = Profile {
     name: "ants",
     about: "Agents on a sensor floor that go where they have been least; they never know that they are done",
-    rules: &[crew!(Rule::published, Ants::Published), crew!(Rule::repaired, Ants::Repaired)],
+    rules: &[
+        crew!(Rule::published, Ants::PUBLISHED),
+        crew!(Rule::repaired, Ants::Repaired),
+        crew!(
+            RuleId::new("beside"),
+            "A missed sensor stays beside the new one; the higher is read",
+            Ants::Published(Beside)
+        ),
+        crew!(RuleId::new("counted"), "A new sensor counts on from a missed one", Ants::Published(Counted)),
+    ],
     knowledge: Some(Knowledge::None),
     ..AGENTS
 };

@@ -1,9 +1,9 @@
 //! Brick&Mortar [Ferranti 2009]: agents that mark cells as visited until none is left, as published, repaired, and
 //! robust against missed sensors. Their rows; the team is that of all agents.
 
-use tautline_kernel::bricks::Rule as Bricks;
 use tautline_kernel::bricks::tree::Rule as Trees;
-use tautline_kernel::floor::Mark;
+use tautline_kernel::bricks::{Condition, Rule as Bricks};
+use tautline_kernel::floor::{Mark, Replaced};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
@@ -15,6 +15,10 @@ use super::rule::{Rule, RuleId};
 use super::run::{Survey, TeamMove};
 use super::setup::Setup;
 
+const ALONE: Bricks = Bricks::PUBLISHED.with(Condition::Alone);
+const BESIDE: Bricks = Bricks { replaced: Replaced::Beside, ..Bricks::PUBLISHED };
+const COUNTED: Bricks = Bricks { replaced: Replaced::Counted, ..Bricks::PUBLISHED };
+
 /// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
 pub static BRICKS: Profile = Profile {
     name: "bricks",
@@ -22,6 +26,13 @@ pub static BRICKS: Profile = Profile {
     rules: &[
         crew!(Rule::published, Bricks::PUBLISHED),
         crew!(Rule::repaired, Bricks::REPAIRED),
+        crew!(RuleId::new("alone"), "As published; no cell is marked in which another agent is", ALONE),
+        crew!(RuleId::new("beside"), "As published; a missed sensor stays beside the new one", BESIDE),
+        crew!(
+            RuleId::new("counted"),
+            "As published; a new sensor takes over what a missed one says",
+            COUNTED
+        ),
         crew!(RuleId::new("tree"), "Trees close the loops in place of laps", Trees::TREE),
     ],
     ..MARKING
