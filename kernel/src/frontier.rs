@@ -7,7 +7,7 @@
 //! Which robot acts when, which cells are blocked and which messages arrive is the caller's business.
 //!
 //! [`Place`] is for robots whose position has an error: where a robot is within its cell, the occupancy probability of equation
-//! (11), and the cell that a fix is taken for. A robot takes a map and 12 bytes. A decision searches the map as far as the cell that the
+//! (11), and the cell that a fix is taken for. A robot takes a map and 16 bytes. A decision searches the map as far as the cell that the
 //! robot goes to, once for itself and for each robot nearby, and again where others take the cells that are nearer.
 
 mod map;
@@ -21,5 +21,5 @@ pub use map::{Map, Status, TinyMap};
 pub use pairs::{Pair, Scratch, Seeker};
 pub use place::{HALF, Occupancy, Place, SIDE, Threshold, clamped, taken_for};
 pub use robot::{Next, Other, Robot, Sight, Slot, Stance, View};
-pub use rule::{Condition, Conditions, Otherwise, Rule, Ties};
+pub use rule::{Basis, Condition, Conditions, Otherwise, Rule, Ties};
 pub use search::{SearchCell, Target};

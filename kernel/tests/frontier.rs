@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use proptest::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, Ties, TinyMap,
-    View,
+    Basis, Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, Ties,
+    TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -87,6 +87,7 @@ fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) 
     let (mut rounds, mut pairs) = (0, vec![None; pairs]);
     let mut scratch =
         Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+    own.decided(rule, &others);
     let view = View { others: &others, slot: Slot::Own };
     (own.next(rule, view, &mut scratch, &mut Nth(pick)), rounds)
 }
@@ -282,5 +283,19 @@ proptest! {
         prop_assert!(repaired.is_subset(&plain) && repaired.is_empty() == plain.is_empty(), "{:?}", alone);
         let bare = Rule::REPAIRED.without(Condition::Corner);
         prop_assert!(sides(&alone, 0, &bare).is_subset(&plain), "{:?}", alone);
+    }
+
+    #[test]
+    fn a_threshold_by_all_cells_decides_as_a_half_and_one_by_neighbours_admits_a_cell_only_beside_another_robot(
+        team in teams()
+    ) {
+        let any = Rule { ties: Ties::Any, ..Rule::PUBLISHED };
+        let due = sides(&team, 0, &any);
+        prop_assert_eq!(&sides(&team, 0, &Rule { basis: Basis::Cells, ..any }), &due, "{:?}", team);
+        let at = team.robots[0].0;
+        let is_beside = |&(cell, _): &(Cell, Option<Cell>)| at.apart(cell) == (0, 1) || at.apart(cell) == (1, 0);
+        let has_neighbour = team.robots.iter().any(is_beside);
+        let by_neighbours = sides(&team, 0, &Rule { basis: Basis::Neighbours, ..any });
+        prop_assert_eq!(by_neighbours, if has_neighbour { due } else { BTreeSet::new() }, "{:?}", team);
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! Lengths are whole numbers, [`SIDE`] to the side of a cell, so that results are the same on every machine.
 
+use core::num::NonZeroU16;
+
 use crate::ground::{Area, Cell};
 
 /// The side L of a cell.
@@ -67,24 +69,32 @@ pub fn clamped(cell: Cell, fix: Place) -> Place {
     Place { x: within(fix.x, midpoint.x), y: within(fix.y, midpoint.y) }
 }
 
-/// How the occupancy probability of a cell follows from a robot's distance d to its midpoint (equation (11)).
+/// How the occupancy probability of a cell follows from a robot's distance d to its midpoint (equation (11)), which does not
+/// say from where to where d_r is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Occupancy {
     /// d / (L/2), as the equation is printed, at most 1: 0 at the midpoint.
     Printed,
-    /// 1 − d / (L/2), at least 0, as the text describes it: 1 at the midpoint.
+    /// 1 − d / (L/2), at least 0, as the text describes it: 1 at the midpoint. It is the equation as printed, with the
+    /// distance to the rim of the circle of radius r = L/2 in place of d.
     Corrected,
+    /// The equation as printed, with the distance to the nearest side of the cell in place of d; 0 outside the cell.
+    Rim,
 }
 
 impl Occupancy {
     /// The occupancy probability of `cell` with a robot at `place`, in units of 1 / [`HALF`].
-    pub const fn of(self, cell: Cell, place: Place) -> u16 {
-        let distance = place.distance(Place::midpoint(cell));
-        let near = if distance < HALF as u32 { distance as u16 } else { HALF as u16 };
+    pub fn of(self, cell: Cell, place: Place) -> u16 {
+        let midpoint = Place::midpoint(cell);
+        let within = |distance: u32| if distance < HALF as u32 { distance as u16 } else { HALF as u16 };
         match self {
-            Self::Printed => near,
-            Self::Corrected => HALF as u16 - near,
+            Self::Printed => within(place.distance(midpoint)),
+            Self::Corrected => HALF as u16 - within(place.distance(midpoint)),
+            Self::Rim => {
+                let farthest = place.x.abs_diff(midpoint.x).max(place.y.abs_diff(midpoint.y));
+                HALF as u16 - within(farthest)
+            }
         }
     }
 }
@@ -92,20 +102,34 @@ impl Occupancy {
 /// The threshold T of the occupancy probability, from 0 to 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Threshold(u16);
+pub struct Threshold {
+    /// The lowest occupancy probability, in units of 1 / [`HALF`], that is not below it, and 1 more, so that an optional
+    /// threshold takes no more memory.
+    after: NonZeroU16,
+}
 
 impl Threshold {
     /// ½.
-    pub const HALF: Self = Self(HALF as u16 / 2);
+    pub const HALF: Self = Self::of(HALF as u16 / 2);
+
+    const fn of(occupancy: u16) -> Self {
+        Self { after: NonZeroU16::MIN.saturating_add(occupancy) }
+    }
 
     /// The threshold `share`, rounded to 1 / [`HALF`]; `None` if it is not from 0 to 1.
     pub fn new(share: f64) -> Option<Self> {
-        (0.0..=1.0).contains(&share).then(|| Self(libm::round(share * f64::from(HALF)) as u16))
+        (0.0..=1.0).contains(&share).then(|| Self::of(libm::round(share * f64::from(HALF)) as u16))
     }
 
     /// Whether an occupancy probability, in units of 1 / [`HALF`], is below it.
     pub const fn is_above(self, occupancy: u16) -> bool {
-        occupancy < self.0
+        occupancy.saturating_add(1) < self.after.get()
+    }
+
+    /// The mean of these occupancy probabilities, in units of 1 / [`HALF`], rounded down.
+    pub(super) fn mean(values: impl Iterator<Item = u16>) -> Self {
+        let (sum, count) = values.fold((0, 0), |(sum, count), value| (sum + u32::from(value), count + 1));
+        Self::of(sum.checked_div(count).unwrap_or(0) as u16)
     }
 }
 
@@ -121,6 +145,20 @@ mod tests {
         assert_eq!(taken(HALF, 0), Cell::new(0, 0));
         assert_eq!(taken(HALF + 1, HALF + 1), Cell::new(1, 1));
         assert_eq!(taken(9 * SIDE, -SIDE), Cell::new(2, 0));
+    }
+
+    #[test]
+    fn to_the_sides_a_probability_is_one_at_the_midpoint_and_nought_only_outside_the_cell() {
+        let at = |x, y| Occupancy::Rim.of(Cell::new(1, 0), Place::new(SIDE + x, y));
+        assert_eq!([at(0, 0), at(0, HALF - 1), at(-HALF, 3), at(HALF + 5, 0)], [HALF as u16, 1, 0, 0]);
+        let corner = Place::new(SIDE + 100, 100);
+        assert_eq!((at(100, 100), Occupancy::Corrected.of(Cell::new(1, 0), corner)), (28, 0));
+    }
+
+    #[test]
+    fn the_mean_of_probabilities_is_a_threshold() {
+        assert_eq!(Threshold::mean([128, 0, 0, 0, 1].into_iter()), Threshold::of(25));
+        assert_eq!(Threshold::mean([].into_iter()), Threshold::of(0));
     }
 
     #[test]

@@ -4,8 +4,8 @@ use core::ops::ControlFlow;
 
 use super::map::{BY_NUMBER, Map, Status};
 use super::pairs::{Pairing, Scratch, Seeker};
-use super::place::Place;
-use super::rule::{Condition, Otherwise, Rule, Ties};
+use super::place::{Place, Threshold};
+use super::rule::{Basis, Condition, Otherwise, Rule, Ties};
 use super::search::{Target, search};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
@@ -94,6 +94,8 @@ pub struct Robot<M> {
     stance: Stance,
     aim: Option<Cell>,
     waits: bool,
+    /// The threshold of its next decision, if its rule bases it on the last one.
+    threshold: Option<Threshold>,
 }
 
 impl<M: Map> Robot<M> {
@@ -103,7 +105,7 @@ impl<M: Map> Robot<M> {
             map.explore(cell);
         }
         map.explore(start);
-        Self { map, at: start, stance: Stance::Stands, aim: None, waits: false }
+        Self { map, at: start, stance: Stance::Stands, aim: None, waits: false, threshold: None }
     }
 
     /// The robot's map.
@@ -167,14 +169,11 @@ impl<M: Map> Robot<M> {
 
     /// The frontier cell: the unexplored neighbour with the lowest occupancy probability, if one is below the threshold.
     fn candidate(&self, rule: &Rule, view: View<'_>, oracle: &mut dyn Oracle) -> Next {
-        let occupancy = |cell| {
-            let own = rule.occupancy.of(cell, Place::midpoint(self.at));
-            view.others.iter().map(|other| rule.occupancy.of(cell, other.place)).fold(own, u16::max)
-        };
+        let threshold = self.threshold.unwrap_or(rule.threshold);
         let neighbours = BY_NUMBER.map(|side| (side, self.at.beyond(side)));
         let candidates = neighbours.map(|(side, cell)| {
-            let occupancy = occupancy(cell);
-            let is_one = self.map.status(cell) == Status::Unexplored && rule.threshold.is_above(occupancy);
+            let occupancy = self.occupancy(rule, view.others, cell);
+            let is_one = self.map.status(cell) == Status::Unexplored && threshold.is_above(occupancy);
             is_one.then_some((occupancy, side, cell))
         });
         let least = candidates.iter().flatten().map(|&(occupancy, ..)| occupancy).min();
@@ -193,6 +192,24 @@ impl<M: Map> Robot<M> {
             Otherwise::Wanders => any(explored, oracle).unwrap_or(Next::Stops),
             Otherwise::Stops => Next::Stops,
         }
+    }
+
+    /// The occupancy probability of `cell`, in units of 1 / [`HALF`](super::HALF): the highest by any robot.
+    fn occupancy(&self, rule: &Rule, others: &[Other], cell: Cell) -> u16 {
+        let own = rule.occupancy.of(cell, Place::midpoint(self.at));
+        others.iter().map(|other| rule.occupancy.of(cell, other.place)).fold(own, u16::max)
+    }
+
+    /// Bases the threshold of its next decision on the probabilities of this one, if its rule does: to be called before
+    /// [`Self::tries`], with the `others` of the decision.
+    pub fn decided(&mut self, rule: &Rule, others: &[Other]) {
+        let own = match rule.basis {
+            Basis::Given => return,
+            Basis::Neighbours => None,
+            Basis::Cells => Some(self.at),
+        };
+        let cells = BY_NUMBER.into_iter().map(|side| self.at.beyond(side)).chain(own);
+        self.threshold = Some(Threshold::mean(cells.map(|cell| self.occupancy(rule, others, cell))));
     }
 
     /// The way to the unexplored cell that it is paired with. The nearest pair comes first: so the robot that is nearest to an

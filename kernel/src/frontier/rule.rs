@@ -49,6 +49,19 @@ pub enum Otherwise {
     Wanders,
 }
 
+/// The basis of the threshold T: the paper has it “decided based on previous probability values”. T is given before the first
+/// decision.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Basis {
+    /// No values: T stays as it is given.
+    Given,
+    /// The mean of the values at the last decision, of the four neighbours of the robot's cell, which are what step 5 checks.
+    Neighbours,
+    /// The mean of those and of the value of the robot's own cell.
+    Cells,
+}
+
 /// Which of several cells a robot takes that are as good.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -69,6 +82,8 @@ pub struct Rule {
     pub occupancy: Occupancy,
     /// A cell is a candidate if its occupancy probability is below this one.
     pub threshold: Threshold,
+    /// How that one follows from earlier probabilities.
+    pub basis: Basis,
     /// The action of a robot without a candidate.
     pub otherwise: Otherwise,
     /// Which of several cells it takes.
@@ -82,6 +97,7 @@ impl Rule {
         conditions: Conditions::of(&[Condition::Record]),
         occupancy: Occupancy::Corrected,
         threshold: Threshold::HALF,
+        basis: Basis::Given,
         otherwise: Otherwise::Stops,
         ties: Ties::Lowest,
     };

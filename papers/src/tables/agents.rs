@@ -12,6 +12,7 @@ mod printed;
 use std::fmt;
 
 use tautline_kernel::bricks::tree;
+use tautline_kernel::floor::Replaced;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
@@ -104,6 +105,12 @@ pub const TEAMS: [Team; 7] = [
     Team::new(&MDFS, RuleId::PUBLISHED, &Mdfs),
 ];
 
+/// Ants by the other readings of what becomes of a missed sensor, whose old content those of [`TEAMS`] lose.
+const READINGS: [Team; 2] = [
+    Team::new(&ANTS, RuleId::new("beside"), &ants::Rule::Published(Replaced::Beside)),
+    Team::new(&ANTS, RuleId::new("counted"), &ants::Rule::Published(Replaced::Counted)),
+];
+
 /// The sensors that the paper's agents miss, of all.
 pub const MISS: Probability = Probability::new(0.0556).expect("a probability");
 
@@ -182,6 +189,14 @@ impl Figure {
             Self::Agents => [1, 2, 5, 10, 15, 20, 25, 30, 35, 40].map(|agents| (SIDE, agents)).into(),
             Self::Area => [10, 15, 20, 25, 30, 40, 50, 60].map(|side| (side, AGENTS)).into(),
             Self::Ideal => [1, 2, 5, 10, 20, 40].map(|agents| (SIDE, agents)).into(),
+        }
+    }
+
+    /// The teams that are compared, in Fig. 11 by every reading of the ants as well.
+    fn teams(self) -> Vec<Team> {
+        match self {
+            Self::Agents => [&TEAMS[..], &READINGS].concat(),
+            Self::Area | Self::Ideal => TEAMS.into(),
         }
     }
 
@@ -289,7 +304,7 @@ impl Outcome {
 impl Table for Agents {
     type Settings = Settings;
     type Job = Job;
-    type Sample = [Outcome; TEAMS.len()];
+    type Sample = Vec<Outcome>;
     type Summary = Summary;
 
     fn about(&self) -> Description {
@@ -301,7 +316,7 @@ impl Table for Agents {
     }
 
     fn parts(&self, _: &Job) -> u64 {
-        TEAMS.len() as u64
+        self.figure.teams().len() as u64
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
@@ -309,16 +324,22 @@ impl Table for Agents {
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
         let starts = vec![fit(layout.default_base())?; agents.into()];
         let chance = (self.figure.miss(), seed);
-        Ok(TEAMS.map(|team| team.crew.run(&layout, &starts, chance, settings.max_steps)))
+        let run = |team: Team| team.crew.run(&layout, &starts, chance, settings.max_steps);
+        Ok(self.figure.teams().into_iter().map(run).collect())
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let Settings { layouts, seed, max_steps } = *settings;
-        let at = |(side, agents)| {
-            let teams = TEAMS.into_iter().zip(of_teams(&results, (side, agents)));
-            teams.filter_map(move |(team, outcomes)| Line::of(team, side, agents, &outcomes))
+        let lines_at = |(side, agents)| {
+            let here = at(&results, (side, agents));
+            let line = |(place, team)| {
+                let outcomes: Vec<&Outcome> =
+                    here.iter().filter_map(|outcomes| outcomes.get(place)).collect();
+                Line::of(team, side, agents, &outcomes)
+            };
+            self.figure.teams().into_iter().enumerate().filter_map(line).collect::<Vec<_>>()
         };
-        let lines: Vec<Line> = self.figure.points().into_iter().flat_map(at).collect();
+        let lines: Vec<Line> = self.figure.points().into_iter().flat_map(lines_at).collect();
         let paper = printed::of(self.figure, &lines);
         Ok(Summary { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, paper })
     }

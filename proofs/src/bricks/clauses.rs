@@ -51,8 +51,10 @@ const fn replacing(rule: Rule, replaced: Replaced) -> Subject<Rule> {
 }
 
 const REFUTED: &[Reading<Subject<Rule>>] = &readings(READINGS, [Verdict::Refuted; 5]);
-/// Those that differ where no sensor is missed.
+/// That which differs where no sensor is missed.
 const SEEING: &[Reading<Subject<Rule>>] = REFUTED.split_at(1).0;
+/// An agent that marks no cell in which another one is shuts nobody in.
+const KNOWS_ALONE: &[Reading<Subject<Rule>>] = &readings([READINGS[0]], [Verdict::Holds]);
 
 const NO_CORNERS: Rule = Rule::REPAIRED.without(Corners);
 const NOT_ALONE: NamedRule<Subject<Rule>> =
@@ -198,7 +200,7 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-4",
         sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::shared(&TOGETHER, Knowing)).under(SEEING),
+            &refuted(PUBLISHED, &Floors::shared(&TOGETHER, Knowing)).under(KNOWS_ALONE),
             &holds(REPAIRED, &Floors::shared(&TOGETHER, Knowing), &[NOT_ALONE]),
             &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(REFUTED),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),

@@ -3,7 +3,7 @@
 use tautline_kernel::frontier::Condition::{
     self, Claim, Corner, Look, Nearer, Record, Route, Share, Tell, Track, Turn,
 };
-use tautline_kernel::frontier::{Occupancy, Otherwise, Rule};
+use tautline_kernel::frontier::{Basis, Occupancy, Otherwise, Rule};
 
 use super::areas::{Areas, Size};
 use super::drift::{self, Drift, PARTS};
@@ -22,62 +22,64 @@ const PLAIN: NamedRule<Rule> = NamedRule::new("plain", Rule::PLAIN);
 const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
 
 /// The readings of the published rule but for the main one: what a robot without a candidate does, how it avoids an
-/// obstacle, and what equation (11) means.
-const READINGS: [(&str, Rule); 7] = [
+/// obstacle, what equation (11) means, and whether the threshold follows from earlier probabilities of neighbours. Where
+/// those of the robot's own cells count as well, robots at midpoints decide as with a threshold of ½.
+const READINGS: [(&str, Rule); 15] = [
     ("wanders", Rule::WANDERS),
     ("literal", Rule::LITERAL),
-    ("wanders + literal", Rule::WANDERS.without(Record)),
+    ("wanders + literal", wandering(Rule::LITERAL)),
     ("printed", Rule::PRINTED),
     ("wanders + printed", wandering(Rule::PRINTED)),
     ("literal + printed", Rule::PRINTED.without(Record)),
     ("wanders + literal + printed", wandering(Rule::PRINTED.without(Record))),
+    ("adaptive", adaptive(Rule::PUBLISHED)),
+    ("wanders + adaptive", adaptive(Rule::WANDERS)),
+    ("literal + adaptive", adaptive(Rule::LITERAL)),
+    ("wanders + literal + adaptive", adaptive(wandering(Rule::LITERAL))),
+    ("printed + adaptive", adaptive(Rule::PRINTED)),
+    ("wanders + printed + adaptive", adaptive(wandering(Rule::PRINTED))),
+    ("literal + printed + adaptive", adaptive(Rule::PRINTED.without(Record))),
+    ("wanders + literal + printed + adaptive", adaptive(wandering(Rule::PRINTED.without(Record)))),
 ];
 
 const fn wandering(rule: Rule) -> Rule {
     Rule { otherwise: Otherwise::Wanders, ..rule }
 }
 
-const REFUTED: &[Reading<Rule>] = &readings(READINGS, [Verdict::Refuted; 7]);
+const fn adaptive(rule: Rule) -> Rule {
+    Rule { basis: Basis::Neighbours, ..rule }
+}
+
+/// Robots that wander, whose threshold is the mean of the probabilities of all cells, and of the neighbours alone.
+const ALL_CELLS: NamedRule<Rule> =
+    NamedRule::new("wanders + cells", Rule { basis: Basis::Cells, ..Rule::WANDERS });
+const NEIGHBOURS_ALONE: NamedRule<Rule> =
+    NamedRule::new("the own cell does not count", adaptive(Rule::WANDERS));
+/// Robots that do not store obstacles, whose threshold follows from earlier probabilities, and does not.
+const ADAPTIVE: NamedRule<Rule> = NamedRule::new("literal + adaptive", adaptive(Rule::LITERAL));
+const NEVER_ADAPTED: NamedRule<Rule> = NamedRule::new("the threshold stays as it is given", Rule::LITERAL);
+
+/// The readings, of which those with these numbers hold and all others are refuted.
+const fn holding<const N: usize>(numbers: [usize; N]) -> [Reading<Rule>; 15] {
+    let mut all = readings(READINGS, [Verdict::Refuted; 15]);
+    let mut place = 0;
+    while place < N {
+        all[numbers[place]].expected = Verdict::Holds;
+        place += 1;
+    }
+    all
+}
+
+const REFUTED: [Reading<Rule>; 15] = holding([]);
 /// Those as (11) is corrected: as it is printed, a robot alone never moves, so that nothing is shown.
-const MARKS: &[Reading<Rule>] = REFUTED.split_at(3).0;
-/// Robots that wander do not stop while a cell is left out, unless they never move.
-const COVERS: &[Reading<Rule>] = &readings(
-    READINGS,
-    [
-        Verdict::Holds,
-        Verdict::Refuted,
-        Verdict::Holds,
-        Verdict::Refuted,
-        Verdict::Refuted,
-        Verdict::Refuted,
-        Verdict::Refuted,
-    ],
-);
+const MARKS: [Reading<Rule>; 7] =
+    [REFUTED[0], REFUTED[1], REFUTED[2], REFUTED[7], REFUTED[8], REFUTED[9], REFUTED[10]];
+/// Robots that wander do not stop while a cell is left out, unless they go to no unexplored one.
+const COVERS: [Reading<Rule>; 15] = holding([0, 2]);
 /// As (11) is printed, robots move only if they wander, and then to where others have started.
-const APART: &[Reading<Rule>] = &readings(
-    READINGS,
-    [
-        Verdict::Refuted,
-        Verdict::Refuted,
-        Verdict::Refuted,
-        Verdict::Holds,
-        Verdict::Refuted,
-        Verdict::Holds,
-        Verdict::Refuted,
-    ],
-);
-const ENDS: &[Reading<Rule>] = &readings(
-    READINGS,
-    [
-        Verdict::Refuted,
-        Verdict::Refuted,
-        Verdict::Refuted,
-        Verdict::Holds,
-        Verdict::Holds,
-        Verdict::Holds,
-        Verdict::Holds,
-    ],
-);
+const APART: [Reading<Rule>; 15] = holding([3, 5, 11, 13]);
+/// Robots that go to no unexplored cell, at once or after a move, end unless they wander.
+const ENDS: [Reading<Rule>; 15] = holding([3, 4, 5, 6, 7, 9, 11, 12, 13, 14]);
 
 /// One condition taken out of a rule, under its name.
 const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
@@ -204,14 +206,23 @@ step_checks! { Occupancy;
         };
 }
 
+/// Equation (11) with the distance to the nearest side of the cell.
+const SIDES: NamedRule<Occupancy> = NamedRule::new("to the sides", Occupancy::Rim);
+/// The readings of its distance but for the one to the midpoint: to the circle's rim it is the corrected equation.
+const OCCUPANCIES: [Reading<Occupancy>; 2] = readings(
+    [("to the rim of the circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)],
+    [Verdict::Holds, Verdict::Refuted],
+);
+
 /// The clauses.
 pub static CLAUSES: [Clause; 9] = [
     Clause {
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]).under(COVERS),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]).under(&COVERS),
             &Check::new(PRINTED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(ALL_CELLS, &smallest::<1>(Demand::Covers), Verdict::Holds, &[NEIGHBOURS_ALONE]),
             &Check::new(PLAIN, &one(Demand::Covers), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Covers), Verdict::Holds, &[]),
             &Check::new(PLAIN, &three(Demand::Covers), Verdict::Holds, &[]),
@@ -227,7 +238,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-2",
         sentence: "Two robots MUST never be in one cell.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]).under(APART),
+            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]).under(&APART),
             &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[plain(Look)]),
             &Check::new(PLAIN, &three(Demand::Alone), Verdict::Holds, &[]),
             &Check::new(PLAIN, &lossy(two(Demand::Alone)), Verdict::Holds, &[]),
@@ -241,9 +252,10 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-3",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Ends), Verdict::Holds, &[]).under(ENDS),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Ends), Verdict::Holds, &[]).under(&ENDS),
             &Check::new(LITERAL, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
             &Check::new(WANDERS, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
+            &Check::new(ADAPTIVE, &smallest::<1>(Demand::Ends), Verdict::Holds, &[NEVER_ADAPTED]),
             &Check::new(PLAIN, &one(Demand::Ends), Verdict::Holds, &[plain(Record)]),
             &Check::new(PLAIN, &two(Demand::Ends), Verdict::Holds, &[plain(Turn)]),
             &Check::new(PLAIN, &three(Demand::Ends), Verdict::Holds, &[]),
@@ -259,7 +271,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-4",
         sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]).under(&REFUTED),
             &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Knows), Verdict::Holds, &[]),
             &Check::new(PLAIN, &three(Demand::Knows), Verdict::Holds, &[]),
@@ -275,7 +287,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-5",
         sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
         checks: &[
-            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(MARKS),
+            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(&MARKS),
             &Check::new(PUBLISHED, &OFF_QUARTER, Verdict::Refuted, &[])
                 .judged(|rule, choices| drift_of(rule, QUARTER).case(&SMALLEST, choices)),
             &Check::new(PUBLISHED, &OFF_LESS, Verdict::Holds, &[]),
@@ -314,7 +326,9 @@ pub static CLAUSES: [Clause; 9] = [
                 Verdict::Refuted,
                 &[],
             )
+            .under(&OCCUPANCIES)
             .judged(place::occupied),
+            &Check::new(SIDES, occupancy::CHECK.method, Verdict::Refuted, &[]).judged(place::occupied),
             &occupancy::CHECK,
         ],
     },

@@ -142,6 +142,7 @@ impl Drift {
     fn go(&self, state: &State, oracle: &mut dyn Oracle) -> Option<(State, &'static str)> {
         let mut after = *state;
         let Next::Tries { side, aim } = self.next(state, oracle) else { return None };
+        after.robot.decided(&self.rule, &[]);
         after.robot.tries(side, aim);
         let to = state.place.moved(state.fix, Place::midpoint(state.robot.at().beyond(side)));
         let way = self.way(&mut after.truth, state.place, to, oracle);

@@ -98,11 +98,18 @@ fn two(oracle: &mut dyn Oracle) -> [(i32, i32); 2] {
 }
 
 /// The places that these choices of [`occupies`] make, written down for the judge.
-pub(super) fn occupied(_: &Occupancy, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+pub(super) fn occupied(occupancy: &Occupancy, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let distance = match occupancy {
+        Occupancy::Printed => judge::Distance::ToMidpoint,
+        Occupancy::Rim => judge::Distance::ToSide,
+        // It breaks nothing.
+        Occupancy::Corrected => return None,
+    };
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);
     let places = two(&mut replay);
-    replay.matches().then(|| Box::new(judge::Occupancy { clause: "FRONTIER-8", places }) as Box<dyn AnyCase>)
+    let written = judge::Occupancy { clause: "FRONTIER-8", distance, places };
+    replay.matches().then(|| Box::new(written) as Box<dyn AnyCase>)
 }
 
 /// The bound of [`occupies`], in words.

@@ -292,6 +292,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     ) -> Option<Successor<ROBOTS>> {
         let Next::Tries { side, aim } = self.next(world, robot, Slot::Own, oracle) else { return None };
         let mut after = *world;
+        let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
+        after.robots[robot].decided(&self.rule, &others);
         after.robots[robot].tries(side, aim);
         let missed = if self.rule.has(Condition::Claim) {
             self.tell(&mut after, robot, (aim, Status::Unexplored), u8::MAX, oracle)

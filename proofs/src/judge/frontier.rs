@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::change::plain;
 use super::{Case, Floor, Objection, Place, beside, must};
-pub use drift::{Drift, Move, Occupancy};
+pub use drift::{Distance, Drift, Move, Occupancy};
 
 /// A run of robots that explore cells.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -217,7 +217,12 @@ impl Explorers {
             .map(|(_, other)| *other)
             .collect();
         let view = View { others: &others, slot: self.slot(robot) };
-        self.robots[robot].next(&self.rule, view, &mut self.memory.scratch(), &mut self.radio.dice)
+        let next =
+            self.robots[robot].next(&self.rule, view, &mut self.memory.scratch(), &mut self.radio.dice);
+        if matches!(next, Next::Tries { .. }) {
+            self.robots[robot].decided(&self.rule, &others);
+        }
+        next
     }
 
     /// The sight that `robot` has as it goes through `side`, and where it gets to.

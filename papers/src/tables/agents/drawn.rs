@@ -44,5 +44,5 @@ pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {
             ("Offices of 30x30 cells, no sensor missed", agents, moves)
         }
     };
-    LineChart::new(title, x, y, TEAMS.into_iter().flat_map(of_team)).without_empty()
+    LineChart::new(title, x, y, figure.teams().into_iter().flat_map(of_team)).without_empty()
 }

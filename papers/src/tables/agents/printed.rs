@@ -2,11 +2,11 @@
 
 use super::super::paper;
 use super::super::prelude::*;
-use super::{Duration, Figure, Line, Summary, TEAMS, Team};
+use super::{Duration, Figure, Line, READINGS, Summary, TEAMS, Team};
 
 /// The numbers that the paper prints: of Brick&Mortar in Fig. 11, and that Ants explore everything.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
-    let [bricks, _, ants, ants_published, ..] = TEAMS;
+    let ([bricks, _, ants, ants_published, ..], [beside, counted]) = (TEAMS, READINGS);
     let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
     let one = one.filter(|_| figure == Figure::Agents);
     let least = |team: Team| {
@@ -18,6 +18,8 @@ pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
         PrintedFigure::of("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
         PrintedFigure::of("% explored by ants, at least", 100.0, least(ants)),
         PrintedFigure::of("% explored by ants (published), at least", 100.0, least(ants_published)),
+        PrintedFigure::of("% explored by ants (beside), at least", 100.0, least(beside)),
+        PrintedFigure::of("% explored by ants (counted), at least", 100.0, least(counted)),
     ];
     printed.into_iter().flatten().collect()
 }

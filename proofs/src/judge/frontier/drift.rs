@@ -127,17 +127,29 @@ impl Drift {
     }
 }
 
-/// The occupancy probability of the cell 0,0 as printed, at two places in it, the first one no farther from its
-/// midpoint.
+/// The occupancy probability of the cell 0,0 as printed, by one reading of its distance, at two places in the cell, the
+/// first one no farther from its midpoint.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Occupancy {
     /// The clause that it is said to break.
     pub clause: &'static str,
+    /// The distance d_r of equation (11).
+    pub distance: Distance,
     /// The places, from the midpoint.
     pub places: [Place; 2],
 }
 
-plain!(Occupancy { places });
+/// Where a robot's distance d_r is measured to in equation (11).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Distance {
+    /// The midpoint of the cell.
+    ToMidpoint,
+    /// The nearest side of the cell.
+    ToSide,
+}
+
+plain!(Distance one of ToMidpoint, ToSide);
+plain!(Occupancy { distance, places });
 
 impl Case for Occupancy {
     fn clause(&self) -> &'static str {
@@ -151,9 +163,15 @@ impl Case for Occupancy {
         must(self.places.iter().all(is_in), "a place is not in the cell").map_err(whole)?;
         let [near, far] = self.places.map(|(x, y)| x * x + y * y);
         must(near <= far, "the second place is nearer").map_err(whole)?;
-        // As printed it is the distance over half a side, at most 1: it is 0 at the midpoint, grows, and is 1 from
-        // the rim on.
-        let is_broken = near == 0 || near < far.min(HALF * HALF) || far >= HALF * HALF;
+        // It is the distance over half a side, at most 1.
+        let is_broken = match self.distance {
+            // It is 0 at the midpoint, grows, and is 1 from the rim on.
+            Distance::ToMidpoint => near == 0 || near < far.min(HALF * HALF) || far >= HALF * HALF,
+            Distance::ToSide => {
+                let [by_near, by_far] = self.places.map(|(x, y)| HALF - x.abs().max(y.abs()));
+                by_near < by_far || far >= HALF * HALF && by_far > 0
+            }
+        };
         must(is_broken, "the probability is as demanded").map_err(whole)
     }
 }
