@@ -51,12 +51,11 @@ const fn adaptive(rule: Rule) -> Rule {
 }
 
 /// Robots that wander, whose threshold is the mean of the probabilities of all cells, and of the neighbours alone.
-const ALL_CELLS: NamedRule<Rule> =
-    NamedRule::new("wanders + cells", Rule { basis: Basis::Cells, ..Rule::WANDERS });
+const ALL_CELLS: NamedRule<Rule> = NamedRule::new("wanders-T", Rule { basis: Basis::Cells, ..Rule::WANDERS });
 const NEIGHBOURS_ALONE: NamedRule<Rule> =
     NamedRule::new("the own cell does not count", adaptive(Rule::WANDERS));
 /// Robots that do not store obstacles, whose threshold follows from earlier probabilities, and does not.
-const ADAPTIVE: NamedRule<Rule> = NamedRule::new("literal + adaptive", adaptive(Rule::LITERAL));
+const ADAPTIVE: NamedRule<Rule> = NamedRule::new("literal-T", adaptive(Rule::LITERAL));
 const NEVER_ADAPTED: NamedRule<Rule> = NamedRule::new("the threshold stays as it is given", Rule::LITERAL);
 
 /// The readings, of which those with these numbers hold and all others are refuted.
@@ -207,10 +206,10 @@ step_checks! { Occupancy;
 }
 
 /// Equation (11) with the distance to the nearest side of the cell.
-const SIDES: NamedRule<Occupancy> = NamedRule::new("to the sides", Occupancy::Rim);
+const SIDES: NamedRule<Occupancy> = NamedRule::new("sides", Occupancy::Rim);
 /// The readings of its distance but for the one to the midpoint: to the circle's rim it is the corrected equation.
 const OCCUPANCIES: [Reading<Occupancy>; 2] = readings(
-    [("to the rim of the circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)],
+    [("circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)],
     [Verdict::Holds, Verdict::Refuted],
 );
 
