@@ -47,7 +47,7 @@ static SETTING: Setting<'_, Sweepers> =
 
 /// Runs `robots` in `layout` until everything is explored, or one has entered so many cells.
 fn sweep(layout: &Layout, robots: usize, most: u32) -> Result<Report, Halt> {
-    let start = layout.default_base().map_err(|problem| Halt::Diagnostic(problem.into()))?;
+    let start = layout.default_base()?;
     let (until, max_moves) = (Some(Milestone::Whole), NonZeroU32::new(most));
     let limits = Limits { until, max_moves, ..Limits::default() };
     let team = SETTING.in_layout(&Sweepers, &vec![start; robots], Vec::new());

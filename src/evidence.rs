@@ -10,7 +10,7 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
 
 use super::CATALOGUE;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw;
 use tautline_sim::explore::{ClauseId, RuleName, Setup, hunt};
 use tautline_sim::named_values::NamedValues;
@@ -49,7 +49,7 @@ pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Ha
     let (Some(rule), Some(scheme)) = (RuleName::of(check.rule()), CATALOGUE.scheme(run.scheme)) else {
         return Ok(None);
     };
-    Ok(Some(hunt::setup(scheme, rule, run).map_err(Diagnostic::from)?))
+    Ok(Some(hunt::setup(scheme, rule, run)?))
 }
 
 /// The clause that anyone sees a run break.
@@ -59,7 +59,7 @@ pub(super) fn breach(run: &Run) -> Option<ClauseId> {
 
 /// A run of agents.
 fn drawn(course: &Course) -> Result<String, Halt> {
-    Ok(draw::story::of_course(course).map_err(Diagnostic::from)?)
+    Ok(draw::story::of_course(course)?)
 }
 
 /// The refutation of a clause, as data.

@@ -222,7 +222,7 @@ impl Explore {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
         let writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
-        let mut writer = writer.transpose().map_err(Diagnostic::from)?;
+        let mut writer = writer.transpose()?;
         let (bar, start) = (progress::spinner("exploring"), Instant::now());
         let report = explore(&setup, &mut |made| {
             bar.set_message(format!("team move {}", made.step));

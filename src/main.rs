@@ -246,7 +246,7 @@ impl FromStr for SizeArg {
         let parts = text.split_once('x').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
         let (width, height) = parts.ok_or("write columns and rows as WIDTHxHEIGHT, for example 7x7")?;
         let size = Size::new(width, height);
-        size.map(Self).map_err(|problem| format!("{problem}; {}", problem.remedy()))
+        size.map(Self).map_err(|problem| problem.to_string())
     }
 }
 

@@ -11,7 +11,7 @@ use super::explore::LayoutArgs;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless};
 use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw::svg::{self, Panel};
 use tautline_sim::draw::{self, Environment};
 use tautline_sim::schema::CellWritten;
@@ -102,7 +102,7 @@ impl Show {
                 height: layout.height(),
                 free_cells: layout.free_cells(),
                 walls: layout.walls().count(),
-                base: layout.base().map_or_else(|| layout.default_base(), Ok).map_err(Diagnostic::from)?,
+                base: layout.base().map_or_else(|| layout.default_base(), Ok)?,
                 robots: layout.robots(),
                 drawing,
             })?,

@@ -17,12 +17,12 @@ fn document(name: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).expect("a document")
 }
 
-/// What the program prints in the project's folder, if it ends with `code`.
+/// The text that the program prints in the project's folder, if it ends with `code`.
 fn printed(arguments: &[&str], code: i32) -> String {
     printed_in(Path::new(env!("CARGO_MANIFEST_DIR")), arguments, code)
 }
 
-/// What the program prints in a folder, if it ends with `code`.
+/// The text that the program prints in a folder, if it ends with `code`.
 fn printed_in(folder: &Path, arguments: &[&str], code: i32) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_tautline"))
         .current_dir(folder)
@@ -288,7 +288,7 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     }
 }
 
-/// What GitHub makes of a heading, to link to it.
+/// The anchor that GitHub makes of a heading.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|&c| c.is_alphanumeric() || " -_".contains(c));
     kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()

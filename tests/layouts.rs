@@ -10,7 +10,7 @@ use insta::{allow_duplicates, assert_snapshot};
 use proptest::prelude::*;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::layout::{self, Generator, Layout, Problem, movingai, ros};
+use tautline_sim::layout::{self, Generator, Layout, movingai, ros};
 
 use crate::fuzz_corpus::targets::report::{Colour, render, with_flags};
 
@@ -100,14 +100,14 @@ fn the_default_base_is_the_free_cell_nearest_the_centre() {
     layout.block(Cell::new(1, 1));
     assert_eq!(base(&layout), Ok(Cell::new(1, 0)));
     layout.cells().for_each(|cell| layout.block(cell));
-    assert_eq!(base(&layout), Err(Problem::no_free_cell()));
+    assert_eq!(base(&layout), Err(layout::no_free_cell()));
 }
 
 #[test]
 fn a_base_must_be_inside_and_free() {
     let mut layout = drawing(DRAWING);
-    assert_snapshot!(layout.place_base(Cell::new(2, 1)).expect_err("blocked"), @"the base 2,1 is on a blocked cell; the nearest free cell is 2,0");
-    assert_snapshot!(layout.place_base(Cell::new(3, 0)).expect_err("outside"), @"the base 3,0 is outside the 3x2 cells");
+    assert_snapshot!(layout.place_base(Cell::new(2, 1)).expect_err("blocked"), @"the base 2,1 is on a blocked cell; the nearest free cell is 2,0; put the base on 2,0");
+    assert_snapshot!(layout.place_base(Cell::new(3, 0)).expect_err("outside"), @"the base 3,0 is outside the 3x2 cells; columns go from 0 to 2, rows from 0 to 1");
     assert_eq!(layout.place_base(Cell::new(0, 1)), Ok(()));
     layout.block(Cell::new(0, 1));
     assert_eq!(layout.base(), None);
@@ -128,7 +128,7 @@ fn the_rim_stays_closed_and_the_outside_empty() {
 #[test]
 fn sizes_out_of_bounds_are_refused() {
     for (width, height) in [(0, 5), (5, 0), (32_001, 1), (32_000, 31_250), (u64::MAX, u64::MAX)] {
-        assert_eq!(Layout::open(width, height), Err(Problem::of_size(width, height)));
+        assert_eq!(Layout::open(width, height), Err(layout::of_size(width, height)));
     }
     assert_eq!(Layout::open(4096, 4096).map(|layout| layout.free_cells()), Ok(1 << 24));
 }
@@ -263,7 +263,7 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
     assert_snapshot!(refused("a.map", "type octile\nheight 1\nwidth 1\nmap\nT\n"), @"a.map:2:1: no cell is free; leave at least one cell free for the base");
 }
 
-/// What the YAML and the image make together.
+/// The map that the YAML and the image make together.
 fn ros_map(yaml: &str, image: &[u8], named: Option<&str>) -> Result<(Layout, ros::Frame), String> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("map.yaml");

@@ -61,7 +61,7 @@ impl Cdr<'_> {
     }
 }
 
-/// What a recording says.
+/// The content of a recording.
 #[derive(Default)]
 struct Read {
     /// As the lines of a trace.

@@ -18,7 +18,7 @@ struct Browser {
     answers: BufReader<File>,
     session: Option<String>,
     asked: u64,
-    /// What it has told without being asked.
+    /// The messages that it has sent without being asked.
     events: Vec<Value>,
 }
 
@@ -91,7 +91,7 @@ impl Browser {
         self.events.retain(|event| event["method"] != "Page.loadEventFired");
     }
 
-    /// What an expression of JavaScript comes to; a promise is waited for.
+    /// The value of an expression of JavaScript; a promise is waited for.
     fn value(&mut self, expression: &str) -> Value {
         let asked = json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
         let answer = self.ask("Runtime.evaluate", &asked);
@@ -103,7 +103,7 @@ impl Browser {
         self.value(expression).as_str().expect("text").to_owned()
     }
 
-    /// What has gone wrong on the pages.
+    /// The errors of the pages.
     fn errors(&self) -> Vec<&Value> {
         let is_error = |event: &&Value| {
             let method = event["method"].as_str().unwrap_or_default();

@@ -224,7 +224,7 @@ fn the_recipes_that_are_not_run_can_be_read() {
     }
 }
 
-/// What the XML library of Python makes of a JUnit file: the counts of its suite, then each case with what came of it.
+/// A JUnit file as the XML library of Python reads it: the counts of its suite, then each case with what came of it.
 const READER: &str = "\
 import sys
 import xml.etree.ElementTree as tree
@@ -263,7 +263,7 @@ fn the_notes_of_a_release_are_a_section_of_the_changelog() {
     assert_eq!(notes("9.9.9").status.code(), Some(1));
 }
 
-/// What mdBook is given: the table of contents has every page once, and every link of a page leads to a file in the
+/// The input of mdBook: the table of contents has every page once, and every link of a page leads to a file in the
 /// book; mdBook makes `index.html` of a `README.md`, and nothing of a folder.
 #[test]
 fn no_page_is_left_out_of_the_book() {

@@ -1,4 +1,4 @@
-//! What refutes a clause is stored, and played again by whoever reads the file; a file that was changed is refused.
+//! Refutations of clauses are stored, and played again from their files; a file that was changed is refused.
 
 use std::fs;
 use std::path::Path;
@@ -11,8 +11,8 @@ use tautline_proofs::ledger;
 use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::refutation::{self, path, replay};
 
-/// What refutes the checks that are registered as refuted, but for those that take long to decide: the clause, the
-/// number of its check, and the counterexample.
+/// The counterexamples of all checks that are registered as refuted, except sampled ones: the clause, the number of its
+/// check, and the counterexample.
 fn refutations() -> Vec<(&'static Clause, usize, Evidence)> {
     let mut memory = Cache::default();
     let checks =
@@ -30,7 +30,7 @@ fn refutations() -> Vec<(&'static Clause, usize, Evidence)> {
     refuted.map(decide).collect()
 }
 
-/// The same file with one thing changed, and what that is.
+/// Copies of a file with one thing changed, each with the words for the change.
 fn tampered(text: &str) -> Vec<(String, String)> {
     let lines: Vec<&str> = text.lines().collect();
     let joined = |lines: &[&str]| lines.join("\n") + "\n";

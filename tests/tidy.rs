@@ -112,7 +112,7 @@ fn imports(file: &str, text: &str) -> BTreeSet<String> {
     found
 }
 
-/// What is forbidden among the imports of a file of the crate `part`.
+/// The forbidden imports of a file of the crate `part`.
 fn forbidden(part: &str, file: &str, text: &str) -> Vec<String> {
     let is_allowed = |name: &str| match name.strip_prefix("tautline_") {
         Some(used) => line(BELOW, part, "").is_some_and(|below| below.contains(&used)),

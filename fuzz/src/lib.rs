@@ -372,7 +372,7 @@ pub fn layout_ros(bytes: &[u8]) {
     match ros::describe(oracle) {
         Ok(description) => match ros::read(&description, image.get(1..).unwrap_or_default()) {
             Ok(layout) => read_back(oracle, Ok(layout)),
-            Err(problem) => told(&Diagnostic::in_file(Path::new("map.pgm"), &problem, problem.remedy())),
+            Err(problem) => told(&problem.found_in("map.pgm")),
         },
         Err(misread) => read_back(oracle, Err(misread)),
     }
@@ -406,7 +406,7 @@ fn read_back(oracle: &str, layout: Result<Layout, Misread>) {
         }
         Err(Misread { at, problem }) => {
             let remedy = problem.remedy();
-            told(&Diagnostic::at(Path::new("layout"), oracle, at, &problem, remedy));
+            told(&Diagnostic::at(Path::new("layout"), oracle, at, problem.what(), remedy));
         }
     }
 }

@@ -34,7 +34,7 @@ pub fn least_crossed(scan: &Scan, among: Ring) -> Option<Side> {
 /// The side that an ant goes through, and what it enters the cell beyond it as; none if it stays.
 pub type Act = Option<(Side, Entry)>;
 
-/// What an ant does after `scan`.
+/// An ant's action after `scan`.
 pub fn decide(rule: Rule, scan: &Scan) -> Act {
     let side = least_crossed(scan, scan.beside)?;
     let entry = match rule {

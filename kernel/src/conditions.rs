@@ -46,13 +46,10 @@ macro_rules! conditions {
         impl Conditions {
             /// The set of these conditions.
             pub const fn of(conditions: &[$condition]) -> Self {
-                let mut set = Self(0);
-                let mut i = 0;
-                while i < conditions.len() {
-                    set = set.with(conditions[i]);
-                    i += 1;
+                match conditions {
+                    [first, rest @ ..] => Self::of(rest).with(*first),
+                    [] => Self(0),
                 }
-                set
             }
 
             /// This set with `condition`.
@@ -77,14 +74,16 @@ macro_rules! conditions {
         $(impl $rule {
             /// This rule with one condition put in.
             #[must_use]
-            pub const fn with(self, condition: $condition) -> Self {
-                Self { conditions: self.conditions.with(condition), ..self }
+            pub const fn with(mut self, condition: $condition) -> Self {
+                self.conditions = self.conditions.with(condition);
+                self
             }
 
             /// This rule with one condition taken out.
             #[must_use]
-            pub const fn without(self, condition: $condition) -> Self {
-                Self { conditions: self.conditions.without(condition), ..self }
+            pub const fn without(mut self, condition: $condition) -> Self {
+                self.conditions = self.conditions.without(condition);
+                self
             }
 
             /// Whether `condition` is in force.

@@ -17,7 +17,7 @@ pub const COMPASS: [Side; 4] = [Side::North, Side::East, Side::South, Side::West
 
 /// The sensors of an area, each of which stores an `S`, and the walls between them.
 pub trait Floor<S = Sensor> {
-    /// What the sensor in `cell` stores; `None` if the cell is a wall or outside.
+    /// The data of the sensor in `cell`; `None` if the cell is a wall or outside.
     fn sensor(&self, cell: Cell) -> Option<S>;
     /// Changes what the sensor in `cell` stores; no effect where there is none.
     fn put(&mut self, cell: Cell, sensor: S);

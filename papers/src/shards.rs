@@ -40,7 +40,7 @@ fn raw(text: String) -> Result<Box<RawValue>, Diagnostic> {
         .map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
 }
 
-/// What to do about a plan or a shard that says no such thing.
+/// The remedy for a plan or a shard that says no such thing.
 const AS_WRITTEN: &str = "take it as tautline wrote it";
 
 /// Deals the jobs of a table out.
@@ -132,7 +132,7 @@ impl Part for Jobs<'_> {
     }
 
     fn facts(&self) -> Facts {
-        Facts::Table { jobs: self.all.len(), jobs_done: self.results.len() }
+        Facts::Jobs { jobs: self.all.len(), jobs_done: self.results.len() }
     }
 
     fn words(&self) -> String {

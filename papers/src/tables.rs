@@ -43,7 +43,7 @@ use tautline_field::radio::Problem;
 use tautline_kernel::ground::Cell;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::Setup;
-use tautline_sim::layout::{self, Generator, Layout};
+use tautline_sim::layout::{Generator, Layout};
 
 /// Every table, in the order in which they are listed.
 pub const TABLES: &[&dyn Entry] = &[
@@ -253,19 +253,14 @@ fn usage(problem: Problem) -> Halt {
     Diagnostic::usage(problem, problem.remedy()).into()
 }
 
-/// The layout, or what is wrong with it.
-fn fit<T>(result: Result<T, layout::Problem>) -> Result<T, Halt> {
-    Ok(result.map_err(|problem| Diagnostic::usage(&problem, problem.remedy()))?)
-}
-
 /// The layout of this seed that a description stands for.
 fn generated(description: &str, seed: u64) -> Result<Layout, Halt> {
-    let generator: Generator = fit(description.parse())?;
-    fit(generator.generate(seed))
+    let generator: Generator = description.parse()?;
+    Ok(generator.generate(seed)?)
 }
 
 /// A layout with the base where it is, or else in the middle, and its cell.
 fn based(mut layout: Layout) -> Result<(Layout, Cell), Halt> {
-    let base = fit(Setup::choose_base(&mut layout, None))?;
+    let base = Setup::choose_base(&mut layout, None)?;
     Ok((layout, base))
 }

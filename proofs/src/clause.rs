@@ -171,7 +171,7 @@ pub enum Variant {
     Mutant(&'static str),
     /// Another reading of the rule.
     Reading {
-        /// What sets it apart.
+        /// The name of its difference from the rule.
         name: &'static str,
         /// The verdict that must come out.
         expected: Verdict,

@@ -14,11 +14,11 @@ pub struct Course {
     pub blocked: Vec<Cell>,
     /// Walls between free cells.
     pub walls: Vec<Edge>,
-    /// What happens, in order.
+    /// The turns, in order.
     pub turns: Vec<Turn>,
     /// The last of the turns that can go on for ever; 0 if the run ends.
     pub round: usize,
-    /// What it comes to.
+    /// The agents and the floor at the end.
     pub end: Scene,
 }
 

@@ -8,8 +8,6 @@ use std::iter;
 
 use crate::clause::{AnyCheck, Clause, Decision, Variant};
 use crate::decide::Verdict;
-#[cfg(feature = "rooms")]
-use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, pack, position, tan};
 
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all};
@@ -17,18 +15,18 @@ pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all};
 /// The clauses of each room.
 #[cfg(feature = "rooms")]
 pub static ROOMS: &[&[Clause]] = &[
-    &ground::clauses::CLAUSES,
-    &chain::clauses::CLAUSES,
-    &chain::ours::CLAUSES,
-    &ants::clauses::CLAUSES,
-    &bricks::clauses::CLAUSES,
-    &notice::clauses::CLAUSES,
-    &mrc::clauses::CLAUSES,
-    &tan::clauses::CLAUSES,
-    &kit::clauses::CLAUSES,
-    &position::clauses::CLAUSES,
-    &frontier::clauses::CLAUSES,
-    &pack::clauses::CLAUSES,
+    &crate::ground::clauses::CLAUSES,
+    &crate::chain::clauses::CLAUSES,
+    &crate::chain::ours::CLAUSES,
+    &crate::ants::clauses::CLAUSES,
+    &crate::bricks::clauses::CLAUSES,
+    &crate::notice::clauses::CLAUSES,
+    &crate::mrc::clauses::CLAUSES,
+    &crate::tan::clauses::CLAUSES,
+    &crate::kit::clauses::CLAUSES,
+    &crate::position::clauses::CLAUSES,
+    &crate::frontier::clauses::CLAUSES,
+    &crate::pack::clauses::CLAUSES,
 ];
 
 /// Every clause of our own.
@@ -225,10 +223,7 @@ mod tests {
 
     #[test]
     fn two_clauses_of_one_id_are_refused() {
-        assert_eq!(
-            register(&[&tan::clauses::CLAUSES, &tan::clauses::CLAUSES]).err(),
-            Some(DuplicateClause("TAN-1"))
-        );
+        assert_eq!(register(&[ROOMS[0], ROOMS[0]]).err(), Some(DuplicateClause("LATTICE-1")));
     }
 
     #[test]

@@ -87,7 +87,7 @@ impl Layout {
         let read = drawing.parse::<Ground>();
         let fault = |misread: layouts::Misread| {
             let layouts::Misread { at, problem } = misread;
-            raised(py, &Diagnostic::at("drawing", drawing, at, &problem, problem.remedy()))
+            raised(py, &Diagnostic::at("drawing", drawing, at, problem.what(), problem.remedy()))
         };
         Ok(Self { ground: read.map_err(fault)?, name: "drawing".to_owned() })
     }
@@ -105,7 +105,7 @@ impl Layout {
         robots: Option<NonZeroU16>,
     ) -> PyResult<Self> {
         let Rows { height, width, values } = rows("blocked", &blocked)?;
-        let fault = |problem: layouts::Problem| raised(py, &Diagnostic::usage(&problem, problem.remedy()));
+        let fault = |problem: Diagnostic| raised(py, &problem);
         let mut ground = Ground::open(width as u64, height as u64).map_err(fault)?;
         for (cell, _) in ground.cells().zip(values).filter(|(_, is_blocked)| *is_blocked) {
             ground.block(cell);

@@ -35,12 +35,12 @@ const KEEP_EVERY: Duration = Duration::from_secs(5);
 #[serde(untagged)]
 #[expect(missing_docs, reason = "the fields are named as in the text for people")]
 pub enum Facts {
-    /// Of a hunt of a chain.
-    Chain { runs: u64, moves: u64 },
-    /// Of a hunt on sensor floors.
-    Floor { layouts: usize, moves: u64 },
+    /// Of a hunt through runs.
+    Runs { runs: u64, moves: u64 },
+    /// Of a hunt that looks at each layout by itself.
+    Layouts { layouts: usize, moves: u64 },
     /// Of a table.
-    Table { jobs: usize, jobs_done: usize },
+    Jobs { jobs: usize, jobs_done: usize },
 }
 
 /// Work, or a part of it, that can be left and taken up again.

@@ -2,7 +2,7 @@
 //! and speeds. A cell of the layout is a node, 3 m from the next one.
 //!
 //! A decision, a look, a turn and a message take no time, and every drive takes a path's length over the robot's speed.
-//! What is left to chance, which of several sides a robot takes and how fast it drives, is drawn from `ChaCha8`, seeded
+//! Chance decides which of several sides a robot takes and how fast it drives. It is drawn from `ChaCha8`, seeded
 //! with the seed of the run as layouts are, with the tag `kit`. Times are whole milliseconds, and lengths whole
 //! millimetres.
 

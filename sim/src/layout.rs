@@ -22,7 +22,7 @@ use std::{fmt, iter};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::plural::counted;
 
-use file::{at, in_file, read_text};
+use file::{at, read_text};
 use generate::Form;
 use size::Bitmap;
 
@@ -30,7 +30,7 @@ use crate::diagnostic::Diagnostic;
 
 pub use file::MAX_FILE_BYTES;
 pub use generate::Generator;
-pub use problem::{Misread, Problem};
+pub use problem::{Misread, no_free_cell, of_size, outside};
 pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
 
 /// An area of cells. The outer rim is closed; three bits a cell hold the rest.
@@ -51,9 +51,9 @@ impl Layout {
     /// An area without walls and blocked cells, `width` and `height` in cells.
     ///
     /// # Errors
-    /// [`Problem`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
+    /// [`Diagnostic`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
     /// nothing is allocated then.
-    pub fn open(width: u64, height: u64) -> Result<Self, Problem> {
+    pub fn open(width: u64, height: u64) -> Result<Self, Diagnostic> {
         Size::new(width, height).map(Self::of)
     }
 
@@ -207,17 +207,17 @@ impl Layout {
     /// The free cell nearest the centre of the area, ties by row, then by column.
     ///
     /// # Errors
-    /// [`Problem`] when all cells are blocked.
-    pub fn default_base(&self) -> Result<Cell, Problem> {
+    /// [`Diagnostic`] when all cells are blocked.
+    pub fn default_base(&self) -> Result<Cell, Diagnostic> {
         let centre = (i64::from(self.width()) - 1, i64::from(self.height()) - 1);
-        self.nearest_free(centre).ok_or_else(Problem::no_free_cell)
+        self.nearest_free(centre).ok_or_else(problem::no_free_cell)
     }
 
     /// Puts the base in `cell`.
     ///
     /// # Errors
-    /// [`Problem`] if it is no free cell; the nearest one is named then, and the base stays where it was.
-    pub fn place_base(&mut self, cell: Cell) -> Result<(), Problem> {
+    /// [`Diagnostic`] if it is no free cell; the nearest one is named then, and the base stays where it was.
+    pub fn place_base(&mut self, cell: Cell) -> Result<(), Diagnostic> {
         self.check_free(cell, "base", "put the base on")?;
         self.base = Some(cell);
         Ok(())
@@ -226,23 +226,23 @@ impl Layout {
     /// Whether a robot can start in `cell`.
     ///
     /// # Errors
-    /// [`Problem`] if it is no free cell; the nearest one is named then.
-    pub fn check_start(&self, cell: Cell) -> Result<(), Problem> {
+    /// [`Diagnostic`] if it is no free cell; the nearest one is named then.
+    pub fn check_start(&self, cell: Cell) -> Result<(), Diagnostic> {
         self.check_free(cell, "start", "start on")
     }
 
     /// Checks that `cell`, which is to be `what`, is free.
-    fn check_free(&self, cell: Cell, what: &str, remedy: &str) -> Result<(), Problem> {
+    fn check_free(&self, cell: Cell, what: &str, remedy: &str) -> Result<(), Diagnostic> {
         if !self.contains(cell) {
-            return Err(Problem::outside(what, cell, self.size));
+            return Err(problem::outside(what, cell, self.size));
         }
         if self.is_free(cell) {
             return Ok(());
         }
         let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
-        Err(nearest.map_or_else(Problem::no_free_cell, |nearest| {
+        Err(nearest.map_or_else(problem::no_free_cell, |nearest| {
             let what = format!("the {what} {cell} is on a blocked cell; the nearest free cell is {nearest}");
-            Problem::new(what, format!("{remedy} {nearest}"))
+            Diagnostic::usage(what, format!("{remedy} {nearest}"))
         }))
     }
 
@@ -331,9 +331,9 @@ pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout
 fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     let file = Path::new(description);
     match description.parse::<Generator>() {
-        Ok(_) if image.is_some() => Err(Problem::needless_image().into()),
-        Ok(generator) => generator.generate(seed).map_err(Diagnostic::from),
-        Err(problem) if means_generator(description) && !file.exists() => Err(problem.into()),
+        Ok(_) if image.is_some() => Err(problem::needless_image()),
+        Ok(generator) => generator.generate(seed),
+        Err(problem) if means_generator(description) && !file.exists() => Err(problem),
         Err(_) => load_file(file, image),
     }
 }
@@ -364,11 +364,6 @@ fn means_generator(description: &str) -> bool {
     Form::of(description).is_some() || description.contains(':') && !description.contains(['/', '\\'])
 }
 
-/// The problem of an image in place of the YAML file that describes it.
-fn bare_image() -> Problem {
-    Problem::new("this is an image alone", "name the .yaml file that describes it")
-}
-
 fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     if is_ros(file) {
         let (layout, frame) = ros::load(file, image)?;
@@ -379,12 +374,15 @@ fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
         return Ok(layout);
     }
     let read: fn(&str) -> Result<Layout, Misread> = match extension(file).to_str() {
-        Some("pgm" | "png") => return Err(in_file(file, &bare_image())),
+        Some("pgm" | "png") => {
+            let (what, remedy) = ("this is an image alone", "name the .yaml file that describes it");
+            return Err(Diagnostic::in_file(file, what, remedy));
+        }
         Some("map") => movingai::read,
         Some(_) | None => text::read,
     };
     if image.is_some() {
-        return Err(Problem::needless_image().into());
+        return Err(problem::needless_image());
     }
     let source = read_text(file)?;
     read(&source).map_err(|misread| at(file, &source, &misread))

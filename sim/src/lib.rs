@@ -1,5 +1,5 @@
 //! Robot teams in layouts: the runs of the kernel's rules, their traces and counterexamples, and how they are drawn.
-//! What a person types, and how an error is printed, is the program's business.
+//! Reading what a person types, and printing errors, is left to a program.
 
 pub mod atomic_file;
 pub mod checkpoint;

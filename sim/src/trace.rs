@@ -29,7 +29,7 @@ use crate::explore::{
     Violation, Watcher, explore,
 };
 use crate::layout::generate::Probability;
-use crate::layout::{Layout, MAX_FILE_BYTES, Problem};
+use crate::layout::{Layout, MAX_FILE_BYTES};
 use crate::options::Options;
 use crate::schema::CellWritten;
 use lines::{Lines, line_of};
@@ -181,7 +181,7 @@ pub fn store_at(
     replaceable: &Replaceable,
 ) -> Result<(AtomicFile, Report), Halt> {
     let aside = AtomicFile::late(path, replaceable);
-    let mut writer = Writer::new(aside, setup, Some(clause)).map_err(Diagnostic::from)?;
+    let mut writer = Writer::new(aside, setup, Some(clause))?;
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())
@@ -407,8 +407,8 @@ impl Writer {
     /// The trace of the run of `setup` in `aside`, of any team. A counterexample names the clause that it breaks.
     ///
     /// # Errors
-    /// [`Problem`] if the base is not a free cell.
-    pub fn new(mut aside: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Problem> {
+    /// [`Diagnostic`] if the base is not a free cell.
+    pub fn new(mut aside: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Diagnostic> {
         let mut layout = Cow::Borrowed(&setup.layout);
         if layout.base() != Some(setup.base) {
             layout.to_mut().place_base(setup.base)?;

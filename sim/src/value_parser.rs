@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 use tautline_kernel::notice::Count;
 
-use crate::layout::Problem;
+use crate::diagnostic::Diagnostic;
 use crate::layout::generate::Probability;
 
 /// A whole number, as large as its type holds.
@@ -59,7 +59,7 @@ pub fn real(text: &str) -> Result<f64, &'static str> {
 /// # Errors
 /// The words for what to write.
 pub fn probability(text: &str) -> Result<Probability, String> {
-    text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
+    text.parse().map_err(|problem: Diagnostic| problem.to_string())
 }
 
 /// How often something is counted until a node is silent.

@@ -303,7 +303,7 @@ fn nothing_is_broken_in_two_thousand_runs_of_each() {
     all_hold(2000);
 }
 
-/// What the judges find in runs of the rules as published.
+/// Runs of the rules as published break clauses, and the judges find which.
 #[test]
 fn the_judges_find_what_the_published_rules_break() {
     let finds = |counted: Counted, clauses: &[&str]| {

@@ -175,7 +175,7 @@ fn stops(grid: &mut impl Grid, from: Cell, most: usize) -> Option<Vec<Cell>> {
     Some(stops)
 }
 
-/// The same, by asking of every two cells whether they are one link apart.
+/// The stops of a way, found by asking of every two cells whether they are one link apart.
 fn plain_stops(grid: &impl Grid, from: Cell, most: usize) -> Option<Vec<Cell>> {
     const AROUND: [(i16, i16); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
     let is_open = |one: Cell, other: Cell| {

@@ -153,7 +153,7 @@ fn two_robots_drive_all_paths_of_a_large_map() {
     assert_eq!((report.stopped, report.violations), (Stopped::Explored, vec![]));
 }
 
-/// What is wrong with a setup, where, and what would be right.
+/// The fault of a setup: where it is, what is wrong, and what would be right.
 fn wrong(setup: &Setup) -> Option<String> {
     let wrong = tautline_sim::explore::team(setup).err();
     wrong.map(|fault| fault.to_string())
@@ -255,7 +255,7 @@ fn hunted(asked: &Asked<'_>) -> Result<HuntReport, Diagnostic> {
 fn broken(hunted: &HuntReport) -> Vec<(&'static str, [usize; 4])> {
     let size = |quarry: &Finding| match quarry.facts {
         RunSize::Area { columns, rows, walls, steps } => [columns, rows, walls, steps],
-        RunSize::Chain { .. } | RunSize::Floor { .. } => panic!("an area"),
+        RunSize::Runs { .. } | RunSize::Misses { .. } => panic!("an area"),
     };
     hunted.found.iter().map(|quarry| (quarry.clause, size(quarry))).collect()
 }

@@ -11,7 +11,7 @@ use tautline_sim::explore::agents::Agents;
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
-/// What agents take by a rule, and a checksum of what they do.
+/// The team moves that agents take by a rule, and a checksum of their steps.
 fn run(rule: Rule, layout: &str, robots: usize, chance: Probability) -> String {
     let generator: Generator = layout.parse().expect("a generator");
     let layout = generator.generate(5).expect("a layout");

@@ -1,4 +1,4 @@
-//! What the simulator does, tried as a whole.
+//! The simulator, tried as a whole.
 
 mod agents;
 mod beyond;

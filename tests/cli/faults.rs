@@ -1,4 +1,4 @@
-//! What fails while a chain explores: the run, its trace, its page, its JSON, and what is refused.
+//! Failures while a chain explores: the run, its trace, its page, its JSON, and what is refused.
 
 use super::*;
 

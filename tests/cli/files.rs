@@ -14,7 +14,7 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).expect("text")
 }
 
-/// What is printed and what is said, if the program ends with 2: something was left out, and the rest given.
+/// The texts on stdout and on stderr of a program that ends with 2: something was left out, and the rest given.
 pub(crate) fn left_out(folder: &Path, arguments: &[&str]) -> (String, String) {
     let output = ran(folder, arguments);
     let errors = String::from_utf8(output.stderr).expect("text");

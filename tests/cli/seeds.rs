@@ -5,7 +5,7 @@ use tautline_sim::explore::{By, Profile};
 
 use super::*;
 
-/// What lets a run of `scheme` draw something, of each kind: rule and options.
+/// Rules and options, one for each kind of draw, by which a run of `scheme` draws something.
 fn told(scheme: &Profile) -> Vec<Vec<String>> {
     let words = |by: &By| match by {
         By::Every => String::new(),
@@ -70,9 +70,11 @@ fn a_seed_that_draws_nothing_is_refused_with_what_would_be_drawn() {
         .filter(|scheme| scheme.drawn.iter().all(|drawn| drawn.by != By::Every))
         .map(|scheme| {
             let rule = scheme.rules[0].name;
+            let robots = scheme.robots.end().min(&2).to_string();
             let arguments =
-                ["explore", "open:5x5", "--seed", "3", "--robots", "2", "--scheme", scheme.name, "--rule"];
-            format!("{}: {}\n", scheme.name, refused(folder, &[&arguments[..], &[rule.as_str()]].concat()))
+                ["explore", "open:5x5", "--seed", "3", "--robots", &robots, "--scheme", scheme.name];
+            let arguments = [&arguments[..], &["--rule", rule.as_str()]].concat();
+            format!("{}: {}\n", scheme.name, refused(folder, &arguments))
         })
         .collect();
     assert_snapshot!(said.join("\n"));

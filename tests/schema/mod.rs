@@ -17,7 +17,7 @@ pub(crate) fn check(name: &str, value: &Value, printed_by: &str) {
     }
 }
 
-/// What of `value` is not as `schema` says.
+/// The faults of `value` by `schema`.
 pub(crate) fn is_as(schema: &Value, value: &Value) -> Result<(), String> {
     let words = match schema {
         Value::Bool(true) => return Ok(()),

@@ -10,7 +10,7 @@ use tautline_sim::explore::SCHEMES;
 use tautline_sim::explore::{
     By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Team, Zone,
 };
-use tautline_sim::layout::{Layout, Problem};
+use tautline_sim::layout::{self, Layout};
 
 use super::{Cells, Deadlock, Links, Moves, ParameterError, Parameters, Standstill};
 
@@ -110,8 +110,8 @@ pub fn rival(
 ) -> Result<Box<dyn Team>, Diagnostic> {
     let robots = usize::from(robots);
     let area = chain::area(layout.size().area(), base, robots).ok_or_else(|| {
-        let outside = Problem::outside("base", base, layout.size());
-        Diagnostic::of_field("base", &outside, outside.remedy())
+        let outside = layout::outside("base", base, layout.size());
+        Diagnostic::of_field("base", outside.what(), outside.remedy())
     })?;
     let team = super::Team::new(parameters, robots, base, area, seed).map_err(|unfit| fault(&unfit))?;
     Ok(Box::new(Rivals(team)))

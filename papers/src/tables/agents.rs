@@ -322,7 +322,7 @@ impl Table for Agents {
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let ((side, agents), seed) = (run.at, run.seed(settings.seed));
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
-        let starts = vec![fit(layout.default_base())?; agents.into()];
+        let starts = vec![layout.default_base()?; agents.into()];
         let chance = (self.figure.miss(), seed);
         let run = |team: Team| team.crew.run(&layout, &starts, chance, settings.max_steps);
         Ok(self.figure.teams().into_iter().map(run).collect())

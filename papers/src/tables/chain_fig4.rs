@@ -85,7 +85,7 @@ impl Place {
             Self::Open => (15, &[][..]),
             Self::Obstacles => (7, &OBSTACLES[..]),
         };
-        let mut layout = fit(Layout::open(side, side))?;
+        let mut layout = Layout::open(side, side)?;
         for &[(left, top), (right, bottom)] in obstacles {
             (top..=bottom).for_each(|y| (left..=right).for_each(|x| layout.block(Cell::new(x, y))));
         }

@@ -105,7 +105,7 @@ impl Table for ChainRadio {
 
     fn measure(&self, settings: &Settings, &robots: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
         let side = u64::from(2 * robots - 1);
-        let (layout, base) = based(fit(Layout::open(side, side))?)?;
+        let (layout, base) = based(Layout::open(side, side)?)?;
         let setup = Setup::new(&CHAIN, RuleName::Repaired, robots, layout, base);
         let mut odometer = Odometer::new(Body::NXT, robots.into());
         let (mut log, mut cut) = (Vec::new(), 0);

@@ -217,7 +217,7 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
     let mut dice = generate::source(seed, *b"fig7    ");
     let below = |of: usize, dice: &mut ChaCha8Rng| generate::below(of as u32, dice) as usize;
     for _ in 0..MOST_DRAWN {
-        let mut layout = fit(Layout::open(columns.into(), rows.into()))?;
+        let mut layout = Layout::open(columns.into(), rows.into())?;
         let mut cells: Vec<Cell> = layout.cells().collect();
         for _ in 0..blocked {
             layout.block(cells.swap_remove(below(cells.len(), &mut dice)));
@@ -238,7 +238,7 @@ const MOST_DRAWN: u32 = 100_000;
 fn follow(rule: RuleId, layout: &Layout, starts: &[Cell], seed: u64) -> Result<Outcome, Halt> {
     let mut layout = layout.clone();
     let base = starts[0];
-    fit(layout.place_base(base))?;
+    layout.place_base(base)?;
     let limits = Limits { max_moves: NonZeroU32::new(MOST_MOVES), ..Limits::default() };
     let setup = Setup::new(&FRONTIER, rule, starts.len() as u16, layout, base);
     let setup = Setup { starts: Some(starts.to_vec()), seed, limits, ..setup };

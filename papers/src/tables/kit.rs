@@ -205,7 +205,7 @@ impl Table for Kit {
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Sample, Halt> {
         let family = FAMILIES.get(run.at).copied().unwrap_or(FAMILIES[0]);
         let seed = run.seed(settings.seed);
-        let (layout, start) = fit(family.layout(seed))?;
+        let (layout, start) = family.layout(seed)?;
         let pace = Pace { speed: settings.speed, spread: settings.spread };
         Ok(TEAMS.map(|team| follow(team, &layout, start, pace, seed)))
     }

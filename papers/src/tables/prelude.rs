@@ -11,7 +11,7 @@ pub(super) use super::parameter::{
     Senders, flag, from_to, joined, layout_name, list, nested, one, renamed, repeated, settings, word,
 };
 pub(super) use super::runs::{Run, at, of_teams, pairs, runs};
-pub(super) use super::{Description, Observer, Results, Table, Threads, based, fit, generated, usage};
+pub(super) use super::{Description, Observer, Results, Table, Threads, based, generated, usage};
 pub(super) use crate::chart::{Axis, LineChart, Point, Series};
 pub(super) use tautline_field::stats::{Estimate, decimals, hundredths, rounded};
 pub(super) use tautline_sim::diagnostic::{Diagnostic, Halt};

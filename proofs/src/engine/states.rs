@@ -18,7 +18,7 @@ use std::hash::Hash;
 use std::iter;
 
 pub use limits::{Limits, MemoryLimit};
-pub use search::search;
+pub use search::{search, watched};
 
 use super::bodies::Odometer;
 use super::world::{Turn, World};
@@ -28,6 +28,11 @@ pub type Bits = u16;
 
 /// A set of the parts' places, one bit each. Whatever it says, places from 64 on are among them.
 pub type Places = u64;
+
+/// The places that differ, by whether each does.
+pub fn places(differing: impl IntoIterator<Item = bool>) -> Places {
+    (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+}
 
 /// A world whose ways merge: its states are searched.
 pub trait System: World {
@@ -139,7 +144,7 @@ pub struct Findings<D> {
     pub steps: u64,
     /// The most bytes that it took at a time.
     pub bytes: u64,
-    /// Whether the search came to its end, and not to one of its [`Limits`].
+    /// Whether the search came to its end, and not to one of its [`Limits`], and nobody ended it.
     pub is_whole: bool,
     /// The situations that occurred, sorted.
     pub covered: Vec<&'static str>,

@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use super::crew::{Body, Scheme, SensorData};
 use super::plans::{CELLS, Edges, FloorPlan};
-use crate::engine::states::{Bits, Places};
+use crate::engine::states::{self, Bits, Places};
 
 /// The sensors of a small floor.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -99,8 +99,7 @@ impl<D: SensorData, M: Copy + PartialEq, A: Copy + PartialEq> State<D, M, A> {
         }
         let counts = (self.misses, self.streak) != (other.misses, other.streak);
         let bodies = self.bodies.iter().zip(&other.bodies).map(|(one, other)| one != other);
-        let differing = floor.into_iter().chain([counts]).chain(bodies);
-        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+        states::places(floor.into_iter().chain([counts]).chain(bodies))
     }
 
     /// Makes `part` the one in this place.

@@ -96,7 +96,7 @@ impl Drift {
         Place::new(place.x + off() * error, place.y + off() * error)
     }
 
-    /// What the robot does next.
+    /// The robot's next action.
     fn next(&self, state: &State, oracle: &mut dyn Oracle) -> Next {
         let (mut reached, mut queue) =
             ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);

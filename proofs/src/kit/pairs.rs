@@ -136,7 +136,7 @@ fn drawn(oracle: &mut dyn Oracle) -> (Message, u8, &'static str) {
     (message, number, situation)
 }
 
-/// What these choices of [`read_back`] send and read, written down for the judge.
+/// The message that these choices of [`read_back`] send and read, written down for the judge.
 pub(super) fn wire(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);

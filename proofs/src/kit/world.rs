@@ -10,7 +10,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance};
 
 use super::plain::Findings;
-use crate::engine::states::{Bits, Places, System};
+use crate::engine::states::{self, Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
 /// A team on a small lattice.
@@ -339,8 +339,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
     /// Nearly every step changes something beside the maps.
     fn differing(&self, one: &World<ROBOTS>, other: &World<ROBOTS>) -> Places {
         let records = one.team.records().iter().zip(other.team.records()).map(|(one, other)| one != other);
-        let differing = records.chain([one.truth != other.truth, true]);
-        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+        states::places(records.chain([one.truth != other.truth, true]))
     }
 
     fn put(&self, state: &mut World<ROBOTS>, place: usize, part: &Part<ROBOTS>) {

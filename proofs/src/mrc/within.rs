@@ -106,7 +106,7 @@ fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
     Some(Box::new(judge::Run { clause: demand.clause(), hops, faults, steps }))
 }
 
-/// What becomes of a message, as the judge reads it.
+/// The fate of a message, as the judge reads it.
 fn message(message: Message, fate: judge::Fate) -> Option<judge::Step> {
     let (what, chosen) = match message {
         Message::Notice(..) => (judge::What::Notice, None),

@@ -133,7 +133,7 @@ pub(super) fn second_event(observed: &Subject, oracle: &mut dyn Oracle) -> Outco
     Ok(FATES[fate])
 }
 
-/// What has become of the first event, and a NOTICE of a later one.
+/// The fate of the first event, and a NOTICE of a later one.
 fn drawn(oracle: &mut dyn Oracle) -> (usize, Notice) {
     let fate = oracle.pick(FATES.len() as u32) as usize;
     let [events, senders, most_hops] = LATER;
@@ -161,7 +161,7 @@ fn heard(observed: &Subject, fate: usize, news: Notice) -> (Node, Reaction) {
     (node, reaction)
 }
 
-/// What these choices of [`second_event`] make, written down for the judge.
+/// The case that these choices of [`second_event`] make, written down for the judge.
 pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Cell, Step};
 use super::ground::Map;
 use super::rule::{Act, Body, Demand, Rule, Scene, TeamState, TeamStep, View, passes};
 use super::{Moves, Promise, Setting};
-use crate::engine::states::{Bits, Places, System};
+use crate::engine::states::{self, Bits, Places, System};
 use crate::engine::tree::Game;
 use crate::engine::world::{Turn, World};
 use crate::run::Frame;
@@ -278,8 +278,7 @@ impl<R: Rule> System for TeamWorld<'_, R> {
     fn differing(&self, one: &Scene<R>, other: &Scene<R>) -> Places {
         let bodies = one.bodies.iter().zip(&other.bodies).map(|(one, other)| one != other);
         let rest = |scene: &Scene<R>| (scene.map, scene.losses, scene.deaths);
-        let differing = bodies.chain([rest(one) != rest(other) || one.goals != other.goals]);
-        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+        states::places(bodies.chain([rest(one) != rest(other) || one.goals != other.goals]))
     }
 
     fn put(&self, scene: &mut Scene<R>, place: usize, part: &Self::Part) {

@@ -32,7 +32,7 @@ use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
     ClauseId, Limits, OnViolation, Report, Scheme, Senses, Setup, TeamMove, Violation, explore, run, team,
 };
-use crate::layout::{Layout, Problem};
+use crate::layout::Layout;
 
 /// A run in which nothing can go.
 #[derive(Clone, Debug)]
@@ -320,7 +320,7 @@ impl Part {
     }
 
     /// The cases that `case` can become without those in `range`, the first choice first.
-    fn without(self, case: &Case, range: &Range<usize>) -> Result<Vec<Case>, Problem> {
+    fn without(self, case: &Case, range: &Range<usize>) -> Result<Vec<Case>, Diagnostic> {
         let whole = &case.layout;
         let mut layout = whole.clone();
         match self {
@@ -349,7 +349,7 @@ fn outside(range: &Range<usize>, count: i16) -> Vec<i16> {
 }
 
 /// The cases that `case` can become with only these columns and rows: one for each place that the base can have.
-fn with_lines(case: &Case, columns: &[i16], rows: &[i16]) -> Result<Vec<Case>, Problem> {
+fn with_lines(case: &Case, columns: &[i16], rows: &[i16]) -> Result<Vec<Case>, Diagnostic> {
     if columns.is_empty() || rows.is_empty() {
         return Ok(Vec::new());
     }
@@ -395,7 +395,7 @@ fn places(left: &[i16], line: i16) -> impl Iterator<Item = i16> {
 }
 
 /// `case` with nothing but what was met.
-fn cut_down(case: &Case, Obstacles { area, edges }: &Obstacles) -> Result<Case, Problem> {
+fn cut_down(case: &Case, Obstacles { area, edges }: &Obstacles) -> Result<Case, Diagnostic> {
     let whole = &case.layout;
     let origin = area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
@@ -453,7 +453,7 @@ impl Shrinker<'_, '_> {
 
     /// Leaves out those of `part` in `range`; whether the clause is broken without them.
     fn leave_out(&mut self, part: Part, range: &Range<usize>) -> Result<bool, Halt> {
-        for candidate in part.without(&self.smallest, range).map_err(Diagnostic::from)? {
+        for candidate in part.without(&self.smallest, range)? {
             if self.attempt(&candidate)? {
                 return Ok(true);
             }
@@ -467,7 +467,7 @@ impl Shrinker<'_, '_> {
         let Some(Broken { mut steps, met }) = self.run(candidate)? else { return Ok(false) };
         self.smallest = candidate.clone();
         if let Some(met) = met {
-            let cut = cut_down(candidate, &met).map_err(Diagnostic::from)?;
+            let cut = cut_down(candidate, &met)?;
             if cut.layout != candidate.layout
                 && let Some(again) = self.run(&cut)?
             {

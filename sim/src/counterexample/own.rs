@@ -7,7 +7,7 @@ use tautline_proofs::run::{Ending, Run};
 use tautline_proofs::team::{Rule, Setting, Strategy};
 
 use crate::atomic_file::{AtomicFile, Replaceable};
-use crate::diagnostic::{Diagnostic, Halt};
+use crate::diagnostic::Halt;
 use crate::explore::hunt::layout as layout_of;
 use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, TeamMove, Violation, run};
 use crate::trace::{Player, Writer};
@@ -31,10 +31,10 @@ impl<R: Rule> Found<'_, R> {
     pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(AtomicFile, Report), Halt> {
         let clause = self.run.breaks.map(ClauseId::new);
         let limits = Limits::stopping_at(clause);
-        let (layout, starts) = layout_of(self.run).map_err(Diagnostic::from)?;
+        let (layout, starts) = layout_of(self.run)?;
         let setup = Setup { limits, ..Setup::named(self.setting.scheme, self.rule.0, layout, &starts) };
         let aside = AtomicFile::new(path, replaceable)?;
-        let mut writer = Writer::new(aside, &setup, clause).map_err(Diagnostic::from)?;
+        let mut writer = Writer::new(aside, &setup, clause)?;
         let mut add = |made: &TeamMove<'_>| {
             writer.add(made);
             Ok(())

@@ -10,9 +10,9 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run};
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
-use crate::diagnostic::Halt;
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
-use crate::layout::{Layout, Problem};
+use crate::layout::Layout;
 
 /// The sentence of the clause `id`, if it is one of this program.
 pub fn sentence(id: ClauseId) -> Option<&'static str> {
@@ -88,8 +88,7 @@ fn unexplored(run: &dyn Play, report: &Report, head: &str, what: &str, cells: &[
 
 /// The cells that no robot has explored, and what they are.
 fn left(report: &Report) -> (&'static str, Vec<Cell>) {
-    let is_left = |cell: &Cell| report.chart.step(*cell).is_none();
-    ("Unexplored", report.chart.area().cells().filter(is_left).collect())
+    ("Unexplored", report.chart.unexplored(report.chart.area().cells()))
 }
 
 /// How agents come into the trap of `run`: every team move before it is made, with what each agent tries
@@ -126,8 +125,8 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
 /// that it misses, and the end. Of turns that can go on for ever only those are shown.
 ///
 /// # Errors
-/// [`Problem`] if it does not fit into a layout.
-pub fn of_course(course: &Course) -> Result<String, Problem> {
+/// [`Diagnostic`] if it does not fit into a layout.
+pub fn of_course(course: &Course) -> Result<String, Diagnostic> {
     let Course { width, height, blocked, walls, turns, round, end } = course;
     let layout = Layout::open(*width as u64, *height as u64)?;
     let layout = layout.with_blocked(blocked.iter().copied()).with_walls(walls.iter().copied());

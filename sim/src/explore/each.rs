@@ -132,7 +132,7 @@ impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Part for Shard<L> {
 
     fn facts(&self) -> Facts {
         let (layouts, moves) = count(self);
-        Facts::Floor { layouts, moves }
+        Facts::Layouts { layouts, moves }
     }
 
     fn words(&self) -> String {

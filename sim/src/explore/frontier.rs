@@ -191,7 +191,7 @@ impl Team for FrontierTeam {
     }
 
     fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
-        self.due.iter().copied().filter(|&cell| chart.step(cell).is_none()).collect()
+        chart.unexplored(self.due.iter().copied())
     }
 
     fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {

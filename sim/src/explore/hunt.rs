@@ -23,7 +23,7 @@ use super::run::Limits;
 use super::setup::Setup;
 use crate::checkpoint::{Part, decode, encode};
 use crate::diagnostic::Diagnostic;
-use crate::layout::{Layout, Problem, Size};
+use crate::layout::{Layout, Size};
 
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {
@@ -131,7 +131,7 @@ impl<T: Serialize + DeserializeOwned> Deal<T> {
         let deal = decode(text, "plan anew")?;
         let Self { robots, size, max_walls, max_misses, max_losses, error_cells, how } = deal;
         let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
+        let size = size.map_err(|problem| problem.with_remedy("plan anew"))?;
         Ok((Asked { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked }, how))
     }
 }
@@ -227,13 +227,13 @@ impl Asked<'_> {
     /// none is named, it stops at its first violation.
     ///
     /// # Errors
-    /// [`Problem`] if the base is no free cell.
+    /// [`Diagnostic`] if the base is no free cell.
     pub(super) fn setup(
         &self,
         mut layout: Layout,
         starts: Vec<Cell>,
         clause: Option<ClauseId>,
-    ) -> Result<Setup, Problem> {
+    ) -> Result<Setup, Diagnostic> {
         let base = Setup::choose_base(&mut layout, starts.first().copied())?;
         let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
         Ok(Setup { limits: Limits::stopping_at(clause), ..setup.starting_in(starts) })
@@ -299,14 +299,14 @@ pub enum Far<'a> {
     reason = "the fields are named as in the options of the hunts and in the text for people"
 )]
 pub enum Facts {
-    /// Of a chain in one area.
-    Chain { runs: u64, moves: u64, longest: u32, max_walls: u32 },
-    /// Of a chain in all areas of at most so many cells.
+    /// Of runs in one area.
+    Runs { runs: u64, moves: u64, longest: u32, max_walls: u32 },
+    /// Of runs in all areas of at most so many cells.
     Areas { runs: u64, moves: u64, max_walls: u32, max_cells: u32, areas: Vec<AreaSearch> },
-    /// Of agents on a sensor floor.
-    Floor { size: String, layouts: u64, states: u64, steps: u64, max_misses: u8 },
-    /// Of robots that explore frontier cells.
-    Frontier {
+    /// Of layouts with missed sensors, each searched by itself.
+    Layouts { size: String, layouts: u64, states: u64, steps: u64, max_misses: u8 },
+    /// Of states, with lost messages and wrong fixes.
+    StatesWithLosses {
         size: String,
         states: u64,
         steps: u64,
@@ -314,8 +314,8 @@ pub enum Facts {
         max_losses: u8,
         error: Option<f64>,
     },
-    /// Of robots that keep in touch.
-    Kit { size: String, states: u64, steps: u64, max_walls: Option<u32> },
+    /// Of states.
+    States { size: String, states: u64, steps: u64, max_walls: Option<u32> },
 }
 
 /// The bound up to which every layout was covered, if any was.
@@ -337,12 +337,12 @@ pub enum Done {
 #[serde(untagged)]
 #[expect(missing_docs, reason = "the fields are named as in the text for people")]
 pub enum RunSize {
-    /// Of a chain in one area: `runs` of them break the clause.
-    Chain { runs: u64, walls: usize, steps: usize },
-    /// Of robots in an area of its own.
+    /// In the one area that is searched: `runs` of them break the clause.
+    Runs { runs: u64, walls: usize, steps: usize },
+    /// In an area of its own.
     Area { columns: usize, rows: usize, walls: usize, steps: usize },
-    /// Of agents on a sensor floor.
-    Floor { misses: usize, columns: i16, rows: i16, steps: u32 },
+    /// In an area of its own, with missed sensors.
+    Misses { misses: usize, columns: i16, rows: i16, steps: u32 },
 }
 
 /// The outcome of a hunt.
@@ -421,8 +421,8 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
 /// and may break other clauses before.
 ///
 /// # Errors
-/// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(scheme: Scheme, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
+/// [`Diagnostic`] if the area is too large for a layout, or the base is outside.
+pub fn setup(scheme: Scheme, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Diagnostic> {
     let (layout, starts) = layout(found)?;
     Asked::new(scheme, rule.into()).setup(layout, starts, found.breaks.map(ClauseId::new))
 }
@@ -431,8 +431,8 @@ pub fn setup(scheme: Scheme, rule: impl Into<RuleId>, found: &Run) -> Result<Set
 /// it.
 ///
 /// # Errors
-/// [`Problem`] if the area is too large for a layout.
-pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
+/// [`Diagnostic`] if the area is too large for a layout.
+pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Diagnostic> {
     let origin = found.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     let walls = found.walls.iter().map(|wall| Edge::new(shifted(wall.cell()), wall.side()));

@@ -12,7 +12,7 @@ use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown
 use super::rule::RuleId;
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
-use crate::layout::{Layout, Problem, Size};
+use crate::layout::{Layout, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.
 const DEFAULT_SIDE: u64 = 4;
@@ -126,7 +126,7 @@ impl<C: Crew> Each for Traps<C> {
                 "{all_agents}{order}, at most {max_misses} missed, layouts up to {size}: {all_layouts}, \
                  {all_states}, {all_moves}"
             ),
-            facts: Facts::Floor { size, layouts, states, steps, max_misses },
+            facts: Facts::Layouts { size, layouts, states, steps, max_misses },
             is_complete,
             done: Done::MissesDone(done),
             through: format!("{all_layouts} and {all_states}"),
@@ -148,7 +148,7 @@ fn finding(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
         End::Done => (PREMATURE.as_str(), Shown::Run(PREMATURE)),
         End::Endless => (ENDLESS, Shown::Endless),
     };
-    let facts = RunSize::Floor { misses, columns: width, rows: height, steps: moves };
+    let facts = RunSize::Misses { misses, columns: width, rows: height, steps: moves };
     let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));
     Ok(Finding { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
 }
@@ -156,8 +156,8 @@ fn finding(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
 /// The run that `trap` is; it stops at the violation.
 ///
 /// # Errors
-/// [`Problem`] if the trap does not fit into a layout.
-fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
+/// [`Diagnostic`] if the trap does not fit into a layout.
+fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Diagnostic> {
     let layout = Layout::open(trap.width as u64, trap.height as u64)?;
     let layout = layout.with_blocked(trap.blocked.iter().copied());
     let setup = Asked::new(scheme, rule).setup(layout, trap.starts.clone(), None)?;

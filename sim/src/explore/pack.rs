@@ -224,8 +224,7 @@ impl Team for PackTeam {
     }
 
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        let due = layout.reachable(self.cells());
-        due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+        chart.unexplored(layout.reachable(self.cells()))
     }
 
     fn seen(&self) -> &[Cell] {

@@ -457,6 +457,11 @@ impl Survey {
         self.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
     }
 
+    /// Those of `cells` that were never occupied.
+    pub fn unexplored(&self, cells: impl IntoIterator<Item = Cell>) -> Vec<Cell> {
+        cells.into_iter().filter(|&cell| self.step(cell).is_none()).collect()
+    }
+
     /// The mark of `cell` after team move number `step`.
     pub fn mark(&self, cell: Cell, step: u32) -> Mark {
         match self.marks.range((cell, 0)..=(cell, step)).next_back() {

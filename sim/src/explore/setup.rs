@@ -11,8 +11,8 @@ use super::clause::ClauseId;
 use super::rule::{Rule, RuleId};
 use super::run::{Limits, Report, Survey, Team, TeamMove, Watcher, run};
 use crate::diagnostic::{Diagnostic, Halt};
+use crate::layout::Layout;
 use crate::layout::generate::Probability;
-use crate::layout::{Layout, Problem};
 use crate::options::{Extra, Options};
 
 /// A run before its start: what stands still while it goes on. The same setup makes the same run.
@@ -98,8 +98,8 @@ impl Setup {
     /// The base of a run in `layout`: the one asked for, or that of the layout, or the free cell nearest the centre.
     ///
     /// # Errors
-    /// [`Problem`] if it is not a free cell.
-    pub fn choose_base(layout: &mut Layout, asked: Option<Cell>) -> Result<Cell, Problem> {
+    /// [`Diagnostic`] if it is not a free cell.
+    pub fn choose_base(layout: &mut Layout, asked: Option<Cell>) -> Result<Cell, Diagnostic> {
         let base = match asked.or(layout.base()) {
             Some(base) => base,
             None => layout.default_base()?,
@@ -109,7 +109,7 @@ impl Setup {
     }
 }
 
-/// Robots of a team when nobody says how many: the team of the paper.
+/// Robots of a team when nobody says how many, if a team of the scheme can have so many: those of the chain's paper.
 const DEFAULT_ROBOTS: u16 = 8;
 
 /// An exploration that is asked for.
@@ -119,7 +119,8 @@ pub struct Asked {
     pub scheme: Scheme,
     /// One of its rules.
     pub rule: RuleId,
-    /// Robots, the base counted if there is one. Else the layout says, or there are 8.
+    /// Robots, the base counted if there is one. Else the layout says, or there are 8, or as many as
+    /// a team of the scheme can have.
     pub robots: Option<u64>,
     /// The seed of whatever is left to chance.
     pub seed: u64,
@@ -170,7 +171,8 @@ impl Asked {
     pub fn setup(self, mut layout: Layout) -> Result<Setup, Diagnostic> {
         self.check()?;
         let Self { scheme, rule, seed, starts, options, limits, .. } = self;
-        let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
+        let usual = || usize::from(DEFAULT_ROBOTS).clamp(*scheme.robots.start(), *scheme.robots.end()) as u64;
+        let robots = self.robots.or(layout.robots().map(u64::from)).unwrap_or_else(usual);
         let robots = scheme.count(robots)?;
         if let Some(&first) = starts.first() {
             layout.check_start(first)?;
@@ -384,7 +386,7 @@ impl Setup {
                 for &start in starts.as_deref().unwrap_or(slice::from_ref(&self.base)) {
                     self.layout
                         .check_start(start)
-                        .or_else(|problem| wrong(problem.to_string(), problem.remedy()))?;
+                        .or_else(|problem| wrong(problem.what().to_owned(), problem.remedy()))?;
                 }
             }
         }

@@ -9,7 +9,7 @@ use std::path::Path;
 use tautline_proofs::plural::counted;
 
 use super::problem::sizes;
-use super::{Misread, Problem};
+use super::{Misread, problem};
 use crate::diagnostic::{BOM, Diagnostic};
 
 /// Larger files are refused before they are read. The drawing of the largest layout is smaller.
@@ -17,24 +17,22 @@ pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// The text of `file`.
 pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
-    let bytes = read_bytes(file).map_err(|problem| in_file(file, &problem))?;
+    let bytes = read_bytes(file).map_err(|problem| problem.found_in(file))?;
     let not_text = |byte| {
-        in_file(
+        Diagnostic::in_file(
             file,
-            &Problem::new(
-                format!("byte {byte} is not UTF-8 text"),
-                "a layout is a drawing, a MovingAI map or a ROS map's .yaml file",
-            ),
+            format_args!("byte {byte} is not UTF-8 text"),
+            "a layout is a drawing, a MovingAI map or a ROS map's .yaml file",
         )
     };
     String::from_utf8(bytes).map_err(|error| not_text(error.utf8_error().valid_up_to()))
 }
 
 /// The bytes of `file`, at least one and at most [`MAX_FILE_BYTES`].
-pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Problem> {
+pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Diagnostic> {
     let about = fs::metadata(file).map_err(|error| unreadable(&error))?;
     if about.is_dir() {
-        return Err(Problem::no_file("this is a directory"));
+        return Err(problem::no_file("this is a directory"));
     }
     if about.len() > MAX_FILE_BYTES {
         return Err(too_large());
@@ -43,7 +41,7 @@ pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Problem> {
     let opened = File::open(file).map_err(|error| unreadable(&error))?;
     opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
     match bytes.len() as u64 {
-        0 => Err(Problem::new("the file is empty", "a drawing begins with `tautline layout 1`")),
+        0 => Err(Diagnostic::usage("the file is empty", "a drawing begins with `tautline layout 1`")),
         size @ 1..=MAX_FILE_BYTES => {
             tracing::info!("read {}: {}", file.display(), counted(size, "byte"));
             Ok(bytes)
@@ -52,25 +50,20 @@ pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Problem> {
     }
 }
 
-fn too_large() -> Problem {
-    Problem::new(format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20), sizes())
+fn too_large() -> Diagnostic {
+    Diagnostic::usage(format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20), sizes())
 }
 
-fn unreadable(error: &io::Error) -> Problem {
+fn unreadable(error: &io::Error) -> Diagnostic {
     match error.kind() {
-        io::ErrorKind::NotFound => Problem::no_file("there is no such file"),
-        _ => Problem::new(format!("the file cannot be read: {error}"), "make the file readable"),
+        io::ErrorKind::NotFound => problem::no_file("there is no such file"),
+        _ => Diagnostic::usage(format!("the file cannot be read: {error}"), "make the file readable"),
     }
 }
 
 /// The fault of a problem in a text.
 pub(super) fn at(file: &Path, source: &str, misread: &Misread) -> Diagnostic {
-    Diagnostic::at(file, source, misread.at.clone(), &misread.problem, misread.problem.remedy())
-}
-
-/// The fault of a problem with a file as a whole.
-pub(super) fn in_file(file: &Path, problem: &Problem) -> Diagnostic {
-    Diagnostic::in_file(file, problem, problem.remedy())
+    Diagnostic::at(file, source, misread.at.clone(), misread.problem.what(), misread.problem.remedy())
 }
 
 /// A line without its end (`\n` or `\r\n`), and the byte at which it starts.
@@ -99,7 +92,7 @@ pub(super) fn end(source: &str) -> Range<usize> {
 
 impl Line<'_> {
     /// The problem of the whole line.
-    pub(super) fn misread(&self, problem: Problem) -> Misread {
+    pub(super) fn misread(&self, problem: Diagnostic) -> Misread {
         self.misread_at(0..self.text.len(), problem)
     }
 
@@ -109,7 +102,7 @@ impl Line<'_> {
     }
 
     /// The problem of the bytes `range` of this line.
-    pub(super) fn misread_at(&self, range: Range<usize>, problem: Problem) -> Misread {
+    pub(super) fn misread_at(&self, range: Range<usize>, problem: Diagnostic) -> Misread {
         Misread { at: self.at(range), problem }
     }
 
@@ -119,7 +112,7 @@ impl Line<'_> {
         let (start, end) =
             (self.text.floor_char_boundary(range.start), self.text.ceil_char_boundary(range.end));
         let what = format!("the symbol {:?} is unknown", &self.text[start..end]);
-        self.misread_at(start..end, Problem::new(what, known))
+        self.misread_at(start..end, Diagnostic::usage(what, known))
     }
 
     /// Checks that the line has `expected` characters.
@@ -129,6 +122,6 @@ impl Line<'_> {
             return Ok(());
         }
         let what = format!("this row has {}, not {expected}", counted(found, "character"));
-        Err(self.misread(Problem::new(what, "make all rows equally long")))
+        Err(self.misread(Diagnostic::usage(what, "make all rows equally long")))
     }
 }

@@ -15,7 +15,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::problem::examples;
-use super::{Layout, Problem, Size, text};
+use super::{Layout, Size, problem, text};
+use crate::diagnostic::Diagnostic;
 
 const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
 const ROOMS_B: &str = include_str!("generate/rooms-b.txt");
@@ -102,8 +103,8 @@ impl Generator {
     /// The layout for `seed`; those without chance are the same for all seeds.
     ///
     /// # Errors
-    /// [`Problem`] when chance blocked every cell.
-    pub fn generate(&self, seed: u64) -> Result<Layout, Problem> {
+    /// [`Diagnostic`] when chance blocked every cell.
+    pub fn generate(&self, seed: u64) -> Result<Layout, Diagnostic> {
         match *self {
             Self::Open(size) => Ok(Layout::of(size)),
             Self::Walls(size, probability) => Ok(walls(size, probability, &mut source(seed, *b"walls   "))),
@@ -182,14 +183,14 @@ fn walls(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Layout {
     layout
 }
 
-fn cells(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Result<Layout, Problem> {
+fn cells(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Result<Layout, Diagnostic> {
     let mut layout = Layout::of(size);
     for cell in layout.cells() {
         if probability.happens(rng) {
             layout.block(cell);
         }
     }
-    if layout.free_cells() == 0 { Err(Problem::no_free_cell()) } else { Ok(layout) }
+    if layout.free_cells() == 0 { Err(problem::no_free_cell()) } else { Ok(layout) }
 }
 
 fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
@@ -234,18 +235,18 @@ fn divide(cells: i16, rooms: i16, rng: &mut ChaCha8Rng) -> Vec<Range<i16>> {
 }
 
 impl FromStr for Generator {
-    type Err = Problem;
+    type Err = Diagnostic;
 
-    fn from_str(description: &str) -> Result<Self, Problem> {
+    fn from_str(description: &str) -> Result<Self, Diagnostic> {
         let form = Form::of(description).ok_or_else(|| {
             let what = format!("{description:?} names no generator");
-            Problem::new(what, format!("the generators are {}", examples()))
+            Diagnostic::usage(what, format!("the generators are {}", examples()))
         })?;
         let wrong = || {
             let example = if form.pattern == form.example { "" } else { form.example };
             let example = if example.is_empty() { String::new() } else { format!(", for example {example}") };
             let what = format!("{description:?} is not a whole description");
-            Problem::new(what, format!("write {}{example}", form.pattern))
+            Diagnostic::usage(what, format!("write {}{example}", form.pattern))
         };
         let parts: Vec<&str> = description.split(':').collect();
         match parts.as_slice() {
@@ -259,7 +260,7 @@ impl FromStr for Generator {
                 let rooms = Rooms::new(across, down, size).ok_or_else(|| {
                     let what = format!("{size} cells cannot hold {across}x{down} rooms");
                     let remedy = "at least one room each way, and at most one for each column and row";
-                    Problem::new(what, remedy)
+                    Diagnostic::usage(what, remedy)
                 })?;
                 Ok(Self::Office(size, rooms))
             }
@@ -274,28 +275,28 @@ fn parse_pair(pair: &str) -> Option<(u64, u64)> {
     Some((first.parse().ok()?, second.parse().ok()?))
 }
 
-fn parse_size(size: &str, wrong: impl FnOnce() -> Problem) -> Result<Size, Problem> {
+fn parse_size(size: &str, wrong: impl FnOnce() -> Diagnostic) -> Result<Size, Diagnostic> {
     let (width, height) = parse_pair(size).ok_or_else(wrong)?;
     Size::new(width, height)
 }
 
-fn no_probability(p: &str) -> Problem {
-    Problem::new(format!("{p:?} is no probability"), "write a number from 0 to 1, for example 0.1")
+fn no_probability(p: &str) -> Diagnostic {
+    Diagnostic::usage(format!("{p:?} is no probability"), "write a number from 0 to 1, for example 0.1")
 }
 
 impl FromStr for Probability {
-    type Err = Problem;
+    type Err = Diagnostic;
 
-    fn from_str(p: &str) -> Result<Self, Problem> {
+    fn from_str(p: &str) -> Result<Self, Diagnostic> {
         p.parse().ok().and_then(Self::new).ok_or_else(|| no_probability(p))
     }
 }
 
 impl TryFrom<f64> for Probability {
-    type Error = Problem;
+    type Error = String;
 
-    fn try_from(p: f64) -> Result<Self, Problem> {
-        Self::new(p).ok_or_else(|| no_probability(&p.to_string()))
+    fn try_from(p: f64) -> Result<Self, String> {
+        Self::new(p).ok_or_else(|| no_probability(&p.to_string()).what().to_owned())
     }
 }
 

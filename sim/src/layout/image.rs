@@ -4,7 +4,8 @@ use std::io::Cursor;
 
 use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 
-use super::{MAX_CELLS, Problem};
+use super::{MAX_CELLS, problem};
+use crate::diagnostic::Diagnostic;
 
 /// Red, green, blue, and how opaque it is.
 pub(super) type Pixel = [u8; 4];
@@ -13,29 +14,29 @@ pub(super) type Pixel = [u8; 4];
 /// them is decoded.
 ///
 /// # Errors
-/// [`Problem`] if it is none, or what `begin` returns.
+/// [`Diagnostic`] if it is none, or what `begin` returns.
 pub(super) fn decode<T>(
     bytes: &[u8],
-    begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
-) -> Result<(T, Vec<Pixel>), Problem> {
+    begin: impl FnOnce(u32, u32) -> Result<T, Diagnostic>,
+) -> Result<(T, Vec<Pixel>), Diagnostic> {
     match bytes {
         [b'P', b'2' | b'3' | b'5' | b'6', ..] => decode_pnm(bytes, begin),
         [0x89, b'P', b'N', b'G', ..] => decode_png(bytes, begin),
-        _ => Err(Problem::unread_image("it is neither PGM nor PNG")),
+        _ => Err(problem::unread_image("it is neither PGM nor PNG")),
     }
 }
 
 fn decode_png<T>(
     bytes: &[u8],
-    begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
-) -> Result<(T, Vec<Pixel>), Problem> {
-    let undecoded = |error: png::DecodingError| Problem::unread_image(error);
+    begin: impl FnOnce(u32, u32) -> Result<T, Diagnostic>,
+) -> Result<(T, Vec<Pixel>), Diagnostic> {
+    let undecoded = |error: png::DecodingError| problem::unread_image(error);
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: 16 * MAX_CELLS as usize });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(undecoded)?;
     let (width, height) = reader.info().size();
     let begun = begin(width, height)?;
-    let size = reader.output_buffer_size().ok_or_else(|| Problem::unread_image("it is too large"))?;
+    let size = reader.output_buffer_size().ok_or_else(|| problem::unread_image("it is too large"))?;
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(undecoded)?;
     samples.truncate(frame.buffer_size());
@@ -73,9 +74,9 @@ fn scaled(sample: u16, most: u16) -> u8 {
 /// Decodes the formats P2, P3, P5 and P6: grey or coloured, in decimal numbers or bytes.
 fn decode_pnm<T>(
     bytes: &[u8],
-    begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
-) -> Result<(T, Vec<Pixel>), Problem> {
-    let wrong = |what: &str| Problem::unread_image(what);
+    begin: impl FnOnce(u32, u32) -> Result<T, Diagnostic>,
+) -> Result<(T, Vec<Pixel>), Diagnostic> {
+    let wrong = |what: &str| problem::unread_image(what);
     let mut numbers = Numbers(&bytes[2..]);
     let mut positive = |what: &str| numbers.next().filter(|&number| number > 0).ok_or_else(|| wrong(what));
     let (width, height) =

@@ -9,22 +9,23 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
 use super::file::{Line, end, lines};
-use super::{Layout, MAX_SIDE_CELLS, Misread, Problem};
+use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
+use crate::diagnostic::Diagnostic;
 
 const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)";
 
 const ROWS: &str = "make `height` the number of rows that follow `map`";
 
 /// A header line is not as it should be.
-fn no_header(expected: &str) -> Problem {
+fn no_header(expected: &str) -> Diagnostic {
     let remedy = "a map begins with the lines `type octile`, `height N`, `width N` and `map`";
-    Problem::new(format!("the header line `{expected}` is missing here"), remedy)
+    Diagnostic::usage(format!("the header line `{expected}` is missing here"), remedy)
 }
 
 /// Reads a map.
 ///
 /// # Errors
-/// The first [`Problem`] from the top and the bytes it lies in: a header line that is not as above, a size
+/// The first [`Diagnostic`] from the top and the bytes it lies in: a header line that is not as above, a size
 /// out of bounds, a number that is none, rows of another length or number than the header
 /// says, an unknown symbol, or no free cell.
 pub fn read(source: &str) -> Result<Layout, Misread> {
@@ -42,7 +43,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
     for y in 0..layout.height() {
         let line = lines.next().ok_or_else(|| {
             let what = format!("the map has {}, not {}", counted(y as usize, "row"), layout.height());
-            Misread { at: end(source), problem: Problem::new(what, ROWS) }
+            Misread { at: end(source), problem: Diagnostic::usage(what, ROWS) }
         })?;
         read_row(&line, y, &mut layout)?;
     }
@@ -50,9 +51,9 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
         Some(line) => {
             let height = layout.height();
             let what = format!("this is row {}, but `height` is {height}", height + 1);
-            Err(line.misread(Problem::new(what, ROWS)))
+            Err(line.misread(Diagnostic::usage(what, ROWS)))
         }
-        None if layout.free_cells() == 0 => Err(first.misread(Problem::no_free_cell())),
+        None if layout.free_cells() == 0 => Err(first.misread(problem::no_free_cell())),
         None => Ok(layout),
     }
 }
@@ -81,7 +82,7 @@ fn count(line: &Line<'_>, expected: &'static str) -> Result<u64, Misread> {
     number.parse().map_err(|_| {
         let start = line.text.trim_end().len() - number.len();
         let what = format!("{number:?} is not the number N of the header line `{expected}`");
-        let problem = Problem::new(what, format!("write a whole number from 1 to {MAX_SIDE_CELLS}"));
+        let problem = Diagnostic::usage(what, format!("write a whole number from 1 to {MAX_SIDE_CELLS}"));
         line.misread_at(start..start + number.len(), problem)
     })
 }

@@ -1,5 +1,4 @@
-//! The faults of layouts, in any of its formats: `Display` says what, [`Problem::remedy`] what
-//! would be right.
+//! The faults of layouts, in any of its formats.
 
 use std::fmt;
 use std::ops::Range;
@@ -16,66 +15,40 @@ pub struct Misread {
     /// The bytes of the text.
     pub at: Range<usize>,
     /// The fault in them.
-    pub problem: Problem,
+    pub problem: Diagnostic,
 }
 
-/// A fault of a layout, or of the place that it should come from.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Problem {
-    what: String,
-    remedy: String,
-    /// The field of what was asked for that is wrong, if one alone is.
-    field: Option<&'static str>,
+/// A side or the area is out of bounds.
+pub fn of_size(width: u64, height: u64) -> Diagnostic {
+    Diagnostic::usage(format_args!("the size {width}x{height} is out of bounds"), sizes())
 }
 
-impl Problem {
-    /// A fault and its remedy.
-    pub(super) fn new(what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { what: what.into(), remedy: remedy.into(), field: None }
-    }
+/// Every cell is blocked.
+pub fn no_free_cell() -> Diagnostic {
+    Diagnostic::usage("no cell is free", "leave at least one cell free for the base")
+}
 
-    /// A fault of the image of a ROS map, and its remedy.
-    pub(super) fn of_image(what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { field: Some("image"), ..Self::new(what, remedy) }
-    }
+/// The base, or what else is called so, is not inside the rim.
+pub fn outside(what: &str, cell: Cell, size: Size) -> Diagnostic {
+    let (width, height) = (size.width() - 1, size.height() - 1);
+    let remedy = format!("columns go from 0 to {width}, rows from 0 to {height}");
+    Diagnostic::usage(format_args!("the {what} {cell} is outside the {size} cells"), remedy)
+}
 
-    /// The remedy.
-    pub fn remedy(&self) -> &str {
-        &self.remedy
-    }
+/// There is no such file.
+pub(super) fn no_file(what: &str) -> Diagnostic {
+    Diagnostic::usage(what, format_args!("name a layout file or one of the generators {}", examples()))
+}
 
-    /// A side or the area is out of bounds.
-    pub fn of_size(width: u64, height: u64) -> Self {
-        Self::new(format!("the size {width}x{height} is out of bounds"), sizes())
-    }
+/// The image of a ROS map cannot be read or decoded.
+pub(super) fn unread_image(message: impl fmt::Display) -> Diagnostic {
+    Diagnostic::usage(format_args!("the image cannot be read: {message}"), "give a whole PGM or PNG file")
+}
 
-    /// Every cell is blocked.
-    pub fn no_free_cell() -> Self {
-        Self::new("no cell is free", "leave at least one cell free for the base")
-    }
-
-    /// The base, or what else is called so, is not inside the rim.
-    pub fn outside(what: &str, cell: Cell, size: Size) -> Self {
-        let (width, height) = (size.width() - 1, size.height() - 1);
-        let remedy = format!("columns go from 0 to {width}, rows from 0 to {height}");
-        Self::new(format!("the {what} {cell} is outside the {size} cells"), remedy)
-    }
-
-    /// There is no such file.
-    pub(super) fn no_file(what: &str) -> Self {
-        Self::new(what, format!("name a layout file or one of the generators {}", examples()))
-    }
-
-    /// The image of a ROS map cannot be read or decoded.
-    pub(super) fn unread_image(message: impl fmt::Display) -> Self {
-        Self::new(format!("the image cannot be read: {message}"), "give a whole PGM or PNG file")
-    }
-
-    /// An image is named for a layout that has none.
-    pub(super) fn needless_image() -> Self {
-        let what = "`image` is given, but the layout is not a ROS map";
-        Self::of_image(what, "leave `image` out, or name the map's .yaml file")
-    }
+/// An image is named for a layout that has none.
+pub(super) fn needless_image() -> Diagnostic {
+    let what = "`image` is given, but the layout is not a ROS map";
+    Diagnostic::of_field("image", what, "leave `image` out, or name the map's .yaml file")
 }
 
 /// How large a layout can be.
@@ -88,26 +61,9 @@ pub(super) fn examples() -> String {
     FORMS.map(|form| form.example).join(", ")
 }
 
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.what)
-    }
-}
-
-impl std::error::Error for Problem {}
-
-impl From<Problem> for Diagnostic {
-    fn from(Problem { what, remedy, field }: Problem) -> Self {
-        match field {
-            Some(field) => Self::of_field(field, what, remedy),
-            None => Self::usage(what, remedy),
-        }
-    }
-}
-
 impl fmt::Display for Misread {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "byte {}: {}", self.at.start, self.problem)
+        write!(f, "byte {}: {}", self.at.start, self.problem.what())
     }
 }
 

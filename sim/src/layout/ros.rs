@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 
 use tautline_kernel::ground::Cell;
 
-use super::file::{at, in_file, read_bytes, read_text};
+use super::file::{at, read_bytes, read_text};
 use super::image::{Pixel, decode};
 use super::yaml::{FIELDS, Mapping, no_map};
-use super::{Layout, Misread, Problem};
+use super::{Layout, Misread, problem};
 use crate::diagnostic::Diagnostic;
 
 /// Where the cells of a map lie in the world.
@@ -63,15 +63,15 @@ pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Diagno
     let bytes = read_bytes(path).map_err(|problem| match (problem, image) {
         (_, given) if !path.exists() => {
             let what = format!("the image {} is not there", path.display());
-            let problem = Problem::of_image(what, "name another image with `image` FILE");
+            let problem = Diagnostic::of_field("image", what, "name another image with `image` FILE");
             match given {
-                Some(_) => problem.into(),
+                Some(_) => problem,
                 None => at(file, &source, &Misread { at: description.image_at.clone(), problem }),
             }
         }
-        (problem, _) => in_file(path, &Problem::unread_image(problem)),
+        (problem, _) => problem::unread_image(problem.what()).found_in(path),
     })?;
-    let layout = read(&description, &bytes).map_err(|problem| in_file(path, &problem))?;
+    let layout = read(&description, &bytes).map_err(|problem| problem.found_in(path))?;
     Ok((layout, description.frame))
 }
 
@@ -84,7 +84,7 @@ pub(super) fn image(file: &Path) -> Option<PathBuf> {
 /// Reads the YAML file.
 ///
 /// # Errors
-/// The first [`Problem`] and the bytes it lies in: no YAML, a field missing, a number out of bounds, another
+/// The first [`Diagnostic`] and the bytes it lies in: no YAML, a field missing, a number out of bounds, another
 /// mode.
 pub fn describe(source: &str) -> Result<Description, Misread> {
     let map = Mapping::read(source)?;
@@ -117,7 +117,7 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
         let mode = map.scalar("mode")?;
         if !matches!(mode.text.as_str(), "trinary" | "scale") {
             let what = format!("the mode {:?} is not supported", mode.text);
-            let problem = Problem::new(what, "save the map in mode trinary or scale");
+            let problem = Diagnostic::usage(what, "save the map in mode trinary or scale");
             return Err(Misread { at: mode.at.clone(), problem });
         }
     }
@@ -132,15 +132,15 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
 
 /// The problem of a field whose value, in the bytes `at`, is out of bounds.
 fn out_of_bounds(at: &Range<usize>, field: &str, allowed: &str) -> Misread {
-    Misread { at: at.clone(), problem: Problem::new(format!("`{field}` is out of bounds"), allowed) }
+    Misread { at: at.clone(), problem: Diagnostic::usage(format!("`{field}` is out of bounds"), allowed) }
 }
 
 /// Reads the image that `description` describes, from the `bytes` of its file. The size is checked before the
 /// pixels are decoded.
 ///
 /// # Errors
-/// [`Problem`] if it cannot be read, is too large, or shows no free cell.
-pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Problem> {
+/// [`Diagnostic`] if it cannot be read, is too large, or shows no free cell.
+pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Diagnostic> {
     let (mut layout, pixels) = decode(bytes, |width, height| Layout::open(width.into(), height.into()))?;
     let width = layout.width() as usize;
     for (place, &pixel) in pixels.iter().enumerate() {
@@ -148,7 +148,7 @@ pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Problem> 
             layout.block(Cell::new((place % width) as i16, (place / width) as i16));
         }
     }
-    if layout.free_cells() == 0 { Err(Problem::no_free_cell()) } else { Ok(layout) }
+    if layout.free_cells() == 0 { Err(problem::no_free_cell()) } else { Ok(layout) }
 }
 
 impl Description {

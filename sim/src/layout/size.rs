@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use super::problem;
+use crate::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Cell};
-
-use super::Problem;
 
 /// The most cells on a side.
 pub const MAX_SIDE_CELLS: u64 = 32_000;
@@ -22,13 +22,13 @@ impl Size {
     /// `width` columns and `height` rows.
     ///
     /// # Errors
-    /// [`Problem`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`].
-    pub fn new(width: u64, height: u64) -> Result<Self, Problem> {
+    /// [`Diagnostic`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`].
+    pub fn new(width: u64, height: u64) -> Result<Self, Diagnostic> {
         let sides_fit = 0 < width && width <= MAX_SIDE_CELLS && 0 < height && height <= MAX_SIDE_CELLS;
         if sides_fit && width * height <= MAX_CELLS {
             Ok(Self { width: width as i16, height: height as i16 })
         } else {
-            Err(Problem::of_size(width, height))
+            Err(problem::of_size(width, height))
         }
     }
 

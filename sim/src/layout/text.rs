@@ -20,7 +20,8 @@ use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::file::{Line, end, lines};
-use super::{Layout, MAX_SIDE_CELLS, Misread, Problem};
+use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
+use crate::diagnostic::Diagnostic;
 
 const MAGIC: &str = "tautline layout ";
 const VERSION: u32 = 1;
@@ -37,7 +38,7 @@ const CELLS: &str = "a cell is two spaces (free), `##` (blocked) or `B` and a sp
 /// Reads a drawing.
 ///
 /// # Errors
-/// The first [`Problem`] from the top and the bytes it lies in: another version, an unknown symbol, rows of
+/// The first [`Diagnostic`] from the top and the bytes it lies in: another version, an unknown symbol, rows of
 /// unequal length, an open rim, a drawing cut short, a second base, or no free cell.
 pub fn read(source: &str) -> Result<Layout, Misread> {
     let cut = || Misread { at: end(source), problem: cut_short() };
@@ -54,7 +55,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
 
     let width = rim.text.len().saturating_sub(1) / 3;
     if width == 0 || rim.text != format!("+{}", "--+".repeat(width)) {
-        return Err(rim.misread(Problem::new(
+        return Err(rim.misread(Diagnostic::usage(
             "the northern rim should be drawn here",
             "draw it as `+--+--+`, one `--` for each column",
         )));
@@ -73,7 +74,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
         }
     }
     if layout.free_cells() == 0 {
-        return Err(rim.misread(Problem::no_free_cell()));
+        return Err(rim.misread(problem::no_free_cell()));
     }
     if let Some(robots) = robots {
         layout.set_robots(robots);
@@ -82,19 +83,19 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
 }
 
 /// The drawing ends too early.
-fn cut_short() -> Problem {
+fn cut_short() -> Diagnostic {
     let remedy = "a drawing is a line of walls, then for each row a line of cells and a line of walls";
-    Problem::new("the drawing ends before its southern rim", remedy)
+    Diagnostic::usage("the drawing ends before its southern rim", remedy)
 }
 
 /// The number of robots is none.
-fn no_robots(count: &str) -> Problem {
+fn no_robots(count: &str) -> Diagnostic {
     let remedy = format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out");
-    Problem::new(format!("{count:?} is no number of robots"), remedy)
+    Diagnostic::usage(format!("{count:?} is no number of robots"), remedy)
 }
 
-fn open_rim() -> Problem {
-    Problem::new("the rim has a gap", "close it: `--` in the north and south, `|` in the east and west")
+fn open_rim() -> Diagnostic {
+    Diagnostic::usage("the rim has a gap", "close it: `--` in the north and south, `|` in the east and west")
 }
 
 /// The line that lies south of a row.
@@ -110,10 +111,10 @@ fn check_version(line: &Line<'_>) -> Result<(), Misread> {
         Some(VERSION) => Ok(()),
         Some(other) => {
             let what = format!("this is version {other}, this program reads version 1");
-            let problem = Problem::new(what, "write the drawing again with this program");
+            let problem = Diagnostic::usage(what, "write the drawing again with this program");
             Err(line.misread_at(MAGIC.len()..line.text.len(), problem))
         }
-        None => Err(line.misread(Problem::new(
+        None => Err(line.misread(Diagnostic::usage(
             "this is not the first line of a layout",
             "a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml",
         ))),
@@ -143,7 +144,7 @@ fn read_cells(line: &Line<'_>, y: i16, layout: &mut Layout) -> Result<(), Misrea
             (Some(BASE), None) => layout.place_base(cell).map_err(|problem| line.misread(problem))?,
             (Some(BASE), Some(first)) => {
                 let problem =
-                    Problem::new(format!("a second base; the first is {first}"), "leave one of them");
+                    Diagnostic::usage(format!("a second base; the first is {first}"), "leave one of them");
                 return Err(line.misread_at(inside, problem));
             }
             (Some(_) | None, _) => return Err(line.unknown(inside, CELLS)),

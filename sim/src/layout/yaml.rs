@@ -5,8 +5,9 @@
 
 use std::ops::Range;
 
+use super::Misread;
 use super::file::{Line, lines};
-use super::{Misread, Problem};
+use crate::diagnostic::Diagnostic;
 
 /// The keys that a map has; others are passed over.
 const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
@@ -60,7 +61,10 @@ enum Above {
 
 /// The problem of the bytes `at` of a file that is none of a map.
 pub(super) fn no_map(at: &Range<usize>, what: &str, remedy: &str) -> Misread {
-    Misread { at: at.clone(), problem: Problem::new(format!("this does not describe a map: {what}"), remedy) }
+    Misread {
+        at: at.clone(),
+        problem: Diagnostic::usage(format!("this does not describe a map: {what}"), remedy),
+    }
 }
 
 /// The problem of what YAML has, and this reader has not.
@@ -72,7 +76,7 @@ impl Mapping {
     /// Reads the values of the keys that a map has.
     ///
     /// # Errors
-    /// The first [`Problem`] from the top, and the bytes it lies in.
+    /// The first [`Diagnostic`] from the top, and the bytes it lies in.
     pub(super) fn read(source: &str) -> Result<Self, Misread> {
         let mut mapping = Self { entries: Vec::new(), end: 0..0 };
         let mut above = None;

@@ -143,7 +143,7 @@ fn check_header(header: &Named, layout: &Layout) -> Result<(), (&'static str, St
         return Err(("starts", format!("there are {} starts of {robots} robots", starts.len())));
     }
     let refused = starts.iter().find_map(|&start| layout.check_start(start).err());
-    refused.map_or(Ok(()), |problem| Err(("starts", problem.to_string())))
+    refused.map_or(Ok(()), |problem| Err(("starts", problem.what().to_owned())))
 }
 
 /// The team moves of robots in the cells `team`, and the end with its line.

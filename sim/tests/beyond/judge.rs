@@ -17,7 +17,7 @@ pub(crate) use pack::Pack;
 /// Column and row.
 pub(crate) type Place = (i32, i32);
 
-/// What is broken: the clause, and how.
+/// A broken clause, and how it is broken.
 pub(crate) type Broken = (&'static str, String);
 
 /// East, south, west, north.

@@ -1,4 +1,4 @@
-//! What the tests of several schemes need.
+//! Helpers for the tests of several schemes.
 
 use std::ops::ControlFlow;
 

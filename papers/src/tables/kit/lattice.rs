@@ -3,7 +3,8 @@
 use tautline_kernel::ground::{Cell, Edge};
 
 use super::PATHS;
-use tautline_sim::layout::{Layout, Problem, generate};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::layout::{Layout, generate};
 
 /// Lattices of one size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,7 +26,7 @@ pub(super) const FAMILIES: [Family; 4] = [
 impl Family {
     /// The layout of this seed, and the node where the team starts: paths in an order that is drawn, first those that
     /// connect nodes which are not connected yet, then others until there are 26.
-    pub(super) fn layout(self, seed: u64) -> Result<(Layout, Cell), Problem> {
+    pub(super) fn layout(self, seed: u64) -> Result<(Layout, Cell), Diagnostic> {
         let mut layout = Layout::open(self.columns, self.rows)?;
         let mut dice = generate::source(seed, *b"lattice ");
         let mut draw = |below: usize| generate::below(below as u32, &mut dice) as usize;

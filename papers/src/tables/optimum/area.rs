@@ -50,9 +50,9 @@ pub(super) struct Area {
 impl Area {
     pub(super) fn new(robots: u16) -> Result<Self, Halt> {
         let side = 2 * u64::from(robots) - 1;
-        let mut open = Layout::of(fit(Size::new(side, side))?);
-        let base = fit(open.default_base())?;
-        fit(open.place_base(base))?;
+        let mut open = Layout::of(Size::new(side, side)?);
+        let base = open.default_base()?;
+        open.place_base(base)?;
         let edges: Vec<Edge> = open.edges().collect();
         let symmetries = std::array::from_fn(|symmetry| {
             let image = |cell: Cell| {

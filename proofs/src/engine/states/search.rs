@@ -16,16 +16,27 @@ pub fn search<S: System>(
     starts: impl IntoIterator<Item = S::State>,
     limits: Limits<'_>,
 ) -> Findings<S::Demand> {
+    watched(system, starts, limits, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Searches as [`search`] does. `watch` hears before each state is looked at how many will have been, and may end the
+/// search, which is then not whole.
+pub fn watched<S: System>(
+    system: &S,
+    starts: impl IntoIterator<Item = S::State>,
+    limits: Limits<'_>,
+    watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Findings<S::Demand> {
     let mut search = Search::new(system, limits);
     for (start, state) in (0..).zip(starts) {
         search.meet_start(start, state);
     }
     let making = Steps::begin();
-    let mut stop = search.look_at_all(limits.most_steps, &making).break_value();
+    let mut stop = search.look_at_all(limits.most_steps, &making, watch).break_value();
     // What follows makes no step that was not made before, and may take its time.
     making.leave();
     if let (None, Some(demand)) = (stop, system.broken_by_endless_runs()) {
-        stop = search.look_for_rounds(demand).err().map(|TooLarge| Stop::TooMany);
+        stop = search.look_for_rounds(demand).err().map(|TooLarge| Stop::Unfinished);
     }
     let broken = std::mem::take(&mut search.broken);
     let situations = system.covers().into_iter().zip(0..);
@@ -37,7 +48,7 @@ pub fn search<S: System>(
         looked_at: search.looked_at as u64,
         steps: search.steps,
         bytes: search.taken.most,
-        is_whole: stop != Some(Stop::TooMany),
+        is_whole: stop != Some(Stop::Unfinished),
         broken: broken.into_iter().map(|broken| search.run(broken)).collect(),
         covered,
     }
@@ -47,7 +58,7 @@ pub fn search<S: System>(
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stop {
     Enough,
-    TooMany,
+    Unfinished,
 }
 
 struct Violation<D> {
@@ -116,15 +127,21 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     /// Makes all steps from all nodes.
-    fn look_at_all(&mut self, most_steps: u64, making: &Steps) -> ControlFlow<Stop> {
+    fn look_at_all(
+        &mut self,
+        most_steps: u64,
+        making: &Steps,
+        watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> ControlFlow<Stop> {
         while self.looked_at < self.known.len()
             && let Some(state) = self.state(self.looked_at)
         {
             // A search may wait for memory that another one has.
             making.leave();
             let is_due = self.looked_at.is_multiple_of(BETWEEN);
-            if is_due && !self.taken.hold(self.known.bytes() + self.graph.bytes()) {
-                return ControlFlow::Break(Stop::TooMany);
+            let has_room = !is_due || self.taken.hold(self.known.bytes() + self.graph.bytes());
+            if !has_room || watch(1 + self.looked_at as u64).is_break() {
+                return ControlFlow::Break(Stop::Unfinished);
             }
             let node = self.looked_at;
             let flow = self.look((node, &state), most_steps, making);
@@ -150,7 +167,7 @@ impl<'a, S: System> Search<'a, S> {
             making.next();
             let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
             if self.steps == most_steps || self.graph.is_full() {
-                return ControlFlow::Break(Stop::TooMany);
+                return ControlFlow::Break(Stop::Unfinished);
             }
             self.steps += 1;
             is_last = false;
@@ -396,6 +413,17 @@ mod tests {
     fn a_search_stops_at_the_most_steps() {
         let some = search(&GRAPH, [0], Limits::steps(4));
         assert_eq!((some.states, some.looked_at, some.steps, some.is_whole), (4, 4, 4, false));
+    }
+
+    #[test]
+    fn whoever_watches_a_search_hears_of_each_state_and_may_end_it() {
+        let mut heard = Vec::new();
+        let mut watch = |looked_at| {
+            heard.push(looked_at);
+            if looked_at == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let some = watched(&GRAPH, [0], Limits::NONE, &mut watch);
+        assert_eq!((some.looked_at, some.is_whole, heard), (2, false, vec![1, 2, 3]));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Next, Sight, TinyMap};
 
 use super::{Demand, Event, Setting, Successor, World};
-use crate::engine::states::{Bits, Places, System};
+use crate::engine::states::{self, Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
 /// A part of a world.
@@ -96,8 +96,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn differing(&self, one: &World<ROBOTS>, other: &World<ROBOTS>) -> Places {
         let maps = one.robots.iter().zip(&other.robots).map(|(one, other)| one.map() != other.map());
-        let differing = maps.chain([one.truth != other.truth, true]);
-        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+        states::places(maps.chain([one.truth != other.truth, true]))
     }
 
     fn put(&self, state: &mut World<ROBOTS>, place: usize, part: &Part<ROBOTS>) {

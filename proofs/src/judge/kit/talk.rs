@@ -1,4 +1,4 @@
-//! What two robots say to each other, as `SPEC.md` has it under “KIT: what robots say” (KIT-4, KIT-5).
+//! The messages between two robots, as `SPEC.md` has it under “KIT: what robots say” (KIT-4, KIT-5).
 
 use super::super::change::plain;
 use super::super::{Case, Objection, must};

@@ -10,7 +10,7 @@ use super::action::Message;
 use super::demand::Notes;
 use super::setting::{Faults, ROBOTS, WFRS};
 use super::{State, node, place, robot_id};
-use crate::engine::states::Places;
+use crate::engine::states::{self, Places};
 
 /// A part of a [`State`]. What concerns one robot or one WFR is a part, and so are the messages between a robot and the
 /// WFRs: of each there are few, and so the many that they make together cost little.
@@ -110,9 +110,7 @@ impl State {
                 || notes.best[wfr] != others.best[wfr]
                 || (notes.heard[wfr], notes.open[wfr]) != (others.heard[wfr], others.open[wfr])
         });
-        let differing = (0..).zip(robots.chain(wfrs));
-        let places = differing.fold(0, |places, (place, differs)| places | Places::from(differs) << place);
-        places
+        states::places(robots.chain(wfrs))
             | addressees(&self.network, &other.network) << NETWORK
             | Places::from(self.rest() != other.rest()) << REST
     }

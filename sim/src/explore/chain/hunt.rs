@@ -125,7 +125,7 @@ impl Part for Search {
 
     fn facts(&self) -> checkpoint::Facts {
         let Progress { runs, moves, .. } = self.progress();
-        checkpoint::Facts::Chain { runs, moves }
+        checkpoint::Facts::Runs { runs, moves }
     }
 
     fn words(&self) -> String {
@@ -146,7 +146,7 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntRepo
         let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
         Ok(Finding {
             clause: counterexample.broken.clause(),
-            facts: RunSize::Chain { runs, walls, steps },
+            facts: RunSize::Runs { runs, walls, steps },
             title: format!(
                 "{}, {}; broken in {}",
                 counted(walls, "wall"),
@@ -165,7 +165,7 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntRepo
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
     Ok(HuntReport {
         robots,
-        facts: Facts::Chain { runs, moves, longest, max_walls },
+        facts: Facts::Runs { runs, moves, longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
         done: Done::WallsDone(done),
         title: format!(

@@ -49,8 +49,7 @@ fn is_costly<G: Grid, const ROBOTS: usize>(chain: &Chain<G, ROBOTS>) -> bool {
 
 /// The cells within reach of so many robots from `base` that are unexplored.
 fn left_out(layout: &Layout, chart: &Survey, base: Cell, robots: usize) -> Vec<Cell> {
-    let due = within_reach(chart.area(), base, robots, |edge| layout.is_open(edge));
-    due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+    chart.unexplored(within_reach(chart.area(), base, robots, |edge| layout.is_open(edge)))
 }
 
 /// The state of the robots that are left.

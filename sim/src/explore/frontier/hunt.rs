@@ -114,7 +114,7 @@ fn drifting(
     let mut found = Vec::new();
     for area in areas(size) {
         let what = format!("areas up to {}×{}", area.0, area.1);
-        let (looked, is_stopped) = watched(&system, system.starts(&[area]), what, asked, &mut count, hunter);
+        let looked = watched(&system, system.starts(&[area]), &what, asked, &mut count, hunter);
         if let Some(run) = looked.broken.first() {
             let layout = Layout::open(area.0 as u64, area.1 as u64)?;
             let start = layout.default_base()?;
@@ -129,7 +129,7 @@ fn drifting(
                 shown: Shown::Told(story),
             });
         }
-        if is_stopped || !looked.is_whole {
+        if !looked.is_whole {
             count.is_complete = false;
             break;
         }
@@ -161,14 +161,14 @@ fn searched<const ROBOTS: usize>(
         let Some(all) = setting::<ROBOTS>(rule, area) else { continue };
         let all = Setting { max_obstacles: most_obstacles(asked), max_losses, max_wrong, ..all };
         let what = format!("areas up to {}×{}", area.0, area.1);
-        let (looked, is_stopped) = watched(&all, all.starts(), what, asked, &mut count, hunter);
+        let looked = watched(&all, all.starts(), &what, asked, &mut count, hunter);
         for run in looked.broken {
             if found.iter().all(|(known, _)| *known != run.demand) {
                 let demand = run.demand;
                 found.push((demand, fewest(all, run, Most::NONE)));
             }
         }
-        if is_stopped || !looked.is_whole {
+        if !looked.is_whole {
             count.is_complete = false;
             break;
         }
@@ -226,7 +226,7 @@ fn report(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: 
     let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     told(
         (size, robots, &(walls + &lost)),
-        Facts::Frontier { size: size.to_string(), states, steps, max_walls, max_losses, error },
+        Facts::StatesWithLosses { size: size.to_string(), states, steps, max_walls, max_losses, error },
         (Done::CellsDone(cells.map(|cells| cells as u32)), covered),
         count,
         found,

@@ -94,7 +94,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     }
 
     fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
-        self.due.iter().copied().filter(|&cell| chart.step(cell).is_none()).collect()
+        chart.unexplored(self.due.iter().copied())
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {

@@ -77,17 +77,17 @@ struct Broken<const ROBOTS: usize> {
     found: Counterexample<ROBOTS>,
 }
 
-/// How all states of a lattice are searched; whether the work was ended is said beside what was found.
+/// How all states of a lattice are searched.
 type SearchAll<const ROBOTS: usize> =
-    fn(Setting<ROBOTS>, &Asked<'_>, &mut Count, &mut dyn Hunter) -> (Findings<Demand>, bool);
+    fn(Setting<ROBOTS>, &Asked<'_>, &mut Count, &mut dyn Hunter) -> Findings<Demand>;
 
 fn as_it_is<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     asked: &Asked<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
-) -> (Findings<Demand>, bool) {
-    watched(&setting, setting.starts(), what(&setting), asked, count, hunter)
+) -> Findings<Demand> {
+    watched(&setting, setting.starts(), &what(&setting), asked, count, hunter)
 }
 
 fn in_one_image(
@@ -95,8 +95,8 @@ fn in_one_image(
     asked: &Asked<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
-) -> (Findings<Demand>, bool) {
-    watched(&SymmetricLattice::new(setting), setting.starts(), what(&setting), asked, count, hunter)
+) -> Findings<Demand> {
+    watched(&SymmetricLattice::new(setting), setting.starts(), &what(&setting), asked, count, hunter)
 }
 
 fn what<const ROBOTS: usize>(setting: &Setting<ROBOTS>) -> String {
@@ -122,7 +122,7 @@ impl Hunt for Searched {
         let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
         Ok(told(
             (size, robots, &within.unwrap_or_default()),
-            Facts::Kit { size: size.to_string(), states, steps, max_walls },
+            Facts::States { size: size.to_string(), states, steps, max_walls },
             (Done::NodesDone(cells), covered),
             &count,
             found,
@@ -176,14 +176,14 @@ impl Searched {
                 if pass.demand.is_some_and(|demand| is_known(pass.clause(demand, ROBOTS))) {
                     continue;
                 }
-                let (looked, is_stopped) = search_all(setting, asked, count, hunter);
+                let looked = search_all(setting, asked, count, hunter);
                 let mut demands: Vec<Demand> = looked.broken.iter().map(|run| run.demand).collect();
                 demands.retain(|&demand| !is_known(pass.clause(demand, ROBOTS)));
                 all.extend(demands.into_iter().filter_map(|demand| {
                     let clause = pass.clause(demand, ROBOTS);
                     Some(Broken { clause, demand, found: fewest(setting, demand, Most::NONE)? })
                 }));
-                if is_stopped || !looked.is_whole {
+                if !looked.is_whole {
                     count.is_complete = false;
                     break 'lattices;
                 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Broken, Floor, Place, SIDES, add, broken};
 
-/// What happens to a run.
+/// A mishap of a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Trouble {
     /// Nothing, or bytes are lost, or robots go one by one.

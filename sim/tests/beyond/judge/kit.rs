@@ -29,7 +29,7 @@ pub(crate) struct Kit<'a> {
 const PATH: f64 = 3.0;
 /// As far as robots hear each other.
 const REACH: f64 = 10.0;
-/// What is lost in the arithmetic.
+/// The error that rounding may make.
 const SLIP: f64 = 1e-6;
 
 impl Kit<'_> {
