@@ -9,6 +9,7 @@ mod explore;
 mod findings;
 mod hunt;
 mod interrupt;
+mod library;
 mod locate;
 mod manual;
 mod minimise;
@@ -126,6 +127,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Prove(prove::Prove),
+    Library(library::Library),
     Explore(explore::Explore),
     Hunt(hunt::Hunt),
     Minimise(minimise::Minimise),
@@ -341,6 +343,7 @@ impl Command {
     fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         match self {
             Self::Prove(prove) => prove.run(out),
+            Self::Library(library) => library.run(out),
             Self::Explore(explore) => explore.run(out),
             Self::Hunt(hunt) => hunt.run(out),
             Self::Minimise(minimise) => minimise.run(out),

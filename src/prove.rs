@@ -21,7 +21,7 @@ use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::keep;
 use super::output::Output;
-use super::{Exit, ForceArgs, positive, progress};
+use super::{Exit, ForceArgs, needless, positive, progress};
 use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
@@ -63,6 +63,13 @@ pub(super) struct Prove {
     /// The clauses to decide, by their ids. Without one, all are.
     #[arg(value_name = "CLAUSE")]
     clauses: Vec<String>,
+    #[command(flatten)]
+    how: Deciding,
+}
+
+/// How clauses are decided, and where it goes.
+#[derive(Debug, Args)]
+pub(super) struct Deciding {
     /// Store each counterexample as a file in DIR, which `tautline replay` plays. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -130,7 +137,44 @@ struct Mutants {
 
 impl Prove {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let clauses = self.chosen()?;
+        self.how.decide(&self.chosen()?, out)
+    }
+
+    fn chosen(&self) -> Result<Vec<&'static Clause>, Diagnostic> {
+        if self.clauses.is_empty() {
+            return Ok(ledger::clauses().collect());
+        }
+        let find = |id: &String| {
+            ledger::clauses().find(|clause| clause.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
+                let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
+                let remedy = format!("the clauses are {}", known.join(", "));
+                Diagnostic::usage(format_args!("there is no clause {id:?}"), remedy)
+            })
+        };
+        self.clauses.iter().map(find).collect()
+    }
+}
+
+impl Deciding {
+    /// Where nothing is decided, there is nothing to store, and only text to print.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if more is asked for.
+    pub(super) fn nothing_is_decided(&self) -> Result<(), Diagnostic> {
+        if self.out.is_some() || self.force.force {
+            return Err(needless("--out", "nothing is decided"));
+        }
+        match self.format.format {
+            Format::Text => Ok(()),
+            Format::Json | Format::Github | Format::Junit => {
+                let remedy = "name what is to be decided, or leave out --format";
+                Err(Diagnostic::usage("nothing is decided that could have this format", remedy))
+            }
+        }
+    }
+
+    /// Decides `clauses`, and tells of it.
+    pub(super) fn decide(&self, clauses: &[&'static Clause], out: &mut Output) -> Result<Exit, Halt> {
         let replaceable = self.force.replaceable([]);
         if self.force.force && self.out.is_none() {
             let what = "--force without a file to store";
@@ -142,7 +186,7 @@ impl Prove {
                 Diagnostic::in_file(folder, what, "name a folder, or a place where one can be made")
             })?;
         }
-        let checks = ledger::checks(&clauses);
+        let checks = ledger::checks(clauses);
         let threads = rayon::current_num_threads() as u64;
         let room =
             self.memory.map_or(MemoryLimit::unbounded(), |Bytes(bytes)| MemoryLimit::of(bytes, threads));
@@ -207,20 +251,6 @@ impl Prove {
             (true, true) => Exit::Expected,
             (true, false) => Exit::Violation,
         })
-    }
-
-    fn chosen(&self) -> Result<Vec<&'static Clause>, Diagnostic> {
-        if self.clauses.is_empty() {
-            return Ok(ledger::clauses().collect());
-        }
-        let find = |id: &String| {
-            ledger::clauses().find(|clause| clause.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
-                let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
-                let remedy = format!("the clauses are {}", known.join(", "));
-                Diagnostic::usage(format_args!("there is no clause {id:?}"), remedy)
-            })
-        };
-        self.clauses.iter().map(find).collect()
     }
 }
 

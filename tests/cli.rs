@@ -20,6 +20,8 @@ mod files;
 mod frontier;
 #[path = "cli/kit.rs"]
 mod kit;
+#[path = "cli/library.rs"]
+mod library;
 #[path = "cli/locate.rs"]
 mod locate;
 #[path = "cli/seeds.rs"]

@@ -85,7 +85,7 @@ fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_
         let check = clause.checks[check];
         let file = refutation::store(&path, clause, check, &evidence, &Replaceable::default());
         file.expect("a refutation").keep().expect("room");
-        let again = replay(&path).expect("what was stored");
+        let again = replay(&path, &[]).expect("what was stored");
         assert_eq!((again.clause.id, again.check.bound()), (clause.id, check.bound()));
         assert_eq!(again.evidence.choices, evidence.choices, "{}", path.display());
         assert_eq!(again.evidence.demand, evidence.demand, "{}", path.display());
@@ -93,7 +93,7 @@ fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_
         for (what, changed) in tampered(&text) {
             if changed != text {
                 fs::write(&path, changed).expect("room");
-                assert!(replay(&path).is_err(), "{}: {what} is accepted", path.display());
+                assert!(replay(&path, &[]).is_err(), "{}: {what} is accepted", path.display());
             }
         }
         names.push(path);

@@ -1,7 +1,7 @@
 //! Tautline's claims, and how they are decided. The clauses of `SPEC.md` stand in the rooms of their schemes, with
 //! their mutants; shared rooms know no scheme, so that anyone can bring a rule of their own.
 //!
-//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`decide`], [`clause`], [`ledger`], [`judge`].
+//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`protocol`], [`decide`], [`clause`], [`ledger`], [`judge`].
 
 #[cfg(feature = "rooms")]
 pub mod ants;
@@ -32,6 +32,7 @@ pub mod pack;
 pub mod plural;
 #[cfg(feature = "rooms")]
 pub mod position;
+pub mod protocol;
 pub mod run;
 mod step_check;
 #[cfg(feature = "rooms")]

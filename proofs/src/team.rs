@@ -8,6 +8,7 @@
 //! ([`System`](crate::engine::states::System)): ways that lead to the same are gone once, and the shortest run comes
 //! first. [`Setting::strategy`] says which; where both can be asked, they agree.
 
+mod graph;
 mod ground;
 mod keeps;
 mod rule;
@@ -16,6 +17,7 @@ mod world;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
+pub use self::graph::{Graph, Graphs, Instance, Kind, Teams};
 pub use self::ground::{Ground, Map, Which};
 pub use self::keeps::Keeps;
 pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep, View};

@@ -14,8 +14,9 @@ mod limits;
 mod rounds;
 mod search;
 
+use std::collections::VecDeque;
 use std::hash::Hash;
-use std::iter;
+use std::{fmt, iter};
 
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
@@ -128,6 +129,42 @@ pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = St
         let (is_bound, breaks) = (system.is_bound(&turn), system.broken_by(&turn));
         Some(Step { state: after, event, occurs, acting, is_bound, breaks })
     })
+}
+
+/// A rule whose steps are not a function of their state.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Unrepeatable;
+
+impl fmt::Display for Unrepeatable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("from one state a step led to two: a rule may depend on nothing but its arguments")
+    }
+}
+
+/// States whose steps are made twice before a search.
+const TRIED: usize = 500;
+
+/// Makes the steps from the first few states twice, and compares them.
+///
+/// # Errors
+/// [`Unrepeatable`] if they differ: no search can be believed then.
+pub fn repeats<S: System>(
+    system: &S,
+    starts: impl IntoIterator<Item = S::State>,
+) -> Result<(), Unrepeatable> {
+    let parts = |state: &S::State| -> Vec<S::Part> {
+        (0..system.places(state)).map(|place| system.part(state, place)).collect()
+    };
+    let mut states: VecDeque<S::State> = starts.into_iter().take(TRIED).collect();
+    for _ in 0..TRIED {
+        let Some(state) = states.pop_front() else { break };
+        let first: Vec<S::State> = steps(system, &state).map(|step| step.state).collect();
+        if !steps(system, &state).map(|step| parts(&step.state)).eq(first.iter().map(parts)) {
+            return Err(Unrepeatable);
+        }
+        states.extend(first.into_iter().take(TRIED.saturating_sub(states.len())));
+    }
+    Ok(())
 }
 
 /// The situation in which a run ends.

@@ -121,7 +121,9 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
     }
 
     fn in_tree(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
-        let start = self.0.playing(rule, &[])?.start;
+        let playing = self.0.playing(rule, &[])?;
+        let start = playing.start.clone();
+        states::repeats(&playing, [start.clone()]).map_err(MethodError::new)?;
         let found = self.found(rule, until, desk)?;
         let broken = found.counterexamples.iter().find(|found| found.broken.0 == self.1);
         let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
@@ -137,6 +139,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
         };
         let playing = TeamWorld { setting: self.0, rule: rule.clone(), wanted: vec![Promise(self.1)], start };
+        states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
         let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
         let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));

@@ -83,6 +83,7 @@ pub fn path(folder: &Path, clause: &Clause, check: usize) -> PathBuf {
     let (rule, engine) = checks().nth(check).unwrap_or_default();
     let before = checks().take(check).filter(|&other| other == (rule, engine)).count();
     let number = if before == 0 { String::new() } else { format!("-{}", before + 1) };
+    let rule = rule.replace(' ', "-");
     folder.join(format!("{}-{rule}-{engine}{number}.jsonl", clause.id.to_lowercase()))
 }
 
@@ -135,15 +136,15 @@ pub struct Refutation {
     pub evidence: Evidence,
 }
 
-/// Reads the refutation at `path`, and plays it again.
+/// Reads the refutation at `path`, and plays it again: of a clause of the ledger, or of one of `others`.
 ///
 /// # Errors
 /// A [`Diagnostic`] that names the line and what is wrong.
-pub fn replay(path: &Path) -> Result<Refutation, Diagnostic> {
+pub fn replay(path: &Path, others: &[&'static Clause]) -> Result<Refutation, Diagnostic> {
     let mut lines = Lines::open(path, AGAIN)?;
     let first = lines.header(FORMAT, VERSION, MAX_LINE_BYTES)?;
     let header: Header = lines.parse(&first, AGAIN)?;
-    let (clause, checks) = find(&lines, &first, &header)?;
+    let checks = find(&lines, &first, &header, others)?;
     let mut seal = crc32fast::Hasher::new();
     seal.update(format!("{first}\n").as_bytes());
     let (mut choices, mut of) = (Choices::default(), Vec::new());
@@ -178,8 +179,7 @@ pub fn replay(path: &Path) -> Result<Refutation, Diagnostic> {
     };
     let (end, text) = end;
     lines.end()?;
-    let played = play(path, &checks, &choices, &of)?;
-    let (check, evidence) = played;
+    let (clause, check, evidence) = play(path, &checks, &choices, &of)?;
     if evidence.demand != header.demand {
         let what = format!("the demand that is broken is another: {:?}", evidence.demand);
         return Err(Diagnostic::in_line(path, 1, &first, spot(&first, "demand"), what, AGAIN));
@@ -201,43 +201,49 @@ fn spot(text: &str, key: &str) -> std::ops::Range<usize> {
     start..start + key.len() + 2
 }
 
-/// The clause of a header, and its checks that may be meant.
+/// A check, and the clause that it decides.
+type Meant = (&'static Clause, &'static dyn AnyCheck);
+
+/// The checks that a header may mean.
 fn find(
     lines: &Lines,
     text: &str,
     header: &Header,
-) -> Result<(&'static Clause, Vec<&'static dyn AnyCheck>), Diagnostic> {
-    let Some(clause) = ledger::clauses().find(|clause| clause.id == header.clause) else {
-        let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
+    others: &[&'static Clause],
+) -> Result<Vec<Meant>, Diagnostic> {
+    let clauses = || ledger::clauses().chain(others.iter().copied());
+    let Header { clause: id, rule: name, engine, bound, .. } = header;
+    let checks: Vec<Meant> = clauses()
+        .filter(|clause| clause.id == id)
+        .flat_map(|clause| clause.checks.iter().map(move |&check| (clause, check)))
+        .collect();
+    if checks.is_empty() {
+        let mut known: Vec<&str> = clauses().map(|clause| clause.id).collect();
+        known.dedup();
         let remedy = format!("the clauses are {}", known.join(", "));
-        let what = format!("there is no clause {:?}", header.clause);
-        return Err(lines.fault(text, "\"clause\"", what, remedy));
+        return Err(lines.fault(text, "\"clause\"", format_args!("there is no clause {id:?}"), remedy));
+    }
+    let fitting = |key: &str, what: &str, is: &dyn Fn(&dyn AnyCheck) -> bool, checks: Vec<Meant>| {
+        let fitting: Vec<Meant> = checks.into_iter().filter(|&(_, check)| is(check)).collect();
+        if fitting.is_empty() {
+            let what = format!("no check of {id} {what}");
+            return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
+        }
+        Ok(fitting)
     };
-    let fitting =
-        |key: &str, what: &str, is: &dyn Fn(&&dyn AnyCheck) -> bool, checks: Vec<&'static dyn AnyCheck>| {
-            let fitting: Vec<&dyn AnyCheck> = checks.into_iter().filter(is).collect();
-            if fitting.is_empty() {
-                let what = format!("no check of {} {what}", clause.id);
-                return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
-            }
-            Ok(fitting)
-        };
-    let Header { rule: name, engine, bound, .. } = header;
-    let checks = clause.checks.to_vec();
     let checks = fitting("rule", &format!("is about {name:?}"), &|check| check.rule() == name, checks)?;
-    let by = |check: &&dyn AnyCheck| check.engine() == engine;
+    let by = |check: &dyn AnyCheck| check.engine() == engine;
     let checks = fitting("engine", &format!("about it is decided by {engine:?}"), &by, checks)?;
-    let within = |check: &&dyn AnyCheck| check.bound() == *bound;
-    Ok((clause, fitting("bound", "by it has this bound", &within, checks)?))
+    fitting("bound", "by it has this bound", &|check| check.bound() == *bound, checks)
 }
 
 /// Plays `choices` by the first of `checks` that goes along with them.
 fn play(
     path: &Path,
-    checks: &[&'static dyn AnyCheck],
+    checks: &[Meant],
     choices: &Choices,
     of: &[u32],
-) -> Result<(&'static dyn AnyCheck, Evidence), Diagnostic> {
+) -> Result<(&'static Clause, &'static dyn AnyCheck, Evidence), Diagnostic> {
     let at = |at: usize, what: &str| {
         let all = choices.once.iter().chain(&choices.again);
         let text = all.zip(of).nth(at).map(|(&taken, &of)| {
@@ -253,7 +259,7 @@ fn play(
         None => Diagnostic::in_file(path, format_args!("this refutes nothing: {unfit}"), AGAIN),
     };
     let mut first = None;
-    for &check in checks {
+    for &(clause, check) in checks {
         match check.replay(choices) {
             Ok(RefutationPlay { of: asked, evidence }) => {
                 let misfit = (0..).zip(asked.iter().zip(of)).find(|(_, (asked, of))| asked != of);
@@ -261,7 +267,7 @@ fn play(
                     Some((place, (asked, _))) => {
                         Err(at(place, &format!("here there are {asked} to choose from")))
                     }
-                    None => Ok((check, evidence)),
+                    None => Ok((clause, check, evidence)),
                 };
             }
             Err(unfit) => first = first.or(Some(unfit)),

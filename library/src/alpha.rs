@@ -1,0 +1,167 @@
+//! The Alpha rule for swarms that stay together: Winfield, Liu, Nembrini and Martinoli (Swarm Intelligence 2, 2008);
+//! model checked by Dixon, Winfield, Fisher and Zeng (Robotics and Autonomous Systems 60, 2012) and, with symmetry, by
+//! Antuña, Araiza-Illan, Campos and Eder (2015). A robot goes forward. If fewer than α robots are within its range
+//! since its last step, it turns back; once there are α of them again, it turns left or right.
+
+use crate::prelude::*;
+
+/// The conditions of the rule.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Conditions {
+    /// A robot that misses the others goes on.
+    goes_on: bool,
+    /// A robot that loses the others turns back.
+    turns_back: bool,
+    /// A robot that has found them again turns left or right.
+    turns_aside: bool,
+}
+
+/// Robots on a grid without rim, so many cells wide and high; the range of each in cells, in both directions.
+struct Swarm {
+    robots: usize,
+    width: i8,
+    range: i8,
+    alpha: usize,
+    /// Whether all move at once.
+    is_joint: bool,
+}
+
+impl fmt::Display for Swarm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { robots, width, range, alpha, is_joint } = self;
+        let order = if *is_joint { "all together" } else { "one at a time" };
+        write!(f, "{robots} robots, {width}×{width} cells without rim, range {range}, α = {alpha}, ")?;
+        write!(f, "every connected start, {order}")
+    }
+}
+
+struct Robots(Conditions, &'static Swarm);
+
+/// Column and row as seen from robot 0, heading in quarter turns, and whether it misses the others.
+type Robot = (i8, i8, u8, bool);
+
+impl Robots {
+    /// Robots that are within the range of one.
+    fn near(&self, robots: &[Robot], me: usize) -> usize {
+        let apart = |one: i8, other: i8| {
+            let steps = (one - other).rem_euclid(self.1.width);
+            steps.min(self.1.width - steps)
+        };
+        let is_near = |&(column, row, ..): &Robot| {
+            apart(column, robots[me].0) <= self.1.range && apart(row, robots[me].1) <= self.1.range
+        };
+        robots.iter().filter(|robot| is_near(robot)).count() - 1
+    }
+
+    /// What a robot may do: one way, or two.
+    fn ways(&self, robots: &[Robot], me: usize) -> Vec<Robot> {
+        let (column, row, heading, misses) = robots[me];
+        let now = self.near(robots, me) < self.1.alpha;
+        let turns: &[u8] = match (misses, now) {
+            (false, true) if self.0.turns_back => &[2],
+            (true, false) if self.0.turns_aside => &[1, 3],
+            _ => &[0],
+        };
+        if now && misses && !self.0.goes_on {
+            return vec![robots[me]];
+        }
+        let go = |turn: &u8| {
+            let heading = (heading + turn) % 4;
+            let (columns, rows) = [(1, 0), (0, 1), (-1, 0), (0, -1)][usize::from(heading)];
+            (column + columns, row + rows, heading, now)
+        };
+        turns.iter().map(go).collect()
+    }
+
+    /// The swarm as seen from robot 0.
+    fn seen(&self, robots: Vec<Robot>) -> Vec<Robot> {
+        let (column, row, ..) = robots[0];
+        let from = |at: i8, zero: i8| (at - zero).rem_euclid(self.1.width);
+        robots
+            .into_iter()
+            .map(|robot| (from(robot.0, column), from(robot.1, row), robot.2, robot.3))
+            .collect()
+    }
+}
+
+impl Protocol for Robots {
+    type Rule = Conditions;
+    type Bound = &'static Swarm;
+    type State = Vec<Robot>;
+    const DEMANDS: &'static [Demand<Self>] =
+        &[Demand::again_and_again("every robot is connected", |swarm, robots: &Vec<Robot>| {
+            let is_lost = |&me: &usize| swarm.near(robots, me) < swarm.1.alpha;
+            (0..robots.len()).filter(is_lost).fold(0, |set, me| set | 1 << me)
+        })];
+
+    fn new(&rule: &Conditions, bound: &&'static Swarm) -> Result<Self, MethodError> {
+        Ok(Self(rule, bound))
+    }
+
+    fn starts(&self) -> Vec<Vec<Robot>> {
+        let width = self.1.width;
+        let places = (0..width * width)
+            .flat_map(|cell| (0..4).map(move |way| (cell % width, cell / width, way, false)));
+        let any: Vec<Robot> = places.collect();
+        let mut starts =
+            combinations((0..self.1.robots).map(|me| any[..if me == 0 { 4 } else { any.len() }].to_vec()));
+        starts.retain(|robots| (0..robots.len()).all(|me| self.near(robots, me) >= self.1.alpha));
+        starts
+    }
+
+    fn moves(&self, robots: &Vec<Robot>) -> Vec<Move<Vec<Robot>>> {
+        let all: Vec<usize> = (0..robots.len()).collect();
+        let acting =
+            if self.1.is_joint { vec![all.clone()] } else { all.iter().map(|&me| vec![me]).collect() };
+        let act = |acting: Vec<usize>| {
+            let ways =
+                |me: usize| if acting.contains(&me) { self.ways(robots, me) } else { vec![robots[me]] };
+            let actors = acting.iter().fold(0, |set, me| set | 1 << me);
+            let to = combinations(all.iter().map(|&me| ways(me))).into_iter();
+            to.map(move |to| Move { actors, words: "go", to: self.seen(to) }).collect::<Vec<_>>()
+        };
+        acting.into_iter().flat_map(act).collect()
+    }
+
+    fn draw(&self, robots: &Vec<Robot>) -> String {
+        let sign = |column: i8, row: i8| {
+            let here = robots.iter().find(|robot| (robot.0, robot.1) == (column, row));
+            here.map_or('.', |robot| ['>', 'v', '<', '^'][usize::from(robot.2)])
+        };
+        let line = |row: i8| (0..self.1.width).map(|column| sign(column, row)).collect::<String>();
+        (0..self.1.width).map(line).collect::<Vec<_>>().join("\n")
+    }
+}
+
+const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, is_joint: true };
+const RULE: Conditions = Conditions { goes_on: true, turns_back: true, turns_aside: true };
+const PUBLISHED: NamedRule<Conditions> = NamedRule::new("published", RULE);
+const STANDS: NamedRule<Conditions> =
+    NamedRule::new("stands when lost", Conditions { goes_on: false, turns_back: false, ..RULE });
+
+/// The rule.
+pub(crate) static ENTRY: Entry = Entry {
+    name: "alpha",
+    title: "Alpha",
+    source: "Winfield, Liu, Nembrini, Martinoli, *Modelling a Wireless Connected Swarm of Mobile Robots*, Swarm \
+             Intelligence 2, 2008; the model is ours, after that of Antuña, Araiza-Illan, Campos, Eder, arXiv 1505.05695, 2015",
+    clauses: &[promise(
+        "ALPHA-1",
+        "Every robot MUST be connected again and again.",
+        &[
+            &Check::new(PUBLISHED, &Keeps::<Robots>(&SWARM, 0), Holds, &[STANDS]),
+            &Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { is_joint: false, ..SWARM }, 0), Refuted, &[]),
+            &Check::new(
+                PUBLISHED,
+                &Keeps::<Robots>(&Swarm { robots: 3, width: 4, ..SWARM }, 0),
+                Refuted,
+                &[],
+            ),
+        ],
+    )],
+    larger: &[promise(
+        "ALPHA-1",
+        "Every robot MUST be connected again and again.",
+        &[&Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { robots: 3, ..SWARM }, 0), Refuted, &[])],
+    )],
+};

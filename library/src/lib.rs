@@ -1,0 +1,107 @@
+//! Published rules of other people, each in one file: its source, its conditions, what is demanded of it, and rules
+//! with one thing wrong that its checks must reject. The engines are Tautline's, and no room of Tautline knows the
+//! rules.
+
+mod alpha;
+mod ba_star;
+mod burgard;
+mod dijkstra;
+mod frontiers;
+mod gathering;
+mod lacam;
+mod page;
+mod perpetual;
+mod pibt;
+mod planned;
+mod prioritised;
+mod ricart;
+mod rmf_lane;
+mod rmf_swap;
+mod spanning_tree;
+mod yamauchi;
+
+use tautline_proofs::clause::{AnyCheck, Clause};
+use tautline_proofs::team::Graph;
+
+pub use page::page;
+
+/// All that the file of a rule is made with.
+mod prelude {
+    pub(crate) use std::fmt;
+
+    pub(crate) use tautline_proofs::clause::{Check, NamedRule};
+    pub(crate) use tautline_proofs::decide::MethodError;
+    pub(crate) use tautline_proofs::decide::Verdict::{Holds, Refuted};
+    pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations};
+    pub(crate) use tautline_proofs::team::{Graph, Graphs, Kind, Teams};
+
+    pub(crate) use crate::{Entry, conflicts, promise, robots};
+}
+
+/// A published rule.
+#[derive(Debug)]
+pub struct Entry {
+    /// The name on a command line.
+    pub name: &'static str,
+    /// The name in a table.
+    pub title: &'static str,
+    /// The source, as Markdown.
+    pub source: &'static str,
+    /// The promises, with what must come out.
+    pub clauses: &'static [Clause],
+    /// Promises within bounds that take longer.
+    pub larger: &'static [Clause],
+}
+
+/// All rules.
+pub static RULES: &[&Entry] = &[
+    &pibt::ENTRY,
+    &lacam::ENTRY,
+    &prioritised::ENTRY,
+    &rmf_lane::ENTRY,
+    &rmf_swap::ENTRY,
+    &yamauchi::ENTRY,
+    &burgard::ENTRY,
+    &spanning_tree::ENTRY,
+    &ba_star::ENTRY,
+    &gathering::ENTRY,
+    &perpetual::ENTRY,
+    &alpha::ENTRY,
+    &dijkstra::ENTRY,
+    &ricart::ENTRY,
+];
+
+/// The promises of all rules, those within larger bounds last.
+pub fn clauses() -> impl Iterator<Item = &'static Clause> {
+    let of = |clauses: fn(&Entry) -> &'static [Clause]| RULES.iter().flat_map(move |&rule| clauses(rule));
+    of(|rule| rule.clauses).chain(of(|rule| rule.larger))
+}
+
+/// A promise with its checks.
+const fn promise(
+    id: &'static str,
+    sentence: &'static str,
+    checks: &'static [&'static dyn AnyCheck],
+) -> Clause {
+    Clause { id, sentence, checks }
+}
+
+/// Whether two robots come into one cell, or change places.
+fn conflicts(before: &[u8], after: &[u8]) -> bool {
+    let robots = 0..before.len();
+    robots.clone().any(|one| {
+        let is_swap = |other: usize| before[one] == after[other] && after[one] == before[other];
+        (0..one).any(|other| after[one] == after[other] || is_swap(other))
+    })
+}
+
+/// Robots by number, each cell with the letter of the robot whose goal it is.
+fn robots(graph: &Graph, now: &[u8], goals: &[u8]) -> String {
+    graph.draw(|cell| {
+        let who = |cells: &[u8], first: u8| {
+            let place = cells.iter().position(|&other| other == cell);
+            place.map_or('.', |place| char::from(first + place as u8))
+        };
+        [who(now, b'0'), who(goals, b'a')].iter().collect()
+    })
+}

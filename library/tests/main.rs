@@ -1,0 +1,54 @@
+//! Every rule comes out as it is registered, and the page says so.
+
+use std::path::Path;
+use std::{env, fs};
+
+use tautline_library::{Entry, RULES, page};
+use tautline_proofs::ledger::{self, Row};
+
+/// The rules with their rows, as they are registered.
+fn decided(
+    clauses: fn(&'static Entry) -> &'static [tautline_proofs::clause::Clause],
+) -> Vec<(&'static Entry, Vec<Row>)> {
+    let all: Vec<_> = RULES.iter().flat_map(|&entry| clauses(entry)).collect();
+    let mut rows = ledger::decide_all(&all).expect("they can be decided").into_iter().peekable();
+    let of = |row: &Row, entry: &'static Entry| {
+        clauses(entry).iter().any(|clause| std::ptr::eq(clause, row.clause))
+    };
+    let by_entry = |&entry: &&'static Entry| {
+        let mut own = Vec::new();
+        while let Some(row) = rows.next_if(|row| of(row, entry)) {
+            own.push(row);
+        }
+        (entry, own)
+    };
+    let all: Vec<_> = RULES.iter().map(by_entry).collect();
+    let rows = all.iter().flat_map(|(_, rows)| rows);
+    let mut wrong = Vec::new();
+    for row in rows {
+        let (id, rule, found) = (row.clause.id, row.check.rule(), &row.decision);
+        eprintln!("{id} {rule}: {:?}, {} states, {:.1} s", found.verdict, found.cases, row.seconds);
+        if !row.is_as_registered() {
+            wrong.push(format!("{id} {rule}: {found:#?} {:?}", row.undecided));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    all
+}
+
+#[test]
+fn every_rule_comes_out_as_it_is_registered_and_the_page_says_so() {
+    let all = decided(|entry| entry.clauses);
+    let (path, page) = (Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/library.md"), page(&all));
+    if env::var("LIBRARY_UPDATE").is_ok_and(|value| value == "always") {
+        fs::write(&path, &page).expect("a page");
+    }
+    assert_eq!(fs::read_to_string(path).expect("a page"), page, "renew it with LIBRARY_UPDATE=always");
+}
+
+/// `cargo test -p tautline-library -- --ignored`: a minute, and gigabytes of memory.
+#[test]
+#[ignore = "it takes a minute"]
+fn every_rule_comes_out_as_it_is_registered_within_larger_bounds() {
+    decided(|entry| entry.larger);
+}

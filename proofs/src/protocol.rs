@@ -1,0 +1,125 @@
+//! A rule over states: what may happen next in each of them. Whoever implements [`Protocol`] says which states there
+//! are and how one looks; the search over all of them, weak fairness, replay and drawings follow ([`Keeps`]). A rule of
+//! one robot among others on cells is better brought as a [`Rule`](crate::team::Rule), in a setting.
+//!
+//! An actor is awake in a state if one of its moves is possible there. A run is weakly fair if it leaves out nobody who
+//! is awake throughout.
+
+mod film;
+mod keeps;
+mod mail;
+
+use std::fmt::{Debug, Display};
+use std::hash::Hash;
+
+pub use self::film::beside;
+pub use self::keeps::Keeps;
+pub use self::mail::{Letter, Mail};
+use crate::decide::MethodError;
+use crate::engine::states::Bits;
+
+/// A rule over states, in its surroundings.
+pub trait Protocol: Sized + Sync + 'static {
+    /// The rule, of which a mutant is another value.
+    type Rule: Sync;
+    /// The surroundings; their words are the bound.
+    type Bound: Display + Sync;
+    /// All that is.
+    type State: Clone + Eq + Hash + Debug;
+
+    /// The demands.
+    const DEMANDS: &'static [Demand<Self>];
+    /// The moves that must occur, by their words: where one does not, a check is open.
+    const COVERS: &'static [&'static str] = &[];
+
+    /// All follow `rule`.
+    ///
+    /// # Errors
+    /// [`MethodError`] if there are no such surroundings, or too many.
+    fn new(rule: &Self::Rule, bound: &Self::Bound) -> Result<Self, MethodError>;
+
+    /// The states in which runs begin; the smallest ones first, as they are told first.
+    fn starts(&self) -> Vec<Self::State>;
+
+    /// Every move that is possible in `state`, always in the same order. If there is none, the run is over.
+    fn moves(&self, state: &Self::State) -> Vec<Move<Self::State>>;
+
+    /// A drawing of `state`, in lines.
+    fn draw(&self, state: &Self::State) -> String;
+}
+
+/// A move to another state.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Move<S> {
+    /// The actors, a bit for each. With none of them it is a fault, which no run is bound to meet.
+    pub actors: Bits,
+    /// The move in words.
+    pub words: &'static str,
+    /// The state to which it leads.
+    pub to: S,
+}
+
+impl<S> Move<S> {
+    /// A move of one actor.
+    pub const fn of(actor: usize, words: &'static str, to: S) -> Self {
+        Self { actors: 1 << actor, words, to }
+    }
+
+    /// A move of so many actors at once.
+    pub const fn of_all(actors: usize, words: &'static str, to: S) -> Self {
+        Self { actors: (1 << actors) - 1, words, to }
+    }
+
+    /// A fault.
+    pub const fn fault(words: &'static str, to: S) -> Self {
+        Self { actors: 0, words, to }
+    }
+}
+
+/// Every way to take one of each of these.
+pub fn combinations<T: Clone>(choices: impl IntoIterator<Item = Vec<T>>) -> Vec<Vec<T>> {
+    let with = |taken: Vec<Vec<T>>, choices: Vec<T>| {
+        let next = |taken: Vec<T>| {
+            let each = choices.iter().map(move |choice| [&taken[..], std::slice::from_ref(choice)].concat());
+            each.collect::<Vec<_>>()
+        };
+        taken.into_iter().flat_map(next).collect()
+    };
+    choices.into_iter().fold(vec![Vec::new()], with)
+}
+
+/// When a demand is looked at.
+enum When<P: Protocol> {
+    Always(fn(&P, &P::State, &P::State) -> bool),
+    AtTheEnd(fn(&P, &P::State) -> bool),
+    Eventually(fn(&P, &P::State) -> bool),
+    AgainAndAgain(fn(&P, &P::State) -> Bits),
+}
+
+/// A demand on a protocol.
+pub struct Demand<P: Protocol> {
+    words: &'static str,
+    when: When<P>,
+}
+
+impl<P: Protocol> Demand<P> {
+    /// Of every move, from a state to the next one.
+    pub const fn always(words: &'static str, is_kept: fn(&P, &P::State, &P::State) -> bool) -> Self {
+        Self { words, when: When::Always(is_kept) }
+    }
+
+    /// Of the end of every run that ends.
+    pub const fn at_the_end(words: &'static str, is_kept: fn(&P, &P::State) -> bool) -> Self {
+        Self { words, when: When::AtTheEnd(is_kept) }
+    }
+
+    /// That this is so at some time in every run that is weakly fair.
+    pub const fn eventually(words: &'static str, is_so: fn(&P, &P::State) -> bool) -> Self {
+        Self { words, when: When::Eventually(is_so) }
+    }
+
+    /// That no weakly fair run comes to owe one of these, a bit for each, from some time on for ever.
+    pub const fn again_and_again(words: &'static str, owed: fn(&P, &P::State) -> Bits) -> Self {
+        Self { words, when: When::AgainAndAgain(owed) }
+    }
+}

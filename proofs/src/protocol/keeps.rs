@@ -1,0 +1,176 @@
+//! A check that a protocol keeps a demand within its bound.
+
+use tautline_kernel::choice::Oracle;
+
+use super::{Demand, Move, Protocol, When, beside};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use crate::engine::states::{self, Bits, Ending, System, steps};
+use crate::engine::world::{Turn, World, any_of, bit, picked};
+use crate::engine::{Choices, Script, ScriptError, Until};
+
+/// A check that the demand with this number is kept, in these surroundings.
+pub struct Keeps<P: Protocol>(
+    /// The bound.
+    pub P::Bound,
+    /// The number of the demand.
+    pub usize,
+);
+
+/// A protocol, of whose demands one is looked at.
+struct Playing<P: Protocol> {
+    protocol: P,
+    demand: &'static Demand<P>,
+}
+
+impl<P: Protocol> World for Playing<P> {
+    type State = P::State;
+    type Plan = Vec<Move<P::State>>;
+    /// The actors, and the move in words.
+    type Event = (Bits, &'static str);
+    type Demand = &'static str;
+
+    fn plan(&self, state: &mut P::State, _: &[u8]) -> Option<Self::Plan> {
+        let is_met = matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.protocol, state));
+        if is_met { None } else { any_of(self.protocol.moves(state)) }
+    }
+
+    fn settle(
+        &self,
+        state: &mut P::State,
+        moves: &Self::Plan,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Self::Event {
+        let Move { actors, words, to } = picked(moves, world);
+        *state = to;
+        (actors, words)
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        let is_broken = matches!(self.demand.when, When::Always(is_kept) if !is_kept(&self.protocol, turn.before, turn.after));
+        is_broken.then_some(self.demand.words).into_iter().collect()
+    }
+
+    fn broken_at_end(&self, state: &P::State, _: &[u8]) -> Vec<&'static str> {
+        let is_broken = match self.demand.when {
+            When::Always(_) => false,
+            When::AtTheEnd(is_so) | When::Eventually(is_so) => !is_so(&self.protocol, state),
+            When::AgainAndAgain(owed) => owed(&self.protocol, state) != 0,
+        };
+        is_broken.then_some(self.demand.words).into_iter().collect()
+    }
+
+    fn covers(&self) -> Vec<&'static str> {
+        P::COVERS.to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        bit(P::COVERS, turn.event.1)
+    }
+}
+
+impl<P: Protocol> System for Playing<P> {
+    type Part = P::State;
+
+    fn part(&self, state: &P::State, _: usize) -> P::State {
+        state.clone()
+    }
+
+    fn put(&self, state: &mut P::State, _: usize, part: &P::State) {
+        state.clone_from(part);
+    }
+
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        turn.event.0
+    }
+
+    fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
+        turn.event.0 != 0
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        matches!(self.demand.when, When::Eventually(_) | When::AgainAndAgain(_)).then_some(self.demand.words)
+    }
+
+    fn owed(&self, state: &P::State) -> Bits {
+        match self.demand.when {
+            When::AgainAndAgain(owed) => owed(&self.protocol, state),
+            When::Always(_) | When::AtTheEnd(_) | When::Eventually(_) => 1,
+        }
+    }
+
+    fn awake(&self, state: &P::State) -> Bits {
+        self.protocol.moves(state).iter().fold(0, |set, next| set | next.actors)
+    }
+}
+
+impl<P: Protocol> Playing<P> {
+    /// The run, drawn state by state.
+    fn story(&self, start: &P::State, run: &states::Run<&'static str>) -> Depiction {
+        let mut state = start.clone();
+        let mut frames = vec![("start".to_owned(), self.protocol.draw(&state))];
+        for (place, &number) in run.steps.iter().chain(run.round()).enumerate() {
+            let Some(step) = steps(self, &state).nth(number as usize) else { break };
+            let (actors, words) = step.event;
+            let again = if place == run.steps.len() { "again: " } else { "" };
+            let title = if actors.is_power_of_two() {
+                format!("{again}{} {words}", actors.trailing_zeros())
+            } else {
+                format!("{again}{words}")
+            };
+            frames.push((title, self.protocol.draw(&step.state)));
+            state = step.state;
+        }
+        let end = match run.ending {
+            Ending::There => "",
+            Ending::Still => "\nnobody moves any more\n",
+            Ending::Round(_) => "\nand so on for ever\n",
+        };
+        Depiction::Story(beside(&frames) + end)
+    }
+}
+
+impl<P: Protocol> Keeps<P> {
+    fn playing(&self, rule: &P::Rule) -> Result<(Playing<P>, Vec<P::State>), MethodError> {
+        let none = || MethodError::new(format_args!("there is no demand {}", self.1));
+        let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
+        let playing = Playing { protocol: P::new(rule, &self.0)?, demand };
+        let starts = playing.protocol.starts();
+        Ok((playing, starts))
+    }
+}
+
+impl<P: Protocol> Method<P::Rule> for Keeps<P> {
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        self.0.to_string()
+    }
+
+    /// The choices are the number of the start, and those of the moves. A check over no start is open.
+    fn decide(&self, rule: &P::Rule, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+        let (playing, starts) = self.playing(rule)?;
+        states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
+        let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
+        let found = states::search(&playing, starts.iter().cloned(), limits);
+        let evidence = found.broken.first().and_then(|run| {
+            let choices =
+                Choices { once: [&[run.start as u32], &run.steps[..]].concat(), again: run.round().to_vec() };
+            Some(Evidence { choices, demand: run.demand, seen: playing.story(starts.get(run.start)?, run) })
+        });
+        let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
+        let is_whole = found.is_whole && is_covered && !starts.is_empty();
+        Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
+    }
+
+    fn replay(&self, rule: &P::Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let (playing, starts) = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
+        let mut script = Script::new(choices);
+        let number = script.choose(starts.len())?;
+        let (of, run) = script.play(&playing, (number, starts[number].clone()), |_| true)?;
+        let seen = playing.story(&starts[number], &run);
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
+}
