@@ -5,7 +5,7 @@
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
 From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie
-  KitTie.
+  KitTie Local LocalChain Ants Frontier.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -117,3 +117,24 @@ Print Assumptions KitTie.kit_answers_agree.
 Check KitTie.every_drive_is_in_the_table.
 Print Assumptions KitTie.every_drive_is_in_the_table.
 
+(** Any local rule. *)
+Check Local.every_N.
+Print Assumptions Local.every_N.
+Check Local.check_inductive.
+Print Assumptions Local.check_inductive.
+Check LocalChain.any_neighbours_keep_contact.
+Print Assumptions LocalChain.any_neighbours_keep_contact.
+Check LocalChain.each_condition_is_needed.
+Print Assumptions LocalChain.each_condition_is_needed.
+
+(** Models that nothing ties to the kernel. *)
+Check Ants.every_cell_is_entered.
+Print Assumptions Ants.every_cell_is_entered.
+Check Frontier.no_two_in_one_cell.
+Print Assumptions Frontier.no_two_in_one_cell.
+Check Frontier.every_run_ends.
+Print Assumptions Frontier.every_run_ends.
+Check Frontier.never_stuck.
+Print Assumptions Frontier.never_stuck.
+Check Frontier.all_that_is_joined_is_explored.
+Print Assumptions Frontier.all_that_is_joined_is_explored.
