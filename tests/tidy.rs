@@ -23,7 +23,7 @@ const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
     kernel bricks chain frontier kit mrc notice pack position tan:
-    proofs clause decide engine floor_trace judge plural protocol run step_check team: *
+    proofs clause decide engine floor_trace judge local plural protocol run step_check team: *
     proofs ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain

@@ -1,7 +1,7 @@
 //! Tautline's claims, and how they are decided. The clauses of `SPEC.md` stand in the rooms of their schemes, with
 //! their mutants; shared rooms know no scheme, so that anyone can bring a rule of their own.
 //!
-//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`protocol`], [`decide`], [`clause`], [`ledger`], [`judge`].
+//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`protocol`], [`local`], [`decide`], [`clause`], [`ledger`], [`judge`].
 
 #[cfg(feature = "rooms")]
 pub mod ants;
@@ -23,6 +23,7 @@ pub mod judge;
 #[cfg(feature = "rooms")]
 pub mod kit;
 pub mod ledger;
+pub mod local;
 #[cfg(feature = "rooms")]
 pub mod mrc;
 #[cfg(feature = "rooms")]

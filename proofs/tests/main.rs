@@ -9,6 +9,7 @@ mod judge_and_rule;
 mod judge_of_agents;
 mod judge_of_chains;
 mod judges;
+mod local;
 mod log;
 mod own_parts;
 mod own_rule;

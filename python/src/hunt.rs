@@ -101,9 +101,7 @@ pub(crate) fn hunt(
     let scheme = self::scheme(py, scheme)?;
     let rule = self::rule(py, scheme, rule)?;
     let hunt = scheme.hunt(rule).map_err(|fault| raised(py, &fault))?;
-    let size = size.map(|(width, height)| {
-        Size::new(width, height).map_err(|problem| raised(py, &problem))
-    });
+    let size = size.map(|(width, height)| Size::new(width, height).map_err(|problem| raised(py, &problem)));
     let size = size.transpose()?;
     let (error_cells, resume) = (error, None);
     let asked = Asked {

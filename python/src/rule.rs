@@ -174,8 +174,7 @@ fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyRe
         let clause = written.demands[demand].clause;
         let run = setting.run(written.starts().to_vec(), example);
         let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
-        let (layout, _) = layout_of(&run)
-            .map_err(|problem| halted(problem.into()))?;
+        let (layout, _) = layout_of(&run).map_err(|problem| halted(problem.into()))?;
         let (made, report) = stored(written, (&setting, &rule), &layout, demand).map_err(halted)?;
         if report.violations.is_empty() {
             return Err(written.not_pure(py));

@@ -1,0 +1,188 @@
+//! Rules that are local and the same everywhere, decided for every number of robots and every layout. Whoever
+//! implements [`Local`] says what one robot can do and what `k` robots may plan at once; the promise is about `k`
+//! robots, too. From that [`EveryNumber`] computes a set of relative places of `k` robots that keep the promise and that
+//! no admitted step leaves: then no run of any number of robots in any layout leaves it, since the rule speaks of
+//! nothing but `k` robots at a time. If there is no such set, teams of `k` and more robots are searched for a run that
+//! breaks the promise, the walls decided as robots meet them; if none is found, the question is open.
+//!
+//! The verdict is about the relation of plans that the rule admits, whoever picks among them. That the finite check is
+//! enough is proved in `proofs/rocq/Local.v`.
+
+mod invariant;
+mod team;
+
+use std::fmt::Debug;
+use std::hash::Hash;
+
+use tautline_kernel::ground::{Cell, Step};
+
+pub use self::invariant::Invariant;
+use self::team::Team;
+use crate::decide::{Answer, Context, Evidence, Method, MethodError, RefutationPlay};
+use crate::engine::states::{self, Limits};
+use crate::engine::{Choices, Script, ScriptError, Until};
+
+/// A robot as others see it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Robot<S> {
+    /// Its cell.
+    pub at: Cell,
+    /// Its state.
+    pub state: S,
+}
+
+/// What a robot may do next.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Act<S, A> {
+    /// The act.
+    pub act: A,
+    /// Where it leads.
+    pub step: Step,
+    /// What may come of it: whether the robot goes, and its next state. At least one.
+    pub ends: Vec<(bool, S)>,
+    /// Whether it is possible only over an edge that is known to be open.
+    pub needs_open: bool,
+}
+
+/// A robot and what it plans.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Plan<S, A> {
+    /// The robot.
+    pub robot: Robot<S>,
+    /// Its act.
+    pub act: A,
+    /// Where that leads.
+    pub step: Step,
+}
+
+impl<S, A> Plan<S, A> {
+    /// The cell to which the plan leads.
+    pub fn to(&self) -> Cell {
+        self.robot.at.after(self.step)
+    }
+}
+
+/// Robots that are farther apart than the rule looks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Far {
+    /// They keep the promise, and are not asked about.
+    Fine,
+    /// They break it.
+    Broken,
+}
+
+/// A rule that is local and the same everywhere.
+pub trait Local: Sync {
+    /// The state of a robot beside its cell.
+    type State: Copy + Eq + Ord + Hash + Debug;
+    /// An act.
+    type Act: Copy + Eq + Debug;
+
+    /// Of how many robots at once the rule speaks.
+    const ROBOTS: usize = 2;
+    /// Whether a robot may be kept from going though no wall stands in its way.
+    const FAULTS: bool = false;
+
+    /// All states.
+    fn states(&self) -> Vec<Self::State>;
+
+    /// Whatever a robot in this state can do.
+    fn acts(&self, state: Self::State) -> Vec<Act<Self::State, Self::Act>>;
+
+    /// Whether [`Local::ROBOTS`] robots may plan this at once. The answer may depend on where they are from each other,
+    /// and not on where they are: every answer is compared with that at one other place.
+    fn admits(&self, plans: &[Plan<Self::State, Self::Act>]) -> bool;
+
+    /// The promise, of robots that are at most [`Local::reach`] columns and rows from the first one.
+    fn keeps(&self, robots: &[Robot<Self::State>]) -> bool;
+
+    /// How far the promise looks, in cells, and what it says of robots that are farther.
+    fn reach(&self) -> (i16, Far);
+
+    /// Whether robots of which the rule speaks may start so, the first of them in cell (0, 0).
+    fn may_start(&self, robots: &[Robot<Self::State>]) -> bool;
+
+    /// A team of so many robots at its start: each tuple of which the rule speaks must be one that may start.
+    fn start(&self, robots: usize) -> Vec<Robot<Self::State>>;
+
+    /// Of which tuples of so many robots the rule speaks.
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>>;
+
+    /// Whether a robot never leaves its cell: a base.
+    fn is_fixed(&self, _robot: usize) -> bool {
+        false
+    }
+}
+
+/// An act of a rule.
+type ActOf<R> = Act<<R as Local>::State, <R as Local>::Act>;
+
+/// A robot of a rule.
+type RobotOf<R> = Robot<<R as Local>::State>;
+
+/// Every way to name `of` of so many robots, in any order.
+pub fn all_tuples(robots: usize, of: usize) -> Vec<Vec<usize>> {
+    let with = |tuple: Vec<usize>| {
+        let others = (0..robots).filter(|other| !tuple.contains(other));
+        others.map(|other| [&tuple[..], &[other]].concat()).collect::<Vec<_>>()
+    };
+    (0..of).fold(vec![Vec::new()], |tuples, _| tuples.into_iter().flat_map(with).collect())
+}
+
+/// Each robot with the next one.
+pub fn chain(robots: usize) -> Vec<Vec<usize>> {
+    (1..robots).map(|robot| vec![robot - 1, robot]).collect()
+}
+
+/// The promise of a [`Local`] rule, for every number of robots and every layout.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct EveryNumber {
+    /// The largest team that is searched for a run that breaks the promise.
+    pub most_robots: usize,
+    /// Steps of each of these searches.
+    pub most_steps: u64,
+}
+
+impl EveryNumber {
+    /// Teams of up to four robots, in a hundred thousand steps each.
+    pub const DEFAULT: Self = Self { most_robots: 4, most_steps: 100_000 };
+}
+
+impl<R: Local> Method<R> for EveryNumber {
+    fn engine(&self) -> &'static str {
+        "local"
+    }
+
+    fn bound(&self) -> String {
+        "every N, every layout; the relation".to_owned()
+    }
+
+    /// The choices are how many robots there are beyond those of which the rule speaks, and those of the steps.
+    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+        let invariant = Invariant::of(rule)?;
+        if invariant.holds() {
+            return Ok(Answer::new(None, true, Method::<R>::shows(self), invariant.cases));
+        }
+        for robots in R::ROBOTS..=self.most_robots {
+            let team = Team::new(rule, robots)?;
+            let limits = Limits { most_steps: self.most_steps, room: desk.room };
+            let found = states::search(&team, [team.start()], limits);
+            if let Some(run) = found.broken.first() {
+                let once = [&[(robots - R::ROBOTS) as u32], &run.steps[..]].concat();
+                let choices = Choices { once, again: Vec::new() };
+                let evidence = Evidence { choices, demand: run.demand, seen: team.story(run) };
+                return Ok(Answer::new(Some(evidence), true, Method::<R>::shows(self), invariant.cases));
+            }
+        }
+        Ok(Answer::new(None, false, Method::<R>::shows(self), invariant.cases))
+    }
+
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let mut script = Script::new(choices);
+        let more = script.choose((self.most_robots + 1).saturating_sub(R::ROBOTS))?;
+        let team = Team::new(rule, R::ROBOTS + more).map_err(|_| ScriptError::Unbroken)?;
+        let (of, run) = script.play(&team, (0, team.start()), |_| true)?;
+        let seen = team.story(&run);
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
+}
