@@ -17,15 +17,24 @@ takes larger bounds. With `--out DIR` counterexamples are stored, and `tautline 
 
 The models are ours: a file says how it reads its source, and a verdict is about that reading. PIBT and LaCAM break ties by the numbers
 of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robots move on a grid.
+Not every demand is one that the source makes: some say what a reader may expect and the rule does not promise, such as that no two robots
+set out for one frontier.
 
-A counterexample is the shortest one within the bound: breadth-first, the smallest layouts first. *N* states are all that were looked
-at.
+A counterexample is the shortest one within the bound: breadth-first, the smallest layouts first. Robots are numbers; the letter behind is
+the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all that were looked at.
 
-| rule | source | promise | about | verdict | bound | states | mutants killed | smallest counterexample |
-|---|---|---|---|---|---|---|---|---|
+| rule | source | checks that hold | refuted |
+|---|---|---|---|
 ";
 
-/// The rows of a rule: a line for each check, each with the number of its drawing among those of the rule.
+/// A rule in the table of all: how many of its checks hold, and how many are refuted.
+fn line(entry: &Entry, rows: &[Row]) -> String {
+    let count = |verdict| rows.iter().filter(|row| row.decision.verdict == verdict).count();
+    let (holds, refuted) = (count(Verdict::Holds), count(Verdict::Refuted));
+    format!("| [{}](#{}) | {} | {holds} | {refuted} |\n", entry.title, entry.name, entry.source)
+}
+
+/// The checks of a rule, a line for each, those that are refuted with the number of their drawing.
 fn table(entry: &Entry, rows: &[Row]) -> String {
     let (mut text, mut drawings) = (String::new(), 0);
     for row in rows {
@@ -36,24 +45,35 @@ fn table(entry: &Entry, rows: &[Row]) -> String {
         };
         let drawn = if decision.verdict == Verdict::Refuted {
             drawings += 1;
-            format!("[{}](#{})", heading(entry, drawings), heading(entry, drawings))
+            format!("[drawn](#{})", heading(entry, drawings))
         } else {
             "-".to_owned()
         };
-        let (id, sentence) = (row.clause.id, row.clause.sentence);
+        let (id, rule, verdict) = (row.clause.id, row.check.rule(), decision.verdict.word());
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "| {} | {} | {id}: {sentence} | {} | {} | {} | {} | {mutants} | {drawn} |",
-            entry.title,
-            entry.source,
-            row.check.rule(),
-            decision.verdict.word(),
+            "| {id} | {rule} | {verdict} | {} | {} | {mutants} | {drawn} |",
             row.check.bound(),
             decision.cases,
         );
     }
     text
+}
+
+/// A rule with its promises, its checks, and its counterexamples.
+fn section(entry: &Entry, rows: &[Row]) -> String {
+    let promises = entry.clauses.iter().map(|clause| format!("- {}: {}\n", clause.id, clause.sentence));
+    format!(
+        "\n## {}\n\n{}: {}.\n\n{}\n| promise | about | verdict | bound | states | mutants killed | counterexample |\n\
+         |---|---|---|---|---|---|---|\n{}{}",
+        entry.name,
+        entry.title,
+        entry.source,
+        promises.collect::<String>(),
+        table(entry, rows),
+        drawings(entry, rows),
+    )
 }
 
 /// The heading of a drawing.
@@ -73,9 +93,8 @@ fn drawings(entry: &Entry, rows: &[Row]) -> String {
         // Writing to a string cannot fail.
         let _ = write!(
             text,
-            "\n### {}\n\n{}, {}, {}: refuted is that {}.\n\n```text\n{}```\n",
+            "\n### {}\n\n{}, {}: refuted is that {}.\n\n```text\n{}```\n",
             heading(entry, number),
-            entry.title,
             row.clause.id,
             row.check.rule(),
             evidence.demand,
@@ -87,9 +106,7 @@ fn drawings(entry: &Entry, rows: &[Row]) -> String {
 
 /// The page of all rules, each with its rows.
 pub fn page(all: &[(&Entry, Vec<Row>)]) -> String {
-    let tables = all.iter().map(|(entry, rows)| table(entry, rows));
-    let drawn = all.iter().map(|(entry, rows)| drawings(entry, rows));
-    let tail = "\n## Counterexamples, drawn\n\nRobots are numbers; the letter behind is the robot whose goal the cell is (`a` for 0). \
-                Blocked cells are `#`.\n";
-    [HEAD.to_owned()].into_iter().chain(tables).chain([tail.to_owned()]).chain(drawn).collect()
+    let lines = all.iter().map(|(entry, rows)| line(entry, rows));
+    let sections = all.iter().map(|(entry, rows)| section(entry, rows));
+    [HEAD.to_owned()].into_iter().chain(lines).chain(sections).collect()
 }
