@@ -6,7 +6,7 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 
-use crate::engine::states::{self, Limits, MemoryLimit, Step, System, steps};
+use crate::engine::states::{self, Limits, MemoryLimit, Step, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
@@ -332,17 +332,11 @@ pub struct EveryState<R: 'static, S: System> {
 impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
     /// The events in `run` of `system`, in lines.
     fn story(&self, system: &S, run: &states::Run<&'static str>) -> Depiction {
-        let Some(mut state) = (self.starts)(system).into_iter().nth(run.start) else {
+        let Some(start) = (self.starts)(system).into_iter().nth(run.start) else {
             return Depiction::Choices;
         };
-        let mut lines = String::new();
-        for &number in run.steps.iter().chain(run.round()) {
-            let Some(step) = steps(system, &state).nth(number as usize) else { break };
-            lines += &(self.tell)(&state, &step);
-            lines.push('\n');
-            state = step.state;
-        }
-        Depiction::Story(lines)
+        let lines = run.played(system, start).map(|(before, step)| (self.tell)(&before, &step) + "\n");
+        Depiction::Story(lines.collect())
     }
 }
 
@@ -365,10 +359,7 @@ where
         let limits = Limits { most_steps: self.most_steps.into(), room: desk.room };
         let found = states::search(&system, (self.starts)(&system), limits);
         let evidence = found.broken.first().map(|run| Evidence {
-            choices: Choices {
-                once: [&[run.start as u32], &run.steps[..]].concat(),
-                again: run.round().to_vec(),
-            },
+            choices: run.choices(),
             demand: run.demand,
             seen: self.story(&system, run),
         });

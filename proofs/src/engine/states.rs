@@ -16,12 +16,13 @@ mod search;
 
 use std::collections::VecDeque;
 use std::hash::Hash;
-use std::{fmt, iter};
+use std::{fmt, iter, mem};
 
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
 
 use super::bodies::Odometer;
+use super::script::Choices;
 use super::world::{Turn, World};
 
 /// A set of at most sixteen things, one bit each.
@@ -220,5 +221,24 @@ impl<D> Run<D> {
             Ending::There | Ending::Still => &[],
             Ending::Round(round) => round,
         }
+    }
+
+    /// Its start and its steps as choices, those of its round apart.
+    pub fn choices(&self) -> Choices {
+        let once = [&[self.start as u32], &self.steps[..]].concat();
+        Choices { once, again: self.round().to_vec() }
+    }
+
+    /// Its steps and then those of its round, made from `state`: each with the state in which it begins.
+    pub fn played<S: System>(
+        &self,
+        system: &S,
+        mut state: S::State,
+    ) -> impl Iterator<Item = (S::State, Step<S>)> {
+        self.steps.iter().chain(self.round()).map_while(move |&number| {
+            let step = steps(system, &state).nth(number as usize)?;
+            let before = mem::replace(&mut state, step.state.clone());
+            Some((before, step))
+        })
     }
 }

@@ -12,7 +12,7 @@ use tautline_kernel::ground::{Cell, Step};
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View, unseen};
 use super::plans::{Area, FloorPlan};
 use super::small::{Misses, PartOf, Small, StateOf};
-use crate::engine::states::{Bits, Places, Run, System, steps};
+use crate::engine::states::{Bits, Places, Run, System};
 use crate::engine::world::{self, World, any_of, picked};
 use crate::floor_trace::{Course, Scene, Turn};
 
@@ -231,15 +231,14 @@ impl<S: Demands> Team<S> {
 
     /// The turns of `run`, which begins in `state`.
     pub(crate) fn course(&self, mut state: StateOf<S>, run: &Run<&str>) -> Course {
-        let (mut turns, round) = (Vec::new(), run.round());
-        for &number in run.steps.iter().chain(round) {
-            let Some(made) = steps(self, &state).nth(number as usize) else { break };
+        let mut turns = Vec::new();
+        for (before, made) in run.played(self, state.clone()) {
             let Action { agent, step, unseen, .. } = made.event;
             let is_done = !made.state.bodies[agent].is_awake();
-            turns.push(Turn { before: self.scene(&state), agent, step, is_done, unseen });
+            turns.push(Turn { before: self.scene(&before), agent, step, is_done, unseen });
             state = made.state;
         }
-        self.plan.course(turns, round.len(), self.scene(&state))
+        self.plan.course(turns, run.round().len(), self.scene(&state))
     }
 }
 

@@ -19,7 +19,7 @@ use super::crew::{Scheme, SensorData, Sight};
 use super::plans::{CELLS, FloorPlan, blocked};
 use super::small::{Misses, PartOf, Small, StateOf};
 use crate::engine::lots::{self, Lots};
-use crate::engine::states::{Bits, Limits, Places, Run, System, search, steps};
+use crate::engine::states::{Bits, Limits, Places, Run, System, search};
 use crate::engine::world::{Turn, World};
 
 /// The bounds of a search.
@@ -271,13 +271,10 @@ impl<S: Scheme> Floors<S> {
     /// The trap that `run` is, from one of `starts`.
     fn trap(&self, starts: &[Vec<Cell>], run: &Run<&str>) -> Trap {
         let starts = starts[run.start].clone();
-        let mut state = self.start(&starts);
         let (mut asked, mut missed) = (0, Vec::new());
-        for &number in &run.steps {
-            let Some(made) = steps(self, &state).nth(number as usize) else { break };
+        for (_, made) in run.played(self, self.start(&starts)).take(run.steps.len()) {
             missed.extend(made.event.missed.iter().map(|question| asked + question));
             asked += made.event.asked;
-            state = made.state;
         }
         let area = (0..self.plan.width * self.plan.height).map(|place| self.plan.cell(place as usize));
         Trap {

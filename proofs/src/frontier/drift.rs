@@ -80,9 +80,8 @@ impl Drift {
             return (String::new(), 0);
         };
         let mut lines = format!("{}×{} cells, it starts in {}\n", area.0, area.1, state.robot.at());
-        for &number in &run.steps {
-            let Some(step) = steps(self, &state).nth(number as usize) else { break };
-            lines += &tell(&state, &step.state);
+        for (before, step) in run.played(self, state) {
+            lines += &tell(&before, &step.state);
             lines.push('\n');
             state = step.state;
         }

@@ -4,7 +4,7 @@ use tautline_kernel::choice::Oracle;
 
 use super::{Demand, Move, Protocol, When, beside};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
-use crate::engine::states::{self, Bits, Ending, System, steps};
+use crate::engine::states::{self, Bits, Ending, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 use crate::engine::{Choices, Script, ScriptError, Until};
 
@@ -107,10 +107,8 @@ impl<P: Protocol> System for Playing<P> {
 impl<P: Protocol> Playing<P> {
     /// The run, drawn state by state.
     fn story(&self, start: &P::State, run: &states::Run<&'static str>) -> Depiction {
-        let mut state = start.clone();
-        let mut frames = vec![("start".to_owned(), self.protocol.draw(&state))];
-        for (place, &number) in run.steps.iter().chain(run.round()).enumerate() {
-            let Some(step) = steps(self, &state).nth(number as usize) else { break };
+        let mut frames = vec![("start".to_owned(), self.protocol.draw(start))];
+        for (place, (_, step)) in run.played(self, start.clone()).enumerate() {
             let (actors, words) = step.event;
             let again = if place == run.steps.len() { "again: " } else { "" };
             let title = if actors.is_power_of_two() {
@@ -119,7 +117,6 @@ impl<P: Protocol> Playing<P> {
                 format!("{again}{words}")
             };
             frames.push((title, self.protocol.draw(&step.state)));
-            state = step.state;
         }
         let end = match run.ending {
             Ending::There => "",
@@ -156,9 +153,11 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
         let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
         let evidence = found.broken.first().and_then(|run| {
-            let choices =
-                Choices { once: [&[run.start as u32], &run.steps[..]].concat(), again: run.round().to_vec() };
-            Some(Evidence { choices, demand: run.demand, seen: playing.story(starts.get(run.start)?, run) })
+            Some(Evidence {
+                choices: run.choices(),
+                demand: run.demand,
+                seen: playing.story(starts.get(run.start)?, run),
+            })
         });
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
         let is_whole = found.is_whole && is_covered && !starts.is_empty();

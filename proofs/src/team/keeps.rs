@@ -6,7 +6,7 @@ use super::ground::{Map, words};
 use super::rule::{Rule, Scene, When};
 use super::{Moves, Places, Promise, Setting, Strategy, TeamWorld};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Verdict};
-use crate::engine::states::{self, steps};
+use crate::engine::states;
 use crate::engine::tree::{self, Waves};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::plural::counted;
@@ -72,8 +72,7 @@ impl<R: Rule> TeamWorld<'_, R> {
     /// The frames of a run that was found among the states, and its last scene.
     fn played(&self, mut scene: Scene<R>, run: &states::Run<Promise>) -> (Vec<Frame>, Scene<R>) {
         let mut frames = Vec::new();
-        for &number in run.steps.iter().chain(run.round()) {
-            let Some(step) = steps(self, &scene).nth(number as usize) else { break };
+        for (_, step) in run.played(self, scene.clone()) {
             frames.push(step.event.frame(&step.state));
             scene = step.state;
         }
@@ -91,10 +90,8 @@ impl<R: Rule> TeamWorld<'_, R> {
         };
         let found =
             self.setting.run_of(start.cells().collect(), frames, last.map.as_ref(), (run.demand, ending));
-        let once = [&[run.start as u32], &run.steps[..]].concat();
-        let choices = Choices { once, again: run.round().to_vec() };
         let demand = self.demand(run.demand).words;
-        Some(Evidence { choices, demand, seen: Depiction::Robots(Box::new(found)) })
+        Some(Evidence { choices: run.choices(), demand, seen: Depiction::Robots(Box::new(found)) })
     }
 }
 
