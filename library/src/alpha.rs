@@ -53,7 +53,7 @@ impl Robots {
         robots.iter().filter(|robot| is_near(robot)).count() - 1
     }
 
-    /// What a robot may do: one way, or two.
+    /// The ways that a robot may go: one, or two.
     fn ways(&self, robots: &[Robot], me: usize) -> Vec<Robot> {
         let (column, row, heading, misses) = robots[me];
         let now = self.near(robots, me) < self.1.alpha;

@@ -31,17 +31,29 @@ pub struct Robot<S> {
     pub state: S,
 }
 
-/// What a robot may do next.
+/// A possible act of a robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Act<S, A> {
     /// The act.
     pub act: A,
     /// Where it leads.
     pub step: Step,
-    /// What may come of it: whether the robot goes, and its next state. At least one.
+    /// The possible outcomes, at least one: whether the robot goes, and its next state.
     pub ends: Vec<(bool, S)>,
     /// Whether it is possible only over an edge that is known to be open.
     pub needs_open: bool,
+}
+
+impl<S: Copy> Robot<S> {
+    /// Its plan to do `act`.
+    fn plans<A: Copy>(&self, act: &Act<S, A>) -> Plan<S, A> {
+        Plan { robot: *self, act: act.act, step: act.step }
+    }
+
+    /// The robot after this outcome of an act that leads there.
+    fn after(&self, step: Step, (goes, state): (bool, S)) -> Self {
+        Self { at: if goes { self.at.after(step) } else { self.at }, state }
+    }
 }
 
 /// A robot and what it plans.
@@ -99,7 +111,8 @@ pub trait Local: Sync {
     /// How far the promise looks, in cells, and what it says of robots that are farther.
     fn reach(&self) -> (i16, Far);
 
-    /// Whether robots of which the rule speaks may start so, the first of them in cell (0, 0).
+    /// Whether robots of which the rule speaks may start so, the first of them in cell (0, 0). Where the promise is broken
+    /// by robots that are far apart, none start so.
     fn may_start(&self, robots: &[Robot<Self::State>]) -> bool;
 
     /// A team of so many robots at its start: each tuple of which the rule speaks must be one that may start.

@@ -272,5 +272,9 @@ fn what_is_no_local_rule_is_refused_with_the_reason() {
     insta::assert_snapshot!(refusal(Leash { is_here_alone: true, ..LEASH }), @"the rule is not the same everywhere: it answers Cross(West) in 0,0, Cross(East) in -2,0 in another way 113 columns and 57 rows away");
     insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }), @"robots that start so break the promise: [Robot { at: (0,0), state: 0 }, Robot { at: (2,1), state: 0 }]");
     insta::assert_snapshot!(refusal(Leash { grows: true, ..LEASH }), @"1 is none of the states of the rule");
+    insta::assert_snapshot!(
+        refusal(Leash { reach: 0, ..LEASH }),
+        @"no robots may start: the promise would be about nothing"
+    );
     insta::assert_snapshot!(refusal(Leash { reach: 2_000, ..LEASH }), @"16008001 relative places are more than 4000000: let the rule look less far, or give it fewer states");
 }

@@ -1,11 +1,13 @@
 //! The greatest set of relative places that keep a promise and that no admitted step leaves.
 
 use std::collections::{HashMap, HashSet};
+use std::iter;
 
 use tautline_kernel::ground::Cell;
 
-use super::{ActOf, Far, Local, Plan, Robot, RobotOf};
+use super::{Far, Local, Plan, Robot, RobotOf};
 use crate::decide::MethodError;
+use crate::protocol::combinations;
 
 /// More relative places than these are refused.
 const MOST_PLACES: usize = 4_000_000;
@@ -16,7 +18,7 @@ const WIDER: i16 = 2;
 /// Robots of which a rule speaks at once, the first one in cell (0, 0).
 type Tuple<S> = Vec<Robot<S>>;
 
-/// What was found of a rule.
+/// A set of relative places that no admitted step of a rule leaves.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Invariant<S> {
     /// How many columns and rows robots are at most from the first one.
@@ -35,8 +37,8 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
     /// The set of `rule`: the first that holds of those that look as far as the promise and a little farther.
     ///
     /// # Errors
-    /// [`MethodError`] if the rule is not the same everywhere, has a state that is none of its states, looks too far, or
-    /// may start with a broken promise.
+    /// [`MethodError`] if the rule is not the same everywhere, has a state that is none of its states, looks too far,
+    /// may start with a broken promise, or may not start.
     pub fn of<R: Local<State = S>>(rule: &R) -> Result<Self, MethodError> {
         let (reach, far) = rule.reach();
         let widest = if far == Far::Fine { reach + WIDER } else { reach };
@@ -62,6 +64,9 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         let mut kept: HashSet<Tuple<S>> = all.iter().filter(|tuple| promised(rule, tuple)).cloned().collect();
         let (places, mut cases) = ((all.len(), kept.len()), 0);
         let starts: Vec<&Tuple<S>> = all.iter().filter(|tuple| rule.may_start(tuple)).collect();
+        if starts.is_empty() && !is_fine {
+            return Err(MethodError::new("no robots may start: the promise would be about nothing"));
+        }
         if let Some(start) = starts.iter().find(|&&start| !kept.contains(start)) {
             return Err(MethodError::new(format_args!("robots that start so break the promise: {start:?}")));
         }
@@ -143,22 +148,15 @@ fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, Metho
         (-window..=window)
             .flat_map(move |x| (-window..=window).map(move |y| Robot { at: Cell::new(x, y), state }))
     };
+    let first = states.iter().map(|&state| Robot { at: Cell::new(0, 0), state }).collect();
     let others: Vec<RobotOf<R>> = states.iter().flat_map(|&state| cells(state)).collect();
-    let mut all: Vec<Tuple<R::State>> =
-        states.iter().map(|&state| vec![Robot { at: Cell::new(0, 0), state }]).collect();
-    for _ in 1..R::ROBOTS {
-        let with = |tuple: Tuple<R::State>| {
-            others.iter().map(move |&other| [&tuple[..], &[other]].concat()).collect::<Vec<_>>()
-        };
-        all = all.into_iter().flat_map(with).collect();
-    }
-    Ok(all)
+    Ok(combinations(iter::once(first).chain(iter::repeat_n(others, R::ROBOTS - 1))))
 }
 
 /// A place far from (0, 0), to see whether a rule is the same there.
 const ELSEWHERE: (i16, i16) = (113, 57);
 
-/// What may come of a tuple in one step, as seen from its first robot then.
+/// Every tuple to which one step of a tuple may lead, as seen from its first robot then.
 fn each_step<R: Local>(
     rule: &R,
     tuple: &[RobotOf<R>],
@@ -166,13 +164,13 @@ fn each_step<R: Local>(
 ) -> Result<(), MethodError> {
     let states = rule.states();
     let acts: Vec<_> = tuple.iter().map(|robot| rule.acts(robot.state)).collect();
-    for chosen in products(&acts.iter().map(Vec::len).collect::<Vec<_>>()) {
-        let picked: Vec<_> = chosen.iter().zip(&acts).map(|(&number, acts)| &acts[number]).collect();
-        let plan = |(&robot, act): (&RobotOf<R>, &&ActOf<R>)| Plan { robot, act: act.act, step: act.step };
-        let plans: Vec<_> = tuple.iter().zip(&picked).map(plan).collect();
+    for picked in combinations(acts.iter().map(|acts| acts.iter().collect())) {
+        let plan = |robots: &[RobotOf<R>]| -> Vec<_> {
+            robots.iter().zip(&picked).map(|(robot, act)| robot.plans(act)).collect()
+        };
+        let plans = plan(tuple);
         let is_admitted = rule.admits(&plans);
-        let there: Vec<_> = moved(tuple, ELSEWHERE);
-        if rule.admits(&there.iter().zip(&picked).map(plan).collect::<Vec<_>>()) != is_admitted {
+        if rule.admits(&plan(&moved(tuple, ELSEWHERE))) != is_admitted {
             let word = |plan: &Plan<R::State, R::Act>| format!("{:?} in {}", plan.act, plan.robot.at);
             let words: Vec<String> = plans.iter().map(word).collect();
             let (columns, rows) = ELSEWHERE;
@@ -185,12 +183,10 @@ fn each_step<R: Local>(
         if !is_admitted {
             continue;
         }
-        for ends in products(&picked.iter().map(|act| act.ends.len()).collect::<Vec<_>>()) {
-            let after = |(plan, (act, &end)): (&Plan<_, _>, (&&ActOf<R>, &usize))| {
-                let (goes, state) = act.ends[end];
-                Robot { at: if goes { plan.to() } else { plan.robot.at }, state }
-            };
-            let next: Vec<_> = plans.iter().zip(picked.iter().zip(&ends)).map(after).collect();
+        for ends in combinations(picked.iter().map(|act| act.ends.clone())) {
+            let after =
+                tuple.iter().zip(&picked).zip(ends).map(|((robot, act), end)| robot.after(act.step, end));
+            let next: Vec<_> = after.collect();
             if let Some(robot) = next.iter().find(|robot| !states.contains(&robot.state)) {
                 let why = format!("{:?} is none of the states of the rule", robot.state);
                 return Err(MethodError::new(why));
@@ -199,13 +195,4 @@ fn each_step<R: Local>(
         }
     }
     Ok(())
-}
-
-/// Every way to take a number below each of these.
-pub(super) fn products(below: &[usize]) -> Vec<Vec<usize>> {
-    let with = |taken: Vec<Vec<usize>>, &below: &usize| {
-        let next = |taken: Vec<usize>| (0..below).map(move |number| [&taken[..], &[number]].concat());
-        taken.into_iter().flat_map(next).collect()
-    };
-    below.iter().fold(vec![Vec::new()], with)
 }

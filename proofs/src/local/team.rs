@@ -5,12 +5,12 @@ use std::fmt::Write;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::invariant::{products, promised, relative};
-use super::{ActOf, Local, Plan, Robot, RobotOf};
+use super::invariant::{promised, relative};
+use super::{ActOf, Local, Robot, RobotOf};
 use crate::decide::{Depiction, MethodError};
-use crate::engine::states::{Run, System, steps};
+use crate::engine::states::{Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
-use crate::protocol::beside;
+use crate::protocol::{beside, combinations};
 
 /// The demand.
 const PROMISE: &str = "the promise is kept by all robots of which the rule speaks";
@@ -42,7 +42,8 @@ impl<'r, R: Local> Team<'r, R> {
             let why = format!("{} robots start where {robots} should", team.start.len());
             return Err(MethodError::new(why));
         }
-        match team.tuples.iter().map(|tuple| seen(tuple, &team.start)).find(|tuple| !rule.may_start(tuple)) {
+        let may_not = |tuple: &Vec<RobotOf<R>>| !rule.may_start(tuple) || !promised(rule, tuple);
+        match team.tuples.iter().map(|tuple| seen(tuple, &team.start)).find(may_not) {
             Some(tuple) => {
                 Err(MethodError::new(format_args!("a team of {robots} may not start so: {tuple:?}")))
             }
@@ -54,21 +55,24 @@ impl<'r, R: Local> Team<'r, R> {
         (self.start.clone(), Vec::new())
     }
 
-    /// Every plan of all robots, as numbers of their acts, that the rule admits.
-    fn plans(&self, (robots, edges): &Start<R::State>) -> Vec<Vec<usize>> {
-        let mut all: Vec<Vec<usize>> = vec![Vec::new()];
-        for (me, robot) in robots.iter().enumerate() {
-            let acts = self.rule.acts(robot.state);
-            let is_possible = |act: &ActOf<R>| match act.step {
+    /// Every plan of all robots that the rule admits, each robot's act one of `acts`.
+    fn plans<'a>(
+        &self,
+        (robots, edges): &Start<R::State>,
+        acts: &'a [Vec<ActOf<R>>],
+    ) -> Vec<Vec<&'a ActOf<R>>> {
+        let mut all = vec![Vec::new()];
+        for (me, (robot, acts)) in robots.iter().zip(acts).enumerate() {
+            let is_possible = |act: &&ActOf<R>| match act.step {
                 Step::Stay => true,
                 Step::Cross(side) => {
                     let edge = (Edge::new(robot.at, side), true);
                     !self.rule.is_fixed(me) && (!act.needs_open || edges.contains(&edge))
                 }
             };
-            let possible = (0..acts.len()).filter(|&number| is_possible(&acts[number])).collect::<Vec<_>>();
-            let with = |plan: Vec<usize>| {
-                let next = possible.iter().map(move |&number| [&plan[..], &[number]].concat());
+            let possible: Vec<_> = acts.iter().filter(is_possible).collect();
+            let with = |plan: Vec<_>| {
+                let next = possible.iter().map(move |&act| [&plan[..], &[act]].concat());
                 next.filter(|plan| self.admits(robots, plan, me)).collect::<Vec<_>>()
             };
             all = all.into_iter().flat_map(with).collect();
@@ -77,40 +81,31 @@ impl<'r, R: Local> Team<'r, R> {
     }
 
     /// Whether the rule admits the plans of the first robots, `last` the last of them, in every tuple that has it.
-    fn admits(&self, robots: &[RobotOf<R>], plan: &[usize], last: usize) -> bool {
+    fn admits(&self, robots: &[RobotOf<R>], plan: &[&ActOf<R>], last: usize) -> bool {
         let is_due = |tuple: &&Vec<usize>| tuple.contains(&last) && tuple.iter().all(|&robot| robot <= last);
         self.tuples.iter().filter(is_due).all(|tuple| {
-            let plan_of = |&robot: &usize| {
-                let act = self.rule.acts(robots[robot].state).swap_remove(plan[robot]);
-                Plan { robot: robots[robot], act: act.act, step: act.step }
-            };
-            self.rule.admits(&tuple.iter().map(plan_of).collect::<Vec<_>>())
+            let plans: Vec<_> = tuple.iter().map(|&robot| robots[robot].plans(plan[robot])).collect();
+            self.rule.admits(&plans)
         })
     }
 
-    /// What may come of a plan.
-    fn outcomes(&self, (robots, edges): &Start<R::State>, plan: &[usize]) -> Vec<Start<R::State>> {
-        let acts: Vec<_> = robots
-            .iter()
-            .zip(plan)
-            .map(|(robot, &number)| self.rule.acts(robot.state).swap_remove(number))
-            .collect();
+    /// Whatever comes of a plan, by the edges and by what robots do.
+    fn outcomes((robots, edges): &Start<R::State>, plan: &[&ActOf<R>]) -> Vec<Start<R::State>> {
         let mut outcomes = Vec::new();
-        'ends: for ends in products(&acts.iter().map(|act| act.ends.len()).collect::<Vec<_>>()) {
+        'ends: for ends in combinations(plan.iter().map(|act| act.ends.clone())) {
             let (mut after, mut met) = (Vec::new(), edges.clone());
-            for ((robot, act), &end) in robots.iter().zip(&acts).zip(&ends) {
-                let (goes, state) = act.ends[end];
+            for ((robot, act), end) in robots.iter().zip(plan).zip(ends) {
                 if let Step::Cross(side) = act.step
-                    && (goes || !R::FAULTS)
+                    && (end.0 || !R::FAULTS)
                 {
                     let edge = Edge::new(robot.at, side);
                     match met.binary_search_by_key(&edge, |&(edge, _)| edge) {
-                        Ok(place) if met[place].1 != goes => continue 'ends,
+                        Ok(place) if met[place].1 != end.0 => continue 'ends,
                         Ok(_) => {}
-                        Err(place) => met.insert(place, (edge, goes)),
+                        Err(place) => met.insert(place, (edge, end.0)),
                     }
                 }
-                after.push(Robot { at: if goes { robot.at.after(act.step) } else { robot.at }, state });
+                after.push(robot.after(act.step, end));
             }
             outcomes.push((after, met));
         }
@@ -119,13 +114,9 @@ impl<'r, R: Local> Team<'r, R> {
 
     /// The run, drawn.
     pub(super) fn story(&self, run: &Run<&'static str>) -> Depiction {
-        let mut state = self.start();
-        let mut frames = vec![("start".to_owned(), draw(&state))];
-        for &number in &run.steps {
-            let Some(step) = steps(self, &state).nth(number as usize) else { break };
-            frames.push((step.event, draw(&step.state)));
-            state = step.state;
-        }
+        let start = self.start();
+        let mut frames = vec![("start".to_owned(), draw(&start))];
+        frames.extend(run.played(self, start).map(|(_, step)| (step.event, draw(&step.state))));
         Depiction::Story(beside(&frames))
     }
 }
@@ -165,14 +156,12 @@ impl<R: Local> World for Team<'_, R> {
     type Demand = &'static str;
 
     fn plan(&self, state: &mut Self::State, _: &[u8]) -> Option<Self::Plan> {
+        let acts: Vec<_> = state.0.iter().map(|robot| self.rule.acts(robot.state)).collect();
         let mut all = Vec::new();
-        for plan in self.plans(state) {
-            let word = |(robot, &number): (&RobotOf<R>, &usize)| {
-                format!("{:?}", self.rule.acts(robot.state)[number].act)
-            };
-            let words: Vec<String> = state.0.iter().zip(&plan).map(word).collect();
+        for plan in self.plans(state, &acts) {
+            let words: Vec<String> = plan.iter().map(|act| format!("{:?}", act.act)).collect();
             let words = words.join(", ");
-            all.extend(self.outcomes(state, &plan).into_iter().map(|next| (words.clone(), next)));
+            all.extend(Self::outcomes(state, &plan).into_iter().map(|next| (words.clone(), next)));
         }
         any_of(all)
     }
