@@ -1,5 +1,7 @@
 //! A refutation as a person sees it, whoever has found it: `prove` as it decides, `replay` in a file.
 
+use std::path::Path;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Edge;
@@ -10,9 +12,10 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
 
 use super::CATALOGUE;
-use tautline_sim::diagnostic::Halt;
-use tautline_sim::draw;
-use tautline_sim::explore::{ClauseId, RuleName, Setup, hunt};
+use tautline_sim::counterexample::refutation::{self, Refutation};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::draw::{self, page};
+use tautline_sim::explore::{ClauseId, Play, RuleName, Setup, hunt};
 use tautline_sim::named_values::NamedValues;
 
 /// A refutation as JSON.
@@ -50,6 +53,20 @@ pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Ha
         return Ok(None);
     };
     Ok(Some(hunt::setup(scheme, rule, run)?))
+}
+
+/// The setup of the run in a refutation that `prove` or `library` has stored.
+pub(super) fn stored(file: &Path) -> Result<Setup, Halt> {
+    let Refutation { check, evidence, .. } =
+        refutation::replay(file, &tautline_library::clauses().collect::<Vec<_>>())?;
+    let setup = match &evidence.seen {
+        Depiction::Robots(run) => setup(check, run)?,
+        Depiction::Choices | Depiction::Story(_) | Depiction::Agents(_) | Depiction::Messages { .. } => None,
+    };
+    setup.ok_or_else(|| {
+        let what = "this refutation is no run of a team in a layout";
+        Diagnostic::in_file(file, what, "draw it with `tautline replay`").into()
+    })
 }
 
 /// The clause that anyone sees a run break.
@@ -111,6 +128,28 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
             format!("{id} as {rule}: the shortest run that breaks it has {events} events.\n\n{chart}")
         }
     })
+}
+
+/// Writes the page of a refutation to `sink`: it plays the run that breaks the clause if the program can make it, and
+/// else tells the story.
+pub(super) fn page(
+    clause: &Clause,
+    check: &dyn AnyCheck,
+    evidence: &Evidence,
+    sink: &mut impl page::Sink,
+) -> Result<(), Halt> {
+    if let Depiction::Robots(run) = &evidence.seen
+        && let Some(setup) = setup(check, run)?
+    {
+        let report = setup.play(&mut |_| Ok(()))?;
+        if report.violations.iter().any(|broken| broken.clause.as_str() == clause.id) {
+            return page::write(sink, &setup, &report, &(1..=report.steps));
+        }
+    }
+    let title = format!("{} as {}", clause.id, check.rule());
+    let sentence = format!("{}: {}", clause.id, clause.sentence);
+    sink.add(&page::in_words(&title, &sentence, &story(clause, check, evidence)?));
+    Ok(())
 }
 
 fn named(walls: &[Edge]) -> String {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::error::ErrorKind;
@@ -12,33 +12,36 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Val
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
+use super::evidence;
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
 use super::{
     CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, number, positive, progress, whole,
 };
 use crate::value_parser::{self, chosen};
+use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::{page, svg};
+use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Scheme, Senses, Setup,
-    Stopped, Violation, explore, team,
+    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Reach, Report, RuleId, Scheme, Senses,
+    Setup, Stopped, Violation, explore, team,
 };
 use tautline_sim::failures::Failures;
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::layout::{self, Generator, Layout};
+use tautline_sim::layout::{self, Coarse, Generator, Layout};
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
-use tautline_sim::trace::Summary;
-use tautline_sim::value_parser::probability;
+use tautline_sim::trace::{Summary, Trace, lines};
+use tautline_sim::value_parser::{probability, real};
 use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
 Examples:
   tautline explore open:15x15 --robots 8 --draw order
-  tautline explore walls:15x15:0.1 --seed 7 --rule published --trace run.jsonl --replay run.html
+  tautline explore walls:15x15:0.1 --seed 7 --rule published --trace run.jsonl --html run.html
   tautline explore room-32-32-4.map --robots 16 --base 10,12 --format json
-  tautline explore office:30x30:4x4 --scheme bricks --robots 20 --replay run.html
+  tautline explore office:30x30:4x4 --scheme bricks --robots 20 --html run.html
   tautline explore office:30x30:4x4 --scheme bricks-ants --robots 2 --miss 0.0556 --start 0,0 --start 29,29";
 
 #[derive(Debug, Args)]
@@ -51,6 +54,19 @@ pub(super) struct LayoutArgs {
     /// The image of a ROS map, in place of the one that it names.
     #[arg(long, value_name = "FILE")]
     pub(super) image: Option<PathBuf>,
+    #[command(flatten)]
+    coarse: CoarseArgs,
+}
+
+#[derive(Debug, Args)]
+struct CoarseArgs {
+    /// The side of a cell of a ROS map, in metres: a whole number of pixels. Without it a cell is a pixel.
+    #[arg(long = "cell", value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
+    cell_m: Option<f64>,
+    /// The radius of a robot on a ROS map, in metres: cells and ways between them are free where it fits. Without it
+    /// half the side of a cell.
+    #[arg(long = "radius", value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
+    radius_m: Option<f64>,
 }
 
 impl LayoutArgs {
@@ -63,9 +79,24 @@ impl LayoutArgs {
         layout::inputs(&self.layout, self.image.as_deref())
     }
 
+    /// Refuses what only a ROS map can be told.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if something of it is told.
+    pub(super) fn refuse_map_options(&self, why: &str) -> Result<(), Diagnostic> {
+        let told = [
+            ("--image", self.image.is_some()),
+            ("--cell", self.coarse.cell_m.is_some()),
+            ("--radius", self.coarse.radius_m.is_some()),
+        ];
+        told.iter().find(|(_, is_told)| *is_told).map_or(Ok(()), |(option, _)| Err(needless(option, why)))
+    }
+
     /// The layout.
     pub(super) fn load(&self) -> Result<Layout, Diagnostic> {
-        layout::load(&self.layout, self.seed(), self.image.as_deref())
+        let Self { layout, image, coarse, .. } = self;
+        let coarse = Coarse { cell_m: coarse.cell_m, radius_m: coarse.radius_m };
+        layout::load_coarse(layout, self.seed(), image.as_deref(), coarse)
     }
 
     /// Whether a seed is given that the layout leaves unused.
@@ -81,12 +112,13 @@ impl LayoutArgs {
 pub(super) struct Explore {
     #[command(flatten)]
     layout: LayoutArgs,
-    /// How the team explores.
-    #[arg(long, value_parser = value_parser::scheme(), default_value = "chain")]
-    scheme: Scheme,
-    /// The scheme as published, or repaired.
-    #[arg(long, value_parser = value_parser::rule(), default_value = "repaired")]
-    rule: RuleId,
+    /// How the team explores. Without it as the stored run says, or `chain`.
+    #[arg(long, value_parser = value_parser::scheme())]
+    scheme: Option<Scheme>,
+    /// One of the scheme's rules, which `tautline schemes` lists. Without it as the stored run says, or the repaired
+    /// one, if there is one.
+    #[arg(long, value_parser = value_parser::rule(), hide_possible_values = true)]
+    rule: Option<RuleId>,
     /// Robots or agents; for the chain the base is one of them. Without it the layout says, or there are 8.
     #[arg(long, value_name = "N", value_parser = whole::<u64>)]
     robots: Option<u64>,
@@ -115,7 +147,7 @@ pub(super) struct Explore {
     viewers: ViewerArgs,
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
-    replay: Option<PathBuf>,
+    html: Option<PathBuf>,
     /// The drawing to print. Without it the outcome is drawn, if the area is small.
     #[arg(long, value_enum)]
     draw: Option<Draw>,
@@ -209,6 +241,9 @@ enum Draw {
     Moves,
 }
 
+/// The scheme that is taken where nobody says which.
+const DEFAULT_SCHEME: &Profile = &CHAIN;
+
 /// Wider areas are drawn only when asked for.
 const SMALL_COLUMNS: usize = 33;
 
@@ -216,7 +251,7 @@ impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
         let [itf, mcap] = self.viewers.paths();
-        let files = [&self.trace, &self.replay, &self.svg, itf, mcap];
+        let files = [&self.trace, &self.html, &self.svg, itf, mcap];
         let [trace, page, picture, itf, mcap] = self.force.files(files, self.layout.inputs())?;
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
@@ -261,34 +296,54 @@ impl Explore {
         Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
     }
 
-    fn setup(&self) -> Result<Setup, Diagnostic> {
-        let asked = self.asked();
-        asked.check()?;
+    fn setup(&self) -> Result<Setup, Halt> {
         if let Some((what, remedy)) = &self.told.wrong {
-            return Err(Diagnostic::usage(what, remedy));
+            return Err(Diagnostic::usage(what, remedy).into());
         }
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
-            return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
+            return Err(needless("--draw", "JSON has no drawing, and no picture is stored").into());
         }
-        let setup = asked.setup(self.layout.load()?)?;
+        let stored = self.stored()?;
+        let asked = self.asked(stored.as_ref());
+        asked.check()?;
+        let layout = stored.map_or_else(|| self.layout.load(), |stored| Ok(stored.layout))?;
+        let setup = asked.setup(layout)?;
         if self.layout.has_other_seed() && !setup.scheme.draws(&setup) {
-            return Err(setup.scheme.needless_seed());
+            return Err(setup.scheme.needless_seed().into());
         }
         Ok(setup)
     }
 
-    fn asked(&self) -> Asked {
-        Asked {
-            scheme: self.scheme,
-            rule: self.rule,
-            robots: self.robots,
-            seed: self.layout.seed(),
-            base: self.base.map(|CellArg(cell)| cell),
-            starts: self.start.iter().map(|&CellArg(cell)| cell).collect(),
-            miss: self.miss,
-            options: self.told.options,
-            limits: Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn },
+    /// The run that is stored in the file that is named in place of a layout, if one is.
+    fn stored(&self) -> Result<Option<Setup>, Halt> {
+        let file = Path::new(&self.layout.layout);
+        let setup = match lines::format(file).as_deref() {
+            Some(trace::FORMAT) => Trace::open(file, CATALOGUE)?.setup,
+            Some(refutation::FORMAT) => evidence::stored(file)?,
+            Some(_) | None => return Ok(None),
+        };
+        self.layout.refuse_map_options("a stored run has its layout")?;
+        Ok(Some(setup))
+    }
+
+    /// What is asked for; what nobody says is that of the stored run, where there is one of the scheme.
+    fn asked(&self, stored: Option<&Setup>) -> Asked {
+        let scheme = self.scheme.or(stored.map(|run| run.scheme)).unwrap_or_else(|| DEFAULT_SCHEME.into());
+        let stored = stored.filter(|run| run.scheme == scheme);
+        let mut asked = stored.map_or_else(|| Asked::new(scheme, scheme.default_rule()), Asked::again);
+        asked.rule = self.rule.unwrap_or(asked.rule);
+        asked.robots = self.robots.or(asked.robots);
+        asked.seed = self.layout.seed.unwrap_or(asked.seed);
+        if self.base.is_some() || !self.start.is_empty() {
+            asked.base = self.base.map(|CellArg(cell)| cell);
+            asked.starts = self.start.iter().map(|&CellArg(cell)| cell).collect();
         }
+        asked.miss = self.miss.or(asked.miss);
+        if self.told.options != Options::default() {
+            asked.options = self.told.options;
+        }
+        asked.limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
+        asked
     }
 
     fn draw(&self, setup: &Setup, report: &Report, out: &mut Output) -> Result<(), Halt> {
@@ -352,6 +407,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
         };
     }
     text.push('\n');
+    text += &reach(run.setup());
     if let Some(milliseconds) = report.milliseconds {
         let robot = run.setup().scheme.look.robot();
         let _ = writeln!(text, "the slowest {robot} took {} s", milliseconds / 1000);
@@ -389,7 +445,33 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
             text.push_str(&components(report, words));
         }
     }
-    text + &violations(report)
+    text + &violations(report) + &excuse(run.setup(), report)
+}
+
+/// How far the team comes, if there is more than that.
+fn reach(setup: &Setup) -> String {
+    let reach = team(setup).ok().and_then(|team| team.reach(&setup.layout));
+    match reach {
+        Some(Reach { cells, connected, robots }) if cells < connected => format!(
+            "{cells} of {} are within reach of a {} of {}; of one of {robots} all {connected} that are connected with \
+             the base\n",
+            counted(setup.layout.free_cells(), "free cell"),
+            setup.scheme.team,
+            setup.robots,
+        ),
+        Some(_) | None => String::new(),
+    }
+}
+
+/// Why a broken clause is no refutation of the rule, where the run need not keep to what clauses assume.
+fn excuse(setup: &Setup, report: &Report) -> String {
+    let is_told = |extra: &&&Extra| extra.is_told_by(&setup.options) && !report.violations.is_empty();
+    let excuse = |extra: &&Extra| {
+        let assumed = extra.assumed?;
+        let field = extra.field;
+        Some(format!("with --{field} this is no refutation of the rule: the clauses assume {assumed}\n"))
+    };
+    Extra::ALL.iter().filter(is_told).filter_map(excuse).collect()
 }
 
 /// The failures, in a line or two.

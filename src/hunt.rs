@@ -1,6 +1,7 @@
 //! `tautline hunt`: all layouts within a bound, until something breaks.
 
 use std::fmt::Write;
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -20,7 +21,7 @@ use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown};
-use tautline_sim::explore::{RuleId, Scheme, Senses};
+use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
 use tautline_sim::shards::{Plan, deal_hunt, hunt_part, hunted};
 use tautline_sim::trace::store;
 use tautline_sim::value_parser::real;
@@ -50,9 +51,9 @@ pub(super) struct Hunt {
     /// How the team explores.
     #[arg(long, value_parser = value_parser::scheme(), default_value = "chain")]
     scheme: Scheme,
-    /// The scheme as published, or repaired.
-    #[arg(long, value_parser = value_parser::rule(), default_value = "repaired")]
-    rule: RuleId,
+    /// One of the scheme's rules, which `tautline schemes` lists. Without it the repaired one, if there is one.
+    #[arg(long, value_parser = value_parser::rule(), hide_possible_values = true)]
+    rule: Option<RuleId>,
     /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
     /// looks at every order.
     #[arg(long, value_name = "N", value_parser = whole::<u64>)]
@@ -186,10 +187,10 @@ impl Hunt {
     }
 
     fn hunt(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let hunt = self.scheme.hunt(self.rule)?;
+        let hunt = self.scheme.hunt(self.rule())?;
         let asked = self.asked();
         asked.check(hunt)?;
-        check_folder(&self.out)?;
+        make_folder(&self.out)?;
         interrupt::defer();
         let start = Instant::now();
         let (bar, spinner) = (progress::bar("hunting", 1), progress::spinner("hunting"));
@@ -202,10 +203,14 @@ impl Hunt {
         tell((&asked, &hunted), (&self.out, &replaceable), self.format.format, out)
     }
 
+    fn rule(&self) -> RuleId {
+        self.rule.unwrap_or_else(|| self.scheme.default_rule())
+    }
+
     fn asked(&self) -> Asked<'_> {
         Asked {
             scheme: self.scheme,
-            rule: self.rule,
+            rule: self.rule(),
             robots: self.robots,
             size: self.size.map(|SizeArg(size)| size),
             budget: self.budget,
@@ -329,7 +334,7 @@ impl Answer<'_> {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "\n{}, {}\n\n{}", quarry.clause, quarry.title, picture(quarry)?);
             if let Some(file) = file {
-                let _ = writeln!(text, "replay it with: tautline replay {file}");
+                text += &again(file, &quarry.setup);
             }
         }
         if let Some(path) = self.asked.resume {
@@ -339,6 +344,15 @@ impl Answer<'_> {
     }
 }
 
+/// How to see the run of a file again, and, where no search has chosen anything in it, to hold a rule to it.
+pub(super) fn again(file: &str, setup: &Setup) -> String {
+    let mut text = format!("replay it with: tautline replay {file}\n");
+    if setup.choices.is_empty() && setup.missed.is_empty() {
+        text += &format!("try a rule on it: tautline explore {file} --rule RULE\n");
+    }
+    text
+}
+
 /// A counterexample as a person sees it.
 fn picture(quarry: &Finding) -> Result<String, Halt> {
     let setup = &quarry.setup;
@@ -346,17 +360,17 @@ fn picture(quarry: &Finding) -> Result<String, Halt> {
         (Shown::Run(_), Senses::Bumps) => story::last_move(setup),
         (Shown::Run(_), Senses::Floor) => story::of_trap(setup),
         (Shown::Endless, _) => Ok(format!("A run without end in this layout:\n\n{}", setup.layout)),
+        (Shown::Story(_, story), Senses::Bumps) => Ok(format!("{story}\n{}", story::last_move(setup)?)),
         (Shown::Story(_, story) | Shown::Told(story), _) => Ok(story.clone()),
     }
 }
 
-/// Checks that --out names a folder.
-pub(super) fn check_folder(out: &Path) -> Result<(), Diagnostic> {
-    if out.is_dir() {
-        return Ok(());
-    }
-    let what = if out.exists() { "this is no folder" } else { "there is no such folder" };
-    Err(Diagnostic::in_file(out, what, "give --out a folder that is there"))
+/// Makes the folder that --out names, if it is not there.
+pub(super) fn make_folder(out: &Path) -> Result<(), Diagnostic> {
+    fs::create_dir_all(out).map_err(|error| {
+        let what = format!("the folder cannot be made: {error}");
+        Diagnostic::in_file(out, what, "name a folder, or a place where one can be made")
+    })
 }
 
 /// Puts the file of a counterexample in its place; where it stands then.

@@ -8,7 +8,7 @@ use tautline_proofs::clause::Clause;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 use super::output::Output;
-use super::prove::Deciding;
+use super::prove::{Deciding, Detail};
 use super::{Exit, needless};
 
 const EXAMPLES: &str = "\
@@ -52,7 +52,7 @@ impl Library {
         if clauses.is_empty() {
             return Err(needless("--larger", "these rules have no larger bound").into());
         }
-        self.how.decide(&clauses, out)
+        self.how.decide(&clauses, Detail::Rows, out)
     }
 
     fn chosen(&self) -> Result<Vec<&'static Entry>, Diagnostic> {

@@ -23,6 +23,7 @@ mod reproduce;
 mod rescue;
 #[cfg(all(test, feature = "papers"))]
 mod schemas;
+mod schemes;
 mod shards;
 mod show;
 mod threads;
@@ -56,6 +57,23 @@ use tautline_sim::value_parser::{number, real, whole};
 /// The schemes of this program: without the papers, the chain has no rivals.
 #[cfg(not(feature = "papers"))]
 const CATALOGUE: Catalogue = Catalogue::OWN;
+
+/// The text that is printed without a command.
+const FIRST_STEPS: &str = "\
+Tautline decides what published rules for robot teams promise, and plays what breaks them.
+
+Begin with one of these:
+  tautline prove                           every verdict on one screen (a minute or two)
+  tautline hunt --rule published --max-cells 10 --max-walls 13 --out found
+                                           the smallest runs that break a chain of robots
+  tautline replay found/chain-1-published-n4.jsonl --html run.html
+                                           one of them, as a page that plays it
+  tautline explore open:15x15 --robots 8   a run that breaks nothing
+  tautline schemes                         who can explore, by which rules
+  tautline library                         other people's rules, decided
+
+All commands: tautline help; one of them: tautline help COMMAND
+";
 
 /// How a command ended. Where several are so, the last of them in this order is told.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -121,13 +139,14 @@ struct Cli {
     #[arg(long, global = true)]
     exit_zero: bool,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     Prove(prove::Prove),
     Library(library::Library),
+    Schemes(schemes::Schemes),
     Explore(explore::Explore),
     Hunt(hunt::Hunt),
     Minimise(minimise::Minimise),
@@ -312,7 +331,10 @@ fn command(cli: &Cli, name: &str) -> Exit {
     }
     threads::start();
     let mut out = Output::stdout();
-    let result = cli.command.run(&mut out);
+    let result = match &cli.command {
+        Some(command) => command.run(cli.verbose > 0, &mut out),
+        None => out.text(FIRST_STEPS).map(|()| Exit::Expected).map_err(Halt::from),
+    };
     if result != Err(Halt::Interrupted) {
         out.place();
     }
@@ -340,10 +362,11 @@ fn complain(fault: &Diagnostic) {
 }
 
 impl Command {
-    fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+    fn run(&self, is_verbose: bool, out: &mut Output) -> Result<Exit, Halt> {
         match self {
-            Self::Prove(prove) => prove.run(out),
+            Self::Prove(prove) => prove.run(is_verbose, out),
             Self::Library(library) => library.run(out),
+            Self::Schemes(schemes) => schemes.run(out),
             Self::Explore(explore) => explore.run(out),
             Self::Hunt(hunt) => hunt.run(out),
             Self::Minimise(minimise) => minimise.run(out),

@@ -39,7 +39,7 @@ impl Manual {
         let mut program = program().disable_help_subcommand(true);
         program.build();
         if let Some(folder) = &self.out {
-            hunt::check_folder(folder)?;
+            hunt::make_folder(folder)?;
             let replaceable = self.force.replaceable([]);
             for command in all(&program) {
                 let man = Man::new(command.clone());

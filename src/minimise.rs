@@ -59,7 +59,7 @@ pub(super) struct MinimiseJson {
 
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        hunt::check_folder(&self.out)?;
+        hunt::make_folder(&self.out)?;
         let trace = Trace::open(&self.file, CATALOGUE)?;
         let (setup, clause) = (trace.setup.clone(), self.clause.or(trace.clause));
         trace.replay(&mut |_| Ok(()))?;
@@ -88,7 +88,7 @@ impl Minimise {
                 out.text(tell(&self.file.display().to_string(), &minimised))?;
                 draw(&minimal.setup, &report, &(1..=report.steps), out)?;
                 if let Some(file) = &minimised.file {
-                    out.text(format_args!("\nreplay it with: tautline replay {file}\n"))?;
+                    out.text(format_args!("\n{}", hunt::again(file, &minimal.setup)))?;
                 }
             }
         }

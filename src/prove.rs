@@ -1,7 +1,10 @@
 //! `tautline prove`: the clauses of SPEC.md, decided.
 
-use std::fmt::Write;
-use std::fs;
+mod html;
+mod screen;
+
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -19,10 +22,10 @@ use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
 use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
-use super::hunt::keep;
+use super::hunt::{keep, make_folder};
 use super::output::Output;
 use super::{Exit, ForceArgs, needless, positive, progress};
-use tautline_sim::atomic_file::Replaceable;
+use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::trace;
@@ -33,6 +36,8 @@ Examples:
   tautline prove CHAIN-1 CHAIN-2
   tautline prove BRICKS-4 --out refutations
   tautline prove --memory 1GiB
+  tautline prove --verbose
+  tautline prove --html report.html
   tautline prove --format json
   tautline prove --format junit > prove.xml";
 
@@ -56,7 +61,13 @@ impl FromStr for Bytes {
 /// Seconds that one step may take, unless the user says otherwise.
 const PATIENCE: NonZeroU32 = NonZeroU32::new(PATIENCE_S).expect("it is above 0");
 
-/// Decide the clauses of SPEC.md within their bounds, and print the ledger.
+/// The name of the rules that the papers publish.
+const PUBLISHED: &str = "published";
+
+/// Decide the clauses of SPEC.md within their bounds, and print the verdicts.
+///
+/// Without a clause one screen tells how many verdicts there are of each kind. With one, or with `--verbose`, each check
+/// has its line in a ledger, and each counterexample is drawn.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Prove {
@@ -73,6 +84,9 @@ pub(super) struct Deciding {
     /// Store each counterexample as a file in DIR, which `tautline replay` plays. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Store a page with all of it: sentences, verdicts, what they rest on, and counterexamples that play.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice
     /// is left open. Without it they take what they need.
     #[arg(long, value_name = "SIZE")]
@@ -100,6 +114,7 @@ pub(super) struct Ledger {
 #[derive(JsonSchema, Serialize)]
 struct Line {
     id: &'static str,
+    sentence: &'static str,
     rule: &'static str,
     engine: &'static str,
     bound: String,
@@ -108,6 +123,12 @@ struct Line {
     given_up: u64,
     verdict: &'static str,
     registered: &'static str,
+    /// What is machine-checked beyond the bound.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    composition: Option<String>,
+    /// Why it is registered as refuted, if not as the sentence of a paper.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
     counterexample: Option<EvidenceJson>,
     /// Where it is stored, if it is.
     file: Option<String>,
@@ -136,8 +157,13 @@ struct Mutants {
 }
 
 impl Prove {
-    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        self.how.decide(&self.chosen()?, out)
+    pub(super) fn run(&self, is_verbose: bool, out: &mut Output) -> Result<Exit, Halt> {
+        let detail = match (self.clauses.is_empty(), is_verbose) {
+            (true, false) => Detail::Screen,
+            (true, true) => Detail::All,
+            (false, _) => Detail::Rows,
+        };
+        self.how.decide(&self.chosen()?, detail, out)
     }
 
     fn chosen(&self) -> Result<Vec<&'static Clause>, Diagnostic> {
@@ -155,14 +181,29 @@ impl Prove {
     }
 }
 
+/// How much is printed for people.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Detail {
+    /// How many verdicts there are of each kind.
+    Screen,
+    /// Each check, and each counterexample.
+    Rows,
+    /// All of that.
+    All,
+}
+
 impl Deciding {
     /// Where nothing is decided, there is nothing to store, and only text to print.
     ///
     /// # Errors
     /// A [`Diagnostic`] if more is asked for.
     pub(super) fn nothing_is_decided(&self) -> Result<(), Diagnostic> {
-        if self.out.is_some() || self.force.force {
-            return Err(needless("--out", "nothing is decided"));
+        for (option, is_given) in
+            [("--out", self.out.is_some()), ("--html", self.html.is_some()), ("--force", self.force.force)]
+        {
+            if is_given {
+                return Err(needless(option, "nothing is decided"));
+            }
         }
         match self.format.format {
             Format::Text => Ok(()),
@@ -174,17 +215,20 @@ impl Deciding {
     }
 
     /// Decides `clauses`, and tells of it.
-    pub(super) fn decide(&self, clauses: &[&'static Clause], out: &mut Output) -> Result<Exit, Halt> {
+    pub(super) fn decide(
+        &self,
+        clauses: &[&'static Clause],
+        detail: Detail,
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
         let replaceable = self.force.replaceable([]);
-        if self.force.force && self.out.is_none() {
+        if self.force.force && self.out.is_none() && self.html.is_none() {
             let what = "--force without a file to store";
-            return Err(Diagnostic::usage(what, "give --out, or leave out --force").into());
+            return Err(Diagnostic::usage(what, "give --out or --html, or leave out --force").into());
         }
+        let page = self.html.as_deref().map(|path| AtomicFile::new(path, &replaceable)).transpose()?;
         if let Some(folder) = &self.out {
-            fs::create_dir_all(folder).map_err(|error| {
-                let what = format!("the folder cannot be made: {error}");
-                Diagnostic::in_file(folder, what, "name a folder, or a place where one can be made")
-            })?;
+            make_folder(folder)?;
         }
         let checks = ledger::checks(clauses);
         let threads = rayon::current_num_threads() as u64;
@@ -226,25 +270,40 @@ impl Deciding {
         }
         let unfinished = unfinished(&rows, room);
         let as_registered = rows.iter().all(Row::is_as_registered);
-        match self.format.format {
-            Format::Json => {
-                let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
-                let (out_of_memory, unended) = (room.was_too_small(), rows.iter().any(is_undecided));
-                out.json(&Ledger { clauses, as_registered, out_of_memory, unended })?;
-            }
-            Format::Text => {
-                out.text(table(&rows))?;
-                for (row, file) in rows.iter().zip(&files) {
-                    out.text(story(row, file.as_deref())?)?;
+        let ledger = || -> Result<Ledger, Halt> {
+            let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
+            let (out_of_memory, unended) = (room.was_too_small(), rows.iter().any(is_undecided));
+            Ok(Ledger { clauses, as_registered, out_of_memory, unended })
+        };
+        if let Some(mut page) = page {
+            page.draw(html::report(&rows, &ledger()?))?;
+            out.keep(page);
+        }
+        match (self.format.format, detail) {
+            (Format::Json, _) => out.json(&ledger()?)?,
+            (Format::Text, detail) => {
+                if detail != Detail::Screen {
+                    out.text(table(&rows))?;
+                    for (row, file) in rows.iter().zip(&files) {
+                        out.text(story(row, file.as_deref())?)?;
+                    }
+                }
+                if detail == Detail::All {
+                    out.text("\n")?;
+                }
+                if detail != Detail::Rows {
+                    out.text(screen::screen(&rows))?;
+                    // Nobody may be there any more to read it.
+                    let _ = writeln!(io::stderr(), "{}", screen::slowest(&rows));
                 }
                 out.text(last_line(&rows))?;
                 out.text(&unfinished)?;
             }
-            Format::Github => {
+            (Format::Github, _) => {
                 let last = last_line(&rows) + &unfinished;
                 out.text(findings::github(&findings(&rows, room)?, &last))?;
             }
-            Format::Junit => out.text(findings::junit("prove", &findings(&rows, room)?))?,
+            (Format::Junit, _) => out.text(findings::junit("prove", &findings(&rows, room)?))?,
         }
         Ok(match (unfinished.is_empty(), as_registered) {
             (false, _) => Exit::Unfinished,
@@ -292,7 +351,7 @@ fn findings(rows: &[Row], room: &MemoryLimit) -> Result<Vec<Case>, Halt> {
             ),
         };
         Ok(Case {
-            class: clause.id.split('-').next().unwrap_or(clause.id).to_owned(),
+            class: clause.scheme().to_owned(),
             name: format!("{} as {}, {}: {}", clause.id, check.rule(), check.engine(), check.bound()),
             outcome,
             seconds: Some(seconds),
@@ -306,6 +365,7 @@ fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
     let evidence = decision.counterexample.as_ref();
     Ok(Line {
         id: clause.id,
+        sentence: clause.sentence,
         rule: check.rule(),
         engine: check.engine(),
         bound: check.bound(),
@@ -313,6 +373,8 @@ fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
         given_up: decision.given_up,
         verdict: decision.verdict.word(),
         registered: check.expected().word(),
+        composition: row.composition(),
+        reason: check.reason(),
         counterexample: evidence.map(|evidence| shown(check, evidence)).transpose()?,
         file: file.clone(),
         mutants: Mutants {

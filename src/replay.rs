@@ -16,7 +16,7 @@ use tautline_proofs::judge::chain::{Exhibit, judge, judges};
 use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
 
-use super::evidence::{EvidenceJson, setup, shown, story};
+use super::evidence::{self, EvidenceJson, setup, shown, story};
 use super::explore::{draw_moves, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
@@ -321,8 +321,9 @@ impl Replay {
         let is_judged = self.is_judged(clause, check, &evidence)?;
         let (rule, engine, bound) = (check.rule(), check.engine(), check.bound());
         let story = story(clause, check, &evidence)?;
-        if let Some(page) = page {
-            store_page(page, clause, check, &evidence, &story, out)?;
+        if let Some(mut page) = page {
+            evidence::page(clause, check, &evidence, &mut page)?;
+            out.keep(page);
         }
         match self.format.format {
             Format::Json => out.json(&RefutationJson {
@@ -395,32 +396,6 @@ impl Replay {
             None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
         }
     }
-}
-
-/// RunFiles the page of a refutation: it plays the run that breaks the clause if the program can make it, and else
-/// tells the story.
-fn store_page(
-    mut page: AtomicFile,
-    clause: &Clause,
-    check: &dyn AnyCheck,
-    evidence: &Evidence,
-    story: &str,
-    out: &mut Output,
-) -> Result<(), Halt> {
-    if let Depiction::Robots(run) = &evidence.seen
-        && let Some(setup) = setup(check, run)?
-    {
-        let report = setup.play(&mut |_| Ok(()))?;
-        if report.violations.iter().any(|broken| broken.clause.as_str() == clause.id) {
-            page::write(&mut page, &setup, &report, &(1..=report.steps))?;
-            out.keep(page);
-            return Ok(());
-        }
-    }
-    let title = format!("{} as {}", clause.id, check.rule());
-    page.append(page::in_words(&title, &format!("{}: {}", clause.id, clause.sentence), story));
-    out.keep(page);
-    Ok(())
 }
 
 /// The words about a run besides its outcome.

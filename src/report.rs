@@ -17,7 +17,7 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name, besides those that are told by an [`Extra`].
-const FIELDS: [&str; 25] = [
+const FIELDS: [&str; 27] = [
     "seed",
     "miss",
     "robots",
@@ -29,6 +29,8 @@ const FIELDS: [&str; 25] = [
     "max-moves",
     "resume",
     "image",
+    "cell",
+    "radius",
     "force",
     "trace",
     "out",

@@ -37,7 +37,7 @@ Examples:
   tautline rescue --obstacle 100,100,200,200 --robot 20,150 --wfr-at 350 --seeds 7
   tautline rescue --wfr 2 --robots 3 --loss 0.1 --events 3 --rule published
   tautline rescue --nodes 300 --scheme flooding --channel shared --noise-db 2
-  tautline rescue --wfr 3 --robots 3 --seeds 8 --rule published --trace rescue.jsonl --replay rescue.html
+  tautline rescue --wfr 3 --robots 3 --seeds 8 --rule published --trace rescue.jsonl --html rescue.html
 
 What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the first call \
 for each event at a WFR; assignments counts all WFRs and events of all seeds, and the events that were served_once, \
@@ -131,7 +131,7 @@ pub(super) struct Rescue {
     trace: Option<PathBuf>,
     /// Store the rescue as a page that plays it; one seed only.
     #[arg(long, value_name = "FILE")]
-    replay: Option<PathBuf>,
+    html: Option<PathBuf>,
     /// Store a map of the field with the ways of the robots as a picture; one seed only.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -222,14 +222,14 @@ impl Rescue {
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
-            let files = [&self.trace, &self.replay, &self.svg, &self.mcap];
+            let files = [&self.trace, &self.html, &self.svg, &self.mcap];
             let [trace, page, map, recording] = self.force.files(files, [])?;
             let report = rescue(&setting, seed).map_err(Diagnostic::from)?;
             tracing::info!("the rescue with seed {seed} has {}", counted(report.log.len(), "event"));
             let files = Files { trace, page, map, recording };
             return tell(out, self.format.format, (&setting, seed, &report), files);
         }
-        if [&self.trace, &self.replay, &self.svg, &self.mcap].into_iter().any(Option::is_some) {
+        if [&self.trace, &self.html, &self.svg, &self.mcap].into_iter().any(Option::is_some) {
             let first = seeds.start();
             let remedy = format!("give one seed, for example --seeds {first}");
             return Err(Diagnostic::usage("several rescues do not fit into one file", remedy).into());

@@ -10,7 +10,7 @@ use tautline_sim::schema::of;
 use tautline_sim::trace::Summary;
 
 use super::output::Versioned;
-use super::{hunt, locate, minimise, prove, replay, reproduce, rescue, shards, show};
+use super::{hunt, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show};
 
 /// The command that writes the schemas anew.
 const RENEW: &str = "SCHEMAS_UPDATE=always cargo test -p tautline --bin tautline schemas";
@@ -33,6 +33,7 @@ enum Either<A, B> {
 fn schemas() -> Vec<(String, Value)> {
     let commands = [
         ("prove", printed::<prove::Ledger>("tautline prove")),
+        ("schemes", printed::<schemes::SchemesJson>("tautline schemes")),
         ("hunt", printed::<hunt::HuntJson<'_>>("tautline hunt, and tautline merge of a hunt")),
         (
             "plan",

@@ -15,7 +15,7 @@ use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::shards::{Gap, Plan, Work, hunted, merge_hunt};
 
 use super::findings::FormatArgs;
-use super::hunt::{self, check_folder, shown};
+use super::hunt::{self, make_folder, shown};
 use super::output::Output;
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
@@ -227,7 +227,7 @@ impl Merge {
                         Diagnostic::usage("a hunt has no --picture and no --csv", "leave them out").into()
                     );
                 }
-                check_folder(&self.out)?;
+                make_folder(&self.out)?;
                 let asked = hunted(&plan, CATALOGUE)?;
                 let found = merge_hunt(&plan, &asked, &shards)?;
                 let replaceable = self.force.replaceable(inputs);

@@ -73,9 +73,7 @@ impl Show {
             if self.layout.seed.is_some() {
                 return Err(needless("--seed", why).into());
             }
-            if self.layout.image.is_some() {
-                return Err(needless("--image", why).into());
-            }
+            self.layout.refuse_map_options(why)?;
             let [file] = self.force.files([&self.svg], [])?;
             store(out, file, "The environments of a cell", &svg::environments());
             match self.format.format {

@@ -16,6 +16,8 @@ mod areas;
 mod failures;
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/first_steps.rs"]
+mod first_steps;
 #[path = "cli/frontier.rs"]
 mod frontier;
 #[path = "cli/kit.rs"]
@@ -675,7 +677,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
     let folder = folder();
     let folder = folder.path();
     let explore = ["explore", "walls:9x9:0.1", "--robots", "5", "--trace", "run.jsonl"];
-    printed(folder, &[&explore[..], &["--svg", "order.svg", "--replay", "run.html"]].concat(), 0);
+    printed(folder, &[&explore[..], &["--svg", "order.svg", "--html", "run.html"]].concat(), 0);
     printed(
         folder,
         &["replay", "run.jsonl", "--moves", "3..5", "--svg", "moves.svg", "--html", "moves.html"],
@@ -730,7 +732,7 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["hunt", "--scheme", "bricks", "--robots", "3"],
         &["hunt", "--scheme", "bricks", "--size", "5x4"],
         &["hunt", "--scheme", "bricks", "--resume", "hunt.json"],
-        &["hunt", "--scheme", "bricks", "--out", "nowhere"],
+        &["hunt", "--scheme", "bricks", "--out", "file"],
         &["hunt", "--scheme", "bricks-ants", "--rule", "published"],
         &["explore", "nowhere.map"],
         &["explore", "open:9x9", "--trace", "nowhere/run.jsonl"],
@@ -741,13 +743,13 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["rescue", "--wfr-at", "-1"],
         &["reproduce", "antenna-fig4", "--scans", "-1"],
         &["hunt", "--out", "file"],
-        &["hunt", "--out", "nowhere"],
+        &["hunt", "--out", "file"],
         &["hunt", "--robots", "65"],
         &["hunt", "--robots", "64", "--max-walls", "9"],
         &["hunt", "--robots", "2", "--max-walls", "13"],
         &["replay", "nowhere.jsonl"],
         &["minimise", "nowhere.jsonl"],
-        &["minimise", "file", "--out", "nowhere"],
+        &["minimise", "file", "--out", "file"],
         &["minimise", "file", "--clause", "CHAIN-4"],
         &["minimise"],
     ];
@@ -835,7 +837,7 @@ fn runs_of_agents_are_stored_and_replayed() {
         assert_eq!(replayed.status, explored.status, "{scheme}");
     }
     let explore = ["explore", "open:5x3", "--scheme", "bricks-ants", "--trace", "run.jsonl"];
-    let page = ["--replay", "run.html", "--svg", "order.svg"];
+    let page = ["--html", "run.html", "--svg", "order.svg"];
     printed(folder, &[&explore[..], &["--robots", "2", "--start", "4,2"], &page].concat(), 0);
     assert_snapshot!("frames_of_agents", printed(folder, &["replay", "run.jsonl"], 0));
     printed(folder, &["replay", "run.jsonl", "--svg", "last.svg"], 0);
@@ -1045,7 +1047,7 @@ fn a_rescue_is_stored_played_and_drawn() {
     let folder = folder();
     let folder = folder.path();
     let published = [&RESCUE[..], &["--rule", "published", "--seeds", "8", "--channel", "shared"]].concat();
-    let files = ["--trace", "r.jsonl", "--replay", "r.html", "--svg", "r.svg"];
+    let files = ["--trace", "r.jsonl", "--html", "r.html", "--svg", "r.svg"];
     let told = printed(folder, &[&published[..], &files].concat(), 1);
     assert_eq!(
         printed(folder, &["replay", "r.jsonl", "--html", "again.html", "--svg", "again.svg"], 1),
@@ -1069,7 +1071,7 @@ fn a_rescue_is_stored_played_and_drawn() {
     assert_eq!(older.len() + 53, run.len());
     fs::write(folder.join("older.jsonl"), older).expect("a file");
     assert_eq!(printed(folder, &["replay", "older.jsonl"], 1), told);
-    let events = ["--events", "2", "--trace", "twice.jsonl", "--replay", "twice.html"];
+    let events = ["--events", "2", "--trace", "twice.jsonl", "--html", "twice.html"];
     let told = printed(folder, &[&published[..], &events].concat(), 1);
     assert_eq!(printed(folder, &["replay", "twice.jsonl", "--html", "twice again.html"], 1), told);
     assert_eq!(read("twice.html"), read("twice again.html"));
@@ -1189,6 +1191,7 @@ fn every_command_has_help_with_examples() {
     for command in [
         "prove",
         "library",
+        "schemes",
         "explore",
         "hunt",
         "minimise",
@@ -1216,11 +1219,10 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
         let script = printed(folder, &["completions", shell], 0);
         assert!(script.contains("tautline") && script.contains("hunt"), "{shell}");
     }
-    fs::create_dir(folder.join("man1")).expect("a folder");
     assert_eq!(printed(folder, &["man", "--out", "man1"], 0), "");
     let stored = names(&folder.join("man1"));
     let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
-    assert_eq!((stored.len(), of_tables), (1 + 13 + 25, 25), "{stored:?}");
+    assert_eq!((stored.len(), of_tables), (1 + 14 + 25, 25), "{stored:?}");
     for name in stored {
         let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
         let title = name.strip_suffix(".1").expect("section 1");
@@ -1235,7 +1237,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
         &["man", "dance"],
         &["man", "reproduce", "fig99"],
         &["man", "show", "rooms-a"],
-        &["man", "--out", "nowhere"],
+        &["man", "--out", "man1/tautline.1"],
         &["man", "show", "--out", "man1"],
     ];
     let said = wrong
@@ -1382,7 +1384,7 @@ fn a_page_begins_with_all_robots_at_the_base_or_at_their_start() {
     let folder = folder();
     let folder = folder.path();
     let film = |arguments: &[&str], file: &str| {
-        printed(folder, &[arguments, &["--replay", file]].concat(), 0);
+        printed(folder, &[arguments, &["--html", file]].concat(), 0);
         film_of(&fs::read_to_string(folder.join(file)).expect("a page"))
     };
     let chain = film(&["explore", "open:5x5", "--robots", "12"], "chain.html");

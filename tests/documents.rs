@@ -156,13 +156,19 @@ fn the_exit_codes_of_the_documents_are_those_of_the_help() {
 
 #[test]
 fn the_ledger_and_the_chart_are_those_of_the_documents() {
-    let all = printed(&["prove"], 0);
+    let all = printed(&["prove", "--verbose"], 0);
     let (ledger, stories) = all.split_once("\n\n").expect("a ledger, then counterexamples");
     for line in ledger.lines() {
         assert!(line.chars().count() <= 80, "wider than 80 columns: {line}");
     }
     assert_snapshot!("ledger", ledger);
     shows("docs/ledger.md", ledger);
+    let screen = &stories[stories.rfind("\nscheme ").expect("a screen")..];
+    assert!(screen.lines().count() <= 50, "{screen}");
+    for line in screen.lines() {
+        assert!(line.chars().count() <= 80, "wider than 80 columns: {line}");
+    }
+    assert_snapshot!("screen", screen);
     let (_, of_mrc_1) = stories.split_once("MRC-1 as published").expect("it is refuted");
     let (_, chart) = of_mrc_1.split_once("events.\n\n").expect("a chart");
     let (chart, _) = chart.split_once("\n\nMRC-2 as").expect("the next story");

@@ -176,10 +176,7 @@ fn shows_how_a_clause_is_broken(browser: &mut Browser, folder: &Path) {
 fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
     run(
         folder,
-        &[
-            "rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--replay",
-            "r.html",
-        ],
+        &["rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--html", "r.html"],
     );
     browser.load(&folder.join("r.html"), "");
     let trace = fs::read_to_string(folder.join("r.jsonl")).expect("a trace");
@@ -209,7 +206,7 @@ fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
 /// Loads a page on which a robot dies: the list of events tells it, and jumps there.
 fn shows_a_death(browser: &mut Browser, folder: &Path) {
     let faults = ["--rule", "reel", "--fail", "4@10", "--loss", "0.2", "--speeds"];
-    let run_of_five = ["explore", "walls:9x9:0.1", "--robots", "5", "--replay", "death.html"];
+    let run_of_five = ["explore", "walls:9x9:0.1", "--robots", "5", "--html", "death.html"];
     run(folder, &[&run_of_five[..], &faults].concat());
     browser.load(&folder.join("death.html"), "#1");
     browser.value(
@@ -241,7 +238,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     for (number, (scheme, arguments)) in schemes.into_iter().enumerate() {
         // Each has a file of its own: to another move of the same page a browser goes without loading it anew.
         let page = format!("{number}.html");
-        let files = ["--trace", "run.jsonl", "--replay", &page, "--force"];
+        let files = ["--trace", "run.jsonl", "--html", &page, "--force"];
         run(folder, &[&["explore", "--scheme", scheme][..], arguments, &files].concat());
         let trace = fs::read_to_string(folder.join("run.jsonl")).expect("a trace");
         let moves: Vec<&str> = trace.lines().filter(|line| line.starts_with("{\"move\"")).collect();
@@ -295,7 +292,7 @@ fn a_page_of_ten_thousand_team_moves_is_small_and_quick() {
         return;
     };
     let layout = ["explore", "cells:512x512:0.1", "--scheme", "bricks", "--rule", "tree", "--robots", "20"];
-    run(folder, &[&layout[..], &["--max-moves", "10000", "--replay", "run.html"]].concat());
+    run(folder, &[&layout[..], &["--max-moves", "10000", "--html", "run.html"]].concat());
     let bytes = fs::metadata(folder.join("run.html")).expect("a page").len();
     let begun = Instant::now();
     browser.load(&folder.join("run.html"), "");

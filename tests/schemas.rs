@@ -15,7 +15,12 @@ fn printed(folder: &Path, arguments: &str) -> Value {
 }
 
 /// The name of a schema, and commands, one a line, that print what it is of. Later ones read what earlier ones stored.
-const COMMANDS: [(&str, &str); 12] = [
+const COMMANDS: [(&str, &str); 13] = [
+    (
+        "schemes",
+        "schemes
+         schemes kit chain",
+    ),
     ("prove", "prove NOTICE-4 LATTICE-1 CHAIN-14 BRICKS-5 KIT-3 --out refuted"),
     (
         "hunt",

@@ -68,6 +68,8 @@ pub struct Check<R: 'static> {
     pub mutants: &'static [NamedRule<R>],
     /// Other readings of the rule, decided in the same way.
     pub readings: &'static [Reading<R>],
+    /// Why the check is there although it is refuted, if not as a paper's sentence.
+    pub reason: Option<&'static str>,
     /// How its counterexamples are written down for a judge, where its method does not know.
     pub case: Option<Case<R>>,
 }
@@ -87,6 +89,12 @@ impl<R: Copy> Check<R> {
     pub const fn under(self, readings: &'static [Reading<R>]) -> Self {
         Self { readings, ..self }
     }
+
+    /// The check, which is refuted for this reason, in a few words, and not as a paper's sentence.
+    #[must_use]
+    pub const fn because(self, reason: &'static str) -> Self {
+        Self { reason: Some(reason), ..self }
+    }
 }
 
 impl<R> Check<R> {
@@ -97,7 +105,7 @@ impl<R> Check<R> {
         expected: Verdict,
         mutants: &'static [NamedRule<R>],
     ) -> Self {
-        Self { about, method, expected, mutants, readings: &[], case: None }
+        Self { about, method, expected, mutants, readings: &[], reason: None, case: None }
     }
 
     /// The rule of the variant with this number: of a mutant, or of a reading.
@@ -116,6 +124,13 @@ pub struct Clause {
     pub sentence: &'static str,
     /// The checks that decide it.
     pub checks: &'static [&'static dyn AnyCheck],
+}
+
+impl Clause {
+    /// The word before the number of its id, which the clauses of a scheme have in common.
+    pub fn scheme(&self) -> &'static str {
+        self.id.split_once('-').map_or(self.id, |(scheme, _)| scheme)
+    }
 }
 
 /// The outcome of a check.
@@ -215,6 +230,9 @@ pub trait AnyCheck: Sync {
     /// Its mutants, and then the other readings of its rule.
     fn variants(&self) -> Vec<Variant>;
 
+    /// Why it is there although it is refuted, if not as a paper's sentence.
+    fn reason(&self) -> Option<&'static str>;
+
     /// A name for what it shares with the checks of the same name: see [`Method::family`].
     fn family(&self) -> Option<String>;
 
@@ -289,6 +307,10 @@ impl<R: Sync> AnyCheck for Check<R> {
         let reading =
             |&Reading { ref rule, expected }: &Reading<R>| Variant::Reading { name: rule.name, expected };
         mutants.chain(self.readings.iter().map(reading)).collect()
+    }
+
+    fn reason(&self) -> Option<&'static str> {
+        self.reason
     }
 
     fn family(&self) -> Option<String> {

@@ -12,27 +12,43 @@ use crate::decide::Verdict;
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all};
 
-/// The clauses of each room.
+/// Clauses of our own that stand together, and a name for what they are about.
+#[derive(Debug)]
+pub struct Room {
+    /// The name.
+    pub title: &'static str,
+    /// The clauses.
+    pub clauses: &'static [Clause],
+}
+
+/// The rooms.
 #[cfg(feature = "rooms")]
-pub static ROOMS: &[&[Clause]] = &[
-    &crate::ground::clauses::CLAUSES,
-    &crate::chain::clauses::CLAUSES,
-    &crate::chain::ours::CLAUSES,
-    &crate::ants::clauses::CLAUSES,
-    &crate::bricks::clauses::CLAUSES,
-    &crate::notice::clauses::CLAUSES,
-    &crate::mrc::clauses::CLAUSES,
-    &crate::tan::clauses::CLAUSES,
-    &crate::kit::clauses::CLAUSES,
-    &crate::position::clauses::CLAUSES,
-    &crate::frontier::clauses::CLAUSES,
-    &crate::pack::clauses::CLAUSES,
+pub static ROOMS: &[Room] = &[
+    Room { title: "cells and walls", clauses: &crate::ground::clauses::CLAUSES },
+    Room { title: "a recursive chain", clauses: &crate::chain::clauses::CLAUSES },
+    Room { title: "a recursive chain", clauses: &crate::chain::ours::CLAUSES },
+    Room { title: "Ants", clauses: &crate::ants::clauses::CLAUSES },
+    Room { title: "Brick&Mortar", clauses: &crate::bricks::clauses::CLAUSES },
+    Room { title: "broadcast by k-FNF", clauses: &crate::notice::clauses::CLAUSES },
+    Room { title: "who comes to whom: MRC", clauses: &crate::mrc::clauses::CLAUSES },
+    Room { title: "ways by TAN", clauses: &crate::tan::clauses::CLAUSES },
+    Room { title: "two that keep in touch", clauses: &crate::kit::clauses::CLAUSES },
+    Room { title: "positions from signals", clauses: &crate::position::clauses::CLAUSES },
+    Room { title: "frontier cells", clauses: &crate::frontier::clauses::CLAUSES },
+    Room { title: "a pack that sees", clauses: &crate::pack::clauses::CLAUSES },
 ];
 
 /// Every clause of our own.
 #[cfg(feature = "rooms")]
 pub fn clauses() -> impl Iterator<Item = &'static Clause> {
-    ROOMS.iter().copied().flatten()
+    ROOMS.iter().flat_map(|room| room.clauses)
+}
+
+/// The name for what the clauses of `scheme` are about; its own where it is none of ours.
+#[cfg(feature = "rooms")]
+pub fn title(scheme: &'static str) -> &'static str {
+    let is_its = |room: &&Room| room.clauses.iter().any(|clause| clause.scheme() == scheme);
+    ROOMS.iter().find(is_its).map_or(scheme, |room| room.title)
 }
 
 /// Two clauses of one id.
@@ -94,13 +110,13 @@ impl Row {
     }
 
     /// The theorem that machine-checks the clause beyond the bound, if the clause holds within it.
-    fn composition(&self) -> Option<String> {
+    pub fn composition(&self) -> Option<String> {
         let words = || composition::words(self.clause.id, self.check.rule());
         (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
 
     /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone.
-    fn readings(&self) -> Option<String> {
+    pub fn readings(&self) -> Option<String> {
         let others = self.check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name);
         let all: Vec<(&str, Verdict)> = others.zip(self.decision.readings.iter().copied()).collect();
         let names = |verdict: Verdict| {
@@ -213,7 +229,8 @@ mod tests {
 
     #[test]
     fn every_id_is_there_once_and_every_clause_has_a_mutant() {
-        for clause in register(ROOMS).expect("ids of their own") {
+        let rooms: Vec<&[Clause]> = ROOMS.iter().map(|room| room.clauses).collect();
+        for clause in register(&rooms).expect("ids of their own") {
             let is_mutant = |variant: &Variant| variant.reading().is_none();
             let has_mutant = clause.checks.iter().any(|check| check.variants().iter().any(is_mutant));
             assert!(has_mutant, "{} has no mutant", clause.id);
@@ -222,8 +239,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_refuted_is_a_sentence_of_a_paper_or_has_a_reason() {
+        for clause in clauses() {
+            for check in clause.checks {
+                let is_on_purpose = check.expected() == Verdict::Refuted && check.rule() != "published";
+                assert_eq!(check.reason().is_some(), is_on_purpose, "{}: {check:?}", clause.id);
+            }
+        }
+    }
+
+    #[test]
     fn two_clauses_of_one_id_are_refused() {
-        assert_eq!(register(&[ROOMS[0], ROOMS[0]]).err(), Some(DuplicateClause("LATTICE-1")));
+        assert_eq!(register(&[ROOMS[0].clauses, ROOMS[0].clauses]).err(), Some(DuplicateClause("LATTICE-1")));
     }
 
     #[test]

@@ -1,4 +1,7 @@
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,6 +29,12 @@ def test_repaired_it_holds_in_all_layouts():
     assert found.runs == 24
     assert found.covered == ["a step", "a wall"]
     assert found.levels[0][0] == 1 and sum(runs for runs, _ in found.levels) == found.runs
+
+
+def test_the_template_comes_out_as_it_says():
+    template = Path(__file__).parents[2] / "templates" / "rule.py"
+    ran = subprocess.run([sys.executable, template], capture_output=True, text=True, check=True)
+    assert ran.stdout.startswith("ours: holds, ") and ran.stdout.endswith("does not look: refuted\n")
 
 
 class Walker(tautline.Rule):

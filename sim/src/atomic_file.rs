@@ -29,7 +29,7 @@ const OURS: [&[u8]; 7] = [
 pub(crate) const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
 
 /// The beginning of a page.
-pub(crate) const HTML_HEAD: &str = "<!doctype html>
+pub const HTML_HEAD: &str = "<!doctype html>
 <html lang=\"en\">
 <head>
 <meta charset=\"utf-8\">

@@ -30,7 +30,8 @@ pub use self::clause::{Clause, ClauseId, Judge};
 pub use self::own::Own;
 pub use self::rule::{Rule, RuleId, RuleName, Start};
 pub use self::run::{
-    End, Limits, Milestone, OnViolation, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher, run,
+    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher,
+    run,
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 pub use self::setup::{Asked, Play, Setup, explore, team};

@@ -3,6 +3,7 @@
 //! [`load`] makes one of a generator's description, or of a file of one of three formats. Rows are counted southwards
 //! from 0 in every format, as text and images are read.
 
+mod coarse;
 mod file;
 pub mod generate;
 mod image;
@@ -28,6 +29,7 @@ use size::Bitmap;
 
 use crate::diagnostic::Diagnostic;
 
+pub use coarse::Coarse;
 pub use file::MAX_FILE_BYTES;
 pub use generate::Generator;
 pub use problem::{Misread, no_free_cell, of_size, outside};
@@ -319,7 +321,20 @@ impl FromStr for Layout {
 /// # Errors
 /// A [`Diagnostic`] that names the file, the line and the column, or what is wrong with the description.
 pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
-    let layout = make(description, seed, image)?;
+    load_coarse(description, seed, image, Coarse::default())
+}
+
+/// As [`load`], a ROS map in cells of this size.
+///
+/// # Errors
+/// As of [`load`], or if this is no ROS map, or has no such cells.
+pub fn load_coarse(
+    description: &str,
+    seed: u64,
+    image: Option<&Path>,
+    coarse: Coarse,
+) -> Result<Layout, Diagnostic> {
+    let layout = make(description, seed, image, coarse)?;
     let (size, free, walls) = (layout.size(), layout.free_cells(), layout.walls().count());
     tracing::info!(
         "layout {description}: {size} cells, {free} free, {} between them",
@@ -328,13 +343,14 @@ pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout
     Ok(layout)
 }
 
-fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
+fn make(description: &str, seed: u64, image: Option<&Path>, coarse: Coarse) -> Result<Layout, Diagnostic> {
     let file = Path::new(description);
     match description.parse::<Generator>() {
         Ok(_) if image.is_some() => Err(problem::needless_image()),
+        Ok(_) if !coarse.is_plain() => Err(problem::needless_size()),
         Ok(generator) => generator.generate(seed),
         Err(problem) if means_generator(description) && !file.exists() => Err(problem),
-        Err(_) => load_file(file, image),
+        Err(_) => load_file(file, image, coarse),
     }
 }
 
@@ -364,14 +380,14 @@ fn means_generator(description: &str) -> bool {
     Form::of(description).is_some() || description.contains(':') && !description.contains(['/', '\\'])
 }
 
-fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
+fn load_file(file: &Path, image: Option<&Path>, coarse: Coarse) -> Result<Layout, Diagnostic> {
     if is_ros(file) {
         let (layout, frame) = ros::load(file, image)?;
         if frame.yaw_rad != 0.0 {
             let name = file.display();
             tracing::warn!("{name} is turned by {} rad; cells are those of its image", frame.yaw_rad);
         }
-        return Ok(layout);
+        return if coarse.is_plain() { Ok(layout) } else { coarse.of(&layout, frame.resolution_m) };
     }
     let read: fn(&str) -> Result<Layout, Misread> = match extension(file).to_str() {
         Some("pgm" | "png") => {
@@ -383,6 +399,9 @@ fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     };
     if image.is_some() {
         return Err(problem::needless_image());
+    }
+    if !coarse.is_plain() {
+        return Err(problem::needless_size());
     }
     let source = read_text(file)?;
     read(&source).map_err(|misread| at(file, &source, &misread))

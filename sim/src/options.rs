@@ -99,6 +99,8 @@ pub struct Extra {
     pub about: &'static str,
     /// Reads what is typed.
     pub read: fn(&str, &mut Options) -> Result<(), String>,
+    /// What the clauses assume and a run that is told it need not keep to.
+    pub assumed: Option<&'static str>,
     /// How it would be typed, if it is told.
     pub typed: fn(&Options) -> Option<String>,
     /// Its fault for so many robots in a layout.
@@ -166,6 +168,7 @@ impl Extra {
             let remedy = "give `noise-db` a number of decibels from 0 to 100";
             unless(is_right, "a standard deviation of noise is from 0 to 100 dB", remedy)
         },
+        assumed: Some("positions that are off by less than half a cell (FRONTIER-6, FRONTIER-7)"),
         ..Self::new("noise-db")
     };
 
@@ -285,6 +288,7 @@ impl Extra {
         Self {
             field,
             alias: None,
+            assumed: None,
             takes: Takes::Nothing,
             about: "",
             read: |_, _| Ok(()),

@@ -8,7 +8,7 @@ fn a_chain_in_which_something_fails_is_told_of_in_text_json_trace_and_page() {
     let folder = folder.path();
     let faults = ["--rule", "reel", "--robots", "5", "--fail", "3@12", "--loss", "0.2", "--speeds"];
     let explore = [&["explore", "walls:9x9:0.1", "--seed", "7"], &faults[..]].concat();
-    let files = ["--trace", "run.jsonl", "--replay", "run.html"];
+    let files = ["--trace", "run.jsonl", "--html", "run.html"];
     let text = printed(folder, &[&explore[..], &files].concat(), 0);
     assert!(text.contains("a robot died in team move 12; the others formed a chain after"), "{text}");
     assert!(

@@ -47,7 +47,7 @@ fn what_a_command_reads_is_never_overwritten_by_whatever_name() {
     let twice: [&[&str]; 9] = [
         &["explore", "own.map", "--robots", "2", "--trace", "own.map"],
         &["explore", "own.map", "--robots", "2", "--trace", "./own.map"],
-        &["explore", "own.map", "--robots", "2", "--replay", "own.map"],
+        &["explore", "own.map", "--robots", "2", "--html", "own.map"],
         &["show", "own.map", "--svg", "own.map"],
         &["show", "floor.yaml", "--svg", "floor.yaml"],
         &["show", "floor.yaml", "--svg", "floor.pgm"],
@@ -74,10 +74,10 @@ fn what_tautline_did_not_write_is_replaced_only_with_force() {
     let rescue = ["rescue", "--seeds", "0"];
     let stored: [(&[&str], &str); 10] = [
         (&explore, "--trace"),
-        (&explore, "--replay"),
+        (&explore, "--html"),
         (&explore, "--svg"),
         (&rescue, "--trace"),
-        (&rescue, "--replay"),
+        (&rescue, "--html"),
         (&rescue, "--svg"),
         (&["replay", "run.jsonl"], "--html"),
         (&["replay", "run.jsonl"], "--svg"),
@@ -203,13 +203,13 @@ fn without_room_for_one_file_the_rest_is_stored_and_printed() {
     let explore = "explore open:15x15 --robots 8";
     let (_, whole, _) = limited(1_000, explore, "");
     let (code, told, said) =
-        limited(48, &format!("{explore} --trace t.jsonl --replay page.html --svg s.svg"), "");
+        limited(48, &format!("{explore} --trace t.jsonl --html page.html --svg s.svg"), "");
     assert_eq!((code, &told), (Some(2), &whole), "{said}");
     assert!(said.contains("page.html: it is left out, there is no room for it"), "{said}");
     assert_eq!(names(folder), ["s.svg", "t.jsonl"]);
     let (code, told, said) = limited(4, &format!("{explore} --trace u.jsonl"), "");
     assert_eq!((code, &told), (Some(2), &whole), "{said}");
-    let (code, ..) = limited(4, "rescue --seeds 0 --trace r.jsonl --replay r.html --svg r.svg", "");
+    let (code, ..) = limited(4, "rescue --seeds 0 --trace r.jsonl --html r.html --svg r.svg", "");
     assert_eq!(code, Some(2));
     let (code, told, _) = limited(4, "hunt --rule published --max-walls 2 --resume kept.json", "");
     assert_eq!((code, told.contains("CHAIN-13, 2 walls")), (Some(2), true), "{told}");
@@ -237,7 +237,7 @@ fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
     let folder = folder();
     let folder = folder.path();
     let explore = ["explore", "cells:9x9:0.1", "--scheme", "bricks", "--robots", "1", "--draw", "moves"];
-    let files = ["--trace", "run.jsonl", "--replay", "run.html", "--svg", "moves.svg"];
+    let files = ["--trace", "run.jsonl", "--html", "run.html", "--svg", "moves.svg"];
     let whole = printed(folder, &explore, 0);
     let (told, said) = left_out(folder, &[&explore[..], &files].concat());
     assert_eq!(told, whole);
@@ -249,7 +249,7 @@ fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
         &["--robots", "64", "--loss", "1"],
     ]
     .concat();
-    let (told, said) = left_out(folder, &[&deaf[..], &["--trace", "c.jsonl", "--replay", "c.html"]].concat());
+    let (told, said) = left_out(folder, &[&deaf[..], &["--trace", "c.jsonl", "--html", "c.html"]].concat());
     assert!(told.contains("FRONTIER-3 is broken"), "{told}");
     assert!(said.contains("c.html: a page of more than 10 MB is left out"), "{said}");
     assert_eq!(names(folder), ["c.jsonl", "run.html", "run.jsonl"]);
@@ -264,7 +264,7 @@ fn what_is_known_to_be_too_large_is_refused_before_the_work() {
     let cases: [&[&str]; 4] = [
         &large,
         &["show", "open:4000x4000", "--svg", "a.svg"],
-        &["explore", "open:4000x4000", "--scheme", "ants", "--replay", "a.html"],
+        &["explore", "open:4000x4000", "--scheme", "ants", "--html", "a.html"],
         &["replay", "run.jsonl", "--moves", "1..201", "--svg", "a.svg"],
     ];
     let said = cases
@@ -278,7 +278,7 @@ fn what_is_known_to_be_too_large_is_refused_before_the_work() {
     Error: an area of 4000x4000 cells is too large to be drawn
      Help: leave out the picture and the page, or take at most 524288 cells
 
-    $ tautline explore open:4000x4000 --scheme ants --replay a.html
+    $ tautline explore open:4000x4000 --scheme ants --html a.html
     Error: an area of 4000x4000 cells is too large to be drawn
      Help: leave out the picture and the page, or take at most 524288 cells
 
@@ -486,7 +486,7 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
     let input = |name: &str| inputs.join(name).to_str().expect("a plain name").to_owned();
     let (floor, chain) = (input("floor.jsonl"), input("chain.jsonl"));
     let explore = ["explore", "cells:256x256:0.1", "--scheme", "bricks", "--robots", "20"];
-    let files = ["--trace", "a.jsonl", "--replay", "a.html", "--svg", "a.svg"];
+    let files = ["--trace", "a.jsonl", "--html", "a.html", "--svg", "a.svg"];
     let rescue = ["rescue", "--nodes", "100000", "--area", "3600x3600", "--seeds", "0", "--wfr", "3"];
     let fig7 = ["reproduce", "rescue-fig7", "--topologies", "5000", "--svg", "a.svg"];
     let fig5 = ["reproduce", "notice-fig5", "--topologies", "5000", "--svg-reach", "a.svg"];

@@ -41,7 +41,7 @@ fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
             let rule: &[&str] =
                 if told.contains(&"--rule".to_owned()) { &[] } else { &["--rule", rule.as_str()] };
             let told: Vec<&str> = told.iter().map(String::as_str).collect();
-            let files = ["--replay", "run.html", "--trace", "run.jsonl", "--max-moves", "30"];
+            let files = ["--html", "run.html", "--trace", "run.jsonl", "--max-moves", "30"];
             let output = ran(folder, &[&explore, rule, &told, &files].concat());
             assert!(matches!(output.status.code(), Some(0 | 1)), "{}, {told:?}: {output:?}", scheme.name);
             let page = fs::read_to_string(folder.join("run.html")).expect("a page");

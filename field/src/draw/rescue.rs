@@ -232,5 +232,5 @@ fn command(setting: &Setting, seed: u64) -> String {
     for [x, y] in &setting.robots_at_m {
         let _ = write!(command, " --robot {x},{y}");
     }
-    command + " --replay rescue.html"
+    command + " --html rescue.html"
 }

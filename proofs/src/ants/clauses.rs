@@ -79,6 +79,7 @@ pub static CLAUSES: [Clause; 3] = [
             &Check::new(BESIDE, &KEEPS, Verdict::Holds, LOST),
             &Check::new(COUNTED, &KEEPS, Verdict::Holds, LOST),
             &Check::new(NamedRule::new("repaired", Rule::Repaired), &KEEPS, Verdict::Refuted, &[])
+                .because("the repair loses counts as well")
                 .judged(replaced::replacement),
         ],
     },

@@ -193,7 +193,8 @@ pub static CLAUSES: [Clause; 15] = [
                 &Floors::new(&IN_TURNS, Connected),
                 &[at_once("agents beside each other act at once", TreeRule::TREE)],
             ),
-            &refuted(at_once("at-once", TreeRule::TREE), &Floors::new(&AT_ONCE, Connected)),
+            &refuted(at_once("at-once", TreeRule::TREE), &Floors::new(&AT_ONCE, Connected))
+                .because("why agents near each other take turns"),
         ],
     },
     Clause {
@@ -206,8 +207,9 @@ pub static CLAUSES: [Clause; 15] = [
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
             &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[]),
-            &refuted(MDFS, &Floors::shared(&TREES, Knowing)),
-            &refuted(TREE, &Floors::shared(&TREES_HALF_BLIND, Knowing)),
+            &refuted(MDFS, &Floors::shared(&TREES, Knowing)).because("a rival"),
+            &refuted(TREE, &Floors::shared(&TREES_HALF_BLIND, Knowing))
+                .because("with missed sensors; the rule careful is for those"),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Knowing), &[BELIEVING]),
             &holds(DOUBTING_ONCE, &Floors::shared(&ROUND, Knowing), &[]),
             &holds(DOUBTING, &Floors::shared(&AS_SHIPPED, Knowing), &[]),
@@ -256,13 +258,15 @@ pub static CLAUSES: [Clause; 15] = [
                     named("known sensors replaced", DOUBTING_RULE.without(Remembers)),
                 ],
             ),
-            &refuted(DOUBTING_ONCE, &Floors::new(&THRICE_MISSED, Ends)),
+            &refuted(DOUBTING_ONCE, &Floors::new(&THRICE_MISSED, Ends))
+                .because("more scans miss a sensor than the rule allows for"),
             &holds(
                 DOUBTING,
                 &Floors::shared(&AS_SHIPPED, Ends),
                 &[named("two scans are believed", TreeRule::DOUBTING.reading(2))],
             ),
-            &refuted(DOUBTING, &Floors::new(&SEVEN_MISSED, Ends)),
+            &refuted(DOUBTING, &Floors::new(&SEVEN_MISSED, Ends))
+                .because("more scans miss a sensor than the rule allows for"),
         ],
     },
     Clause {
@@ -297,7 +301,7 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-11",
         sentence: "Agents that fail MUST not keep the others from an end with every cell visited.",
         checks: &[
-            &refuted(REPAIRED, &Floors::new(&FAILING, Ends)),
+            &refuted(REPAIRED, &Floors::new(&FAILING, Ends)).because("laps need every agent; trees do not"),
             &holds(TREE, &Floors::new(&TREES_FAILING, Ends), &[NO_EXITS]),
         ],
     },
@@ -310,7 +314,8 @@ pub static CLAUSES: [Clause; 15] = [
                 &Floors::new(&ONE_COUNTED, own(Own::Twice)),
                 &[named(TWICE_ADOPTED, TreeRule::HELPERS.without(LowerOnly))],
             ),
-            &refuted(TREE, &Floors::new(&ONE_COUNTED, own(Own::Twice))),
+            &refuted(TREE, &Floors::new(&ONE_COUNTED, own(Own::Twice)))
+                .because("the rule helpers makes no more than two"),
         ],
     },
     Clause {

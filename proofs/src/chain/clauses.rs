@@ -402,7 +402,8 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
-            &Check::new(REPAIRED, &EveryLayout(Invariant::Exhausts, (3, 3)), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &EveryLayout(Invariant::Exhausts, (3, 3)), Verdict::Refuted, &[])
+                .because("no repair yet: walls part the ways of neighbours"),
         ],
     },
     Clause {

@@ -169,7 +169,8 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &contact::CHECK,
             &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]).under(REFUTED),
-            &Check::new(NamedRule::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[]),
+            &Check::new(NamedRule::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[])
+                .because("another reading of the paper"),
             &Check::new(
                 REPAIRED,
                 &repaired(Demand::Contact),
@@ -215,9 +216,11 @@ pub static CLAUSES: [Clause; 14] = [
                 .judged(|rule, choices| talks::case(&talks(rule, talks::Demand::Answered), choices))
                 .under(&readings(ANSWERING, [Verdict::Refuted; 2])),
             &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
-            &Check::new(REPAIRED, &ANSWERED_THOUGH_LOST, Verdict::Refuted, &[]).judged(|rule, choices| {
-                talks::case(&Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) }, choices)
-            }),
+            &Check::new(REPAIRED, &ANSWERED_THOUGH_LOST, Verdict::Refuted, &[])
+                .because("a message is lost; the rule robust asks again")
+                .judged(|rule, choices| {
+                    talks::case(&Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) }, choices)
+                }),
             &Check::new(
                 ROBUST,
                 &ANSWERED_THOUGH_LOST,
@@ -248,9 +251,11 @@ pub static CLAUSES: [Clause; 14] = [
                 Verdict::Holds,
                 &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
             ),
-            &Check::new(REPAIRED, &FRESH_THOUGH_DOUBLED, Verdict::Refuted, &[]).judged(|rule, choices| {
-                talks::case(&Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) }, choices)
-            }),
+            &Check::new(REPAIRED, &FRESH_THOUGH_DOUBLED, Verdict::Refuted, &[])
+                .because("a message comes twice; the rule robust knows it")
+                .judged(|rule, choices| {
+                    talks::case(&Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) }, choices)
+                }),
             &Check::new(
                 ROBUST,
                 &FRESH_THOUGH_LOST,
@@ -282,7 +287,8 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(REPAIRED, &repaired(Demand::Covers), Verdict::Holds, &[NO_REGROUP, UNMARKED]),
-            &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Refuted, &[])
+                .because("three robots that start anywhere; side by side it holds"),
         ],
     },
     Clause {

@@ -157,7 +157,8 @@ pub static CLAUSES: [Clause; 8] = [
         sentence: "When the run of a pack whose robots start anywhere, but linked, ends, every free cell that one of them can walk to MUST be explored.",
         checks: &[
             &Check::new(REPAIRED, &demand(ANYWHERE_IN_THE_OPEN, Demand::Covers), Verdict::Holds, &[NO_LEAD]),
-            &Check::new(REPAIRED, &demand(ANYWHERE, Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &demand(ANYWHERE, Demand::Covers), Verdict::Refuted, &[])
+                .because("no rule can: who is shut in holds the others"),
         ],
     },
     Clause {

@@ -24,10 +24,41 @@ use crate::explore::{Change, Hearers, Layer, Look, Place, Play, Report, Scene, S
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
 
+/// A place for a page as it is made.
+pub trait Sink {
+    /// Adds `text` at the end.
+    fn add(&mut self, text: &str);
+
+    /// Gives the page up, which is too large.
+    fn leave_out(&mut self);
+}
+
+impl Sink for AtomicFile {
+    fn add(&mut self, text: &str) {
+        self.append(text);
+    }
+
+    fn leave_out(&mut self) {
+        let remedy = "store a trace, and give `tautline replay` fewer `moves` to show";
+        let fault = too_large(self.path(), remedy);
+        Self::leave_out(self, fault);
+    }
+}
+
+impl Sink for String {
+    fn add(&mut self, text: &str) {
+        self.push_str(text);
+    }
+
+    fn leave_out(&mut self) {
+        self.clear();
+    }
+}
+
 /// A page in the making. One that grows too large is left out.
 #[derive(Debug)]
-struct Page<'a> {
-    file: &'a mut AtomicFile,
+struct Page<'a, S> {
+    sink: &'a mut S,
     run: &'a dyn Play,
     report: &'a Report,
     moves: RangeInclusive<u32>,
@@ -42,17 +73,12 @@ struct Page<'a> {
     clauses: BTreeMap<&'static str, &'static str>,
 }
 
-impl<'a> Page<'a> {
-    /// The page in `file` that plays these team moves of a run that came out as `report`. All team moves up to the last
+impl<'a, S: Sink> Page<'a, S> {
+    /// The page in `sink` that plays these team moves of a run that came out as `report`. All team moves up to the last
     /// one are to be added.
-    fn new(
-        file: &'a mut AtomicFile,
-        run: &'a dyn Play,
-        report: &'a Report,
-        moves: &RangeInclusive<u32>,
-    ) -> Self {
+    fn new(sink: &'a mut S, run: &'a dyn Play, report: &'a Report, moves: &RangeInclusive<u32>) -> Self {
         let mut page = Self {
-            file,
+            sink,
             run,
             report,
             moves: moves.clone(),
@@ -70,12 +96,9 @@ impl<'a> Page<'a> {
     fn put(&mut self, text: &str) {
         self.bytes += text.len();
         if self.bytes > MAX_BYTES {
-            self.file.leave_out(too_large(
-                self.file.path(),
-                "store a trace, and give `tautline replay` fewer `moves` to show",
-            ));
+            self.sink.leave_out();
         } else {
-            self.file.append(text);
+            self.sink.add(text);
         }
     }
 
@@ -178,17 +201,17 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Writes the page to `file` that plays the team moves in `moves` of a run that came out as `report`.
+/// Writes the page to `sink` that plays the team moves in `moves` of a run that came out as `report`.
 ///
 /// # Errors
 /// [`Halt`] if the run cannot be made.
 pub fn write(
-    file: &mut AtomicFile,
+    sink: &mut impl Sink,
     run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,
 ) -> Result<(), Halt> {
-    let mut page = Page::new(file, run, report, moves);
+    let mut page = Page::new(sink, run, report, moves);
     run.among(&(1..=*moves.end()), &mut |made| {
         page.add(made);
         Ok(())

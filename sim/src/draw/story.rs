@@ -165,14 +165,16 @@ pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
     if !end.is_empty() {
         return Ok(end);
     }
-    if report.violations.is_empty() {
+    let Some(&Violation { clause, step }) = report.violations.last() else {
         let head = format!("The run ends after team move {}: {}.", report.steps, report.stopped.words());
         let (what, cells) = left(&report);
         return Ok(unexplored(run, &report, &head, what, &cells));
-    }
-    let mut story = String::new();
+    };
+    // An end that misses no cell is drawn as it is.
+    let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+    let mut story = unexplored(run, &report, &head, "", &[]);
     run.play(&mut |made| {
-        if made.step == report.steps {
+        if made.step == report.steps && !made.broken.is_empty() {
             story = of(run, &report.chart, made);
         }
         Ok(())

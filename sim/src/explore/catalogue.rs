@@ -363,6 +363,12 @@ impl Profile {
         self.rules.iter().find(|rule| rule.name == name)
     }
 
+    /// The rule that is taken where nobody says which: the repaired one, or else the first.
+    pub fn default_rule(&self) -> RuleId {
+        let repaired = self.rule(RuleId::REPAIRED).or(self.rules.first());
+        repaired.map_or(RuleId::REPAIRED, |rule| rule.name)
+    }
+
     /// Whether a run of it draws anything: whether its seed has an effect.
     pub fn draws(&self, setup: &Setup) -> bool {
         self.drawn.iter().any(|drawn| drawn.is_in(setup))

@@ -41,6 +41,12 @@ pub trait Team {
         self.area(layout).cells().filter(|&cell| layout.is_free(cell)).count() as u32
     }
 
+    /// How far the team comes in `layout`, where that depends on how many robots it has.
+    fn reach(&self, layout: &Layout) -> Option<Reach> {
+        let _ = layout;
+        None
+    }
+
     /// The cells of `layout` that the team must have explored, or marked as visited, before it ends, and has not, as
     /// `chart` shows. It must explore none, unless it says otherwise.
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
@@ -101,6 +107,17 @@ pub trait Team {
     fn show(&self, before: &[Cell], scene: &mut Scene) {
         let _ = (before, scene);
     }
+}
+
+/// How far a team comes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Reach {
+    /// The cells within its reach.
+    pub cells: usize,
+    /// The cells that are connected with its start.
+    pub connected: usize,
+    /// The fewest robots that have all of those within reach.
+    pub robots: usize,
 }
 
 impl fmt::Debug for dyn Team + '_ {

@@ -153,6 +153,15 @@ impl Asked {
         }
     }
 
+    /// What was asked for to make `setup`, but for its layout, its limits, and what a search has chosen in it.
+    pub fn again(setup: &Setup) -> Self {
+        let Setup { scheme, rule, robots, seed, base, starts, miss, options, .. } = setup.clone();
+        let starts = starts.unwrap_or_default();
+        let base = starts.is_empty().then_some(base);
+        let miss = (!miss.is_never()).then_some(miss);
+        Self { robots: Some(robots.into()), seed, base, starts, miss, options, ..Self::new(scheme, rule) }
+    }
+
     /// Refuses what fits no layout.
     ///
     /// # Errors

@@ -51,6 +51,12 @@ pub(super) fn needless_image() -> Diagnostic {
     Diagnostic::of_field("image", what, "leave `image` out, or name the map's .yaml file")
 }
 
+/// The fault of sizes in metres where nothing has any.
+pub(super) fn needless_size() -> Diagnostic {
+    let what = "`cell` or `radius` is given, but the layout is not a ROS map, which has metres";
+    Diagnostic::of_field("cell", what, "leave them out, or name the map's .yaml file")
+}
+
 /// How large a layout can be.
 pub(super) fn sizes() -> String {
     format!("a layout has 1 to {MAX_SIDE_CELLS} cells on a side and at most {MAX_CELLS} in all")

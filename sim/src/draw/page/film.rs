@@ -223,6 +223,18 @@ pub fn in_words(title: &str, sentence: &str, drawn: &str) -> String {
     )
 }
 
+/// The style and the script that the pages of all runs have in common.
+pub fn shared() -> [&'static str; 2] {
+    let style = TEMPLATE.split_once("<style>\n").and_then(|(_, rest)| rest.split_once("</style>"));
+    [style.map_or("", |(style, _)| style), SCRIPT]
+}
+
+/// The page with `{{style}}` and `{{script}}` in place of what all pages have in common.
+pub fn without_shared(page: &str) -> String {
+    let [style, script] = shared();
+    page.replacen(style, "{{style}}", 1).replacen(script, "{{script}}", 1)
+}
+
 fn halves() -> (&'static str, &'static str) {
     TEMPLATE.split_once("{{lines}}\n").unwrap_or((TEMPLATE, ""))
 }
@@ -233,7 +245,7 @@ pub fn told(told: &impl Serialize) -> String {
 }
 
 /// JSON that can stand in a script: nothing in it ends one.
-fn json(value: &impl Serialize) -> String {
+pub fn json(value: &impl Serialize) -> String {
     // Strings and numbers are always JSON.
     serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
 }
@@ -317,5 +329,5 @@ pub(super) fn again(setup: &Setup) -> Again {
     if scheme.draws(setup) {
         let _ = write!(command, " --seed {seed}");
     }
-    Again { command: Some(command + " --replay run.html"), ..by_search }
+    Again { command: Some(command + " --html run.html"), ..by_search }
 }

@@ -14,7 +14,7 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
 use super::shown;
-use crate::explore::{Change, ClauseId, End, Hearers, Layer, Scene, Setup, Survey, Team};
+use crate::explore::{Change, ClauseId, End, Hearers, Layer, Reach, Scene, Setup, Survey, Team};
 use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
@@ -307,9 +307,33 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
     Breach::Contact.is_in(&here, &here)
 }
 
+/// How far a chain of so many robots comes from `base`.
+fn reach(layout: &Layout, base: Cell, robots: usize) -> Reach {
+    let area = layout.size().area();
+    let within = |robots| within_reach(area, base, robots, |edge| layout.is_open(edge)).len();
+    let (cells, connected) = (within(robots), layout.spread(&[base]).len());
+    let (mut too_few, mut enough) = (0, robots);
+    while within(enough) < connected {
+        (too_few, enough) = (enough, 2 * enough);
+    }
+    while too_few + 1 < enough {
+        let half = too_few.midpoint(enough);
+        if within(half) < connected {
+            too_few = half;
+        } else {
+            enough = half;
+        }
+    }
+    Reach { cells, connected, robots: enough }
+}
+
 impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
+    }
+
+    fn reach(&self, layout: &Layout) -> Option<Reach> {
+        self.cells.first().map(|&base| reach(layout, base, self.cells.len()))
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {

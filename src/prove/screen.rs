@@ -1,0 +1,109 @@
+//! All verdicts on one screen: how many by scheme, what is refuted and why, and where to look.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use tautline_proofs::decide::Verdict;
+use tautline_proofs::ledger::{Row, indented, title};
+
+use super::PUBLISHED;
+
+/// The headings of the counts, and what is counted in each.
+const COUNTS: [(&str, fn(&Row) -> bool); 5] = [
+    ("holds", |row| row.decision.verdict == Verdict::Holds),
+    ("sampled", |row| row.decision.verdict == Verdict::Unrefuted),
+    ("refuted", |row| is_refuted(row) && row.check.rule() == PUBLISHED),
+    ("on purpose", |row| is_refuted(row) && row.check.rule() != PUBLISHED),
+    ("open", |row| row.decision.verdict == Verdict::Open),
+];
+
+/// Columns for the name of a scheme, and for what it is.
+const NAME: usize = 10;
+const TITLE: usize = 25;
+
+fn is_refuted(row: &Row) -> bool {
+    row.decision.verdict == Verdict::Refuted
+}
+
+/// The screen. What takes time is not on it, so that it is the same everywhere.
+pub(super) fn screen(rows: &[Row]) -> String {
+    let mut text = line("scheme", "", COUNTS.map(|(heading, _)| heading.to_owned()));
+    for scheme in rows.chunk_by(|one, next| one.clause.scheme() == next.clause.scheme()) {
+        let name = scheme[0].clause.scheme();
+        text += &line(name, title(name), counts(scheme));
+    }
+    text += &line("in all", "", counts(rows));
+    text + "\nholds: within the bound that the ledger prints; sampled: drawn at random, not\nrefuted; refuted: as published.\n"
+        + "\nRefuted as published:\n"
+        + &indented(2, &ids(rows))
+        + "\nRefuted on purpose:\n"
+        + &reasons(rows)
+        + "\nOne clause and its counterexample:  tautline prove CHAIN-1\n\
+           Every check and counterexample:     tautline prove --verbose\n\
+           A page with all of it:              tautline prove --html report.html\n"
+}
+
+/// A line of the table.
+fn line(name: &str, title: &str, counts: [String; COUNTS.len()]) -> String {
+    let counts: String = counts
+        .iter()
+        .zip(COUNTS)
+        .map(|(count, (heading, _))| format!("  {count:>0$}", heading.len()))
+        .collect();
+    format!("{name:NAME$}{title:TITLE$}{counts}\n")
+}
+
+fn counts(rows: &[Row]) -> [String; COUNTS.len()] {
+    COUNTS.map(|(_, is_counted)| match rows.iter().filter(|row| is_counted(row)).count() {
+        0 => "-".to_owned(),
+        count => count.to_string(),
+    })
+}
+
+/// The clauses that are refuted as published, those of a scheme behind its name.
+fn ids(rows: &[Row]) -> String {
+    let mut ids: Vec<&str> = rows.iter().filter(|row| COUNTS[2].1(row)).map(|row| row.clause.id).collect();
+    ids.dedup();
+    let of_scheme = |ids: &[&str]| {
+        let (first, rest) = ids.split_at(1);
+        let numbers = rest.iter().filter_map(|id| id.split_once('-')).map(|(_, number)| number);
+        first.iter().copied().chain(numbers).collect::<Vec<_>>().join(" ")
+    };
+    let scheme = |id: &str| id.split_once('-').map(|(scheme, _)| scheme.to_owned());
+    let schemes: Vec<String> = ids.chunk_by(|one, next| scheme(one) == scheme(next)).map(of_scheme).collect();
+    schemes.join(", ")
+}
+
+/// What is refuted on purpose, by its reason.
+fn reasons(rows: &[Row]) -> String {
+    let mut found: Vec<(&str, Vec<String>)> = Vec::new();
+    for row in rows.iter().filter(|row| COUNTS[3].1(row)) {
+        let name = format!("{} {}", row.clause.id, row.check.rule());
+        let reason = row.check.reason().unwrap_or("not registered");
+        match found.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, names)) => names.push(name),
+            None => found.push((reason, vec![name])),
+        }
+    }
+    found.iter().map(|(reason, names)| indented(2, &format!("{}: {reason}", names.join(", ")))).collect()
+}
+
+/// The checks that took longest, added up over threads.
+pub(super) fn slowest(rows: &[Row]) -> String {
+    let mut by_check: BTreeMap<(&str, &str), f64> = BTreeMap::new();
+    for row in rows {
+        *by_check.entry((row.clause.id, row.check.rule())).or_default() += row.seconds;
+    }
+    let mut slowest: Vec<_> = by_check.into_iter().collect();
+    slowest.sort_by_key(|&(_, seconds)| Reverse((seconds * 1000.0) as u64));
+    let mut text = String::from("Slowest, over all threads:");
+    for ((id, rule), seconds) in slowest.into_iter().take(SLOWEST) {
+        // Writing to a string cannot fail.
+        let _ = write!(text, " {id} {rule} {seconds:.0} s,");
+    }
+    text.trim_end_matches(',').to_owned()
+}
+
+/// Checks that are named as the slowest.
+const SLOWEST: usize = 3;

@@ -1,0 +1,96 @@
+//! A rule to begin with. Copy this folder, and change the rule, what is around it, and what it promises. `cargo run`
+//! decides the promises, `cargo test` holds the verdicts.
+//!
+//! Two robots go east, one behind the other. The second one waits while the first one is in the cell before it.
+
+use std::process::ExitCode;
+
+use tautline_kernel::ground::{Cell, Side};
+use tautline_proofs::clause::{Check, Clause, NamedRule};
+use tautline_proofs::decide::Verdict::Holds;
+use tautline_proofs::ledger::{self, Row};
+use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
+
+/// The rule. What can be wrong with it is a field, so that a mutant is another value.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct East {
+    /// Whether the second robot looks where the first one is.
+    looks: bool,
+}
+
+impl Rule for East {
+    /// Whatever a robot remembers.
+    type Memory = ();
+    type Message = ();
+
+    fn start(&self, _: usize, _: &[Cell]) {}
+
+    fn act(&self, view: &mut View<'_, Self>, (): &mut ()) -> Act {
+        let first = view.sees(0).filter(|_| view.me() == 1 && self.looks);
+        match first.and_then(|cell| view.side_to(cell)) {
+            Some(_) => Act::Wait,
+            None => Act::Go(Side::East),
+        }
+    }
+
+    fn is_done(&self, _: usize, team: &Scene<Self>) -> bool {
+        team.was_blocked(0)
+    }
+}
+
+/// What is around the rule: every layout of 4×2 cells with at most two walls on the way.
+static SETTING: Setting<'_, East> = Setting {
+    senses: Senses::TEAM,
+    longest_run: 20,
+    demands: &[
+        Demand::always("EAST-1", "the robots are in different cells", &|moved| moved.after.cells_differ()),
+        Demand::never_endless("EAST-2", "every run ends"),
+    ],
+    covers: &[("a step", &|moved| moved.has_moved(0)), ("a wall", &|moved| !moved.has_moved(0))],
+    ..Setting::new(
+        "east",
+        Ground::open(4, 2).walls(Which::Met(2)),
+        2,
+        Places::At(|_| vec![Cell::new(1, 0), Cell::new(0, 0)]),
+    )
+};
+
+const OURS: NamedRule<East> = NamedRule::new("ours", East { looks: true });
+const BLIND: NamedRule<East> = NamedRule::new("does not look", East { looks: false });
+
+/// The promises, each with the verdict that you expect and mutants that must be rejected.
+static CLAUSES: [Clause; 2] = [
+    Clause {
+        id: "EAST-1",
+        sentence: "The robots MUST never share a cell.",
+        checks: &[&Check::new(OURS, &Keeps(&SETTING, 0), Holds, &[BLIND])],
+    },
+    Clause {
+        id: "EAST-2",
+        sentence: "Every run MUST end.",
+        checks: &[&Check::new(OURS, &Keeps(&SETTING, 1), Holds, &[])],
+    },
+];
+
+fn decided() -> Vec<Row> {
+    let clauses = ledger::register(&[&CLAUSES]).expect("each clause has an id of its own");
+    ledger::decide_all(&clauses).expect("the bound is small enough to search")
+}
+
+fn main() -> ExitCode {
+    let rows = decided();
+    print!("{}", ledger::table(&rows));
+    if rows.iter().all(Row::is_as_registered) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_verdict_is_the_registered_one() {
+        for row in decided() {
+            assert!(row.is_as_registered(), "{}: {:?}", row.clause.id, row.decision);
+        }
+    }
+}

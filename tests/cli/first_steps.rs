@@ -1,0 +1,144 @@
+//! The first ten minutes: what the program says to who knows nothing of it yet, and how one command leads to the next.
+
+use std::fs;
+
+use insta::assert_snapshot;
+
+use super::{folder, json, names, printed, ran, refused};
+
+#[test]
+fn without_a_command_it_says_what_to_do_first() {
+    let folder = folder();
+    let folder = folder.path();
+    let said = printed(folder, &[], 0);
+    assert!(said.lines().all(|line| line.chars().count() <= 90), "{said}");
+    assert_snapshot!("first_steps", said);
+    // Each of its commands does what it says, but for the first, which takes minutes.
+    let commands = said.lines().filter_map(|line| line.trim_start().strip_prefix("tautline "));
+    let commands: Vec<Vec<&str>> = commands
+        .map(|line| line.split("   ").next().unwrap_or(line).split_whitespace().collect())
+        .filter(|command: &Vec<&str>| command != &["prove"])
+        .collect();
+    assert_eq!(commands.len(), 5);
+    for (command, code) in commands.iter().zip([1, 1, 0, 0, 0]) {
+        assert!(!printed(folder, command, code).is_empty(), "{command:?}");
+    }
+    assert_eq!(names(folder), ["found", "run.html"]);
+}
+
+#[test]
+fn each_scheme_is_listed_and_runs_by_its_own_rule() {
+    let folder = folder();
+    let folder = folder.path();
+    assert_snapshot!("schemes", printed(folder, &["schemes"], 0));
+    assert_snapshot!("unknown_scheme_to_list", refused(folder, &["schemes", "swarm"]));
+    let listed = json(folder, &["schemes"], 0);
+    for scheme in listed["schemes"].as_array().expect("a list") {
+        let name = scheme["name"].as_str().expect("a name");
+        let rules = scheme["rules"].as_array().expect("a list");
+        let default = rules.iter().filter(|rule| rule["is_default"] == true);
+        let default: Vec<_> = default.map(|rule| &rule["name"]).collect();
+        assert_eq!(default.len(), 1, "{name}");
+        let run = ["explore", "open:3x3", "--scheme", name, "--robots", "2", "--max-moves", "30"];
+        let output = ran(folder, &[&run[..], &["--format", "json"]].concat());
+        let run: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(&run["rule"], default[0], "{name}");
+    }
+}
+
+#[test]
+fn a_run_that_is_found_is_tried_with_another_rule() {
+    let folder = folder();
+    let folder = folder.path();
+    let found = printed(folder, &["hunt", "--rule", "published", "--max-walls", "3", "--out", "found"], 1);
+    let file = "found/chain-13-published-n4.jsonl";
+    assert!(found.contains(&format!("try a rule on it: tautline explore {file} --rule RULE")), "{found}");
+    let told = json(folder, &["explore", file], 1);
+    assert_eq!((&told["rule"], &told["robots"]), (&"published".into(), &4.into()));
+    let told = json(folder, &["explore", file, "--rule", "repaired"], 0);
+    assert_eq!((&told["rule"], &told["robots"]), (&"repaired".into(), &4.into()));
+    let told = json(folder, &["explore", file, "--scheme", "ants", "--robots", "2"], 0);
+    assert_eq!((&told["scheme"], &told["rule"]), (&"ants".into(), &"repaired".into()));
+    printed(folder, &["prove", "CHAIN-14", "--out", "found"], 0);
+    let stored: Vec<String> = names(&folder.join("found"));
+    let stored = stored.iter().find(|name| name.starts_with("chain-14")).expect("a counterexample");
+    let told = json(folder, &["explore", &format!("found/{stored}"), "--rule", "reel"], 0);
+    assert_eq!(&told["rule"], "reel");
+    let wrong = [
+        refused(folder, &["explore", file, "--cell", "0.5"]),
+        refused(folder, &["explore", file, "--rule", "counted"]),
+        refused(folder, &["explore", "open:3x3", "--radius", "0.1"]),
+    ];
+    assert_snapshot!("wrong_runs_to_try", wrong.join("\n"));
+}
+
+#[test]
+fn a_run_says_how_far_the_team_comes() {
+    let folder = folder();
+    let told = printed(folder.path(), &["explore", "open:40x40", "--robots", "4", "--base", "20,20"], 0);
+    let reach: Vec<&str> = told.lines().filter(|line| line.contains("within reach")).collect();
+    assert_snapshot!(reach.join("\n"), @"");
+}
+
+#[test]
+fn a_clause_that_noise_breaks_is_said_to_be_no_refutation() {
+    let folder = folder();
+    let run = ["explore", "cells:7x6:0.1", "--scheme", "frontier", "--robots", "4", "--noise-db", "2"];
+    let told = ran(folder.path(), &run);
+    let told = String::from_utf8(told.stdout).expect("text");
+    let excuse = "with --noise-db this is no refutation of the rule: the clauses assume positions";
+    assert!(told.contains(" is broken in team move ") && told.contains(excuse), "{told}");
+}
+
+#[test]
+fn a_ros_map_is_taken_in_larger_cells() {
+    let folder = folder();
+    let folder = folder.path();
+    let yaml = "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    fs::write(folder.join("map.yaml"), yaml).expect("a map");
+    let pixels = (0..20 * 10).map(|place| if place == 5 * 20 + 10 { 0_u8 } else { 255 });
+    let image: Vec<u8> = b"P5 20 10 255\n".iter().copied().chain(pixels).collect();
+    fs::write(folder.join("map.pgm"), image).expect("an image");
+    let show = |more: &[&str]| json(folder, &[&["show", "map.yaml"], more].concat(), 0);
+    assert_eq!(show(&[])["free_cells"], 199);
+    let large = show(&["--cell", "0.25", "--radius", "0.1"]);
+    assert_eq!(
+        (&large["width"], &large["height"], &large["free_cells"], &large["walls"]),
+        (&4.into(), &2.into(), &8.into(), &2.into())
+    );
+    let wide = show(&["--cell", "0.25"]);
+    assert_eq!((&wide["free_cells"], &wide["walls"]), (&7.into(), &0.into()));
+    let wrong = [
+        &["--cell", "0.12"][..],
+        &["--cell", "5"],
+        &["--cell", "0.25", "--radius", "-1"],
+        &["--radius", "9"],
+    ];
+    let said = wrong.map(|more| refused(folder, &[&["show", "map.yaml"], more].concat()));
+    assert_snapshot!("wrong_cells_of_a_map", said.join("\n"));
+}
+
+#[test]
+fn the_page_of_all_verdicts_has_them_and_their_counterexamples() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["prove", "CHAIN-13", "LATTICE-1", "MRC-1", "--html", "report.html"], 0);
+    let page = fs::read_to_string(folder.join("report.html")).expect("a page");
+    let part = |id: &str| {
+        let (_, rest) = page.split_once(&format!("id=\"{id}\">")).expect("a part");
+        let text = rest.split_once("</script>").expect("its end").0;
+        serde_json::from_str::<serde_json::Value>(text).expect("JSON")
+    };
+    let (ledger, pages) = (part("ledger"), part("pages"));
+    let (ledger, pages) = (ledger["clauses"].as_array().expect("a list"), pages.as_array().expect("a list"));
+    assert_eq!(ledger.len(), pages.len());
+    for (check, page) in ledger.iter().zip(pages) {
+        assert_eq!(check["counterexample"].is_null(), page.is_null(), "{check}");
+    }
+    let plays = pages.iter().filter_map(|page| page.as_str()).filter(|page| page.contains("{{script}}"));
+    assert_eq!(plays.count(), 1);
+    assert_eq!(part("titles")["MRC"], "who comes to whom: MRC");
+    assert_eq!(page.matches("{{").count(), 2 * pages.iter().filter(|page| !page.is_null()).count() - 1);
+    let again = refused(folder, &["prove", "LATTICE-1", "--html", "report.html/x"]);
+    assert!(again.contains("report.html/x"), "{again}");
+}
