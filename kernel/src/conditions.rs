@@ -1,5 +1,18 @@
 //! Sets of named conditions: every rule is one.
 
+/// A rule that is a set of named conditions, as a program shows it that lets a person switch them.
+pub trait Conditional: Copy {
+    /// Its conditions, each by its name and the sentence that it stands for.
+    const CONDITIONS: &'static [(&'static str, &'static str)];
+
+    /// The conditions in force, a bit for each in their order.
+    fn in_force(&self) -> u16;
+
+    /// This rule with these conditions in force, and no others.
+    #[must_use]
+    fn with_in_force(self, conditions: u16) -> Self;
+}
+
 /// Makes a fieldless enum of at most 16 conditions, the list `ALL` of them, the type `Conditions` of their sets, and what a rule
 /// is asked that has such a set in its field `conditions`.
 ///
@@ -26,15 +39,18 @@
 macro_rules! conditions {
     (
         $(#[$about:meta])*
-        pub enum $condition:ident $(of $rule:ident)? { $($(#[$says:meta])* $name:ident,)* }
+        pub enum $condition:ident $(of $rule:ident)? { $($(#[doc = $says:literal])* $name:ident,)* }
     ) => {
         $(#[$about])*
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-        pub enum $condition { $($(#[$says])* $name,)* }
+        pub enum $condition { $($(#[doc = $says])* $name,)* }
 
         impl $condition {
             /// All of them.
             pub const ALL: [Self; [$(Self::$name),*].len()] = [$(Self::$name),*];
+
+            /// Each by its name and the sentence that it stands for.
+            pub const SENTENCES: &[(&str, &str)] = &[$((stringify!($name), concat!($($says),*))),*];
         }
 
         /// A set of conditions.
@@ -90,6 +106,19 @@ macro_rules! conditions {
             #[inline]
             pub const fn has(&self, condition: $condition) -> bool {
                 self.conditions.has(condition)
+            }
+        }
+
+        impl $crate::conditions::Conditional for $rule {
+            const CONDITIONS: &'static [(&'static str, &'static str)] = $condition::SENTENCES;
+
+            fn in_force(&self) -> u16 {
+                self.conditions.0
+            }
+
+            fn with_in_force(mut self, conditions: u16) -> Self {
+                self.conditions = Conditions(conditions);
+                self
             }
         })?
     };

@@ -11,7 +11,7 @@ pub mod ants;
 pub mod bricks;
 pub mod chain;
 pub mod choice;
-mod conditions;
+pub mod conditions;
 pub mod floor;
 pub mod frontier;
 pub mod ground;

@@ -28,10 +28,10 @@ mod states;
 pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts};
 pub use self::clause::{Clause, ClauseId, Judge};
 pub use self::own::Own;
-pub use self::rule::{Rule, RuleId, RuleName, Start};
+pub use self::rule::{Rule, RuleId, RuleName, Start, Switches};
 pub use self::run::{
-    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher,
-    run,
+    Course, End, Limits, Made, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation,
+    Watcher, run,
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 pub use self::setup::{Asked, Play, Setup, explore, team};

@@ -10,7 +10,7 @@ use tautline_proofs::plural::counted;
 use super::agents::{AGENTS, PREMATURE, UNVISITED, unvisited};
 use super::catalogue::{Knowledge, Profile};
 use super::clause::{Clause, Judge};
-use super::hunt_states::crew;
+use super::hunt_states::{crew, switched};
 use super::rule::{Rule, RuleId};
 use super::run::{Survey, TeamMove};
 use super::setup::Setup;
@@ -24,16 +24,20 @@ pub static BRICKS: Profile = Profile {
     name: "bricks",
     about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
     rules: &[
-        crew!(Rule::published, Bricks::PUBLISHED),
-        crew!(Rule::repaired, Bricks::REPAIRED),
-        crew!(RuleId::new("alone"), "As published; no cell is marked in which another agent is", ALONE),
-        crew!(RuleId::new("beside"), "As published; a missed sensor stays beside the new one", BESIDE),
+        crew!(Rule::published, Bricks::PUBLISHED).switched(&switched(Bricks::PUBLISHED)),
+        crew!(Rule::repaired, Bricks::REPAIRED).switched(&switched(Bricks::REPAIRED)),
+        crew!(RuleId::new("alone"), "As published; no cell is marked in which another agent is", ALONE)
+            .switched(&switched(ALONE)),
+        crew!(RuleId::new("beside"), "As published; a missed sensor stays beside the new one", BESIDE)
+            .switched(&switched(BESIDE)),
         crew!(
             RuleId::new("counted"),
             "As published; a new sensor takes over what a missed one says",
             COUNTED
-        ),
-        crew!(RuleId::new("tree"), "Trees close the loops in place of laps", Trees::TREE),
+        )
+        .switched(&switched(COUNTED)),
+        crew!(RuleId::new("tree"), "Trees close the loops in place of laps", Trees::TREE)
+            .switched(&switched(Trees::TREE)),
     ],
     ..MARKING
 };
@@ -42,7 +46,7 @@ pub static BRICKS: Profile = Profile {
 pub static BRICKS_ANTS: Profile = Profile {
     name: "bricks-ants",
     about: "Brick&Mortar with ants' ways, robust against missed sensors",
-    rules: &[crew!(Rule::repaired, Bricks::ROBUST)],
+    rules: &[crew!(Rule::repaired, Bricks::ROBUST).switched(&switched(Bricks::ROBUST))],
     ..MARKING
 };
 

@@ -17,7 +17,7 @@ use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH};
 use super::catalogue::{By, Drawn, Look, Profile, Starts};
 use super::clause::{Clause, Judge};
-use super::rule::{Rule, RuleId};
+use super::rule::{Rule, RuleId, Switched};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
@@ -33,18 +33,22 @@ pub const UNHELD: RuleId = RuleId::new("unheld");
 pub static CHAIN: Profile = Profile {
     about: "A base, a leader that seeks the frontier, and followers that keep radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), &Walls(Subject::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), &Walls(Subject::REPAIRED)),
+        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), &Walls(Subject::PUBLISHED))
+            .switched(&switched(chain::Rule::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), &Walls(Subject::REPAIRED))
+            .switched(&switched(chain::Rule::REPAIRED)),
         Rule::new(
             REEL,
             "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
             |setup| start(setup, chain::Rule::REEL),
         )
-        .hunted(&Walls(Subject::REEL)),
+        .hunted(&Walls(Subject::REEL))
+        .switched(&switched(chain::Rule::REEL)),
         Rule::new(UNHELD, "The reel without the condition that holds contact whoever fails", |setup| {
             start(setup, Subject::UNHELD.rule)
         })
-        .hunted(&Walls(Subject::UNHELD)),
+        .hunted(&Walls(Subject::UNHELD))
+        .switched(&switched(Subject::UNHELD.rule)),
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,
@@ -84,6 +88,15 @@ pub static CHAIN: Profile = Profile {
     ],
     ..Profile::named("chain")
 };
+
+/// A chain's rule whose conditions can be switched: a mutant still claims to follow it.
+const fn switched(rule: chain::Rule) -> Switched<chain::Rule> {
+    Switched {
+        rule,
+        start,
+        hunt: |rule, intended| Some(Box::new(Walls(Subject { rule, intended, ..Subject::PUBLISHED }))),
+    }
+}
 
 /// The chain of `setup`, all robots at the base.
 fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Diagnostic> {

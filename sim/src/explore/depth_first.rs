@@ -6,7 +6,7 @@ use tautline_proofs::bricks::tree::mdfs::Mdfs;
 
 use super::bricks::MARKING;
 use super::catalogue::Profile;
-use super::hunt_states::crew;
+use super::hunt_states::{crew, switched};
 use super::rule::{Rule, RuleId};
 
 /// Multiple depth first search.
@@ -22,13 +22,15 @@ pub static HELPERS: Profile = Profile {
     name: "helpers",
     about: "Depth first search by agents on a sensor floor that share the trees that they meet",
     rules: &[
-        crew!(Rule::repaired, Trees::ROBUST),
-        crew!(RuleId::new("trusting"), "As if no sensor were ever missed", Trees::HELPERS),
+        crew!(Rule::repaired, Trees::ROBUST).switched(&switched(Trees::ROBUST)),
+        crew!(RuleId::new("trusting"), "As if no sensor were ever missed", Trees::HELPERS)
+            .switched(&switched(Trees::HELPERS)),
         crew!(
             RuleId::new("doubting"),
             "Places sensors unasked, after three scans in a row that miss one",
             Trees::DOUBTING
-        ),
+        )
+        .switched(&switched(Trees::DOUBTING)),
     ],
     ..MARKING
 };

@@ -14,7 +14,7 @@ use tautline_proofs::run::Frame;
 use self::hunt::{Searched, Simulated};
 use super::catalogue::{By, Drawn, Look, Profile, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId};
+use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -52,7 +52,11 @@ const MISSED: &str = "Within reach and unexplored";
 /// A rule of the kernel, hunted through all states.
 macro_rules! searched {
     ($name:expr, $about:expr, $rule:expr) => {
-        Rule::new($name, $about, |setup| start(setup, $rule)).hunted(&Searched($rule))
+        Rule::new($name, $about, |setup| start(setup, $rule)).hunted(&Searched($rule)).switched(&Switched {
+            rule: $rule,
+            start,
+            hunt: |rule, _| Some(Box::new(Searched(rule))),
+        })
     };
 }
 

@@ -5,11 +5,11 @@ use tautline_proofs::floor::crew::Scheme as Crew;
 use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, TrapReport};
 use tautline_proofs::plural::counted;
 
-use super::agents::PREMATURE;
+use super::agents::{self, PREMATURE};
 use super::catalogue::Scheme;
 use super::each::Each;
 use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
-use super::rule::RuleId;
+use super::rule::{RuleId, Switched};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Size};
@@ -40,6 +40,15 @@ macro_rules! crew {
     };
 }
 pub(super) use crew;
+
+/// The rule of a crew whose conditions can be switched.
+pub(super) const fn switched<C: Crew>(rule: C) -> Switched<C> {
+    Switched {
+        rule,
+        start: |setup, crew| Ok(agents::start(setup, crew)),
+        hunt: |crew, _| Some(Box::new(Traps(crew))),
+    }
+}
 
 /// The hunt of a crew.
 #[derive(Debug)]

@@ -21,7 +21,7 @@ use self::hunt::Searched;
 
 use super::catalogue::{By, Drawn, Profile, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::Rule;
+use super::rule::{Rule, Switched};
 use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -72,8 +72,10 @@ const PATIENCE: usize = 20;
 pub static KIT: Profile = Profile {
     about: "Keep In Touch: robots that drive every path between two cells, and keep in radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, Kit::PUBLISHED), &Searched(Kit::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, Kit::REPAIRED), &Searched(Kit::REPAIRED)),
+        Rule::published(|setup| start(setup, Kit::PUBLISHED), &Searched(Kit::PUBLISHED))
+            .switched(&switched(Kit::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, Kit::REPAIRED), &Searched(Kit::REPAIRED))
+            .switched(&switched(Kit::REPAIRED)),
     ],
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
@@ -105,6 +107,11 @@ struct KitTeam {
     reach: Reach,
     /// The last one.
     drive: Option<Drive>,
+}
+
+/// A rule whose conditions can be switched.
+const fn switched(rule: Kit) -> Switched<Kit> {
+    Switched { rule, start, hunt: |rule, _| Some(Box::new(Searched(rule))) }
 }
 
 /// The team of `setup`, each robot at its start.

@@ -17,7 +17,7 @@ use tautline_proofs::run::Frame;
 
 use super::catalogue::{Profile, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId};
+use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -44,10 +44,12 @@ const PATIENCE: usize = 100;
 pub static PACK: Profile = Profile {
     about: "Robots that see, go where most is to be seen for the way, and stay connected without a base",
     rules: &[
-        Rule::new(RuleId::PUBLISHED, "As the paper publishes it", |setup| start(setup, Pack::PUBLISHED)),
+        Rule::new(RuleId::PUBLISHED, "As the paper publishes it", |setup| start(setup, Pack::PUBLISHED))
+            .switched(&switched(Pack::PUBLISHED)),
         Rule::new(RuleId::REPAIRED, "With the repairs of its refuted claims", |setup| {
             start(setup, Pack::REPAIRED)
-        }),
+        })
+        .switched(&switched(Pack::REPAIRED)),
     ],
     team: "pack",
     robots: 1..=MAX_ROBOTS,
@@ -100,6 +102,11 @@ struct PackTeam {
     made: Option<MoveKind>,
     /// Team moves since something new was seen.
     idle: usize,
+}
+
+/// A rule whose conditions can be switched.
+const fn switched(rule: Pack) -> Switched<Pack> {
+    Switched { rule, start, hunt: |_, _| None }
 }
 
 /// The pack of `setup`, each robot at its start.

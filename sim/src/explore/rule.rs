@@ -5,6 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use tautline_kernel::chain;
+use tautline_kernel::conditions::Conditional;
 use tautline_proofs::chain::Subject;
 
 use super::clause::kept;
@@ -119,20 +120,80 @@ pub struct Rule {
     pub start: Start,
     /// How it is hunted, if it is.
     pub hunt: Option<&'static dyn Hunt>,
+    /// Its conditions, if it has any that can be switched.
+    pub switches: Option<&'static dyn Switches>,
 }
 
 /// The team of a setup at its start.
 pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Diagnostic>;
 
+/// The conditions of a rule, which can be switched one by one: with one off that the rule has, it is a mutant.
+pub trait Switches: fmt::Debug + Sync {
+    /// The conditions, each by its name and the sentence that it stands for.
+    fn conditions(&self) -> &'static [(&'static str, &'static str)];
+
+    /// Those in force, a bit for each in their order.
+    fn in_force(&self) -> u16;
+
+    /// The team of a setup, with these conditions in force and no others.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the setup does not fit its scheme.
+    fn start(&self, setup: &Setup, in_force: u16) -> Result<Box<dyn Team>, Diagnostic>;
+
+    /// The hunt with these conditions in force and no others, if there is one.
+    fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>>;
+}
+
+/// A rule of the kernel whose conditions can be switched: how its team starts, and how it is hunted.
+pub(super) struct Switched<R: 'static> {
+    /// The rule.
+    pub(super) rule: R,
+    /// The team of a setup that follows a rule.
+    pub(super) start: fn(&Setup, R) -> Result<Box<dyn Team>, Diagnostic>,
+    /// The hunt of a rule that claims to be the other one, if there is one.
+    pub(super) hunt: fn(R, R) -> Option<Box<dyn Hunt>>,
+}
+
+impl<R: Conditional + fmt::Debug + Sync> Switches for Switched<R> {
+    fn conditions(&self) -> &'static [(&'static str, &'static str)] {
+        R::CONDITIONS
+    }
+
+    fn in_force(&self) -> u16 {
+        self.rule.in_force()
+    }
+
+    fn start(&self, setup: &Setup, in_force: u16) -> Result<Box<dyn Team>, Diagnostic> {
+        setup.check()?;
+        (self.start)(setup, self.rule.with_in_force(in_force))
+    }
+
+    fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>> {
+        (self.hunt)(self.rule.with_in_force(in_force), self.rule)
+    }
+}
+
+impl<R: fmt::Debug> fmt::Debug for Switched<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.rule.fmt(f)
+    }
+}
+
 impl Rule {
     /// A rule that is not hunted.
     pub const fn new(name: RuleId, about: &'static str, start: Start) -> Self {
-        Self { name, about, start, hunt: None }
+        Self { name, about, start, hunt: None, switches: None }
     }
 
     /// This rule, hunted so.
     pub const fn hunted(self, hunt: &'static dyn Hunt) -> Self {
         Self { hunt: Some(hunt), ..self }
+    }
+
+    /// This rule, whose conditions can be switched.
+    pub const fn switched(self, switches: &'static dyn Switches) -> Self {
+        Self { switches: Some(switches), ..self }
     }
 
     /// As the paper publishes it.

@@ -364,11 +364,11 @@ impl Report {
         }
     }
 
-    /// The report of a run that is over.
-    fn ended(self, stopped: Stopped, team: &dyn Team) -> Self {
-        let (cells, components) = (team.cells().to_vec(), team.components().to_vec());
-        let (milliseconds, faults) = (team.milliseconds(), team.faults());
-        Self { stopped, team: cells, components, milliseconds, faults, ..self }
+    /// The run is over.
+    fn end(&mut self, stopped: Stopped, team: &dyn Team) {
+        self.stopped = stopped;
+        (self.team, self.components) = (team.cells().to_vec(), team.components().to_vec());
+        (self.milliseconds, self.faults) = (team.milliseconds(), team.faults());
     }
 }
 
@@ -382,14 +382,55 @@ pub fn run(
     limits: Limits,
     watch: &mut Watcher<'_>,
 ) -> Result<Report, Halt> {
-    let mut report = Report::new(team, layout);
-    let mut entered = vec![0_u32; team.cells().len()];
-    let mut before = team.cells().to_vec();
-    loop {
-        if let Some(stopped) = limit(limits, &report, &entered) {
-            return Ok(report.ended(stopped, team));
+    let mut course = Course::new(team, layout);
+    while let Some(made) = course.step(team, layout, limits, &mut |edge| layout.is_open(edge)) {
+        watch(&course.team_move(&made, team))?;
+    }
+    Ok(course.report)
+}
+
+/// A run that is made one team move at a time.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The report so far.
+    pub report: Report,
+    /// By robot, how many cells it has entered.
+    entered: Vec<u32>,
+}
+
+/// A team move that was made.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// Where the robots were.
+    pub before: Vec<Cell>,
+    /// The steps that they made.
+    pub frame: Frame,
+    /// The clauses that were broken.
+    pub broken: Vec<ClauseId>,
+}
+
+impl Course {
+    /// The run of `team`, which is at its start, in `layout`.
+    pub fn new(team: &dyn Team, layout: &Layout) -> Self {
+        Self { report: Report::new(team, layout), entered: vec![0; team.cells().len()] }
+    }
+
+    /// Makes the next team move of the `team`, for which `is_open` answers; `None` if the run is over, and then the
+    /// report says why.
+    pub fn step(
+        &mut self,
+        team: &mut dyn Team,
+        layout: &Layout,
+        limits: Limits,
+        is_open: &mut dyn FnMut(Edge) -> bool,
+    ) -> Option<Made> {
+        let report = &mut self.report;
+        if let Some(stopped) = limit(limits, report, &self.entered) {
+            report.end(stopped, team);
+            return None;
         }
-        let frame = match team.advance(&mut |edge| layout.is_open(edge)) {
+        let before = team.cells().to_vec();
+        let frame = match team.advance(is_open) {
             Ok(frame) => frame,
             Err(end) => {
                 let stopped = match end {
@@ -400,20 +441,25 @@ pub fn run(
                 };
                 let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
                 report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));
-                return Ok(report.ended(stopped, team));
+                report.end(stopped, team);
+                return None;
             }
         };
         report.steps += 1;
         report.note(&frame.cells, team.seen(), team.marked());
-        for (count, (from, to)) in entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
+        for (count, (from, to)) in self.entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
             *count += u32::from(from != to);
         }
         let broken = team.broken_in_move(&before, &frame);
         let step = report.steps;
         report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
-        let unseen = team.unseen();
-        watch(&TeamMove { step, before: &before, frame: &frame, unseen, broken: &broken, team })?;
-        before = frame.cells;
+        Some(Made { before, frame, broken })
+    }
+
+    /// The last team move of the `team`, as a watcher sees it.
+    pub fn team_move<'a>(&self, made: &'a Made, team: &'a dyn Team) -> TeamMove<'a> {
+        let Made { before, frame, broken } = made;
+        TeamMove { step: self.report.steps, before, frame, unseen: team.unseen(), broken, team }
     }
 }
 
