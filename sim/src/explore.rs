@@ -33,7 +33,7 @@ pub use self::run::{
     Course, End, Limits, Made, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation,
     Watcher, run,
 };
-pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
+pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Refusal, Scene, Shape, Value, Zone};
 pub use self::setup::{Asked, Play, Setup, explore, team};
 
 /// The schemes of this library. A program may have others, too.

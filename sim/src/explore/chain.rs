@@ -108,7 +108,7 @@ fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Diagnostic> 
     .map_err(fault)
 }
 
-fn begin<G: Grid + 'static, const ROBOTS: usize>(
+fn begin<G: Grid + Clone + 'static, const ROBOTS: usize>(
     setup: &Setup,
     rule: chain::Rule,
     grid: impl Fn(Area) -> Option<G>,

@@ -45,6 +45,30 @@ pub trait Hunt: fmt::Debug + Sync {
     fn deals(&self) -> Option<&dyn Deals> {
         None
     }
+
+    /// The hunt for what is `asked` as one that is made a little at a time, if that is possible.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if it cannot be searched so.
+    fn begin(&self, asked: &Asked<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+        let _ = asked;
+        Ok(None)
+    }
+}
+
+/// A hunt that is made a little at a time.
+pub trait Begun {
+    /// Hunts a little further. Returns whether there is more to do, and to spend.
+    fn step(&mut self) -> bool;
+
+    /// How far it is.
+    fn progress(&self) -> Progress<'_>;
+
+    /// The report of what was found so far, for what was `asked`.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if what was found fits into no layout.
+    fn report(&self, asked: &Asked<'_>) -> Result<HuntReport, Diagnostic>;
 }
 
 impl Scheme {

@@ -14,7 +14,7 @@ use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
 use super::floor::Component;
-use super::scene::{Layer, Scene};
+use super::scene::{Layer, Refusal, Scene};
 use crate::diagnostic::Halt;
 use crate::failures::Failures;
 use crate::layout::Layout;
@@ -90,6 +90,11 @@ pub trait Team {
     /// How long the run has taken the slowest robot, where that is known.
     fn milliseconds(&self) -> Option<u64> {
         None
+    }
+
+    /// The steps that robots cannot take instead of theirs in the next team move, all others doing as they plan.
+    fn refusals(&self) -> Vec<Refusal> {
+        Vec::new()
     }
 
     /// The failures so far, in a run in which something is to fail.

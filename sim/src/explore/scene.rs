@@ -2,7 +2,7 @@
 //! changes in them. A page draws a layer by its shape; it knows no scheme.
 
 use serde::Serialize;
-use tautline_kernel::ground::{Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge, Step};
 
 /// A layer of a page, which can be shown or hidden.
 #[derive(Clone, Debug)]
@@ -192,6 +192,17 @@ pub enum Change {
         /// The robot.
         robot: usize,
     },
+}
+
+/// A step that the conditions of a rule refuse.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Refusal {
+    /// The robot that would take it.
+    pub robot: usize,
+    /// The step.
+    pub step: Step,
+    /// The conditions that refuse it, each by itself; none if a wall does that the team knows.
+    pub by: Vec<&'static str>,
 }
 
 /// The changes that a team move makes in the layers of its team.

@@ -13,8 +13,8 @@ use super::areas;
 use crate::checkpoint::{self, Checkpoint, Part, Task, decode, encode};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::{
-    Asked, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown,
-    outcome, setup,
+    Asked, Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize,
+    Shown, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
 use crate::layout::Size;
@@ -57,6 +57,31 @@ impl Hunt for Walls {
 
     fn deals(&self) -> Option<&dyn Deals> {
         Some(self)
+    }
+
+    fn begin(&self, asked: &Asked<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+        let bounds = self.bounds(asked)?;
+        Ok(Some(Box::new(BegunWalls { search: start(&bounds)?, bounds })))
+    }
+}
+
+/// A hunt that is made a wave at a time.
+struct BegunWalls {
+    search: Search,
+    bounds: Bounds,
+}
+
+impl Begun for BegunWalls {
+    fn step(&mut self) -> bool {
+        self.search.wave()
+    }
+
+    fn progress(&self) -> Progress<'_> {
+        self.search.progress()
+    }
+
+    fn report(&self, asked: &Asked<'_>) -> Result<HuntReport, Diagnostic> {
+        told(asked, &self.bounds, &self.search.found())
     }
 }
 

@@ -8,13 +8,16 @@ use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::{
     self, Barrier, ByteEffect, Chain, Intent, Kind, Parts, Plan, Reformation, World,
 };
+use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
 use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
 use super::shown;
-use crate::explore::{Change, ClauseId, End, Hearers, Layer, Reach, Scene, Setup, Survey, Team};
+use crate::explore::{
+    Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Survey, Team,
+};
 use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
@@ -327,7 +330,7 @@ fn reach(layout: &Layout, base: Cell, robots: usize) -> Reach {
     Reach { cells, connected, robots: enough }
 }
 
-impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
+impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
     }
@@ -414,6 +417,32 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
             End::Explored | End::Exhausted | End::Endless if self.faults.died.is_some() => vec![DEATH],
             End::Explored | End::Exhausted | End::Endless => vec![Breach::Completeness.into()],
         }
+    }
+
+    fn refusals(&self) -> Vec<Refusal> {
+        let Some(Whole::Chain(chain)) = &self.whole else { return Vec::new() };
+        let mut chain = (**chain).clone();
+        let Ok(plan) = planned(&mut chain, &self.log) else { return Vec::new() };
+        let (rule, team, mut grid) = (chain.rule(), chain.cells(), chain.grid().clone());
+        let mut refusals = Vec::new();
+        for robot in 1..team.len() {
+            let mut steps = plan.steps().to_vec();
+            for step in Step::ALL.into_iter().filter(|&step| step != plan.steps()[robot]) {
+                steps[robot] = step;
+                if rule.admits_plan(&mut grid, team, &steps) {
+                    continue;
+                }
+                let alone =
+                    (0..).zip(chain::Rule::CONDITIONS).filter(|(bit, _)| rule.in_force() >> bit & 1 == 1);
+                let refuses = alone
+                    .filter(|(bit, _)| !rule.with_in_force(1 << bit).admits_plan(&mut grid, team, &steps));
+                let all: Vec<&str> = refuses.map(|(_, &(name, _))| name).collect();
+                let is_wall = !rule.with_in_force(0).admits_plan(&mut grid, team, &steps);
+                let by = if is_wall { Vec::new() } else { all };
+                refusals.push(Refusal { robot: self.left[robot], step, by });
+            }
+        }
+        refusals
     }
 
     fn faults(&self) -> Option<Failures> {
