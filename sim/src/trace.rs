@@ -55,12 +55,23 @@ pub enum StoredRun {
 /// # Errors
 /// A [`Diagnostic`] that names the line and column.
 pub fn open(path: &Path, catalogue: Catalogue) -> Result<StoredRun, Diagnostic> {
+    read(Lines::open(path, AGAIN)?, catalogue)
+}
+
+/// Reads the header of the run in a `text` that is called so, as [`open`] does that of a file.
+///
+/// # Errors
+/// A [`Diagnostic`] that names the line and column.
+pub fn open_text(name: &str, text: String, catalogue: Catalogue) -> Result<StoredRun, Diagnostic> {
+    read(Lines::of(name, text, AGAIN), catalogue)
+}
+
+fn read(mut lines: Lines, catalogue: Catalogue) -> Result<StoredRun, Diagnostic> {
     /// The part of a header that tells whether the scheme is known.
     #[derive(Deserialize)]
     struct Named {
         scheme: String,
     }
-    let mut lines = Lines::open(path, AGAIN)?;
     let text = lines.header(FORMAT, VERSION, MAX_FILE_BYTES)?;
     let is_foreign = |Named { scheme }| catalogue.scheme(&scheme).is_none();
     if serde_json::from_str(&text).is_ok_and(is_foreign) {
@@ -409,33 +420,13 @@ impl Writer {
     /// # Errors
     /// [`Diagnostic`] if the base is not a free cell.
     pub fn new(mut aside: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Diagnostic> {
-        let mut layout = Cow::Borrowed(&setup.layout);
-        if layout.base() != Some(setup.base) {
-            layout.to_mut().place_base(setup.base)?;
-        }
-        aside.append(line_of(&Header {
-            format: FORMAT.to_owned(),
-            version: VERSION,
-            scheme: setup.scheme.name.to_owned(),
-            rule: setup.rule.to_string(),
-            robots: setup.robots,
-            seed: setup.seed,
-            base: setup.base,
-            starts: setup.starts.clone(),
-            miss: Some(setup.miss).filter(|miss| !miss.is_never()),
-            missed: setup.missed.clone(),
-            options: Some(setup.options).filter(|options| *options != Options::default()),
-            choices: setup.choices.clone(),
-            limits: setup.limits,
-            clause: clause.map(|clause| clause.to_string()),
-            layout: layout.to_string(),
-        }));
+        aside.append(header(setup, clause)?);
         Ok(Self(aside))
     }
 
     /// Adds a team move.
     pub fn add(&mut self, made: &TeamMove<'_>) {
-        self.0.append(line_of(&Line::Move(StoredMove::new(made.step, made.frame))));
+        self.0.append(line(made));
     }
 
     /// Adds the end. The file has yet to be put in its place.
@@ -443,6 +434,49 @@ impl Writer {
         self.0.append(line_of(&Line::End(report.into())));
         self.0
     }
+}
+
+/// The header of the run of `setup`. A counterexample names the clause that it breaks.
+fn header(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Diagnostic> {
+    let mut layout = Cow::Borrowed(&setup.layout);
+    if layout.base() != Some(setup.base) {
+        layout.to_mut().place_base(setup.base)?;
+    }
+    Ok(line_of(&Header {
+        format: FORMAT.to_owned(),
+        version: VERSION,
+        scheme: setup.scheme.name.to_owned(),
+        rule: setup.rule.to_string(),
+        robots: setup.robots,
+        seed: setup.seed,
+        base: setup.base,
+        starts: setup.starts.clone(),
+        miss: Some(setup.miss).filter(|miss| !miss.is_never()),
+        missed: setup.missed.clone(),
+        options: Some(setup.options).filter(|options| *options != Options::default()),
+        choices: setup.choices.clone(),
+        limits: setup.limits,
+        clause: clause.map(|clause| clause.to_string()),
+        layout: layout.to_string(),
+    }))
+}
+
+/// The line of a team move.
+fn line(made: &TeamMove<'_>) -> String {
+    line_of(&Line::Move(StoredMove::new(made.step, made.frame)))
+}
+
+/// The run of `setup` as a stored run. A counterexample names the clause that it breaks.
+///
+/// # Errors
+/// [`Halt`] if the setup does not fit its scheme.
+pub fn text(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Halt> {
+    let mut text = header(setup, clause)?;
+    let report = explore(setup, &mut |made| {
+        text += &line(made);
+        Ok(())
+    })?;
+    Ok(text + &line_of(&Line::End((&report).into())))
 }
 
 /// The layout of a header, with the base where the header has it.

@@ -1,9 +1,9 @@
 //! Stored runs as lines of JSON, read one at a time and compared with what their header makes. A line that is not as it
 //! should be is a fault with its place.
 
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Cursor, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -54,14 +54,19 @@ pub fn format(path: &Path) -> Option<String> {
 }
 
 /// The lines of a file, one at a time.
-#[derive(Debug)]
 pub struct Lines {
     path: PathBuf,
-    input: BufReader<File>,
+    input: Box<dyn BufRead>,
     /// How many were read.
     count: usize,
     /// How to make such a file again.
     again: &'static str,
+}
+
+impl fmt::Debug for Lines {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Lines").field("path", &self.path).field("count", &self.count).finish_non_exhaustive()
+    }
 }
 
 impl Lines {
@@ -83,7 +88,12 @@ impl Lines {
         if let Ok(about) = file.metadata() {
             tracing::info!("reading {}: {}", path.display(), counted(about.len(), "byte"));
         }
-        Ok(Self { path: path.to_owned(), input: BufReader::new(file), count: 0, again })
+        Ok(Self { path: path.to_owned(), input: Box::new(BufReader::new(file)), count: 0, again })
+    }
+
+    /// The lines of a `text` that is called so; `again` says how to make one.
+    pub(crate) fn of(name: &str, text: String, again: &'static str) -> Self {
+        Self { path: name.into(), input: Box::new(Cursor::new(text)), count: 0, again }
     }
 
     /// These lines, with other words for how to make such a file again.
