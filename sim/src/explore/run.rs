@@ -149,6 +149,14 @@ impl Limits {
         let violation = clause.map_or(OnViolation::Stop, OnViolation::StopAt);
         Self { violation, ..Self::default() }
     }
+
+    /// The clause at whose violation the run stops.
+    pub const fn stop(self) -> Option<ClauseId> {
+        match self.violation {
+            OnViolation::StopAt(clause) => Some(clause),
+            OnViolation::GoOn | OnViolation::Stop => None,
+        }
+    }
 }
 
 /// The effect of a violation on a run.

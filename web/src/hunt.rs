@@ -1,0 +1,215 @@
+//! Hunts in slices, so that a page can show how far they are and stop them. A hunt that can be made a little at a time
+//! is; any other one is made again with four times the budget, which costs a third more at most.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::draw::story;
+use tautline_sim::explore::hunt::{Asked, Begun, Far, Finding, Hunt, HuntReport, Hunter, Shown};
+use tautline_sim::explore::{ClauseId, Scheme};
+use tautline_sim::layout::Size;
+
+use crate::play::json as written;
+use crate::settings::Settings;
+
+/// The bounds of a hunt; what is not given is the hunt's to choose.
+#[derive(Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Quarry {
+    robots: Option<u64>,
+    size: Option<[u64; 2]>,
+    max_walls: Option<u32>,
+    max_misses: Option<u8>,
+    max_losses: Option<u8>,
+    error: Option<f64>,
+}
+
+/// Steps of the first slice of a hunt that is made again and again.
+const FIRST: u64 = 1 << 14;
+
+/// Team moves of a slice of a hunt that is made a little at a time.
+const SLICE: u64 = 1 << 17;
+
+/// Team moves by which it is known how many a hunt takes.
+const PROBE: u64 = 1 << 20;
+
+/// A hunt of more expected team moves is one for a terminal: minutes of a browser's one thread.
+const MOST_MOVES: f64 = 4e8;
+
+/// A hunt on its way.
+pub(crate) struct Hunting {
+    scheme: Scheme,
+    settings: Settings,
+    quarry: Quarry,
+    hunt: Box<dyn Hunt>,
+    how: How,
+    /// How far it is, in words.
+    far: String,
+}
+
+enum How {
+    /// A little at a time.
+    Begun(Box<dyn Begun>),
+    /// With a budget for the next slice, and what the last one has found.
+    Again(u64, Option<HuntReport>),
+}
+
+/// Hears nothing but how far it is.
+struct Listener<'a>(&'a mut String);
+
+impl Hunter for Listener<'_> {
+    fn hears(&mut self, far: Far<'_>) -> ControlFlow<()> {
+        if let Far::Words(words) = far {
+            *self.0 = words;
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn is_left_out(&mut self, _: &Diagnostic) {}
+}
+
+impl Hunting {
+    /// The hunt of the rule of these settings, at its start, with the command that hunts so in a terminal.
+    pub(crate) fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
+        let (scheme, rule) = (settings.scheme()?, settings.rule()?);
+        let nothing =
+            || Diagnostic::usage(format!("nothing is hunted of {}", scheme.name), "hunt another scheme");
+        let hunt = match (settings.switched(), rule.switches) {
+            (Some(on), Some(switches)) => switches.hunt(on).ok_or_else(nothing)?,
+            _ => Box::new(Fixed(rule.hunt.ok_or_else(nothing)?)),
+        };
+        let mut hunting = Self {
+            scheme,
+            settings: settings.clone(),
+            quarry,
+            hunt,
+            how: How::Again(FIRST, None),
+            far: String::new(),
+        };
+        let asked = hunting.asked()?;
+        asked.check(&*hunting.hunt)?;
+        if let Some(begun) = hunting.hunt.begin(&asked)? {
+            hunting.how = How::Begun(begun);
+        }
+        let command = hunting.command();
+        Ok((hunting, json!({ "command": command })))
+    }
+
+    /// What is asked, without a budget.
+    fn asked(&self) -> Result<Asked<'static>, Diagnostic> {
+        let Quarry { robots, size, max_walls, max_misses, max_losses, error } = self.quarry;
+        let size = size.map(|[columns, rows]| Size::new(columns, rows)).transpose()?;
+        let rule = self.settings.rule()?.name;
+        let asked = Asked::new(self.scheme, rule);
+        Ok(Asked { robots, size, max_walls, max_misses, max_losses, error_cells: error, ..asked })
+    }
+
+    /// How one hunts so in a terminal; a rule whose conditions are switched only a page hunts.
+    fn command(&self) -> Option<String> {
+        if self.settings.switched().is_some() {
+            return None;
+        }
+        let Quarry { robots, size, max_walls, max_misses, max_losses, error } = &self.quarry;
+        let mut command =
+            format!("tautline hunt --scheme {} --rule {}", self.settings.scheme, self.settings.rule);
+        let mut tell = |field: &str, value: Option<String>| {
+            if let Some(value) = value {
+                // Writing to a string cannot fail.
+                let _ = write!(command, " --{field} {value}");
+            }
+        };
+        tell("robots", robots.map(|robots| robots.to_string()));
+        tell("size", size.map(|[columns, rows]| format!("{columns}x{rows}")));
+        tell("max-walls", max_walls.map(|walls| walls.to_string()));
+        tell("max-misses", max_misses.map(|misses| misses.to_string()));
+        tell("max-losses", max_losses.map(|losses| losses.to_string()));
+        tell("error", error.map(|error| error.to_string()));
+        Some(command)
+    }
+
+    /// Hunts a little further.
+    pub(crate) fn slice(&mut self) -> Result<Value, Diagnostic> {
+        let asked = self.asked()?;
+        match &mut self.how {
+            How::Begun(begun) => {
+                let until = begun.progress().moves + SLICE;
+                let mut has_more = true;
+                while has_more && begun.progress().moves < until {
+                    has_more = begun.step();
+                }
+                let progress = begun.progress();
+                let expected = progress.expected_moves();
+                let is_large = progress.moves >= PROBE && expected.is_some_and(|moves| moves > MOST_MOVES);
+                Ok(json!({
+                    "more": has_more,
+                    "runs": progress.runs,
+                    "moves": progress.moves,
+                    "expected": expected,
+                    "large": is_large,
+                    "walls": progress.levels.len(),
+                }))
+            }
+            How::Again(budget, last) => {
+                let far = &mut self.far;
+                let report = self.hunt.hunt(&Asked { budget: Some(*budget), ..asked }, &mut Listener(far))?;
+                let more = !report.is_complete;
+                let made = *budget;
+                (*budget, *last) = (budget.saturating_mul(4), Some(report));
+                Ok(json!({ "more": more, "moves": made, "far": self.far }))
+            }
+        }
+    }
+
+    /// The findings so far.
+    pub(crate) fn found(&self) -> Result<Value, Diagnostic> {
+        let report = match &self.how {
+            How::Begun(begun) => begun.report(&self.asked()?)?,
+            How::Again(_, Some(report)) => report.clone(),
+            How::Again(_, None) => return Ok(json!({ "found": [] })),
+        };
+        let HuntReport { title, outcome, is_complete, found, facts, .. } = &report;
+        Ok(json!({
+            "title": title,
+            "outcome": outcome,
+            "complete": is_complete,
+            "facts": written(facts),
+            "found": found.iter().map(|finding| self.finding(finding)).collect::<Vec<_>>(),
+        }))
+    }
+
+    fn finding(&self, finding: &Finding) -> Value {
+        let story = match &finding.shown {
+            Shown::Run(_) | Shown::Endless => None,
+            Shown::Story(_, story) | Shown::Told(story) => Some(story),
+        };
+        json!({
+            "clause": finding.clause,
+            "sentence": story::sentence(ClauseId::new(finding.clause)),
+            "title": finding.title,
+            "facts": written(&finding.facts),
+            "story": story,
+            "settings": written(&Settings::of(&finding.setup, self.settings.on)),
+        })
+    }
+}
+
+/// A hunt that stands in a catalogue.
+#[derive(Debug)]
+struct Fixed(&'static dyn Hunt);
+
+impl Hunt for Fixed {
+    fn takes(&self) -> &'static [tautline_sim::explore::hunt::Bound] {
+        self.0.takes()
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+        self.0.hunt(asked, hunter)
+    }
+
+    fn begin(&self, asked: &Asked<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+        self.0.begin(asked)
+    }
+}

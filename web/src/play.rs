@@ -1,0 +1,145 @@
+//! What a page plays: a board that stands still, and steps that say what they change.
+
+use serde::Serialize;
+use serde_json::Value;
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_sim::draw::page::film::LayerJson;
+
+use crate::ask::Answers;
+
+/// Something that is played step by step.
+pub(crate) trait Play {
+    /// What stands still.
+    fn board(&self) -> Board;
+
+    /// Makes the next step.
+    fn step(&mut self, world: &mut Answers) -> Step;
+
+    /// The steps that robots cannot take next, and what refuses them.
+    fn refusals(&self) -> Vec<Refused> {
+        Vec::new()
+    }
+}
+
+/// What stands still.
+#[derive(Serialize)]
+pub(crate) struct Board {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    /// The area of the team: the first cell, columns and rows.
+    pub(crate) area: [i16; 4],
+    /// The noun for a robot.
+    pub(crate) robot: &'static str,
+    /// The noun for a step.
+    pub(crate) unit: &'static str,
+    pub(crate) has_base: bool,
+    pub(crate) has_leader: bool,
+    /// Whether robots see which sides of their cells are open.
+    pub(crate) sees: bool,
+    /// The cells that are to be explored.
+    pub(crate) due: u32,
+    pub(crate) layers: Vec<LayerJson>,
+    /// How it is at the start.
+    pub(crate) start: Delta,
+}
+
+/// A step, or why there is none.
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Step {
+    /// What it changes.
+    Made(Box<Delta>),
+    /// The run is over.
+    Over(Over),
+}
+
+/// What a step changes. Cells and sides are told by their numbers in the whole board.
+#[derive(Default, Serialize)]
+pub(crate) struct Delta {
+    /// The number of the step.
+    pub(crate) step: u32,
+    /// Where robots are.
+    pub(crate) cells: Vec<Option<u32>>,
+    /// The sides that they tried, a letter each, small where they met a wall.
+    pub(crate) tried: String,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) back: bool,
+    /// The step in words.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub(crate) words: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) explored: Vec<u32>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) unseen: Vec<u32>,
+    /// The sides that are known from now on, and whether they are open.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) known: Vec<(u32, bool)>,
+    /// The layers that are emptied.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) clear: Vec<usize>,
+    /// Layer, robot, place and value.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) put: Vec<(usize, Option<usize>, u32, u8)>,
+    /// Layer, kind, who says it, and who hears it; all if nobody is named.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) say: Vec<(usize, usize, usize, Option<Vec<usize>>)>,
+    /// The robots whose link with the next is lost.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) lost: Vec<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) failed: Vec<usize>,
+    /// The walls that an answer has made or taken away.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) walls: Vec<(u32, bool)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) broken: Vec<Broken>,
+}
+
+/// A clause that was broken.
+#[derive(Clone, Serialize)]
+pub(crate) struct Broken {
+    pub(crate) clause: String,
+    pub(crate) sentence: &'static str,
+    /// How, a line for each pair or cell.
+    pub(crate) told: Vec<String>,
+    /// The cells that are missed, at the end.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) cells: Vec<u32>,
+}
+
+/// The end of a run.
+#[derive(Serialize)]
+pub(crate) struct Over {
+    pub(crate) words: String,
+    pub(crate) broken: Vec<Broken>,
+}
+
+/// A step that a robot cannot take.
+#[derive(Serialize)]
+pub(crate) struct Refused {
+    pub(crate) robot: usize,
+    /// The cell to which it would go.
+    pub(crate) to: u32,
+    /// The conditions that refuse it; none if a known wall does.
+    pub(crate) by: Vec<&'static str>,
+}
+
+/// The number of a cell, row by row.
+pub(crate) fn place(area: Area, cell: Cell) -> Option<u32> {
+    area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
+}
+
+/// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern
+/// side.
+pub(crate) fn side(area: Area, edge: Edge) -> Option<u32> {
+    let axis = match edge.side() {
+        Side::East | Side::West => 0,
+        Side::South | Side::North => 1,
+    };
+    place(area, edge.cell()).map(|place| 2 * place + axis)
+}
+
+/// A value as JSON.
+pub(crate) fn json(value: &impl Serialize) -> Value {
+    serde_json::to_value(value).unwrap_or_default()
+}

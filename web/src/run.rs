@@ -1,0 +1,234 @@
+//! A run of the simulator on a layout, as a page plays it: its team asks about sides that were not tried before, and
+//! the layout answers unless somebody else does.
+
+use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::draw::page::film;
+use tautline_sim::draw::story;
+use tautline_sim::explore::{
+    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Team,
+};
+use tautline_sim::layout::Layout;
+
+use crate::ask::{Answers, Question};
+use crate::play::{Board, Broken, Delta, Over, Play, Refused, Step, place, side};
+use crate::settings::Settings;
+
+/// A run on a layout.
+pub(crate) struct Run {
+    setup: Setup,
+    team: Box<dyn Team>,
+    course: Course,
+}
+
+impl Run {
+    /// The run of these settings, at its start.
+    pub(crate) fn new(settings: &Settings) -> Result<Self, Diagnostic> {
+        let setup = settings.setup()?;
+        let team = settings.team(&setup)?;
+        let course = Course::new(&*team, &setup.layout);
+        Ok(Self { setup, team, course })
+    }
+
+    /// The area of the board: that of the whole layout.
+    fn area(&self) -> Area {
+        self.setup.layout.size().area()
+    }
+
+    /// The clauses in words.
+    fn broken(&self, clauses: impl IntoIterator<Item = ClauseId>) -> Vec<Broken> {
+        let broken = |clause: ClauseId| Broken {
+            clause: clause.to_string(),
+            sentence: story::sentence(clause).unwrap_or_default(),
+            told: Vec::new(),
+            cells: Vec::new(),
+        };
+        clauses.into_iter().map(broken).collect()
+    }
+
+    /// What the team move `made` has changed.
+    fn delta(&self, made: &Made, walls: Vec<(Edge, bool)>) -> Delta {
+        let area = self.area();
+        let number = |cell| place(area, cell);
+        let team_move = self.course.team_move(made, &*self.team);
+        let mut broken = self.broken(made.broken.iter().copied());
+        for (one, &clause) in broken.iter_mut().zip(&made.broken) {
+            one.told = self.setup.told(clause, &self.course.report.chart, &team_move);
+        }
+        let mut delta = Delta {
+            step: team_move.step,
+            cells: made.frame.cells.iter().map(|&cell| number(cell)).collect(),
+            tried: made
+                .frame
+                .steps
+                .iter()
+                .zip(&made.frame.blocked)
+                .map(|(&step, &is)| letter(step, is))
+                .collect(),
+            back: made.frame.kind == tautline_kernel::chain::Kind::Backtrack,
+            explored: made
+                .frame
+                .cells
+                .iter()
+                .chain(self.team.seen())
+                .filter_map(|&cell| number(cell))
+                .collect(),
+            unseen: team_move.unseen.iter().filter_map(|&cell| number(cell)).collect(),
+            walls: walls.into_iter().filter_map(|(edge, is)| Some((side(area, edge)?, is))).collect(),
+            broken,
+            ..Delta::default()
+        };
+        for (robot, &from) in made.before.iter().enumerate() {
+            if let Move::Cross(at) = made.frame.steps[robot]
+                && let Some(at) = side(area, Edge::new(from, at))
+            {
+                delta.known.push((at, !made.frame.blocked[robot]));
+            }
+        }
+        if let Look::Linked { is_lost } = self.setup.scheme.look {
+            let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
+            delta.lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot).collect();
+        }
+        let mut scene = Scene::default();
+        self.team.show(&made.before, &mut scene);
+        delta.show(area, &scene);
+        delta
+    }
+}
+
+/// The letter of a step: small where a wall was met.
+fn letter(step: Move, is_blocked: bool) -> char {
+    let letter = match step {
+        Move::Stay => '.',
+        Move::Cross(Side::East) => 'E',
+        Move::Cross(Side::South) => 'S',
+        Move::Cross(Side::West) => 'W',
+        Move::Cross(Side::North) => 'N',
+    };
+    if is_blocked { letter.to_ascii_lowercase() } else { letter }
+}
+
+impl Delta {
+    /// Takes in what a scene changes.
+    fn show(&mut self, area: Area, scene: &Scene) {
+        for change in scene.changes() {
+            match change {
+                Change::Clear { layer } => self.clear.push(*layer),
+                &Change::Put { layer, robot, place: at, value } => {
+                    let at = match at {
+                        Place::Cell(cell) => place(area, cell),
+                        Place::Side(edge) => side(area, edge),
+                    };
+                    self.put.extend(at.map(|at| (layer, robot, at, value)));
+                }
+                &Change::Know { side: edge, is_open } => {
+                    self.known.extend(side(area, edge).map(|at| (at, is_open)));
+                }
+                Change::Say { layer, kind, from, to } => {
+                    let to = match to {
+                        Hearers::All => None,
+                        Hearers::These(robots) => Some(robots.clone()),
+                    };
+                    self.say.push((*layer, *kind, *from, to));
+                }
+                Change::Take { .. } => {}
+                &Change::Fail { robot } => self.failed.push(robot),
+            }
+        }
+    }
+}
+
+/// The question whether a side is open.
+fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
+    let (cell, beyond) = (edge.cell(), edge.cell().beyond(edge.side()));
+    Question {
+        words: format!("Is the side between {cell} and {beyond} open?"),
+        options: vec!["open".to_owned(), "a wall".to_owned()],
+        usual,
+        side: side(layout.size().area(), edge),
+        robots: Vec::new(),
+    }
+}
+
+impl Play for Run {
+    fn board(&self) -> Board {
+        let area = self.area();
+        let Self { setup, team, course } = self;
+        let cells = team.cells();
+        let own = team.area(&setup.layout);
+        let number = |cell| place(area, cell);
+        Board {
+            columns: area.width(),
+            rows: area.height(),
+            area: [own.first().x, own.first().y, own.width() as i16, own.height() as i16],
+            robot: setup.scheme.look.robot(),
+            unit: "team move",
+            has_base: setup.scheme.look.has_base(),
+            has_leader: matches!(setup.scheme.look, Look::Linked { .. }),
+            sees: setup.scheme.knowledge.is_some(),
+            due: course.report.cells,
+            layers: team.layers().iter().map(film::layer).collect(),
+            start: Delta {
+                cells: cells.iter().map(|&cell| number(cell)).collect(),
+                tried: ".".repeat(cells.len()),
+                explored: cells.iter().chain(team.seen()).filter_map(|&cell| number(cell)).collect(),
+                ..Delta::default()
+            },
+        }
+    }
+
+    fn step(&mut self, world: &mut Answers) -> Step {
+        let Self { setup, team, course } = self;
+        let layout = &setup.layout;
+        let mut walls = Vec::new();
+        let made = course.step(&mut **team, layout, setup.limits, &mut |edge| {
+            let is_between =
+                [edge.cell(), edge.cell().beyond(edge.side())].iter().all(|&cell| layout.is_free(cell));
+            if !is_between {
+                return false;
+            }
+            let usual = u32::from(layout.has_wall(edge));
+            let answer = world.ask(usual, 2, || question(layout, edge, usual));
+            if answer != usual {
+                walls.push((edge, answer == 1));
+            }
+            answer == 0
+        });
+        for &(edge, is_wall) in &walls {
+            if is_wall {
+                setup.layout.build_wall(edge);
+            } else {
+                setup.layout.remove_wall(edge);
+            }
+        }
+        if let Some(made) = made {
+            return Step::Made(Box::new(self.delta(&made, walls)));
+        }
+        let report = &self.course.report;
+        let last = report.violations.iter().filter(|broken| broken.step == report.steps);
+        let at_end =
+            last.filter_map(|broken| Some((broken.clause, self.setup.missed(broken.clause, &report.chart)?)));
+        let area = self.area();
+        let broken = at_end.flat_map(|(clause, (what, cells))| {
+            let mut broken = self.broken([clause]);
+            for one in &mut broken {
+                one.cells = cells.iter().filter_map(|&cell| place(area, cell)).collect();
+                let listed: Vec<String> = cells.iter().take(20).map(|cell| format!("({cell})")).collect();
+                let more = cells.len().saturating_sub(20);
+                let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+                one.told = vec![format!("{what}: {}{more}.", listed.join(" "))];
+            }
+            broken
+        });
+        Step::Over(Over { words: report.stopped.words().to_owned(), broken: broken.collect() })
+    }
+
+    fn refusals(&self) -> Vec<Refused> {
+        let (area, cells) = (self.area(), self.team.cells());
+        let refused = |refusal: tautline_sim::explore::Refusal| {
+            let to = place(area, cells.get(refusal.robot)?.after(refusal.step))?;
+            Some(Refused { robot: refusal.robot, to, by: refusal.by })
+        };
+        self.team.refusals().into_iter().filter_map(refused).collect()
+    }
+}

@@ -1,0 +1,3 @@
+//! The page as a browser drives it: requests and answers.
+
+mod chain;
