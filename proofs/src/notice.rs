@@ -2,9 +2,9 @@
 //! arrive and waits end.
 
 pub mod clauses;
-mod networks;
+pub mod networks;
 mod random;
-mod spread;
+pub mod spread;
 
 use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};
 

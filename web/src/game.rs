@@ -47,7 +47,9 @@ impl Game {
                 Step::Made(_) => self.steps += 1,
                 Step::Over(_) => self.is_over = true,
             }
-            made.push(written(&step));
+            let mut step = written(&step);
+            step["asked"] = json!(self.answers.taken().len());
+            made.push(step);
         }
         made
     }

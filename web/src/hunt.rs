@@ -7,11 +7,11 @@ use std::ops::ControlFlow;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::draw::story;
+use tautline_sim::explore::Scheme;
 use tautline_sim::explore::hunt::{Asked, Begun, Far, Finding, Hunt, HuntReport, Hunter, Shown};
-use tautline_sim::explore::{ClauseId, Scheme};
 use tautline_sim::layout::Size;
 
+use crate::clauses::sentence;
 use crate::play::json as written;
 use crate::settings::Settings;
 
@@ -187,7 +187,7 @@ impl Hunting {
         };
         json!({
             "clause": finding.clause,
-            "sentence": story::sentence(ClauseId::new(finding.clause)),
+            "sentence": sentence(finding.clause),
             "title": finding.title,
             "facts": written(&finding.facts),
             "story": story,

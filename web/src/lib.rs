@@ -7,6 +7,7 @@
 
 mod ask;
 mod by_hand;
+mod clauses;
 pub mod exports;
 mod files;
 mod game;

@@ -4,13 +4,13 @@
 use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
-use tautline_sim::draw::story;
 use tautline_sim::explore::{
     Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Team,
 };
 use tautline_sim::layout::Layout;
 
 use crate::ask::{Answers, Question};
+use crate::clauses::sentence;
 use crate::play::{Board, Broken, Delta, Over, Play, Refused, Step, place, side};
 use crate::settings::Settings;
 
@@ -39,7 +39,7 @@ impl Run {
     fn broken(&self, clauses: impl IntoIterator<Item = ClauseId>) -> Vec<Broken> {
         let broken = |clause: ClauseId| Broken {
             clause: clause.to_string(),
-            sentence: story::sentence(clause).unwrap_or_default(),
+            sentence: sentence(clause.as_str()),
             told: Vec::new(),
             cells: Vec::new(),
         };

@@ -160,7 +160,7 @@ fn written(event: &Event) -> Option<judge::Step> {
 }
 
 /// An event in words; nothing of a robot that has only decided, unless a robot misses that.
-fn words(event: &Event, cells: &[Cell]) -> Option<String> {
+pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
     let missed = |missed: u8| {
         let robots = (0..u8::BITS).filter(|robot| missed >> robot & 1 == 1);
         let each: Vec<String> = robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect();

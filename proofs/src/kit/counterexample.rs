@@ -152,7 +152,7 @@ fn written(event: &Event) -> Option<judge::Step> {
 }
 
 /// An event in words.
-fn words(event: &Event) -> String {
+pub fn words(event: &Event) -> String {
     match event {
         Event::Arrives(robot, node) => format!("R{} arrives at {node}", robot + 1),
         Event::Decides(robot, looks, next) => {

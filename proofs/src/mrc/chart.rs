@@ -54,6 +54,37 @@ pub fn chart(setting: &Setting, broken: &Refutation) -> String {
     lines.join("\n") + "\n"
 }
 
+/// What happens by `action` before it leads to the state `after`, in words.
+pub fn happens(setting: &Setting, before: &State, action: Action, after: &State) -> String {
+    let mut words = match action {
+        Action::Raise(wfr) => format!("something happens at {}", name(Actor::Wfr(wfr))),
+        Action::Deliver(at) => format!("{} arrives", sentence(before.network[at])),
+        Action::Lose(at) => format!("{} is lost", sentence(before.network[at])),
+        Action::Duplicate(at) => format!("{} will arrive twice", sentence(before.network[at])),
+        Action::Expire(actor) => {
+            let early = if before.is_bound_to_happen(setting, action) { "" } else { " early" };
+            format!("{}: {}{early}", name(actor), timer(before, actor))
+        }
+        Action::Arrive(robot) => format!("{} comes", name(Actor::Robot(robot))),
+        Action::Lapse(robot) => format!("the lease of {} lapses", name(Actor::Robot(robot))),
+        Action::FailRobot(robot) => format!("{} fails", name(Actor::Robot(robot))),
+        Action::FailNode { robot, wfr } => {
+            format!("a node between {} and {} fails", name(Actor::Robot(robot)), name(Actor::Wfr(wfr)))
+        }
+    };
+    let actors = (0..setting.wfrs).map(Actor::Wfr).chain((0..setting.robots).map(Actor::Robot));
+    for change in actors.filter_map(|actor| change(before, after, actor)) {
+        words += "; ";
+        words += &change;
+    }
+    words
+}
+
+/// Who sends a message, and who is to get it.
+pub const fn between(message: Message) -> (Actor, Actor) {
+    ends(message)
+}
+
 /// How far each robot is from each WFR.
 fn hops(setting: &Setting, state: &State) -> String {
     let to: Vec<String> = (0..setting.wfrs).map(|wfr| name(Actor::Wfr(wfr))).collect();

@@ -116,9 +116,11 @@ impl Refutation {
 }
 
 /// The states of a setting.
-struct Space {
-    setting: Setting,
-    until: Until,
+pub struct Space {
+    /// The setting.
+    pub setting: Setting,
+    /// The demands that are looked for.
+    pub until: Until,
 }
 
 const fn bit(actor: Actor) -> Bits {

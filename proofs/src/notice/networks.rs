@@ -14,10 +14,10 @@ use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover};
 use crate::judge::{AnyCase, notice as judge};
 
 /// The largest network of which every state is looked at.
-pub(super) const SMALL: usize = 5;
+pub const SMALL: usize = 5;
 
 /// A network, the rule of its nodes, and what is demanded of them.
-struct Case {
+pub struct Case {
     links: Links<SMALL>,
     rule: Rule,
     demands: &'static [Demand],
@@ -128,6 +128,18 @@ pub(super) const NEAREST_PARENT: Networks = Networks { demand: Demand::NearestPa
 const EVENTS: [&str; 4] = ["a NOTICE arrives", "a copy arrives", "a node forwards", "an end"];
 
 impl Case {
+    /// A network in which these pairs of nodes have a link, of which everything is demanded.
+    pub fn new(pairs: impl IntoIterator<Item = (usize, usize)>, rule: Rule) -> Self {
+        let mut links = Links::NONE;
+        pairs.into_iter().for_each(|(one, other)| links.add(one, other));
+        Self { links, rule, demands: &Demand::ALL }
+    }
+
+    /// The network after its source has sent.
+    pub fn start(&self) -> Spread<SMALL> {
+        Spread::start(&self.links)
+    }
+
     /// The demands that are broken at some point of a run.
     fn broken(&self, spread: &Spread<SMALL>, point: Point) -> impl Iterator<Item = (Demand, &'static str)> {
         self.demands.iter().filter_map(move |&demand| match demand.check(&self.links, spread, point) {

@@ -12,7 +12,7 @@ use crate::engine::{Stop, require};
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct Links<const NODES: usize>(pub(super) [u64; NODES]);
+pub struct Links<const NODES: usize>(pub(super) [u64; NODES]);
 
 impl<const NODES: usize> Links<NODES> {
     pub(super) const NONE: Self = Self([0; NODES]);
@@ -42,23 +42,37 @@ pub(super) fn ones(bits: u64) -> impl Iterator<Item = usize> {
 
 /// The next event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Event {
+pub enum Event {
     /// A NOTICE arrives.
-    Arrives { from: usize, to: usize },
+    Arrives {
+        /// The node that has sent it.
+        from: usize,
+        /// The node that hears it.
+        to: usize,
+    },
     /// A NOTICE arrives, and another copy of it is still under way.
-    ArrivesAgain { from: usize, to: usize },
+    ArrivesAgain {
+        /// The node that has sent it.
+        from: usize,
+        /// The node that hears it.
+        to: usize,
+    },
     /// A wait ends.
-    Expires { at: usize },
+    Expires {
+        /// The node that waited.
+        at: usize,
+    },
 }
 
 /// An event on its way through a network.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Spread<const NODES: usize> {
-    pub(super) nodes: [Node; NODES],
+pub struct Spread<const NODES: usize> {
+    /// The nodes.
+    pub nodes: [Node; NODES],
     /// The hop count of each node's last NOTICE.
     pub(super) sent: [u16; NODES],
     /// For each node a bit for each to whom its NOTICE is under way.
-    pub(super) under_way: [u64; NODES],
+    pub under_way: [u64; NODES],
     /// How often each node has forwarded; more than twice is twice.
     pub(super) forwards: [u8; NODES],
     /// An observer's note of each node: of those it has heard before it forwarded or fell silent, the first with the
@@ -221,7 +235,7 @@ pub(super) enum Point {
 
 /// A demand on every state.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Demand {
+pub enum Demand {
     /// NOTICE-1
     Tree,
     /// NOTICE-2

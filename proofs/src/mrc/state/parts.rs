@@ -15,16 +15,20 @@ use crate::engine::states::{self, Places};
 /// A part of a [`State`]. What concerns one robot or one WFR is a part, and so are the messages between a robot and the
 /// WFRs: of each there are few, and so the many that they make together cost little.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) enum Part {
+pub enum Part {
+    /// A robot.
     Robot(RobotPart),
+    /// A WFR.
     Wfr(WfrPart),
+    /// The messages between a robot and the WFRs.
     Network(Vec<Message>),
+    /// All else.
     Rest(Rest),
 }
 
 /// A robot and what concerns it alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) struct RobotPart {
+pub struct RobotPart {
     robot: Robot<WFRS>,
     hops: [u16; WFRS],
     has_failed: bool,
@@ -34,7 +38,7 @@ pub(in crate::mrc) struct RobotPart {
 
 /// A WFR and what concerns it alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) struct WfrPart {
+pub struct WfrPart {
     wfr: Wfr<ROBOTS>,
     best: Option<Bid>,
     heard: u8,
@@ -43,7 +47,7 @@ pub(in crate::mrc) struct WfrPart {
 
 /// The part that concerns all.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) struct Rest {
+pub struct Rest {
     left: Faults,
     events_left: u8,
     broken: u16,

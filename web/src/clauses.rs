@@ -1,0 +1,34 @@
+//! The sentences of the clauses that a run can break. They stand in a text of their own, since the ledger, which has
+//! them, would bring every check of every clause into the page.
+
+/// A line for each clause: its id, a tabulator, its sentence.
+const SENTENCES: &str = include_str!("clauses.txt");
+
+/// The sentence of a clause; none if it is not one of ours.
+pub(crate) fn sentence(id: &str) -> &'static str {
+    let all = SENTENCES.lines().filter_map(|line| line.split_once('\t'));
+    all.into_iter().find(|&(known, _)| known == id).map_or("", |(_, sentence)| sentence)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write;
+    use std::{env, fs};
+
+    use tautline_proofs::ledger;
+
+    use super::SENTENCES;
+
+    #[test]
+    fn the_sentences_are_those_of_the_ledger() {
+        let mut all = String::new();
+        for clause in ledger::clauses() {
+            writeln!(all, "{}\t{}", clause.id, clause.sentence).expect("a string");
+        }
+        if env::var_os("TAUTLINE_RENEW").is_some() {
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/clauses.txt");
+            fs::write(path, &all).expect("a file");
+        }
+        assert!(all == SENTENCES, "renew it: TAUTLINE_RENEW=1 cargo test -p tautline-web");
+    }
+}
