@@ -204,6 +204,8 @@ function open(steps = 0, given = []) {
     return;
   }
   board = opened.board;
+  // A world that has no layout brings a board of its own.
+  if (board.columns !== columns || board.rows !== rows) blank(board.columns, board.rows);
   frames = [board.start];
   answers = given;
   const cells = columns * rows;
@@ -337,7 +339,7 @@ const STYLE = `text{font:600 9px system-ui,sans-serif;fill:var(--name);text-anch
 .link{stroke:var(--robot);stroke-width:2;stroke-opacity:.65}.loose{stroke-dasharray:5 3}.lost{stroke:var(--bad);stroke-width:3;stroke-dasharray:3 3}
 .robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}.dead{fill:var(--soft)}.ghost{fill-opacity:.25;stroke-dasharray:2 2;stroke:var(--ink)}
 .bump{stroke:var(--bad);stroke-width:3;stroke-linecap:round}.missed{fill:none;stroke:var(--bad);stroke-width:2}.bad{fill:none;stroke:var(--bad);stroke-width:3}
-.circle{fill:var(--robot);fill-opacity:.06;stroke:var(--robot);stroke-opacity:.4}.said{stroke:var(--aim);stroke-width:1.5;stroke-dasharray:2 3;fill:none}
+.circle{fill:var(--robot);fill-opacity:.06;stroke:var(--robot);stroke-opacity:.4}.said{stroke:var(--aim);stroke-width:2.5;stroke-dasharray:3 3;fill:none}.k1{stroke:var(--soft);stroke-width:1;stroke-dasharray:none}.k2{stroke:var(--open);stroke-width:4;stroke-dasharray:none;stroke-opacity:.45}
 .cursor{fill:none;stroke:var(--accent);stroke-width:3}.asked{stroke:var(--accent);stroke-width:6;stroke-opacity:.6;stroke-linecap:round}
 .start{fill:none;stroke:var(--base);stroke-width:2}.refused{stroke:var(--bad);stroke-width:2;fill:none}
 .c-open{fill:var(--open)}.c-wall{fill:var(--ink)}.c-barred{fill:var(--barred)}.c-aim{fill:var(--aim)}.c-goal{fill:var(--aim)}.c-closing{fill:var(--closing)}.c-closed{fill:var(--closed)}.c-sealed{fill:var(--sealed)}
@@ -386,7 +388,8 @@ function places(cells) {
   return spots;
 }
 
-const kindOf = (robot, count) => board.has_base && robot === 0 ? "base" : board.has_leader && robot === count - 1 ? "leader" : "robot";
+const nameOf = robot => board.names?.[robot] ?? robot + 1;
+const kindOf = (robot, count) => robot < board.squares ? "base" : board.has_leader && robot === count - 1 ? "leader" : "robot";
 const isShown = layer => !hidden.has(board.layers[layer].name);
 const hidden = new Set(["radio circle", "messages"]);
 
@@ -407,9 +410,9 @@ function drawLayers(cells, spots) {
     if (layer.shape === "sides") layer.values.forEach((value, i) => { above += path(`s s-${value.ink}`, [...of(i + 1)].map(sidePath).join("")); });
     if (layer.shape === "circle") for (const spot of spots) if (spot) above += `<circle class="circle" cx="${spot[0]}" cy="${spot[1]}" r="${layer.radius * CELL / 1000}"/>`;
     if (layer.shape === "links") above += drawLinks(layer, cells, spots);
-    if (layer.shape === "messages") for (const [of, , from, to] of frames[at].say ?? []) {
+    if (layer.shape === "messages") for (const [of, kind, from, to] of frames[at].say ?? []) {
       if (of !== number) continue;
-      for (const robot of to ?? cells.keys()) if (robot !== from && spots[robot] && spots[from]) above += `<path class="said" d="M${spots[from][0]} ${spots[from][1]}L${spots[robot][0]} ${spots[robot][1]}"/>`;
+      for (const robot of to ?? cells.keys()) if (robot !== from && spots[robot] && spots[from]) above += `<path class="said k${kind}" d="M${spots[from][0]} ${spots[from][1]}L${spots[robot][0]} ${spots[robot][1]}"/>`;
     }
   });
   return [below, above];
@@ -471,7 +474,7 @@ function drawing(isAlone = false) {
     const [x, y, r] = spot, kind = frame.dead?.includes(robot) ? "dead" : kindOf(robot, cells.length);
     inside += kind === "base" ? `<rect class="base" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}" rx="2"/>` : `<circle class="${kind}" cx="${x}" cy="${y}" r="${r}"/>`;
     if (isBroken) inside += `<circle class="bad" cx="${x}" cy="${y}" r="${r + 2}"/>`;
-    inside += `<text x="${x}" y="${y}" font-size="${r > 6 ? 9 : 7}">${robot + 1}</text>`;
+    inside += `<text x="${x}" y="${y}" font-size="${r > 6 ? 9 : 7}">${nameOf(robot)}</text>`;
     const letter = frame.tried[robot];
     if (letter && "eswn".includes(letter)) {
       const [dx, dy] = { e: [1, 0], s: [0, 1], w: [-1, 0], n: [0, -1] }[letter];
@@ -491,7 +494,7 @@ function drawing(isAlone = false) {
   return inside;
 }
 
-const startCells = () => !settings ? [] : settings.starts?.length ? settings.starts.map(numberOf) : settings.base ? [numberOf(settings.base)] : [];
+const startCells = () => !settings || scheme().starts === "none" ? [] : settings.starts?.length ? settings.starts.map(numberOf) : settings.base ? [numberOf(settings.base)] : [];
 const brokenHere = () => !board ? [] : [...frames[at]?.broken ?? [], ...over && at === frames.length - 1 ? over.broken : []];
 
 let followed = 0;
@@ -556,7 +559,7 @@ function renderQuestion() {
   const outcome = one => one?.over ? `the end: ${one.over.words}` : one?.made ? [...one.made.tried].map((letter, robot) => letter === "." ? "" : `${robot + 1}${letter === letter.toLowerCase() ? " bumps" : ""} ${WAYS[letter.toUpperCase()]}`).filter(part => part).join(", ") || one.made.words || "nobody moves" : "";
   const buttons = question.options.map((option, number) => {
     const broken = [...would[number]?.made?.broken ?? [], ...would[number]?.over?.broken ?? []].map(({ clause }) => clause);
-    const words = `${capital(option)}${number === question.usual ? " (as it is)" : ""}: ${outcome(would[number])}${broken.length ? `, breaks ${broken.join(", ")}` : ""}`;
+    const words = `${capital(option)}${number === question.usual && !settings.world ? " (as it is)" : ""}${settings.world ? "" : `: ${outcome(would[number])}`}${broken.length ? `, breaks ${broken.join(", ")}` : ""}`;
     return make("button", { textContent: words, onclick: () => step([number]) });
   });
   box.replaceChildren(make("p", { textContent: question.words }), ...buttons);
@@ -567,6 +570,7 @@ function renderQuestion() {
 const TOOLS = [["wall", "Walls"], ["block", "Blocked cells"], ["start", "Base"]];
 
 function tools() {
+  find("tools").hidden = scheme().starts === "none";
   const name = scheme().starts === "base" ? "Base" : "Starts";
   find("tools").replaceChildren(...TOOLS.map(([kind, words]) => {
     const button = make("button", { textContent: kind === "start" ? name : words, onclick: () => { tool = kind; tools(); } });
@@ -740,6 +744,9 @@ function form() {
     };
     return make("label", { title: about }, `${field} `, input);
   }));
+  find("more").hidden = !now.options.length;
+  find("hand").disabled = now.by_hand === "none";
+  find("hand").checked = isByHand &&= now.by_hand !== "none";
   conditions();
   quarry();
   tools();
@@ -800,7 +807,9 @@ function layers() {
 function choose(name) {
   const now = schemeOf(name), robots = Math.min(Math.max(settings.robots, now.robots[0]), now.robots[1]);
   const own = now.rules.find(({ name }) => name === settings.rule) ?? now.rules[0];
-  settings = { scheme: name, rule: own.name, on: null, robots, seed: settings.seed, base: settings.base, starts: now.starts === "base" ? [] : settings.starts, options: {} };
+  settings = { scheme: name, rule: own.name, on: null, robots, seed: settings.seed, base: settings.base, starts: now.starts === "base" ? [] : settings.starts, options: {}, world: now.by_hand === "only" };
+  isByHand = isByHand && now.by_hand !== "none" || now.by_hand === "only";
+  settings.world ||= isByHand && now.by_hand === "world";
   form();
   open();
 }
@@ -1062,7 +1071,14 @@ function listen() {
   find("back").onclick = () => { pause(); question = null; go(at - 1); };
   find("run").onclick = run;
   find("step").onclick = () => { pause(); step(); };
-  find("hand").onchange = event => { isByHand = event.target.checked; question = null; render(); };
+  find("hand").onchange = event => {
+    isByHand = event.target.checked;
+    question = null;
+    if (scheme().by_hand === "world") {
+      settings.world = isByHand;
+      open();
+    } else render();
+  };
   find("refusals").onclick = () => {
     if (refused) refused = null;
     else {

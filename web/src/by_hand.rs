@@ -1,11 +1,236 @@
-//! Worlds of the proofs that are played by hand.
+//! Worlds of the proofs that are played by hand: whatever may happen next is a question, and the seed answers where
+//! nobody else does. A world says how its states look; how it is played is the same for all.
 
+mod frontier;
+mod kit;
+mod mrc;
+mod notice;
+
+use serde_json::Value;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Area, Cell, Edge};
+use tautline_proofs::engine::SeededOracle;
+use tautline_proofs::engine::world::{Turn, World};
 use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::draw::page::film;
+use tautline_sim::explore::{Layer, Place};
 
-use crate::play::Play;
+use crate::ask::{Answers, Question};
+use crate::clauses::sentence;
+use crate::play::{Board, Broken, Delta, Over, Play, Step, place, side};
 use crate::settings::Settings;
 
+/// A scheme whose world is played by hand.
+pub(crate) struct ByHand {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Its world with these settings, at its start.
+    start: fn(&Settings) -> Result<Box<dyn Play>, Diagnostic>,
+    /// The row that a page shows, if no catalogue has one.
+    pub(crate) row: Option<fn() -> Value>,
+}
+
+/// The worlds.
+pub(crate) const WORLDS: [ByHand; 4] = [kit::KIT, frontier::FRONTIER, notice::NOTICE, mrc::MRC];
+
+/// The world of these settings, at its start.
 pub(crate) fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
-    let what = format!("no world of {} is played by hand", settings.scheme);
-    Err(Diagnostic::usage(what, "play it on a layout"))
+    let world = WORLDS.iter().find(|world| world.name == settings.scheme);
+    let world = world.ok_or_else(|| {
+        let what = format!("no world of {} is played by hand", settings.scheme);
+        Diagnostic::usage(what, "play it on a layout")
+    })?;
+    (world.start)(settings)
+}
+
+/// A world whose states can be shown.
+trait Shown: World {
+    /// What stands still.
+    fn scene(&self) -> Scene;
+
+    /// What may happen next, in words, as the plan lists it.
+    fn options(&self, state: &Self::State, plan: &Self::Plan) -> Vec<String>;
+
+    /// How a state looks.
+    fn picture(&self, state: &Self::State) -> Picture;
+
+    /// The id of the clause that a demand belongs to, and what is broken, in words.
+    fn clause(&self, demand: Self::Demand) -> (&'static str, String);
+}
+
+/// What stands still in a world.
+struct Scene {
+    area: Area,
+    /// The noun for whoever acts.
+    actor: &'static str,
+    /// The actors that are drawn as squares: so many of the first.
+    squares: usize,
+    /// The names of the actors, if they are not their numbers.
+    names: Vec<String>,
+    layers: Vec<Layer>,
+}
+
+/// How a state looks.
+#[derive(Default)]
+struct Picture {
+    /// Where the actors are.
+    cells: Vec<Cell>,
+    explored: Vec<Cell>,
+    /// Sides that are known, and whether they are open.
+    known: Vec<(Edge, bool)>,
+    /// Values in layers.
+    put: Vec<(usize, Option<usize>, Place, u8)>,
+    /// Layer, kind, and from whom to whom.
+    say: Vec<(usize, usize, usize, usize)>,
+    failed: Vec<usize>,
+}
+
+/// A world on its way.
+struct Played<W: Shown> {
+    world: W,
+    state: W::State,
+    log: Vec<u8>,
+    dice: SeededOracle,
+    step: u32,
+}
+
+impl<W: Shown + 'static> Played<W> {
+    fn boxed(world: W, state: W::State, seed: u64) -> Box<dyn Play>
+    where
+        W::State: 'static,
+    {
+        Box::new(Self { world, state, log: Vec::new(), dice: SeededOracle::new(seed, 0), step: 0 })
+    }
+}
+
+impl<W: Shown> Played<W> {
+    fn delta(&self, picture: Picture) -> Delta {
+        let Scene { area, layers, .. } = self.world.scene();
+        let Picture { cells, explored, known, put, say, failed } = picture;
+        let at = |at| match at {
+            Place::Cell(cell) => place(area, cell),
+            Place::Side(edge) => side(area, edge),
+        };
+        Delta {
+            step: self.step,
+            tried: ".".repeat(cells.len()),
+            explored: explored.iter().chain(&cells).filter_map(|&cell| place(area, cell)).collect(),
+            cells: cells.into_iter().map(|cell| place(area, cell)).collect(),
+            known: known.into_iter().filter_map(|(edge, is)| Some((side(area, edge)?, is))).collect(),
+            clear: (0..layers.len()).collect(),
+            put: put
+                .into_iter()
+                .filter_map(|(layer, robot, spot, value)| Some((layer, robot, at(spot)?, value)))
+                .collect(),
+            say: say.into_iter().map(|(layer, kind, from, to)| (layer, kind, from, Some(vec![to]))).collect(),
+            failed,
+            ..Delta::default()
+        }
+    }
+
+    fn broken(&self, demands: Vec<W::Demand>) -> Vec<Broken> {
+        let broken = |demand| {
+            let (clause, told) = self.world.clause(demand);
+            Broken {
+                clause: clause.to_owned(),
+                sentence: sentence(clause),
+                told: vec![told],
+                cells: Vec::new(),
+            }
+        };
+        demands.into_iter().map(broken).collect()
+    }
+}
+
+impl<W: Shown> Play for Played<W> {
+    fn board(&self) -> Board {
+        let Scene { area, actor, squares, names, layers } = self.world.scene();
+        Board {
+            columns: area.width(),
+            rows: area.height(),
+            area: [area.first().x, area.first().y, area.width() as i16, area.height() as i16],
+            robot: actor,
+            unit: "step",
+            squares,
+            names,
+            has_leader: false,
+            sees: false,
+            due: 0,
+            layers: layers.iter().map(film::layer).collect(),
+            start: self.delta(self.world.picture(&self.state)),
+        }
+    }
+
+    fn step(&mut self, answers: &mut Answers) -> Step {
+        let Self { world, state, log, dice, .. } = self;
+        let before = state.clone();
+        let Some(plan) = world.plan(state, log) else {
+            let broken = world.broken_at_end(state, log);
+            return Step::Over(Over {
+                words: "nothing can happen any more".to_owned(),
+                broken: self.broken(broken),
+            });
+        };
+        let options = world.options(state, &plan);
+        let (planned, sent) = (state.clone(), log.len());
+        let mut asked = Asked { answers, dice, options, taken: String::new() };
+        let event = world.settle(state, &plan, log, &mut asked);
+        let words = asked.taken;
+        let (before, planned, after) = (&before, &planned, &*state);
+        let turn = Turn { before, planned, after, plan: &plan, event: &event, sent: &log[sent..] };
+        let demands = world.broken_by(&turn);
+        let picture = world.picture(state);
+        self.step += 1;
+        let broken = self.broken(demands);
+        Step::Made(Box::new(Delta { words, broken, ..self.delta(picture) }))
+    }
+}
+
+/// Answers as somebody gives them, or as the dice fall.
+struct Asked<'a> {
+    answers: &'a mut Answers,
+    dice: &'a mut SeededOracle,
+    /// What may happen, until one of it is picked.
+    options: Vec<String>,
+    /// What was picked.
+    taken: String,
+}
+
+impl Oracle for Asked<'_> {
+    fn pick(&mut self, below: u32) -> u32 {
+        let usual = self.dice.pick(below);
+        let mut options = std::mem::take(&mut self.options);
+        let is_first = options.len() == below as usize;
+        if !is_first {
+            options = (1..=below).map(|number| number.to_string()).collect();
+        }
+        let question = || Question {
+            words: if is_first { "What happens next?" } else { "Which one?" }.to_owned(),
+            options: options.clone(),
+            usual,
+            side: None,
+            robots: Vec::new(),
+        };
+        let picked = if below < 2 { 0 } else { self.answers.ask(usual, below, question) };
+        if is_first {
+            self.taken.clone_from(&options[picked as usize]);
+        }
+        picked
+    }
+}
+
+/// The cells in which actors start: those of the settings, or else one beside the other from the first cell on.
+fn starts(settings: &Settings, area: Area, count: usize) -> Vec<Cell> {
+    let given = settings.starts.iter().copied();
+    let rest = area.cells().filter(|cell| !settings.starts.contains(cell));
+    given.chain(rest).take(count).collect()
+}
+
+/// A whole number among the options.
+fn number(settings: &Settings, field: &str, usual: u8, most: u8) -> Result<u8, Diagnostic> {
+    let Some(text) = settings.options.get(field) else { return Ok(usual) };
+    text.parse().ok().filter(|&number| number <= most).ok_or_else(|| {
+        let what = format!("`{field}` is {text:?}, and not a number from 0 to {most}");
+        Diagnostic::usage(what, "give it another value, or leave it out")
+    })
 }

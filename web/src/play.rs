@@ -32,7 +32,11 @@ pub(crate) struct Board {
     pub(crate) robot: &'static str,
     /// The noun for a step.
     pub(crate) unit: &'static str,
-    pub(crate) has_base: bool,
+    /// The robots that are drawn as squares: so many of the first.
+    pub(crate) squares: usize,
+    /// The names of the robots, if they are not their numbers.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) names: Vec<String>,
     pub(crate) has_leader: bool,
     /// Whether robots see which sides of their cells are open.
     pub(crate) sees: bool,

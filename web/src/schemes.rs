@@ -1,13 +1,18 @@
 //! The schemes as data: what a page needs to offer each of them.
 
 use serde_json::{Value, json};
+use tautline_kernel::conditions::Conditional;
 use tautline_sim::explore::hunt::{Bound, Hunt};
 use tautline_sim::explore::{Catalogue, Rule, Scheme, Senses, Starts};
 use tautline_sim::options::{Extra, Takes};
 
+use crate::by_hand::WORLDS;
+
 /// All schemes.
 pub(crate) fn list() -> Value {
-    let schemes: Vec<Value> = Catalogue::OWN.schemes().map(scheme).collect();
+    let own = Catalogue::OWN.schemes().map(scheme);
+    let worlds = WORLDS.iter().filter_map(|world| Some(world.row?()));
+    let schemes: Vec<Value> = own.chain(worlds).collect();
     json!({ "version": env!("CARGO_PKG_VERSION"), "schemes": schemes })
 }
 
@@ -17,6 +22,11 @@ fn scheme(scheme: Scheme) -> Value {
         Starts::Anywhere => "anywhere",
         Starts::Beside => "beside",
         Starts::Alone => "alone",
+    };
+    let by_hand = match scheme.senses {
+        _ if WORLDS.iter().any(|world| world.name == scheme.name) => "world",
+        Senses::Bumps => "sides",
+        Senses::Floor => "none",
     };
     json!({
         "name": scheme.name,
@@ -28,9 +38,20 @@ fn scheme(scheme: Scheme) -> Value {
         "starts": starts,
         "misses": scheme.senses == Senses::Floor,
         "draws": !scheme.drawn.is_empty(),
+        "by_hand": by_hand,
         "options": scheme.extras.iter().map(|extra| option(extra)).collect::<Vec<_>>(),
         "rules": scheme.rules.iter().map(rule).collect::<Vec<_>>(),
     })
+}
+
+/// The conditions of a rule, each by its name, its sentence, and whether it is in force.
+pub(crate) fn conditions<R: Conditional>(rule: &R) -> Value {
+    switched(R::CONDITIONS, rule.in_force())
+}
+
+fn switched(conditions: &[(&str, &str)], in_force: u16) -> Value {
+    let row = |(bit, (name, sentence)): (u32, &(&str, &str))| json!({ "name": name, "sentence": sentence.trim(), "on": in_force >> bit & 1 == 1 });
+    (0..).zip(conditions).map(row).collect()
 }
 
 fn option(extra: &Extra) -> Value {
@@ -42,15 +63,7 @@ fn option(extra: &Extra) -> Value {
 }
 
 fn rule(rule: &Rule) -> Value {
-    let switches = rule.switches.map(|switches| {
-        let conditions: Vec<Value> = (0..)
-            .zip(switches.conditions())
-            .map(|(bit, (name, sentence))| {
-                json!({ "name": name, "sentence": sentence.trim(), "on": switches.in_force() >> bit & 1 == 1 })
-            })
-            .collect();
-        json!(conditions)
-    });
+    let switches = rule.switches.map(|switches| switched(switches.conditions(), switches.in_force()));
     let hunt = rule.hunt.map(|hunt: &dyn Hunt| {
         let bounds: Vec<&str> =
             hunt.takes().iter().filter(|&&bound| bound != Bound::Resume).map(|bound| bound.field()).collect();

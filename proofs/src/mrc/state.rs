@@ -21,7 +21,7 @@ use tautline_kernel::net::{Epoch, NodeId, RobotId};
 pub use action::{Action, Actor, Message};
 pub use demand::Demand;
 use demand::Notes;
-pub use parts::Part;
+pub(super) use parts::Part;
 pub use setting::{Faults, Leases, LossKind, ROBOTS, Setting, WFRS};
 
 /// Robots, WFRs and what is between them.

@@ -1,0 +1,183 @@
+//! NOTICE by hand: which message arrives next, once or again, and who forwards. Nodes that are beside each other, also
+//! corner to corner, have a link, unless a wall is between them.
+
+use core::num::NonZeroU32;
+use serde_json::{Value as Json, json};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::conditions::Conditional as _;
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_kernel::notice::{Conditions, Count, Rule, Scheme, Stage};
+use tautline_proofs::engine::world::{Turn, World};
+use tautline_proofs::notice::networks::{Case, SMALL};
+use tautline_proofs::notice::spread::{Demand, Event, Spread};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
+
+use super::{ByHand, Picture, Played, Scene, Shown, number, starts};
+use crate::play::Play;
+use crate::schemes::conditions;
+use crate::settings::Settings;
+
+pub(super) const NOTICE: ByHand = ByHand { name: "notice", start, row: Some(row) };
+
+const STAGES: &[Value] = &[
+    Value { name: "waits", ink: Ink::Aim },
+    Value { name: "has forwarded", ink: Ink::Closed },
+    Value { name: "is silent", ink: Ink::Closing },
+];
+const KINDS: &[Kind] =
+    &[Kind::heard("a NOTICE under way"), Kind::heard("a link"), Kind::heard("a node's parent")];
+
+/// The rule with k = 1, and with these conditions.
+fn rule(conditions: Conditions, k: u8) -> Rule {
+    let scheme = Scheme::Farthest { k: Count::new(k) };
+    Rule { conditions, ..Rule::new(scheme, NonZeroU32::MIN, 0) }
+}
+
+fn row() -> Json {
+    let named = |name: &str, about: &str, own: Conditions| json!({ "name": name, "about": about, "conditions": conditions(&rule(own, 1)), "hunt": null });
+    json!({
+        "name": "notice",
+        "about": "NOTICE: a message that spreads through a network, node by node; each start is a node, the first the source",
+        "team": "network", "robot": "node", "robots": [2, SMALL], "base": false, "starts": "anywhere",
+        "misses": false, "draws": true, "by_hand": "only",
+        "options": [{ "field": "k", "takes": "COUNT",
+            "about": "A node that has heard so many senders besides the first does not forward; 0 is any number. Without it 1" }],
+        "rules": [
+            named("repaired", "With the repairs of its refuted claims", Conditions::REPAIRED),
+            named("published", "As the paper publishes it", Conditions::PUBLISHED),
+        ],
+    })
+}
+
+/// A network on a board.
+struct Network {
+    case: Case,
+    area: Area,
+    cells: Vec<Cell>,
+    pairs: Vec<(usize, usize)>,
+}
+
+fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
+    let layout = settings.layout()?;
+    let count = usize::from(settings.robots);
+    if !(2..=SMALL).contains(&count) {
+        let what = format!("{count} nodes are no network that is played by hand");
+        return Err(Diagnostic::of_field("robots", what, format_args!("take 2 to {SMALL}")));
+    }
+    let area = layout.size().area();
+    let cells = starts(settings, area, count);
+    let is_linked = |one: Cell, other: Cell| {
+        let (dx, dy) = one.apart(other);
+        let side = Side::ALL.into_iter().find(|&side| one.beyond(side) == other);
+        dx.max(dy) == 1 && side.is_none_or(|side| layout.is_open(Edge::new(one, side)))
+    };
+    let pairs = (0..cells.len()).flat_map(|one| (one + 1..cells.len()).map(move |other| (one, other)));
+    let pairs: Vec<(usize, usize)> =
+        pairs.filter(|&(one, other)| is_linked(cells[one], cells[other])).collect();
+    let own = if settings.rule == "published" { Conditions::PUBLISHED } else { Conditions::REPAIRED };
+    let rule = rule(own, number(settings, "k", 1, Count::MOST)?);
+    let rule = settings.on.map_or(rule, |on| rule.with_in_force(on));
+    let network = Network { case: Case::new(pairs.iter().copied(), rule), area, cells, pairs };
+    let state = network.case.start();
+    Ok(Played::boxed(network, state, settings.seed))
+}
+
+impl World for Network {
+    type State = Spread<SMALL>;
+    type Plan = Vec<Event>;
+    type Event = Event;
+    type Demand = (Demand, &'static str);
+
+    fn plan(&self, state: &mut Self::State, log: &[u8]) -> Option<Self::Plan> {
+        self.case.plan(state, log)
+    }
+
+    fn settle(
+        &self,
+        state: &mut Self::State,
+        plan: &Self::Plan,
+        log: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Event {
+        self.case.settle(state, plan, log, world)
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Self::Demand> {
+        let &Turn { before, planned, after, plan, event, sent } = turn;
+        self.case.broken_by(&Turn { before, planned, after, plan, event, sent })
+    }
+
+    fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Vec<Self::Demand> {
+        self.case.broken_at_end(state, log)
+    }
+}
+
+impl Shown for Network {
+    fn scene(&self) -> Scene {
+        let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
+        Scene {
+            area: self.area,
+            actor: "node",
+            squares: 1,
+            names: Vec::new(),
+            layers: vec![
+                layer("stages", "what has become of each node", Shape::Cells(STAGES)),
+                layer(
+                    "network",
+                    "links, what is under way, and the parent of each node",
+                    Shape::Messages(KINDS),
+                ),
+            ],
+        }
+    }
+
+    fn options(&self, _: &Self::State, plan: &Vec<Event>) -> Vec<String> {
+        let told = |event: &Event| match event {
+            Event::Arrives { from, to } => {
+                format!("the NOTICE of node {} arrives at node {}", from + 1, to + 1)
+            }
+            Event::ArrivesAgain { from, to } => {
+                format!(
+                    "the NOTICE of node {} arrives at node {}, and a copy is still under way",
+                    from + 1,
+                    to + 1
+                )
+            }
+            Event::Expires { at } => {
+                format!("the wait of node {} is over: it forwards or falls silent", at + 1)
+            }
+        };
+        plan.iter().map(told).collect()
+    }
+
+    fn picture(&self, state: &Self::State) -> Picture {
+        let mut picture = Picture { cells: self.cells.clone(), ..Picture::default() };
+        picture.say.extend(self.pairs.iter().map(|&(one, other)| (1, 1, one, other)));
+        for (at, (node, &cell)) in state.nodes.iter().zip(&self.cells).enumerate() {
+            let value = match node.stage() {
+                Stage::Unaware => 0,
+                Stage::Waiting { .. } => 1,
+                Stage::Forwarded => 2,
+                Stage::Silent => 3,
+            };
+            picture.put.extend((value > 0).then_some((0, None, Place::Cell(cell), value)));
+            let parent = node.parent().map(|parent| parent.0 as usize).filter(|&parent| parent != at);
+            picture.say.extend(parent.map(|parent| (1, 2, at, parent)));
+            let under_way = (0..self.cells.len()).filter(|to| state.under_way[at] >> to & 1 == 1);
+            picture.say.extend(under_way.map(|to| (1, 0, at, to)));
+        }
+        picture
+    }
+
+    fn clause(&self, (demand, words): Self::Demand) -> (&'static str, String) {
+        let clause = match demand {
+            Demand::Tree => "NOTICE-1",
+            Demand::Once => "NOTICE-2",
+            Demand::Floods => "NOTICE-3",
+            Demand::Reaches => "NOTICE-5",
+            Demand::NearestParent => "NOTICE-6",
+        };
+        (clause, format!("It is not so that {words}."))
+    }
+}
