@@ -494,7 +494,7 @@ function drawing(isAlone = false) {
   return inside;
 }
 
-const startCells = () => !settings || scheme().starts === "none" ? [] : settings.starts?.length ? settings.starts.map(numberOf) : settings.base ? [numberOf(settings.base)] : [];
+const startCells = () => !settings || scheme().by_hand === "only" && !settings.starts?.length ? [] : settings.starts?.length ? settings.starts.map(numberOf) : settings.base ? [numberOf(settings.base)] : [];
 const brokenHere = () => !board ? [] : [...frames[at]?.broken ?? [], ...over && at === frames.length - 1 ? over.broken : []];
 
 let followed = 0;
@@ -735,6 +735,7 @@ function form() {
   find("options").replaceChildren(...now.options.map(({ field, about, takes }) => {
     const value = settings.options?.[field];
     const input = takes ? make("input", { type: "text", size: 9, placeholder: takes, value: value ?? "" }) : make("input", { type: "checkbox", checked: value !== undefined });
+    input.dataset.option = field;
     input.onchange = () => {
       const all = { ...settings.options };
       if (takes ? input.value.trim() : input.checked) all[field] = takes ? input.value.trim() : "";
@@ -797,6 +798,12 @@ function layers() {
       line.append(name);
       return line;
     });
+    for (const [number, { name }] of (layer.kinds ?? []).entries()) {
+      const line = make("span");
+      line.innerHTML = `<svg viewBox="0 0 22 14" aria-hidden="true"><style>${STYLE}</style><path class="said k${number}" d="M0 7h22"/></svg> `;
+      line.append(name);
+      key.push(line);
+    }
     for (const zone of layer.zones ?? []) key.push(make("span", { textContent: `${zone.name}: ${zone.about}` }));
     if (key.length) item.append(make("div", { className: "key" }, ...key));
     return item;
@@ -836,6 +843,10 @@ let hunter = null, command = null, isOnBoard = false;
 
 function quarry() {
   const bounds = rule().hunt;
+  if (!hunter) {
+    find("found").replaceChildren();
+    find("far").textContent = find("far").className = "";
+  }
   find("find").disabled = !bounds;
   if (!bounds) {
     find("quarry").replaceChildren(make("p", { className: "small", textContent: "No hunt searches this rule: draw its layouts by hand." }));
@@ -849,7 +860,7 @@ function quarry() {
   const size = make("input", { type: "text", size: 7, placeholder: "its own" });
   size.dataset.quarry = "size";
   find("quarry").replaceChildren(
-    number(`${capital(scheme().robot)}s`, "robots", settings.robots, { min: 1 }),
+    number(`${capital(scheme().robot)}s`, "robots", "", { min: 1, placeholder: "its own" }),
     make("label", {}, "Size, as 3x2 ", size),
     ...bounds.filter(bound => BOUNDS[bound] && bound !== "max-cells").map(bound => number(...BOUNDS[bound], bound === "error" ? { step: 1 / 16 } : {})));
 }
@@ -952,7 +963,10 @@ function show(found, isDone, isStopped = false) {
 
 /** Puts a counterexample on the board, at its last step. */
 function put(one) {
+  const list = [...find("found").children], { textContent, className } = find("far");
   restore({ settings: one.settings, steps: 100000 });
+  find("found").replaceChildren(...list);
+  Object.assign(find("far"), { textContent, className });
   if (one.story && !board) find("say").textContent = one.story;
 }
 

@@ -219,11 +219,13 @@ impl Oracle for Asked<'_> {
     }
 }
 
-/// The cells in which actors start: those of the settings, or else one beside the other from the first cell on.
+/// The cells in which actors start: those of the settings, and then those nearest to the middle.
 fn starts(settings: &Settings, area: Area, count: usize) -> Vec<Cell> {
-    let given = settings.starts.iter().copied();
-    let rest = area.cells().filter(|cell| !settings.starts.contains(cell));
-    given.chain(rest).take(count).collect()
+    let middle = |first: i16, last: i16| i32::from(first) + i32::from(last);
+    let (x, y) = (middle(area.first().x, area.last().x), middle(area.first().y, area.last().y));
+    let mut rest: Vec<Cell> = area.cells().filter(|cell| !settings.starts.contains(cell)).collect();
+    rest.sort_by_key(|cell| (2 * i32::from(cell.x) - x).pow(2) + (2 * i32::from(cell.y) - y).pow(2));
+    settings.starts.iter().copied().chain(rest).take(count).collect()
 }
 
 /// A whole number among the options.
