@@ -8,6 +8,7 @@ pub mod bricks;
 pub mod catalogue;
 pub mod chain;
 mod clause;
+mod course;
 pub mod depth_first;
 mod each;
 pub mod floor;
@@ -27,11 +28,11 @@ mod states;
 
 pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts};
 pub use self::clause::{Clause, ClauseId, Judge};
+pub use self::course::{Course, Made};
 pub use self::own::Own;
 pub use self::rule::{Rule, RuleId, RuleName, Start, Switches};
 pub use self::run::{
-    Course, End, Limits, Made, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation,
-    Watcher, run,
+    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher, run,
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Refusal, Scene, Shape, Value, Zone};
 pub use self::setup::{Asked, Play, Setup, explore, team};

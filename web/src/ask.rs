@@ -48,23 +48,23 @@ impl Answers {
         self.given.extend_from_slice(more);
     }
 
-    /// The answer to the next question, which has so many options.
-    pub(crate) fn ask(&mut self, usual: u32, options: u32, question: impl FnOnce() -> Question) -> u32 {
+    /// The answer to the next question, which is only put together if it stays open. One that has one option does not.
+    pub(crate) fn ask(&mut self, usual: u32, question: impl FnOnce() -> Question) -> u32 {
         if self.open.is_some() {
             return usual;
         }
         let answer = match self.given.get(self.next) {
             Some(&answer) => answer,
-            None if self.by_hand => {
-                self.open = Some(question());
-                return usual;
-            }
             None => {
+                self.open = self.by_hand.then(question).filter(|question| question.options.len() > 1);
+                if self.open.is_some() {
+                    return usual;
+                }
                 self.given.push(USUAL);
                 USUAL
             }
         };
         self.next += 1;
-        u32::try_from(answer).ok().filter(|&answer| answer < options).unwrap_or(usual)
+        u32::try_from(answer).unwrap_or(usual)
     }
 }

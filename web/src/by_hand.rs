@@ -211,7 +211,7 @@ impl Oracle for Asked<'_> {
             side: None,
             robots: Vec::new(),
         };
-        let picked = if below < 2 { 0 } else { self.answers.ask(usual, below, question) };
+        let picked = if below < 2 { 0 } else { self.answers.ask(usual, question).min(below - 1) };
         if is_first {
             self.taken.clone_from(&options[picked as usize]);
         }

@@ -1,11 +1,11 @@
 //! A run of the simulator on a layout, as a page plays it: its team asks about sides that were not tried before, and
 //! the layout answers unless somebody else does.
 
-use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step as Move};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
 use tautline_sim::explore::{
-    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Team,
+    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Senses, Setup, Team,
 };
 use tautline_sim::layout::Layout;
 
@@ -150,6 +150,18 @@ fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
     }
 }
 
+/// The question which of these sensors is missed.
+fn missed(sensors: &[(usize, Cell)]) -> Question {
+    let one = |(agent, cell): &(usize, Cell)| format!("agent {} misses the sensor of {cell}", agent + 1);
+    Question {
+        words: "Which sensor is missed in this team move?".to_owned(),
+        options: std::iter::once("none".to_owned()).chain(sensors.iter().map(one)).collect(),
+        usual: 0,
+        side: None,
+        robots: Vec::new(),
+    }
+}
+
 impl Play for Run {
     fn board(&self) -> Board {
         let area = self.area();
@@ -179,8 +191,15 @@ impl Play for Run {
     }
 
     fn step(&mut self, world: &mut Answers) -> Step {
+        let area = self.area();
         let Self { setup, team, course } = self;
         let layout = &setup.layout;
+        if setup.scheme.senses == Senses::Floor {
+            let answer = world.ask(0, || missed(&team.sensors()));
+            if let Some(sensor) = answer.checked_sub(1) {
+                team.miss(sensor as usize);
+            }
+        }
         let mut walls = Vec::new();
         let made = course.step(&mut **team, layout, setup.limits, &mut |edge| {
             let is_between =
@@ -189,7 +208,7 @@ impl Play for Run {
                 return false;
             }
             let usual = u32::from(layout.has_wall(edge));
-            let answer = world.ask(usual, 2, || question(layout, edge, usual));
+            let answer = world.ask(usual, || question(layout, edge, usual)).min(1);
             if answer != usual {
                 walls.push((edge, answer == 1));
             }
@@ -209,7 +228,6 @@ impl Play for Run {
         let last = report.violations.iter().filter(|broken| broken.step == report.steps);
         let at_end =
             last.filter_map(|broken| Some((broken.clause, self.setup.missed(broken.clause, &report.chart)?)));
-        let area = self.area();
         let broken = at_end.flat_map(|(clause, (what, cells))| {
             let mut broken = self.broken([clause]);
             for one in &mut broken {

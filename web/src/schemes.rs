@@ -26,7 +26,7 @@ fn scheme(scheme: Scheme) -> Value {
     let by_hand = match scheme.senses {
         _ if WORLDS.iter().any(|world| world.name == scheme.name) => "world",
         Senses::Bumps => "sides",
-        Senses::Floor => "none",
+        Senses::Floor => "sensors",
     };
     json!({
         "name": scheme.name,

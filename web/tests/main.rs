@@ -1,3 +1,4 @@
 //! The page as a browser drives it: requests and answers.
 
 mod chain;
+mod schemes;

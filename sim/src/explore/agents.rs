@@ -185,6 +185,25 @@ impl<S: Scheme> Agents<S> {
         step
     }
 
+    /// The sensors that agents ask about in the next team move, in order: which agent, and in which cell.
+    fn sensors(&self) -> Vec<(usize, Cell)> {
+        let (mut team, mut sensors) = (self.clone(), Vec::new());
+        for number in (0..self.bodies.len()).filter(|&number| !self.bodies[number].is_done) {
+            let cell = team.cells[number];
+            let look = |written: Vec<u32>| {
+                let generator = team.misses.generator.clone();
+                let mut misses = Misses { chance: Probability::NEVER, generator, written, asked: 0 };
+                let view = S::Sensor::look(&team.floor, cell, &mut misses);
+                let missed: Vec<Cell> = unseen(&team.floor, &view, cell).collect();
+                (misses.asked, missed.first().copied())
+            };
+            let (asked, _) = look(Vec::new());
+            sensors.extend((1..=asked).map(|question| (number, look(vec![question]).1.unwrap_or(cell))));
+            team.act(number);
+        }
+        sensors
+    }
+
     /// How long the slowest agent has scanned and gone.
     pub fn milliseconds(&self) -> u64 {
         self.milliseconds.iter().copied().max().unwrap_or(0)
@@ -290,6 +309,18 @@ impl<S: Scheme> Team for Patrol<S> {
 
     fn milliseconds(&self) -> Option<u64> {
         Some(self.team.milliseconds())
+    }
+
+    fn sensors(&self) -> Vec<(usize, Cell)> {
+        self.team.sensors()
+    }
+
+    fn miss(&mut self, sensor: usize) {
+        let Misses { written, asked, .. } = &mut self.team.misses;
+        let question = *asked + sensor as u32 + 1;
+        if let Err(place) = written.binary_search(&question) {
+            written.insert(place, question);
+        }
     }
 
     fn layers(&self) -> Vec<Layer> {

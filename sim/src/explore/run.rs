@@ -13,6 +13,7 @@ use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
+use super::course::Course;
 use super::floor::Component;
 use super::scene::{Layer, Refusal, Scene};
 use crate::diagnostic::Halt;
@@ -95,6 +96,16 @@ pub trait Team {
     /// The steps that robots cannot take instead of theirs in the next team move, all others doing as they plan.
     fn refusals(&self) -> Vec<Refusal> {
         Vec::new()
+    }
+
+    /// The sensors that agents ask about in the next team move, in order: which agent, and in which cell.
+    fn sensors(&self) -> Vec<(usize, Cell)> {
+        Vec::new()
+    }
+
+    /// Makes agents miss the sensor with this place among those.
+    fn miss(&mut self, sensor: usize) {
+        let _ = sensor;
     }
 
     /// The failures so far, in a run in which something is to fail.
@@ -343,7 +354,7 @@ impl Report {
     }
 
     /// The report of the start: where the robots are is explored.
-    fn new(team: &dyn Team, layout: &Layout) -> Self {
+    pub(super) fn new(team: &dyn Team, layout: &Layout) -> Self {
         let mut report = Self {
             steps: 0,
             explored: 0,
@@ -362,7 +373,7 @@ impl Report {
     }
 
     /// Notes where the robots are, what they have seen, and what they have marked.
-    fn note(&mut self, cells: &[Cell], seen: &[Cell], marked: &[(Cell, Mark)]) {
+    pub(super) fn note(&mut self, cells: &[Cell], seen: &[Cell], marked: &[(Cell, Mark)]) {
         for &cell in cells.iter().chain(seen) {
             self.explored += u32::from(self.chart.enter(cell, self.steps));
         }
@@ -378,7 +389,7 @@ impl Report {
     }
 
     /// The run is over.
-    fn end(&mut self, stopped: Stopped, team: &dyn Team) {
+    pub(super) fn end(&mut self, stopped: Stopped, team: &dyn Team) {
         self.stopped = stopped;
         (self.team, self.components) = (team.cells().to_vec(), team.components().to_vec());
         (self.milliseconds, self.faults) = (team.milliseconds(), team.faults());
@@ -402,81 +413,8 @@ pub fn run(
     Ok(course.report)
 }
 
-/// A run that is made one team move at a time.
-#[derive(Clone, Debug)]
-pub struct Course {
-    /// The report so far.
-    pub report: Report,
-    /// By robot, how many cells it has entered.
-    entered: Vec<u32>,
-}
-
-/// A team move that was made.
-#[derive(Clone, Debug)]
-pub struct Made {
-    /// Where the robots were.
-    pub before: Vec<Cell>,
-    /// The steps that they made.
-    pub frame: Frame,
-    /// The clauses that were broken.
-    pub broken: Vec<ClauseId>,
-}
-
-impl Course {
-    /// The run of `team`, which is at its start, in `layout`.
-    pub fn new(team: &dyn Team, layout: &Layout) -> Self {
-        Self { report: Report::new(team, layout), entered: vec![0; team.cells().len()] }
-    }
-
-    /// Makes the next team move of the `team`, for which `is_open` answers; `None` if the run is over, and then the
-    /// report says why.
-    pub fn step(
-        &mut self,
-        team: &mut dyn Team,
-        layout: &Layout,
-        limits: Limits,
-        is_open: &mut dyn FnMut(Edge) -> bool,
-    ) -> Option<Made> {
-        let report = &mut self.report;
-        if let Some(stopped) = limit(limits, report, &self.entered) {
-            report.end(stopped, team);
-            return None;
-        }
-        let before = team.cells().to_vec();
-        let frame = match team.advance(is_open) {
-            Ok(frame) => frame,
-            Err(end) => {
-                let stopped = match end {
-                    End::Explored => Stopped::Explored,
-                    End::Exhausted => Stopped::Exhausted,
-                    End::Endless => Stopped::Endless,
-                    End::Silent => Stopped::Silent,
-                };
-                let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
-                report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));
-                report.end(stopped, team);
-                return None;
-            }
-        };
-        report.steps += 1;
-        report.note(&frame.cells, team.seen(), team.marked());
-        for (count, (from, to)) in self.entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
-            *count += u32::from(from != to);
-        }
-        let broken = team.broken_in_move(&before, &frame);
-        let step = report.steps;
-        report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
-        Some(Made { before, frame, broken })
-    }
-
-    /// The last team move of the `team`, as a watcher sees it.
-    pub fn team_move<'a>(&self, made: &'a Made, team: &'a dyn Team) -> TeamMove<'a> {
-        let Made { before, frame, broken } = made;
-        TeamMove { step: self.report.steps, before, frame, unseen: team.unseen(), broken, team }
-    }
-}
-
-fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
+/// Why the limits stop a run, if they do.
+pub(super) fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
     let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
     let is_broken = report.violations.iter().any(|broken| limits.violation.is_final(broken.clause));
     if is_broken {

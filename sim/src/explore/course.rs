@@ -1,0 +1,82 @@
+//! A run as whoever makes it team move by team move needs it.
+
+use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::run::Frame;
+
+use super::clause::ClauseId;
+use super::run::{End, Limits, Report, Stopped, Team, TeamMove, Violation, limit};
+use crate::layout::Layout;
+
+/// A run that is made one team move at a time.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The report so far.
+    pub report: Report,
+    /// By robot, how many cells it has entered.
+    entered: Vec<u32>,
+}
+
+/// A team move that was made.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// Where the robots were.
+    pub before: Vec<Cell>,
+    /// The steps that they made.
+    pub frame: Frame,
+    /// The clauses that were broken.
+    pub broken: Vec<ClauseId>,
+}
+
+impl Course {
+    /// The run of `team`, which is at its start, in `layout`.
+    pub fn new(team: &dyn Team, layout: &Layout) -> Self {
+        Self { report: Report::new(team, layout), entered: vec![0; team.cells().len()] }
+    }
+
+    /// Makes the next team move of the `team`, for which `is_open` answers; `None` if the run is over, and then the
+    /// report says why.
+    pub fn step(
+        &mut self,
+        team: &mut dyn Team,
+        layout: &Layout,
+        limits: Limits,
+        is_open: &mut dyn FnMut(Edge) -> bool,
+    ) -> Option<Made> {
+        let report = &mut self.report;
+        if let Some(stopped) = limit(limits, report, &self.entered) {
+            report.end(stopped, team);
+            return None;
+        }
+        let before = team.cells().to_vec();
+        let frame = match team.advance(is_open) {
+            Ok(frame) => frame,
+            Err(end) => {
+                let stopped = match end {
+                    End::Explored => Stopped::Explored,
+                    End::Exhausted => Stopped::Exhausted,
+                    End::Endless => Stopped::Endless,
+                    End::Silent => Stopped::Silent,
+                };
+                let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
+                report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));
+                report.end(stopped, team);
+                return None;
+            }
+        };
+        report.steps += 1;
+        report.note(&frame.cells, team.seen(), team.marked());
+        for (count, (from, to)) in self.entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
+            *count += u32::from(from != to);
+        }
+        let broken = team.broken_in_move(&before, &frame);
+        let step = report.steps;
+        report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
+        Some(Made { before, frame, broken })
+    }
+
+    /// The last team move of the `team`, as a watcher sees it.
+    pub fn team_move<'a>(&self, made: &'a Made, team: &'a dyn Team) -> TeamMove<'a> {
+        let Made { before, frame, broken } = made;
+        TeamMove { step: self.report.steps, before, frame, unseen: team.unseen(), broken, team }
+    }
+}

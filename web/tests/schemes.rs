@@ -1,0 +1,106 @@
+//! Every scheme: a game that is begun, stepped and made again.
+
+use serde_json::{Value, json};
+use tautline_web::Page;
+
+/// The answer of `page`, which must be none of a fault.
+fn ask(page: &mut Page, request: &Value) -> Value {
+    let answer: Value = serde_json::from_str(&page.answer(&request.to_string())).expect("JSON");
+    assert!(answer["error"].is_null(), "{request}: {answer}");
+    answer
+}
+
+/// Settings of a scheme in a small layout without walls.
+fn settings(scheme: &Value, rule: &Value) -> Value {
+    let robots = scheme["robots"][0].as_u64().expect("a number").max(2);
+    let sight = scheme["options"].as_array().expect("a list").iter().any(|option| option["field"] == "sight");
+    let options = if sight { json!({ "sight": "1" }) } else { json!({}) };
+    json!({
+        "scheme": scheme["name"], "rule": rule["name"], "robots": robots, "ground": ["4a", "4a", "4a"],
+        "options": options, "world": scheme["by_hand"] == "only",
+    })
+}
+
+#[test]
+fn every_rule_of_every_scheme_is_played_and_made_again() {
+    let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
+    let schemes = list["schemes"].as_array().expect("a list");
+    assert!(schemes.len() > 10, "{}", schemes.len());
+    for scheme in schemes {
+        for rule in scheme["rules"].as_array().expect("a list") {
+            let settings = settings(scheme, rule);
+            let opened =
+                ask(&mut Page::default(), &json!({ "do": "open", "settings": settings, "steps": 6 }));
+            let made = opened["made"].as_array().expect("a list");
+            assert!(made.iter().any(|step| step["made"].is_object()), "{settings}: {opened}");
+            let again = ask(&mut Page::default(), &json!({ "do": "open", "settings": settings, "steps": 6 }));
+            assert_eq!(opened, again, "{settings}");
+        }
+    }
+}
+
+#[test]
+fn what_is_decided_by_hand_is_the_same_game_when_it_is_made_at_once() {
+    let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
+    let mut asking = Vec::new();
+    for scheme in list["schemes"].as_array().expect("a list") {
+        let mut settings = settings(scheme, &scheme["rules"][0]);
+        settings["world"] = json!(scheme["by_hand"] == "world" || scheme["by_hand"] == "only");
+        let mut page = Page::default();
+        ask(&mut page, &json!({ "do": "open", "settings": settings }));
+        let (mut made, mut answers, mut questions) = (Vec::new(), json!([]), 0);
+        while made.len() < 4 {
+            let mut step = ask(&mut page, &json!({ "do": "step", "by_hand": true }));
+            while let Some(options) = step["question"]["options"].as_array() {
+                assert_eq!(step["would"].as_array().map(Vec::len), Some(options.len()), "{step}");
+                questions += 1;
+                let last = options.len() - 1;
+                step = ask(&mut page, &json!({ "do": "step", "by_hand": true, "answers": [last] }));
+            }
+            answers = step["answers"].clone();
+            made.extend(step["made"].as_array().expect("a list").clone());
+            if made.last().is_none_or(|step| step["over"].is_object()) {
+                break;
+            }
+        }
+        let open = json!({ "do": "open", "settings": settings, "answers": answers, "steps": made.len() });
+        assert_eq!(ask(&mut Page::default(), &open)["made"], Value::from(made), "{settings}");
+        if questions > 0 {
+            asking.push(scheme["name"].as_str().expect("a name").to_owned());
+        }
+    }
+    // The page knows no scheme; a test may.
+    for name in ["chain", "ants", "bricks", "kit", "frontier", "notice", "mrc"] {
+        assert!(asking.iter().any(|asked| asked == name), "{name} asks nothing: {asking:?}");
+    }
+}
+
+#[test]
+fn every_hunt_is_made_in_slices_and_its_findings_are_played() {
+    let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
+    let mut hunted = Vec::new();
+    for (name, rule, quarry) in [
+        ("kit", "published", json!({ "robots": 2, "size": [2, 2] })),
+        ("frontier", "published", json!({ "robots": 2, "size": [2, 2] })),
+        ("ants", "published", json!({ "size": [3, 2] })),
+        ("bricks", "published", json!({ "size": [3, 2] })),
+    ] {
+        let schemes = list["schemes"].as_array().expect("a list");
+        let scheme = schemes.iter().find(|scheme| scheme["name"] == name).expect("a scheme");
+        let settings = settings(scheme, &json!({ "name": rule }));
+        let mut page = Page::default();
+        ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": quarry }));
+        while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
+        let found = ask(&mut page, &json!({ "do": "found" }));
+        assert_eq!(found["complete"], true, "{name}");
+        for one in found["found"].as_array().expect("a list") {
+            let open = json!({ "do": "open", "settings": one["settings"], "steps": 1000 });
+            let opened = ask(&mut Page::default(), &open);
+            let last = opened["made"].as_array().and_then(|made| made.last()).cloned().unwrap_or_default();
+            let is_over = last["over"].is_object();
+            hunted.push(format!("{name} {} {is_over}", one["clause"].as_str().unwrap_or_default()));
+        }
+    }
+    assert!(hunted.iter().any(|one| one.starts_with("kit KIT-1 ")), "{hunted:?}");
+    assert!(hunted.iter().any(|one| one.starts_with("frontier FRONTIER-")), "{hunted:?}");
+}
