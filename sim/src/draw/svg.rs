@@ -159,7 +159,8 @@ pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
     if scheme.look.has_base() {
         body.push_str(&base_mark(frame, *base));
     }
-    panel(area, String::new(), body + &walls(layout, area))
+    let caption = format!("{}: when each cell was explored", run.setup().title());
+    panel(area, caption, body + &walls(layout, area))
 }
 
 /// One team move: where the robots were, what they tried, where they are.

@@ -362,11 +362,25 @@ function resize() {
   draw();
 }
 
+/** The part of the board that is not blocked, with a cell round it: a map may be a small one in a large picture. */
+const freePart = (() => {
+  let [left, top, right, bottom] = [width, height, 0, 0];
+  if (inCells) for (let cell = 0; cell < cells; cell++) {
+    if (blocked[cell]) continue;
+    const x = cell % columns, y = Math.floor(cell / columns);
+    left = Math.min(left, x - 1); right = Math.max(right, x + 2);
+    top = Math.min(top, y - 1); bottom = Math.max(bottom, y + 2);
+  }
+  if (left >= right) return { left: 0, top: 0, width, height };
+  left = Math.max(left, 0); top = Math.max(top, 0);
+  return { left, top, width: Math.min(right, width) - left, height: Math.min(bottom, height) - top };
+})();
+
 function fit() {
   const margin = 14 * (devicePixelRatio || 1);
-  view.scale = Math.max(Math.min((canvas.width - 2 * margin) / width, (canvas.height - 2 * margin) / height, 64 * (devicePixelRatio || 1)), .01);
-  view.x = (canvas.width - width * view.scale) / 2;
-  view.y = (canvas.height - height * view.scale) / 2;
+  view.scale = Math.max(Math.min((canvas.width - 2 * margin) / freePart.width, (canvas.height - 2 * margin) / freePart.height, 64 * (devicePixelRatio || 1)), .01);
+  view.x = (canvas.width - freePart.width * view.scale) / 2 - freePart.left * view.scale;
+  view.y = (canvas.height - freePart.height * view.scale) / 2 - freePart.top * view.scale;
   isFit = true; isStill = false;
 }
 
@@ -789,8 +803,15 @@ function drawCurve() {
   to.beginPath(); to.moveTo(at, 0); to.lineTo(at, bottom);
   stroke(to, ink.ink, 2 * unit);
   to.fillStyle = ink.soft; to.font = `${11 * unit}px system-ui, sans-serif`; to.textBaseline = "bottom";
-  to.textAlign = at > w / 2 ? "left" : "right";
-  to.fillText(`${percent(shown)} % of ${counted(film.share.of, film.share.what.split(" ")[0].replace(/s$/, ""))} ${film.share.what.split(" ")[1]}`, to.textAlign === "left" ? x(0) : x(1), h);
+  const text = `${percent(shown)} % of ${counted(film.share.of, film.share.what.split(" ")[0].replace(/s$/, ""))} ${film.share.what.split(" ")[1]}`;
+  const wide = to.measureText(text).width, marks = [...new Set(broken.map(one => x(partOf(one.i))))];
+  // Beside the marks of violations, away from the hand if both ends are free; on a plate if there are marks everywhere.
+  const spots = [x(0), x(1) - wide, x(.5) - wide / 2], isFree = spot => marks.every(mark => mark < spot - 8 * unit || mark > spot + wide + 8 * unit);
+  if (at <= w / 2) spots.unshift(spots.splice(1, 1)[0]);
+  const spot = spots.find(isFree) ?? spots[0];
+  if (!isFree(spot)) { to.fillStyle = ink.card; to.fillRect(spot - 2 * unit, h - 13 * unit, wide + 4 * unit, 13 * unit); to.fillStyle = ink.soft; }
+  to.textAlign = "left";
+  to.fillText(text, spot, h);
 }
 
 const percent = i => film.share.of ? Math.floor(100 * shares[i] / film.share.of) : 100;
@@ -1046,10 +1067,18 @@ function listEvents() {
     events.push({ i, text: names.length > 4 ? `${names.length} ${film.robot}s meet walls` : `${names.join(", ")} ${names.length > 1 ? "meet" : "meets a"} wall${names.length > 1 ? "s" : ""}` });
   }
   events.sort((one, other) => one.i - other.i);
+  // What happens again and again is one event, where it begins.
+  const once = [];
+  for (const event of events) {
+    const before = once.at(-1);
+    if (before?.text === event.text && before.isBad === event.isBad) { before.times++; before.to = event.i; } else once.push({ ...event, times: 1 });
+  }
+  events.splice(0, events.length, ...once);
   const left = events.splice(MOST_EVENTS);
-  const items = events.map(({ i, text, isBad }) => {
+  const items = events.map(({ i, text, isBad, times: count, to }) => {
     const item = element("li"), button = element("button", undefined, isBad ? { class: "bad" } : {});
-    button.append(element("i", inCells ? film.first + i : seconds(times[i])), element("span", text));
+    const more = count > 1 ? `, ${count} times in a row, the last at ${inCells ? film.first + to : seconds(times[to])}` : "";
+    button.append(element("i", inCells ? film.first + i : seconds(times[i])), element("span", text + more));
     button.onclick = () => go(i);
     item.append(button);
     return item;
@@ -1073,6 +1102,7 @@ function follow(robot) {
 
 function fillIn() {
   find("outcome").textContent = film.outcome;
+  for (const [clause, sentence] of Object.entries(film.clauses)) if (sentence) find("outcome").after(element("p", `${clause}: ${sentence}`));
   find("at").setAttribute("aria-label", film.unit);
   find("axis").options[0].textContent = `${film.unit}s`;
   find("axis-label").hidden = !isTimed;
