@@ -852,6 +852,9 @@ function quarry() {
     find("quarry").replaceChildren(make("p", { className: "small", textContent: "No hunt searches this rule: draw its layouts by hand." }));
     return;
   }
+  // Bounds that were typed stay while the scheme does.
+  const typed = find("quarry").dataset.scheme === scheme().name ? Object.fromEntries([...find("quarry").querySelectorAll("[data-quarry]")].map(input => [input.dataset.quarry, input.value])) : {};
+  find("quarry").dataset.scheme = scheme().name;
   const number = (words, key, value, more = {}) => {
     const input = make("input", { type: "number", min: 0, value, ...more });
     input.dataset.quarry = key;
@@ -863,6 +866,7 @@ function quarry() {
     number(`${capital(scheme().robot)}s`, "robots", "", { min: 1, placeholder: "its own" }),
     make("label", {}, "Size, as 3x2 ", size),
     ...bounds.filter(bound => BOUNDS[bound] && bound !== "max-cells").map(bound => number(...BOUNDS[bound], bound === "error" ? { step: 1 / 16 } : {})));
+  for (const input of find("quarry").querySelectorAll("[data-quarry]")) input.value = typed[input.dataset.quarry] ?? input.value;
 }
 
 function readQuarry() {
