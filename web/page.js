@@ -1124,6 +1124,8 @@ function listen() {
     if (drawn.error) complain(drawn); else save("layout.txt", "text/plain", drawn.text);
   };
   find("store").onclick = () => {
+    // Walls that were decided by hand are in the ground; missed sensors are not.
+    if (scheme().by_hand === "sensors" && answers.some(answer => answer > 0)) return complain({ error: "a stored run does not hold which sensors were missed by hand", remedy: "keep the link instead: it does" });
     const stored = asked({ do: "store", settings: full() });
     if (stored.error) complain(stored); else save(`${settings.scheme}-${settings.rule}.jsonl`, "application/x-ndjson", stored.text);
   };

@@ -53,18 +53,15 @@ impl Answers {
         if self.open.is_some() {
             return usual;
         }
-        let answer = match self.given.get(self.next) {
-            Some(&answer) => answer,
-            None => {
-                self.open = self.by_hand.then(question).filter(|question| question.options.len() > 1);
-                if self.open.is_some() {
-                    return usual;
-                }
-                self.given.push(USUAL);
-                USUAL
+        let given = self.given.get(self.next).copied();
+        if given.is_none() {
+            self.open = self.by_hand.then(question).filter(|question| question.options.len() > 1);
+            if self.open.is_some() {
+                return usual;
             }
-        };
+            self.given.push(USUAL);
+        }
         self.next += 1;
-        u32::try_from(answer).unwrap_or(usual)
+        u32::try_from(given.unwrap_or(USUAL)).unwrap_or(usual)
     }
 }

@@ -75,6 +75,12 @@ fn spot(fault: &Diagnostic) -> Diagnostic {
 
 /// The run of these settings as a stored run.
 pub(crate) fn store(settings: &Settings) -> Result<Value, Diagnostic> {
+    if settings.world {
+        return Err(Diagnostic::usage(
+            "what is played by hand in every order is no stored run",
+            "keep the link instead: it holds the answers",
+        ));
+    }
     if settings.switched().is_some() {
         return Err(Diagnostic::usage(
             "a stored run follows a rule as it is, and here conditions are switched",

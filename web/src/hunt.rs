@@ -36,6 +36,9 @@ const SLICE: u64 = 1 << 17;
 /// Team moves by which it is known how many a hunt takes.
 const PROBE: u64 = 1 << 20;
 
+/// Steps after which a hunt that is made again and again is one for a terminal.
+const MANY: u64 = 1 << 22;
+
 /// A hunt of more expected team moves is one for a terminal: minutes of a browser's one thread.
 const MOST_MOVES: f64 = 4e8;
 
@@ -158,7 +161,12 @@ impl Hunting {
                 let more = !report.is_complete;
                 let made = *budget;
                 (*budget, *last) = (budget.saturating_mul(4), Some(report));
-                Ok(json!({ "more": more, "moves": made, "far": self.far }))
+                let words = (more && made >= MANY).then(|| {
+                    format!("This hunt takes more than {} million steps, and as many states.", made >> 20)
+                });
+                Ok(json!({
+                    "more": more, "moves": made, "far": self.far, "large": words.is_some(), "words": words,
+                }))
             }
         }
     }

@@ -35,23 +35,12 @@ impl Run {
         self.setup.layout.size().area()
     }
 
-    /// The clauses in words.
-    fn broken(&self, clauses: impl IntoIterator<Item = ClauseId>) -> Vec<Broken> {
-        let broken = |clause: ClauseId| Broken {
-            clause: clause.to_string(),
-            sentence: sentence(clause.as_str()),
-            told: Vec::new(),
-            cells: Vec::new(),
-        };
-        clauses.into_iter().map(broken).collect()
-    }
-
     /// What the team move `made` has changed.
     fn delta(&self, made: &Made, walls: Vec<(Edge, bool)>) -> Delta {
         let area = self.area();
         let number = |cell| place(area, cell);
         let team_move = self.course.team_move(made, &*self.team);
-        let mut broken = self.broken(made.broken.iter().copied());
+        let mut broken = broken_of(made.broken.iter().copied());
         for (one, &clause) in broken.iter_mut().zip(&made.broken) {
             one.told = self.setup.told(clause, &self.course.report.chart, &team_move);
         }
@@ -94,6 +83,17 @@ impl Run {
         delta.show(area, &scene);
         delta
     }
+}
+
+/// The clauses in words.
+fn broken_of(clauses: impl IntoIterator<Item = ClauseId>) -> Vec<Broken> {
+    let broken = |clause: ClauseId| Broken {
+        clause: clause.to_string(),
+        sentence: sentence(clause.as_str()),
+        told: Vec::new(),
+        cells: Vec::new(),
+    };
+    clauses.into_iter().map(broken).collect()
 }
 
 /// The letter of a step: small where a wall was met.
@@ -229,7 +229,7 @@ impl Play for Run {
         let at_end =
             last.filter_map(|broken| Some((broken.clause, self.setup.missed(broken.clause, &report.chart)?)));
         let broken = at_end.flat_map(|(clause, (what, cells))| {
-            let mut broken = self.broken([clause]);
+            let mut broken = broken_of([clause]);
             for one in &mut broken {
                 one.cells = cells.iter().filter_map(|&cell| place(area, cell)).collect();
                 let listed: Vec<String> = cells.iter().take(20).map(|cell| format!("({cell})")).collect();

@@ -108,7 +108,7 @@ fn what_is_no_request_or_no_layout_is_said() {
     let mut page = Page::default();
     let mut wrong = |request: Value| {
         let answer: Value = serde_json::from_str(&page.answer(&request.to_string())).expect("JSON");
-        answer["error"].as_str().map(str::to_owned).unwrap_or_else(|| panic!("{request}: {answer}"))
+        answer["error"].as_str().map_or_else(|| panic!("{request}: {answer}"), str::to_owned)
     };
     for request in [
         json!({ "do": "dance" }),

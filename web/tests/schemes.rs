@@ -32,7 +32,9 @@ fn every_rule_of_every_scheme_is_played_and_made_again() {
             let opened =
                 ask(&mut Page::default(), &json!({ "do": "open", "settings": settings, "steps": 6 }));
             let made = opened["made"].as_array().expect("a list");
-            assert!(made.iter().any(|step| step["made"].is_object()), "{settings}: {opened}");
+            // A rule that breaks a clause at once needs no step.
+            let is_game = |step: &Value| step["made"].is_object() || step["over"]["broken"][0].is_object();
+            assert!(made.iter().any(is_game), "{settings}: {opened}");
             let again = ask(&mut Page::default(), &json!({ "do": "open", "settings": settings, "steps": 6 }));
             assert_eq!(opened, again, "{settings}");
         }
@@ -101,6 +103,6 @@ fn every_hunt_is_made_in_slices_and_its_findings_are_played() {
             hunted.push(format!("{name} {} {is_over}", one["clause"].as_str().unwrap_or_default()));
         }
     }
-    assert!(hunted.iter().any(|one| one.starts_with("kit KIT-1 ")), "{hunted:?}");
+    assert!(hunted.iter().any(|one| one.starts_with("kit KIT-3 ")), "{hunted:?}");
     assert!(hunted.iter().any(|one| one.starts_with("frontier FRONTIER-")), "{hunted:?}");
 }

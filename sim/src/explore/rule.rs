@@ -145,12 +145,15 @@ pub trait Switches: fmt::Debug + Sync {
     fn hunt(&self, in_force: u16) -> Option<Box<dyn Hunt>>;
 }
 
+/// The team of a setup that follows a rule of the kernel, at its start.
+pub(super) type StartBy<R> = fn(&Setup, R) -> Result<Box<dyn Team>, Diagnostic>;
+
 /// A rule of the kernel whose conditions can be switched: how its team starts, and how it is hunted.
 pub(super) struct Switched<R: 'static> {
     /// The rule.
     pub(super) rule: R,
     /// The team of a setup that follows a rule.
-    pub(super) start: fn(&Setup, R) -> Result<Box<dyn Team>, Diagnostic>,
+    pub(super) start: StartBy<R>,
     /// The hunt of a rule that claims to be the other one, if there is one.
     pub(super) hunt: fn(R, R) -> Option<Box<dyn Hunt>>,
 }
