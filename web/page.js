@@ -289,11 +289,12 @@ function fullAtStart() {
   return all;
 }
 
-/** Makes the next step, or shows it if it was made. */
+/** Makes the next step, or shows it if it was made; by hand it is decided anew. */
 function step(more = [], count = 1) {
   if (!board) return false;
-  if (!more.length && at < frames.length - 1) { go(at + count); return true; }
-  if (over && !more.length) { render(); return false; }
+  const isLast = at === frames.length - 1;
+  if (!more.length && !isLast && !isByHand) { go(at + count); return true; }
+  if (over && isLast && !more.length) { render(); return false; }
   cut();
   const made = asked({ do: "step", by_hand: isByHand, answers: more, steps: count });
   if (made.error) { fault = made; render(); return false; }
@@ -467,11 +468,12 @@ function drawing(isAlone = false) {
   for (const cell of startCells()) { const [x, y] = centre(cell); inside += `<rect class="start" x="${x - 9}" y="${y - 9}" width="18" height="18" rx="3"/>`; }
   inside += above;
   for (const broken of brokenHere()) for (const cell of broken.cells ?? []) { const [x, y] = centre(cell); inside += `<circle class="missed" cx="${x}" cy="${y}" r="8"/>`; }
-  const before = at ? frames[at - 1].cells : [];
+  const before = at ? frames[at - 1].cells : [], dead = new Set();
+  for (let i = 1; i <= at; i++) for (const robot of frames[i].failed ?? []) dead.add(robot);
   const isBroken = frame?.broken?.length > 0;
   spots.forEach((spot, robot) => {
     if (!spot) return;
-    const [x, y, r] = spot, kind = frame.dead?.includes(robot) ? "dead" : kindOf(robot, cells.length);
+    const [x, y, r] = spot, kind = dead.has(robot) ? "dead" : kindOf(robot, cells.length);
     inside += kind === "base" ? `<rect class="base" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}" rx="2"/>` : `<circle class="${kind}" cx="${x}" cy="${y}" r="${r}"/>`;
     if (isBroken) inside += `<circle class="bad" cx="${x}" cy="${y}" r="${r + 2}"/>`;
     inside += `<text x="${x}" y="${y}" font-size="${r > 6 ? 9 : 7}">${nameOf(robot)}</text>`;
@@ -506,7 +508,7 @@ function render() {
   const last = frames.length - 1;
   Object.assign(find("at"), { max: Math.max(last, 0), value: at });
   find("first").disabled = find("back").disabled = at <= 0;
-  find("step").disabled = !board || over && at >= last;
+  find("step").disabled = !board || Boolean(over) && at >= last;
   find("run").textContent = timer ? "Pause" : "Run";
   find("run").setAttribute("aria-pressed", timer !== 0);
   find("refusals").setAttribute("aria-pressed", refused !== null);

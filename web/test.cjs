@@ -109,6 +109,12 @@ const tests = {
     assert.equal(await page.evaluate(() => walls.reduce((sum, is) => sum + is, 0)), 1);
     await page.click("#back");
     assert.equal(await page.evaluate(() => walls.reduce((sum, is) => sum + is, 0)), 0);
+    // Another answer makes another future.
+    await page.click("#step");
+    assert.equal(await page.$$eval("#ask button", all => all.length), 2);
+    while (await page.isVisible("#ask")) await page.locator("#ask button").first().click();
+    assert.equal(await page.evaluate(() => at), 1);
+    assert.equal(await page.evaluate(() => walls.reduce((sum, is) => sum + is, 0)), 0);
   },
 
   async "a refused step names its condition"(page) {
