@@ -35,6 +35,7 @@ Examples:
   tautline prove
   tautline prove CHAIN-1 CHAIN-2
   tautline prove BRICKS-4 --out refutations
+  tautline prove KIT-2 --certificate certificates
   tautline prove --memory 1GiB
   tautline prove --verbose
   tautline prove --html report.html
@@ -87,6 +88,10 @@ pub(super) struct Deciding {
     /// Store a page with all of it: sentences, verdicts, what they rest on, and counterexamples that play.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Store a proof for each check that holds for every number of robots as a file in DIR, which Rocq checks with those of
+    /// proofs/rocq. DIR is made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    certificate: Option<PathBuf>,
     /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice
     /// is left open. Without it they take what they need.
     #[arg(long, value_name = "SIZE")]
@@ -199,7 +204,12 @@ impl Deciding {
     /// A [`Diagnostic`] if more is asked for.
     pub(super) fn nothing_is_decided(&self) -> Result<(), Diagnostic> {
         for (option, is_given) in
-            [("--out", self.out.is_some()), ("--html", self.html.is_some()), ("--force", self.force.force)]
+            [
+                ("--out", self.out.is_some()),
+                ("--certificate", self.certificate.is_some()),
+                ("--html", self.html.is_some()),
+                ("--force", self.force.force),
+            ]
         {
             if is_given {
                 return Err(needless(option, "nothing is decided"));
@@ -222,12 +232,13 @@ impl Deciding {
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let replaceable = self.force.replaceable([]);
-        if self.force.force && self.out.is_none() && self.html.is_none() {
+        let stores = [self.out.is_some(), self.certificate.is_some(), self.html.is_some()];
+        if self.force.force && !stores.contains(&true) {
             let what = "--force without a file to store";
-            return Err(Diagnostic::usage(what, "give --out or --html, or leave out --force").into());
+            return Err(Diagnostic::usage(what, "give --out, --certificate or --html, or leave out --force").into());
         }
         let page = self.html.as_deref().map(|path| AtomicFile::new(path, &replaceable)).transpose()?;
-        if let Some(folder) = &self.out {
+        for folder in self.out.iter().chain(&self.certificate) {
             make_folder(folder)?;
         }
         let checks = ledger::checks(clauses);
@@ -267,6 +278,9 @@ impl Deciding {
                 Some(folder) => stored(row, folder, &replaceable, out)?,
                 None => None,
             });
+            if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds) {
+                certify(row, folder, &replaceable, out);
+            }
         }
         let unfinished = unfinished(&rows, room);
         let as_registered = rows.iter().all(Row::is_as_registered);
@@ -407,6 +421,21 @@ fn stored(
         None => refutation::store(&path, clause, check, evidence, replaceable)?,
     };
     Ok(keep(file, out))
+}
+
+/// Stores the proof of a row in `folder`, if it has one.
+fn certify(row: &Row, folder: &Path, replaceable: &Replaceable, out: &mut Output) {
+    let Row { clause, check, .. } = *row;
+    match check.certificate() {
+        None => {}
+        Some(Err(why)) => tracing::warn!("{} as {} gets no certificate: {why}", clause.id, check.rule()),
+        Some(Ok(terms)) => {
+            let name = format!("{}_{}.v", clause.id.replace('-', "_"), check.rule());
+            let mut file = AtomicFile::late(&folder.join(name), replaceable);
+            file.append(terms);
+            keep(file, out);
+        }
+    }
 }
 
 /// The story of a counterexample, and where it is stored.

@@ -5,7 +5,7 @@
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
 From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie
-  KitTie Local LocalChain Ants Frontier.
+  KitTie Local LocalChain Certificate Certified Ants Frontier.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -126,6 +126,28 @@ Check LocalChain.any_neighbours_keep_contact.
 Print Assumptions LocalChain.any_neighbours_keep_contact.
 Check LocalChain.each_condition_is_needed.
 Print Assumptions LocalChain.each_condition_is_needed.
+
+(** Certificates of local rules. *)
+Check Certificate.sound.
+Print Assumptions Certificate.sound.
+Check Certified.CHAIN_1.
+Print Assumptions Certified.CHAIN_1.
+Check Certified.CHAIN_3.
+Print Assumptions Certified.CHAIN_3.
+Check Certified.CHAIN_19.
+Print Assumptions Certified.CHAIN_19.
+Check Certified.CHAIN_22_contact.
+Print Assumptions Certified.CHAIN_22_contact.
+Check Certified.KIT_1.
+Print Assumptions Certified.KIT_1.
+Check Certified.KIT_2.
+Print Assumptions Certified.KIT_2.
+Check Certified.KIT_3.
+Print Assumptions Certified.KIT_3.
+Check Certified.FRONTIER_2.
+Print Assumptions Certified.FRONTIER_2.
+Check Certified.PACK_2.
+Print Assumptions Certified.PACK_2.
 
 (** Models that nothing ties to the kernel. *)
 Check Ants.every_cell_is_entered.

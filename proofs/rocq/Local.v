@@ -265,8 +265,7 @@ Section Local.
       slow && let others := items (box (if far then reach + 2 * pace else reach)) in
       forallb (fun h => tuples (pred k) (filter (matters h) others) (fun r => case (h :: r))) (items [(0, 0)]).
 
-    Hypothesis all_states : forall s, In s states.
-    Hypothesis all_acts : forall a, In a acts.
+    Hypothesis listed : forall s a o, In o (ends s a) -> In s states /\ In a acts.
 
     Lemma tuples_all : forall n xs p, tuples n xs p = true ->
       forall r, length r = n -> Forall (fun x => In x xs) r -> p r = true.
@@ -281,7 +280,7 @@ Section Local.
       In (snd x) (ends (is_ (own (fst x))) (does (fst x))) -> In (on (own (fst x))) colours ->
       In (aims (fst x)) colours -> In x (items cells).
     Proof.
-      intros cells [[[c s i] a j] o] B O I J; cbn in *; unfold items.
+      intros cells [[[c s i] a j] o] B O I J; cbn in *; unfold items; destruct (listed s a o O).
       apply in_flat_map; exists c; split; [exact B|]. apply in_flat_map; exists s; split; [auto|].
       apply in_flat_map; exists a; split; [auto|]. apply in_flat_map; exists o; split; [exact O|].
       apply in_flat_map; exists i; split; [auto|]. apply in_map_iff; exists j; auto.
@@ -317,8 +316,10 @@ Section Local.
           - apply in_items; auto; apply in_box; specialize (W x Ix); destruct far.
             + apply within_abs; apply within_abs in W; unfold slow in Sl; rewrite forallb_forall in Sl.
               destruct h as [[[ch sh ih] ah jh] [gh sh']], x as [[[cx sx ix] ax jx] [gx sx']]; cbn in O; subst ch.
-              pose proof (Sl sh (all_states sh)) as S1; pose proof (Sl sx (all_states sx)) as S2.
-              rewrite forallb_forall in S1, S2; specialize (S1 ah (all_acts ah)); specialize (S2 ax (all_acts ax)).
+              pose proof (Forall_inv F) as [Oh _]; destruct (Fr _ Ix) as [Ox _]; cbn in Oh, Ox.
+              destruct (listed _ _ _ Oh) as [Ish Iah], (listed _ _ _ Ox) as [Isx Iax].
+              pose proof (Sl sh Ish) as S1; pose proof (Sl sx Isx) as S2.
+              rewrite forallb_forall in S1, S2; specialize (S1 ah Iah); specialize (S2 ax Iax).
               apply within_abs in S1, S2; unfold next, goal, plus_cell, minus_cell in *; destruct gh, gx;
                 cbn [fst snd at_ own is_ does] in *; lia.
             + rewrite O in W; unfold minus_cell in W; cbn in W; rewrite !Z.sub_0_r in W.

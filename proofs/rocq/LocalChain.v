@@ -50,7 +50,7 @@ Section Robots.
         [reflexivity | discriminate | cbn; auto | | | | exact R].
       - intros is [x [y [P ->]]]; destruct (robots x y P); auto.
       - apply (Local.check_inductive unit act unit (fun _ _ => true)) with (states := [tt]) (acts := acts) (pace := 1%Z);
-          [discriminate | intros []; cbn; auto | intros [[[]|] []]; cbn; auto 20 | exact repaired_is_inductive].
+          [discriminate | intros [] [[[]|] []]; cbn; auto 20 | exact repaired_is_inductive].
       - intros s T is [x [y [_ ->]]]; unfold Local.inv, near, rel, in_contact; cbn [map first at_ seen_from forallb sees].
         rewrite (T x), (T y); destruct (fst (s O)) as [a b]; unfold minus_cell; cbn [fst snd]; rewrite !Z.sub_diag.
         reflexivity. }

@@ -12,6 +12,7 @@ mod environment;
 mod game;
 pub mod invariant;
 pub mod links;
+pub mod local;
 mod observed;
 pub mod optimum;
 pub mod ours;

@@ -150,14 +150,16 @@ pub struct Decision {
     pub survived: Vec<&'static str>,
     /// The verdicts under the other readings of the rule, in their order.
     pub readings: Vec<Verdict>,
+    /// What else was found, in words.
+    pub note: Option<String>,
 }
 
 impl Decision {
     /// The decision by a check's own rule, no variant looked at yet.
     pub fn of(answer: Answer) -> Self {
-        let Answer { verdict, cases, given_up, counterexample } = answer;
+        let Answer { verdict, cases, given_up, counterexample, note } = answer;
         let (killed, survived, readings) = Default::default();
-        Self { verdict, cases, given_up, counterexample, killed, survived, readings }
+        Self { verdict, cases, given_up, counterexample, killed, survived, readings, note }
     }
 
     /// Adds the verdict on a variant.
@@ -277,6 +279,12 @@ pub trait AnyCheck: Sync {
     /// [`ScriptError`] if they are no refutation.
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 
+    /// A file that Rocq checks: see [`Method::certificate`].
+    ///
+    /// # Errors
+    /// [`MethodError`] if its method cannot begin, or if the file would be too large.
+    fn certificate(&self) -> Option<Result<String, MethodError>>;
+
     /// The counterexample that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>>;
 }
@@ -337,6 +345,10 @@ impl<R: Sync> AnyCheck for Check<R> {
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         self.method.replay(&self.about.rule, choices)
+    }
+
+    fn certificate(&self) -> Option<Result<String, MethodError>> {
+        self.method.certificate(&self.about.rule)
     }
 
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>> {

@@ -89,6 +89,8 @@ pub struct Answer {
     pub given_up: u64,
     /// The counterexample, if it is refuted.
     pub counterexample: Option<Evidence>,
+    /// What else was found, in words.
+    pub note: Option<String>,
 }
 
 impl Answer {
@@ -99,7 +101,7 @@ impl Answer {
             None if is_whole => shown,
             None => Verdict::Open,
         };
-        Self { verdict, cases, given_up: 0, counterexample }
+        Self { verdict, cases, given_up: 0, counterexample, note: None }
     }
 
     /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
@@ -209,6 +211,15 @@ pub trait Method<R>: Sync {
     /// # Errors
     /// [`ScriptError`] if they are none.
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
+
+    /// A file that Rocq checks, with the theorem that the clause holds of `rule` beyond every bound; `None` if the method has
+    /// none.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin, or if the file would be too large.
+    fn certificate(&self, _: &R) -> Option<Result<String, MethodError>> {
+        None
+    }
 
     /// The counterexample to `rule` that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, _: &R, _: &Choices) -> Option<Box<dyn AnyCase>> {

@@ -3,6 +3,7 @@
 pub mod areas;
 pub mod clauses;
 pub mod drift;
+pub mod local;
 mod pairs;
 mod place;
 pub mod world;

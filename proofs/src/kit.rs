@@ -4,6 +4,7 @@
 pub mod clauses;
 pub mod counterexample;
 mod lattices;
+pub mod local;
 mod pairs;
 mod plain;
 pub mod symmetry;

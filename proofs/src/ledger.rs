@@ -111,7 +111,7 @@ impl Row {
 
     /// The theorem that machine-checks the clause beyond the bound, if the clause holds within it.
     pub fn composition(&self) -> Option<String> {
-        let words = || composition::words(self.clause.id, self.check.rule());
+        let words = || composition::words(self.clause.id, self.check.rule(), self.check.engine());
         (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
 
@@ -175,9 +175,9 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let below = [("bound".to_owned(), [None, None])]
+    let below = [("bound".to_owned(), [None, None, None])]
         .into_iter()
-        .chain(rows.iter().map(|row| (row.bound(), [row.composition(), row.readings()])));
+        .chain(rows.iter().map(|row| (row.bound(), [row.decision.note.clone(), row.composition(), row.readings()])));
     let mut text = String::new();
     for (line, (bound, beyond)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)

@@ -3,13 +3,18 @@
 //! robots, too. From that [`EveryNumber`] computes a set of relative places of `k` robots that keep the promise and that
 //! no admitted step leaves: then no run of any number of robots in any layout leaves it, since the rule speaks of
 //! nothing but `k` robots at a time. If there is no such set, teams of `k` and more robots are searched for a run that
-//! breaks the promise, the walls decided as robots meet them; if none is found, the question is open.
+//! breaks the promise, the walls decided as robots meet them. If none is found, and teams have more than `k` robots, the
+//! places of `k + 1` robots are looked at in the same way; if that does not do, the question is open.
 //!
-//! The verdict is about the relation of plans that the rule admits, whoever picks among them. That the finite check is
+//! The verdict is about the relation of plans that the rule admits, whoever picks among them; [`Kept`] keeps any planner
+//! to it. That the finite check is
 //! enough is proved in `proofs/rocq/Local.v`.
 
+mod certificate;
 mod invariant;
+mod kept;
 mod team;
+mod wider;
 
 use std::fmt::Debug;
 use std::hash::Hash;
@@ -17,7 +22,9 @@ use std::hash::Hash;
 use tautline_kernel::ground::{Cell, Step};
 
 pub use self::invariant::Invariant;
+pub use self::kept::Kept;
 use self::team::Team;
+use self::wider::Wider;
 use crate::decide::{Answer, Context, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{self, Limits};
 use crate::engine::{Choices, Script, ScriptError, Until};
@@ -29,6 +36,8 @@ pub struct Robot<S> {
     pub at: Cell,
     /// Its state.
     pub state: S,
+    /// The colour of its cell.
+    pub on: u8,
 }
 
 /// A possible act of a robot.
@@ -44,15 +53,22 @@ pub struct Act<S, A> {
     pub needs_open: bool,
 }
 
+impl<S> Robot<S> {
+    /// A robot in a cell of colour 0.
+    pub const fn new(at: Cell, state: S) -> Self {
+        Self { at, state, on: 0 }
+    }
+}
+
 impl<S: Copy> Robot<S> {
-    /// Its plan to do `act`.
-    fn plans<A: Copy>(&self, act: &Act<S, A>) -> Plan<S, A> {
-        Plan { robot: *self, act: act.act, step: act.step }
+    /// Its plan to do `act`, which leads to a cell of this colour.
+    fn plans<A: Copy>(&self, act: &Act<S, A>, aims: u8) -> Plan<S, A> {
+        Plan { robot: *self, act: act.act, step: act.step, aims }
     }
 
-    /// The robot after this outcome of an act that leads there.
-    fn after(&self, step: Step, (goes, state): (bool, S)) -> Self {
-        Self { at: if goes { self.at.after(step) } else { self.at }, state }
+    /// The robot after this outcome of an act that leads to a cell of this colour.
+    fn after(&self, (step, aims): (Step, u8), (goes, state): (bool, S)) -> Self {
+        if goes { Self { at: self.at.after(step), state, on: aims } } else { Self { state, ..*self } }
     }
 }
 
@@ -65,6 +81,8 @@ pub struct Plan<S, A> {
     pub act: A,
     /// Where that leads.
     pub step: Step,
+    /// The colour of the cell there.
+    pub aims: u8,
 }
 
 impl<S, A> Plan<S, A> {
@@ -92,8 +110,14 @@ pub trait Local: Sync {
 
     /// Of how many robots at once the rule speaks.
     const ROBOTS: usize = 2;
+    /// The fewest robots of a team.
+    const LEAST: usize = Self::ROBOTS;
     /// Whether a robot may be kept from going though no wall stands in its way.
     const FAULTS: bool = false;
+    /// What the verdict is about, in words.
+    const SUBJECT: &'static str = "the relation";
+    /// How many colours cells may have. A layout gives each cell a colour below that.
+    const COLOURS: u8 = 1;
 
     /// All states.
     fn states(&self) -> Vec<Self::State>;
@@ -150,6 +174,10 @@ pub fn chain(robots: usize) -> Vec<Vec<usize>> {
 /// The promise of a [`Local`] rule, for every number of robots and every layout.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct EveryNumber {
+    /// The teams that the verdict is about, in words.
+    pub teams: &'static str,
+    /// The part of a clause that it is about, in words, or nothing.
+    pub part: &'static str,
     /// The largest team that is searched for a run that breaks the promise.
     pub most_robots: usize,
     /// Steps of each of these searches.
@@ -157,8 +185,23 @@ pub struct EveryNumber {
 }
 
 impl EveryNumber {
-    /// Teams of up to four robots, in a hundred thousand steps each.
-    pub const DEFAULT: Self = Self { most_robots: 4, most_steps: 100_000 };
+    /// Every number of robots; teams of up to four robots, in a hundred thousand steps each.
+    pub const DEFAULT: Self = Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000 };
+
+    /// An answer by this invariant.
+    fn answer<R: Local, S>(self, invariant: &Invariant<S>, found: Option<Evidence>, is_whole: bool) -> Answer {
+        let holds = found.is_none() && is_whole;
+        let note = match (&found, holds) {
+            (Some(_), _) => None,
+            (None, true) => Some(invariant.to_string()),
+            (None, false) => Some(format!(
+                "places of {} robots are too coarse, and no run of up to {} robots was found",
+                R::ROBOTS,
+                self.most_robots
+            )),
+        };
+        Answer { note, ..Answer::new(found, is_whole, Method::<R>::shows(&self), invariant.cases) }
+    }
 }
 
 impl<R: Local> Method<R> for EveryNumber {
@@ -167,33 +210,48 @@ impl<R: Local> Method<R> for EveryNumber {
     }
 
     fn bound(&self) -> String {
-        "every N, every layout; the relation".to_owned()
+        let part = if self.part.is_empty() { String::new() } else { format!("; {}", self.part) };
+        format!("{}, every layout{part}; {}", self.teams, R::SUBJECT)
     }
 
-    /// The choices are how many robots there are beyond those of which the rule speaks, and those of the steps.
+    /// The choices are how many robots there are beyond the fewest, and those of the steps.
     fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let invariant = Invariant::of(rule)?;
         if invariant.holds() {
-            return Ok(Answer::new(None, true, Method::<R>::shows(self), invariant.cases));
+            return Ok(self.answer::<R, _>(&invariant, None, true));
         }
-        for robots in R::ROBOTS..=self.most_robots {
+        for robots in R::LEAST..=self.most_robots {
             let team = Team::new(rule, robots)?;
             let limits = Limits { most_steps: self.most_steps, room: desk.room };
             let found = states::search(&team, [team.start()], limits);
             if let Some(run) = found.broken.first() {
-                let once = [&[(robots - R::ROBOTS) as u32], &run.steps[..]].concat();
+                let once = [&[(robots - R::LEAST) as u32], &run.steps[..]].concat();
                 let choices = Choices { once, again: Vec::new() };
                 let evidence = Evidence { choices, demand: run.demand, seen: team.story(run) };
-                return Ok(Answer::new(Some(evidence), true, Method::<R>::shows(self), invariant.cases));
+                return Ok(self.answer::<R, _>(&invariant, Some(evidence), true));
             }
         }
-        Ok(Answer::new(None, false, Method::<R>::shows(self), invariant.cases))
+        if let Some(wider) = Wider::of(rule, self.most_robots) {
+            let invariant = Invariant::of(&wider)?;
+            if invariant.holds() {
+                return Ok(self.answer::<R, _>(&invariant, None, true));
+            }
+        }
+        Ok(self.answer::<R, _>(&invariant, None, false))
+    }
+
+    /// There is one where places of as many robots as the rule speaks of suffice.
+    fn certificate(&self, rule: &R) -> Option<Result<String, MethodError>> {
+        match Invariant::of(rule) {
+            Ok(invariant) => invariant.holds().then(|| invariant.certificate(rule)),
+            Err(error) => Some(Err(error)),
+        }
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
-        let more = script.choose((self.most_robots + 1).saturating_sub(R::ROBOTS))?;
-        let team = Team::new(rule, R::ROBOTS + more).map_err(|_| ScriptError::Unbroken)?;
+        let more = script.choose((self.most_robots + 1).saturating_sub(R::LEAST))?;
+        let team = Team::new(rule, R::LEAST + more).map_err(|_| ScriptError::Unbroken)?;
         let (of, run) = script.play(&team, (0, team.start()), |_| true)?;
         let seen = team.story(&run);
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })

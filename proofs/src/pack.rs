@@ -4,5 +4,6 @@
 pub mod clauses;
 mod floors;
 mod gains;
+pub mod local;
 mod played;
 mod rays;

@@ -1,17 +1,19 @@
 //! Local rules, decided for every number of robots and every layout.
 
-use tautline_kernel::chain::{Condition, Move, Role, Rule};
-use tautline_kernel::ground::{Cell, Circle, Step};
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
+
+use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
 use tautline_proofs::decide::{Cache, Context, Depiction, Method, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
-use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples, chain};
+use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan, Robot, chain};
 
 /// The answer about a rule, which is played again if it is refuted: the verdict, how many robots refute it in how many
 /// steps, and the drawing.
-fn decided<R: Local>(rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
+pub(crate) fn decided<R: Local>(rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
     let mut desk = Context { memory, watch, room: MemoryLimit::any() };
     let answer = EveryNumber::DEFAULT.decide(rule, Until::Exhausted, &mut desk).expect("a local rule");
@@ -24,157 +26,8 @@ fn decided<R: Local>(rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
         assert!(EveryNumber::DEFAULT.replay(rule, &cut).is_err(), "cut at {place}");
     }
     let Depiction::Story(story) = &evidence.seen else { panic!("a drawing") };
-    let size = (choices.once[0] + R::ROBOTS as u32, choices.once.len() - 1);
+    let size = (choices.once[0] + R::LEAST as u32, choices.once.len() - 1);
     (answer.verdict, Some(size), story.clone())
-}
-
-/// The contact of neighbours in a chain (CHAIN-1, CHAIN-19), by the kernel's own relation.
-struct Contact<const FAULTS: bool>(Rule);
-
-/// A step, and whether the side that it crosses is known to be open.
-type Going = (Step, bool);
-
-fn as_move(plan: &Plan<(), Going>) -> Move {
-    Move { from: plan.robot.at, step: plan.step, known_open: plan.act.1 }
-}
-
-impl<const FAULTS: bool> Local for Contact<FAULTS> {
-    type State = ();
-    type Act = Going;
-    const FAULTS: bool = FAULTS;
-
-    fn states(&self) -> Vec<()> {
-        vec![()]
-    }
-
-    fn acts(&self, (): ()) -> Vec<Act<(), Going>> {
-        let act = |step: Step, is_open: bool| {
-            let goes = vec![(true, ())];
-            let may_not = step != Step::Stay && (!is_open || FAULTS);
-            let ends = if may_not { [goes, vec![(false, ())]].concat() } else { goes };
-            Act { act: (step, is_open), step, ends, needs_open: is_open }
-        };
-        let crossing = Step::ALL.into_iter().filter(|&step| step != Step::Stay);
-        Step::ALL
-            .into_iter()
-            .map(|step| act(step, false))
-            .chain(crossing.map(|step| act(step, true)))
-            .collect()
-    }
-
-    fn admits(&self, plans: &[Plan<(), Going>]) -> bool {
-        let (own, ahead) = (as_move(&plans[0]), as_move(&plans[1]));
-        self.0.admits_ahead(own, ahead)
-            && (ahead.step == Step::Stay || self.0.admits_behind(ahead.to(), own.from))
-    }
-
-    fn keeps(&self, robots: &[Robot<()>]) -> bool {
-        Circle::COVERED.covers(robots[0].at, robots[1].at)
-    }
-
-    fn reach(&self) -> (i16, Far) {
-        (2, Far::Broken)
-    }
-
-    fn may_start(&self, robots: &[Robot<()>]) -> bool {
-        robots[1].at == robots[0].at
-    }
-
-    fn start(&self, robots: usize) -> Vec<Robot<()>> {
-        vec![Robot { at: Cell::new(0, 0), state: () }; robots]
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        chain(robots)
-    }
-
-    fn is_fixed(&self, robot: usize) -> bool {
-        robot == 0
-    }
-}
-
-#[test]
-fn contact_holds_for_every_n_by_the_repaired_relation_and_each_of_its_conditions_is_needed() {
-    let invariant = Invariant::of(&Contact::<false>(Rule::REPAIRED)).expect("a local rule");
-    assert_eq!((invariant.places, invariant.kept.len(), invariant.cases), ((25, 13), 13, 837));
-    assert_eq!(decided(&Contact::<false>(Rule::REPAIRED)).0, Verdict::Holds);
-    let (verdict, size, story) = decided(&Contact::<false>(Rule::PUBLISHED));
-    assert_eq!((verdict, size), (Verdict::Refuted, Some((3, 3))), "{story}");
-    let needed = Condition::ALL.into_iter().filter(|&condition| {
-        decided(&Contact::<false>(Rule::REPAIRED.without(condition))).0 == Verdict::Refuted
-    });
-    assert_eq!(
-        needed.collect::<Vec<_>>(),
-        [Condition::SafeAhead, Condition::CoveredBehind, Condition::UnsureAhead]
-    );
-}
-
-#[test]
-fn contact_holds_whoever_fails_by_the_reel_alone() {
-    assert_eq!(decided(&Contact::<true>(Rule::REEL)).0, Verdict::Holds);
-    let (verdict, size, story) = decided(&Contact::<true>(Rule::REPAIRED));
-    assert_eq!((verdict, size), (Verdict::Refuted, Some((3, 2))), "{story}");
-}
-
-/// At most two robots in a cell (CHAIN-2 away from the base): three robots at once, by the kernel's conditions.
-struct Crowd(Rule);
-
-impl Local for Crowd {
-    type State = ();
-    type Act = Step;
-    const ROBOTS: usize = 3;
-
-    fn states(&self) -> Vec<()> {
-        vec![()]
-    }
-
-    fn acts(&self, (): ()) -> Vec<Act<(), Step>> {
-        let act = |step| {
-            let ends = if step == Step::Stay { vec![(true, ())] } else { vec![(true, ()), (false, ())] };
-            Act { act: step, step, ends, needs_open: false }
-        };
-        Step::ALL.into_iter().map(act).collect()
-    }
-
-    fn admits(&self, plans: &[Plan<(), Step>]) -> bool {
-        (0..3).all(|one| {
-            let (own, others) = (&plans[one], [&plans[(one + 1) % 3], &plans[(one + 2) % 3]]);
-            let is_apart =
-                !self.0.has(Condition::Distinct) || others.iter().all(|other| other.to() != own.to());
-            let occupants = others.iter().filter(|other| other.robot.at == own.to()).count();
-            is_apart && (own.step == Step::Stay || self.0.admits_entry(Role::Follower, occupants))
-        })
-    }
-
-    fn keeps(&self, robots: &[Robot<()>]) -> bool {
-        robots[0].at != robots[1].at || robots[1].at != robots[2].at
-    }
-
-    fn reach(&self) -> (i16, Far) {
-        (0, Far::Fine)
-    }
-
-    fn may_start(&self, robots: &[Robot<()>]) -> bool {
-        self.keeps(robots)
-    }
-
-    fn start(&self, robots: usize) -> Vec<Robot<()>> {
-        (0..robots as i16).map(|x| Robot { at: Cell::new(x, 0), state: () }).collect()
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 3)
-    }
-}
-
-#[test]
-fn no_three_robots_are_in_one_cell_for_every_n_and_each_condition_is_needed() {
-    assert_eq!(decided(&Crowd(Rule::REPAIRED)).0, Verdict::Holds);
-    for condition in [Condition::Distinct, Condition::FullForFollower] {
-        let (verdict, size, story) = decided(&Crowd(Rule::REPAIRED.without(condition)));
-        assert_eq!(verdict, Verdict::Refuted, "{condition:?}");
-        assert!(size.is_some_and(|(robots, _)| robots <= 4), "{story}");
-    }
 }
 
 /// Robots on a line that keep at most two cells from the next one: what may be wrong with a rule is a field.
@@ -236,7 +89,7 @@ impl Local for Leash {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<u8>> {
-        (0..robots as i16).map(|x| Robot { at: Cell::new(x, 0), state: 0 }).collect()
+        (0..robots as i16).map(|x| Robot::new(Cell::new(x, 0), 0)).collect()
     }
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
@@ -270,11 +123,56 @@ fn a_rule_of_ones_own_is_a_clause_like_any_other() {
 fn what_is_no_local_rule_is_refused_with_the_reason() {
     let refusal = |rule: Leash| Invariant::of(&rule).expect_err("no local rule").to_string();
     insta::assert_snapshot!(refusal(Leash { is_here_alone: true, ..LEASH }), @"the rule is not the same everywhere: it answers Cross(West) in 0,0, Cross(East) in -2,0 in another way 113 columns and 57 rows away");
-    insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }), @"robots that start so break the promise: [Robot { at: (0,0), state: 0 }, Robot { at: (2,1), state: 0 }]");
+    insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }), @"robots that start so break the promise: [Robot { at: (0,0), state: 0, on: 0 }, Robot { at: (2,1), state: 0, on: 0 }]");
     insta::assert_snapshot!(refusal(Leash { grows: true, ..LEASH }), @"1 is none of the states of the rule");
     insta::assert_snapshot!(
         refusal(Leash { reach: 0, ..LEASH }),
         @"no robots may start: the promise would be about nothing"
     );
     insta::assert_snapshot!(refusal(Leash { reach: 2_000, ..LEASH }), @"16008001 relative places are more than 4000000: let the rule look less far, or give it fewer states");
+}
+
+/// A planner that picks any acts, and a generator of its own.
+fn any_acts(drawn: &AtomicU64) -> u64 {
+    let next = |known: u64| {
+        Some(known.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407))
+    };
+    drawn.fetch_update(Relaxed, Relaxed, next).unwrap_or_default() >> 33
+}
+
+#[test]
+fn any_planner_that_is_kept_to_the_relation_keeps_the_promise() {
+    static DRAWN: AtomicU64 = AtomicU64::new(2011);
+    let any = |robot: &Robot<u8>| {
+        let acts = LEASH.acts(robot.state);
+        acts[any_acts(&DRAWN) as usize % acts.len()].clone()
+    };
+    let planner = move |robots: &[Robot<u8>]| robots.iter().map(any).collect::<Vec<_>>();
+    let kept = Kept { rule: LEASH, planner };
+    let check = Check::new(NamedRule::new("kept", kept), &EveryNumber::DEFAULT, Verdict::Holds, &[]);
+    assert_eq!(check.bound(), "every N, every layout; what runs, each plan kept to the relation");
+    assert_eq!(decided(&kept).0, Verdict::Holds);
+    let is_kept = |team: &[Robot<u8>]| team.windows(2).all(|pair| apart(pair[0].at, pair[1].at) <= 2);
+    let after = |team: &[Robot<u8>], acts: &[Act<u8, Step>]| -> Vec<Robot<u8>> {
+        let goes = |(robot, act): (&Robot<u8>, &Act<u8, Step>)| match any_acts(&DRAWN) % 3 {
+            0 => *robot,
+            _ => Robot::new(robot.at.after(act.step), robot.state),
+        };
+        team.iter().zip(acts).map(goes).collect()
+    };
+    let (mut team, mut moves) = (LEASH.start(5), 0);
+    for _ in 0..20_000 {
+        if let Some(acts) = kept.plan(&team, |_| true, |_| 0) {
+            team = after(&team, &acts);
+            moves += 1;
+        }
+        assert!(is_kept(&team), "{team:?}");
+    }
+    assert!(moves > 100, "{moves}");
+    let mut free = LEASH.start(5);
+    let breaks = (0..100).any(|_| {
+        free = after(&free, &(kept.planner)(&free));
+        !is_kept(&free)
+    });
+    assert!(breaks, "the planner alone keeps nothing");
 }

@@ -1,6 +1,7 @@
 //! The proofs, tried as a whole.
 
 mod areas;
+mod certificates;
 mod charts;
 mod coverage;
 mod evidence;
@@ -10,6 +11,7 @@ mod judge_of_agents;
 mod judge_of_chains;
 mod judges;
 mod local;
+mod local_rules;
 mod log;
 mod own_parts;
 mod own_rule;

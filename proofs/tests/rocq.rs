@@ -19,6 +19,8 @@ use std::env;
 use std::fs;
 use std::path::Path;
 
+use tautline_proofs::ledger;
+
 /// The command that writes the files anew.
 const RENEW: &str = "ROCQ_UPDATE=always cargo test -p tautline-proofs --test all rocq";
 
@@ -66,4 +68,20 @@ fn robots_and_wfrs_answer_as_the_proofs_have_it() {
 #[test]
 fn robots_keep_in_touch_as_the_proofs_have_it() {
     is_up_to_date("KitAnswers.v", &kit::terms());
+}
+
+#[test]
+fn clauses_about_two_robots_have_certificates() {
+    let mut left = Vec::new();
+    for clause in ledger::clauses() {
+        for check in clause.checks {
+            let name = format!("{}_{}", clause.id.replace('-', "_"), check.rule());
+            match check.certificate() {
+                Some(Ok(terms)) => is_up_to_date(&format!("{name}.v"), &terms),
+                Some(Err(why)) => left.push(format!("{name}: {why}")),
+                None => {}
+            }
+        }
+    }
+    insta::assert_snapshot!(left.join("\n"), @"");
 }

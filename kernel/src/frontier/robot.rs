@@ -11,7 +11,7 @@ use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
 /// A robot's state of motion.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stance {
     /// It stands in its cell.

@@ -1,7 +1,7 @@
 //! KIT's rule as a set of named conditions, with what the paper leaves open as parameters. The first condition is the
 //! paper's; the others repair contact, collisions, deadlocks, coverage and the end of a run.
 
-use super::stance::Reach;
+use super::stance::{Reach, Stance};
 use crate::conditions;
 
 conditions! {
@@ -134,4 +134,18 @@ impl Rule {
 
     /// With all repairs, in a network that loses messages.
     pub const ROBUST: Self = Self::REPAIRED.with(Condition::Repeats);
+
+    /// Whether robots with these stances count as sure to hear each other.
+    pub fn hears(&self, one: Stance, other: Stance) -> bool {
+        let next = self.reach.joins(one.to(), other.to());
+        let from = self.reach.joins(one.from(), other.to())
+            && self.reach.joins(one.to(), other.from())
+            && self.reach.joins(one.from(), other.from());
+        (next || !self.has(Condition::NextInReach)) && (from || !self.has(Condition::FromInReach))
+    }
+
+    /// Whether a robot may drive `path` for all that it may come too near to one with the stance `other`.
+    pub fn keeps_apart(&self, path: Stance, other: Stance) -> bool {
+        !self.has(Condition::Apart) || !other.has(path.to())
+    }
 }

@@ -155,7 +155,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
         let others = first_robots(self.entered.into()) & !(1 << robot);
         let Formation { stances, ends, near, .. } = formation;
-        let heard = sets(others, |one, other| self.hears(stances[one], stances[other]));
+        let heard = sets(others, |one, other| self.rule.hears(stances[one], stances[other]));
         let mut tied = [0; ROBOTS];
         if self.ties() {
             tied = sets(others, |one, other| near[one].has(ends[other]));
@@ -172,12 +172,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     pub(super) fn lets(&self, bonds: &Bonds<ROBOTS>, formation: &Formation<ROBOTS>, path: Stance) -> bool {
         let (from, to) = (path.from(), path.to());
         let Formation { stances, ends, near, .. } = formation;
-        let is_taken = |(other, stance): (usize, &Stance)| other != bonds.robot && stance.has(to);
+        let is_taken = |(other, &stance)| other != bonds.robot && !self.rule.keeps_apart(path, stance);
         let entered = stances.iter().take(self.entered.into());
-        if self.rule.has(Condition::Apart) && entered.enumerate().any(is_taken) {
+        if entered.enumerate().any(is_taken) {
             return false;
         }
-        let is_heard = |set: &Set| robots(*set).any(|other| self.hears(stances[other], path));
+        let is_heard = |set: &Set| robots(*set).any(|other| self.rule.hears(stances[other], path));
         if !bonds.heard.iter().all(|set| *set == 0 || is_heard(set)) {
             return false;
         }
@@ -192,16 +192,6 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             None => near[other].has(to),
         };
         bonds.tied.iter().all(|&set| set == 0 || robots(set).any(is_tied))
-    }
-
-    /// Whether robots with these stances count as sure to hear each other.
-    fn hears(&self, one: Stance, other: Stance) -> bool {
-        let reach = self.rule.reach;
-        let next = reach.joins(one.to(), other.to());
-        let from = reach.joins(one.from(), other.to())
-            && reach.joins(one.to(), other.from())
-            && reach.joins(one.from(), other.from());
-        (next || !self.rule.has(Condition::NextInReach)) && (from || !self.rule.has(Condition::FromInReach))
     }
 }
 

@@ -102,6 +102,11 @@ impl Rule {
         self.range_cells
     }
 
+    /// Whether a robot may enter a cell while others are in these cells.
+    pub fn admits_entry(&self, to: Cell, mut others: impl Iterator<Item = Cell>) -> bool {
+        !self.has(Condition::Single) || others.all(|other| other != to)
+    }
+
     /// Whether robots in these cells have a link.
     pub const fn links(&self, one: Cell, other: Cell) -> bool {
         let circle = Circle::new(4 * (self.range_cells as u64) * (self.range_cells as u64));

@@ -216,7 +216,7 @@ impl Team {
     fn go(&mut self, robot: usize, side: Side, steps: &mut [Step; MAX_ROBOTS]) -> bool {
         let Some(from) = self.cells().get(robot).copied() else { return false };
         let to = from.beyond(side);
-        if self.rule.has(Condition::Single) && self.who_is_in(to).is_some() {
+        if !self.rule.admits_entry(to, self.cells().iter().copied()) {
             return false;
         }
         self.put(robot, to);

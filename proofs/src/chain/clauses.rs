@@ -9,12 +9,14 @@ use tautline_kernel::ground::Circle;
 
 use super::breach::Breach;
 use super::invariant::Invariant;
+use super::local::{self, Contact, Coverage, Crowd, OfThree};
 use super::observed::{Deception, Subject};
 use super::search::EveryLayout;
 use super::{crowd, optimum, pair, small, three, walk, whole};
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::ground::clauses::{NARROWER, WIDER};
+use crate::local::EveryNumber;
 use crate::step_checks;
 
 pub(super) const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLISHED);
@@ -177,6 +179,22 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[],
             ),
+            &Check::new(
+                NamedRule::new("repaired", Contact::<false>(Rule::REPAIRED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[
+                    NamedRule::new("as published", Contact(Rule::PUBLISHED)),
+                    NamedRule::new("without E_S ahead", Contact(Rule::REPAIRED.without(SafeAhead))),
+                    NamedRule::new("without E_C behind", Contact(Rule::REPAIRED.without(CoveredBehind))),
+                ],
+            ),
+            &Check::new(
+                NamedRule::new("reel", Contact::<false>(Rule::REEL)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[],
+            ),
         ],
     },
     Clause {
@@ -208,6 +226,29 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[],
             ),
+            &Check::new(
+                NamedRule::new("repaired", Crowd::of(Rule::REPAIRED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[
+                    NamedRule::new("as published", Crowd::of(Rule::PUBLISHED)),
+                    NamedRule::new(
+                        "without full cell for followers",
+                        Crowd::of(Rule::REPAIRED.without(FullForFollower)),
+                    ),
+                    NamedRule::new(
+                        "without full cell for the leader",
+                        Crowd::of(Rule::REPAIRED.without(FullForLeader)),
+                    ),
+                    NamedRule::new("without distinctness", Crowd::of(Rule::REPAIRED.without(Distinct))),
+                ],
+            ),
+            &Check::new(
+                NamedRule::new("reel", Crowd::of(Rule::REEL)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[],
+            ),
         ],
     },
     Clause {
@@ -229,6 +270,24 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::new(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
+            &Check::new(
+                NamedRule::new("published", Coverage(Rule::PUBLISHED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[NamedRule::new("without E_S ahead", Coverage(Rule::PUBLISHED.without(SafeAhead)))],
+            ),
+            &Check::new(
+                NamedRule::new("uncovered", Coverage(Rule::PUBLISHED.without(CoveredBehind))),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[],
+            ),
+            &Check::new(
+                NamedRule::new("reel", Coverage(Rule::REEL)),
+                &EveryNumber::DEFAULT,
                 Verdict::Holds,
                 &[],
             ),
@@ -425,6 +484,15 @@ pub static CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Without(Breach::Crowding), THREE_ROBOTS),
                 Verdict::Holds,
                 &[],
+            ),
+            &Check::new(
+                NamedRule::new("published", OfThree(Rule::PUBLISHED)),
+                &local::THREE,
+                Verdict::Holds,
+                &[
+                    NamedRule::new("without E_S ahead", OfThree(Rule::PUBLISHED.without(SafeAhead))),
+                    NamedRule::new("without E_C behind", OfThree(Rule::PUBLISHED.without(CoveredBehind))),
+                ],
             ),
         ],
     },

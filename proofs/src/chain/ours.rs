@@ -8,6 +8,7 @@ use super::barrier::{self, Reading};
 use super::clauses::{FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
 use super::death::{self, Aftermath, DeathCase};
 use super::invariant::Invariant;
+use super::local::{self, Contact};
 use super::observed::Subject;
 use super::search::EveryLayout;
 use super::shut::{self, WallsCase};
@@ -15,6 +16,7 @@ use super::{pair, whole};
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::ground::clauses::NARROWER;
+use crate::local::EveryNumber;
 use crate::step_checks;
 
 step_checks! { Subject;
@@ -235,6 +237,16 @@ pub static CLAUSES: [Clause; 10] = [
                 Verdict::Unrefuted,
                 &[NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule))],
             ),
+            &Check::new(
+                NamedRule::new("reel", Contact::<true>(Rule::REEL)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[
+                    NamedRule::new("without hold", Contact(Rule::REPAIRED)),
+                    NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
+                    NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
+                ],
+            ),
         ],
     },
     Clause {
@@ -253,7 +265,20 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-22",
         sentence: "When walls appear where robots have crossed, the reel MUST keep to CHAIN-1 and CHAIN-2, take no robot to be \
                    through a wall, and end its run.",
-        checks: &[&SHUT, &SHUT_AT_RANDOM],
+        checks: &[
+            &SHUT,
+            &SHUT_AT_RANDOM,
+            &Check::new(
+                NamedRule::new("reel", Contact::<true>(Rule::REEL)),
+                &local::ITS_CONTACT,
+                Verdict::Holds,
+                &[
+                    NamedRule::new("without hold", Contact(Rule::REPAIRED)),
+                    NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
+                    NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
+                ],
+            ),
+        ],
     },
     Clause {
         id: "CHAIN-23",

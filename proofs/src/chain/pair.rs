@@ -77,6 +77,12 @@ pub(super) fn neighbours() -> String {
     format!("every pair of neighbours up to {FAR} apart, every plan and answer")
 }
 
+/// Whether `rule` admits what two neighbours plan. A null move is always admitted to the robot ahead: the leader may
+/// fall back on it.
+pub(super) fn admits(rule: &Rule, own: Move, ahead: Move) -> bool {
+    (ahead.step == Step::Stay || rule.admits_behind(ahead.to(), own.from)) && rule.admits_ahead(own, ahead)
+}
+
 /// R_i and R_{i+1}, i ≥ 1.
 struct Pair {
     behind: Attempt,
@@ -84,8 +90,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// Any two robots that are `related` now and plan what `rule` admits. A null move is always admitted to
-    /// the robot ahead: the leader may fall back on it.
+    /// Any two robots that are `related` now and plan what `rule` admits.
     fn pick(
         rule: &Rule,
         related: impl Fn(Cell, Cell) -> bool,
@@ -97,9 +102,7 @@ impl Pair {
         assume(related(behind, ahead))?;
         let mut world = World::<2>::new();
         let pair = Self { behind: world.pick(behind, oracle), ahead: world.pick(ahead, oracle) };
-        let to = pair.ahead.plan.to();
-        assume(to == ahead || rule.admits_behind(to, behind))?;
-        assume(rule.admits_ahead(pair.behind.plan, pair.ahead.plan))?;
+        assume(admits(rule, pair.behind.plan, pair.ahead.plan))?;
         Ok(pair)
     }
 
@@ -143,8 +146,7 @@ pub(super) fn hold(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     assume(Circle::COVERED.covers(behind, ahead))?;
     let mut plan = |from| Move { from, step: one_of(oracle, &Step::ALL), known_open: oracle.flip() };
     let (own, ahead) = (plan(behind), plan(ahead));
-    assume(ahead.step == Step::Stay || observed.rule.admits_behind(ahead.to(), own.from))?;
-    assume(observed.rule.admits_ahead(own, ahead))?;
+    assume(admits(&observed.rule, own, ahead))?;
     let (has_gone, has_gone_ahead) = (oracle.flip(), oracle.flip());
     let at = |plan: Move, has_gone: bool| if has_gone { plan.to() } else { plan.from };
     require(

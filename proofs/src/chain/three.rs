@@ -2,12 +2,12 @@
 //! R_2 can stay wherever it is; and it prefers to, unless that costs R_3 a way. The order of preference beyond that
 //! first place is left open.
 
-use tautline_kernel::chain::{Condition, Move};
+use tautline_kernel::chain::{Condition, Move, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Circle, Step};
 
 use super::observed::Subject;
-use super::pair::World;
+use super::pair::{self, World};
 use crate::engine::{Outcome, assume, require};
 
 /// How many columns and rows R_2 is looked at from the base, and R_3 from R_2.
@@ -25,6 +25,25 @@ fn near(cell: Cell, far: u32, oracle: &mut dyn Oracle) -> Cell {
     Cell::new(cell.x + offset(), cell.y + offset())
 }
 
+/// Whether `rule` admits what R_2 and R_3 plan, wherever R_2 rather goes.
+fn is_admitted(rule: &Rule, base: Cell, own: Move, leader: Move) -> bool {
+    let to = leader.to();
+    pair::admits(rule, own, leader)
+        && pair::admits(rule, Move::stay(base), own)
+        && (own.to() != to || to == base || !rule.has(Condition::Distinct))
+}
+
+/// Whether R_2 in the cell `at` prefers to stay.
+fn stays_first(rule: &Rule, base: Cell, at: Cell, leader: Move) -> bool {
+    is_admitted(rule, base, Move::stay(at), leader) && rule.high_steps(at, leader).has(Step::Stay)
+}
+
+/// Whether `rule` admits what R_2 and R_3 plan, and R_2 stays if it prefers to.
+pub(super) fn admits(rule: &Rule, base: Cell, own: Move, leader: Move) -> bool {
+    is_admitted(rule, base, own, leader)
+        && (own.step == Step::Stay || !stays_first(rule, base, own.from, leader))
+}
+
 /// CHAIN-15, inductive step: a base, R_2 in E_S of it, and R_3 in E_C of R_2.
 ///
 /// # Errors
@@ -37,19 +56,9 @@ pub(super) fn contact(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     assume(Circle::COVERED.covers(at, ahead))?;
     let mut world = World::<2>::new();
     let leader = world.pick(ahead, oracle);
-    let to = leader.plan.to();
-    assume(to == ahead || rule.admits_behind(to, at))?;
-    let is_admitted = |own: Move| {
-        rule.admits_ahead(own, leader.plan)
-            && rule.admits_behind(own.to(), base)
-            && rule.admits_ahead(Move::stay(base), own)
-            && (own.to() != to || to == base || !rule.has(Condition::Distinct))
-    };
     let follower = world.pick(at, oracle);
-    let stay = Move::stay(at);
-    assume(is_admitted(follower.plan))?;
-    let stays_first = is_admitted(stay) && rule.high_steps(at, leader.plan).has(Step::Stay);
-    assume(!stays_first || follower.plan == stay)?;
+    let stays_first = stays_first(rule, base, at, leader.plan);
+    assume(admits(rule, base, follower.plan, leader.plan))?;
     require(
         Circle::COVERED.covers(follower.arrived, leader.arrived),
         "R_3 is in E_C of R_2 after the move, and R_2 of it",

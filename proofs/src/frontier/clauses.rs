@@ -7,11 +7,13 @@ use tautline_kernel::frontier::{Basis, Occupancy, Otherwise, Rule};
 
 use super::areas::{Areas, Size};
 use super::drift::{self, Drift, PARTS};
+use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
 use super::world::Demand;
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryAnswer, EveryState, Verdict};
+use crate::local::EveryNumber;
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
@@ -246,6 +248,18 @@ pub static CLAUSES: [Clause; 9] = [
             &Check::new(REPAIRED, &three(Demand::Alone), Verdict::Holds, &[repaired(Look)]),
             &Check::new(REPAIRED, &lossy(two_repaired(Demand::Alone)), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(three(Demand::Alone)), Verdict::Holds, &[]),
+            &Check::new(
+                NamedRule::new("plain", Alone::of(Rule::PLAIN)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[NamedRule::new(plain(Look).name, Alone::of(plain(Look).rule))],
+            ),
+            &Check::new(
+                NamedRule::new("repaired", Alone::of(Rule::REPAIRED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[NamedRule::new(repaired(Look).name, Alone::of(repaired(Look).rule))],
+            ),
         ],
     },
     Clause {

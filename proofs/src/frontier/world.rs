@@ -154,12 +154,7 @@ impl<const ROBOTS: usize> World<ROBOTS> {
     /// asked for.
     fn inside(&self, robot: usize, cell: Cell, rim: Rim) -> u8 {
         let is_there = |other: usize| {
-            let tries = match (self.robots[other].stance(), rim) {
-                (Stance::Tries(side), Rim::Counts) => Some(self.cells[other].beyond(side)),
-                (Stance::Stands | Stance::Tries(_) | Stance::Enters(_), _) => None,
-            };
-            other != robot
-                && (self.cells[other] == cell || self.entering(other) == Some(cell) || tries == Some(cell))
+            other != robot && rim.is_met(cell, self.cells[other], self.robots[other].stance())
         };
         (0..ROBOTS).filter(|&other| is_there(other)).fold(0, |set, other| set | 1 << other)
     }
@@ -172,10 +167,23 @@ impl<const ROBOTS: usize> World<ROBOTS> {
 }
 
 /// Whether a robot at the rim of a cell counts as one that enters it.
-#[derive(Clone, Copy)]
-enum Rim {
+#[derive(Clone, Copy, Debug)]
+pub enum Rim {
+    /// It does.
     Counts,
+    /// It does not.
     No,
+}
+
+impl Rim {
+    /// Whether a robot in the cell `at` with this stance is in `cell` or entering it.
+    pub fn is_met(self, cell: Cell, at: Cell, stance: Stance) -> bool {
+        let enters = match (stance, self) {
+            (Stance::Enters(side), _) | (Stance::Tries(side), Self::Counts) => Some(at.beyond(side)),
+            (Stance::Stands | Stance::Tries(_), _) => None,
+        };
+        at == cell || enters == Some(cell)
+    }
 }
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {

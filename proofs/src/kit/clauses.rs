@@ -5,12 +5,14 @@ use tautline_kernel::kit::Condition::{
 };
 use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule, Runs};
 
+use super::local::{self, Contact};
 use super::lattices::{Lattices, Pass, Size};
 use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryState, Verdict};
+use crate::local::EveryNumber;
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
@@ -177,6 +179,12 @@ pub static CLAUSES: [Clause; 14] = [
                 Verdict::Holds,
                 &[NO_NEXT, NO_FROM, NO_STAY, OLD_PATHS],
             ),
+            &Check::new(
+                NamedRule::new("repaired", Contact::of(Rule::REPAIRED)),
+                &local::TWO,
+                Verdict::Holds,
+                &[NamedRule::new(NO_NEXT.name, Contact::of(NO_NEXT.rule)), NamedRule::new(NO_FROM.name, Contact::of(NO_FROM.rule))],
+            ),
         ],
     },
     Clause {
@@ -189,6 +197,12 @@ pub static CLAUSES: [Clause; 14] = [
                 &repaired_at_equal_speeds(Demand::Contact),
                 Verdict::Holds,
                 &[NO_NEXT, NO_STAY, OLD_PATHS],
+            ),
+            &Check::new(
+                NamedRule::new("repaired", Contact::of(Rule::REPAIRED)),
+                &local::TWO,
+                Verdict::Holds,
+                &[NamedRule::new(NO_NEXT.name, Contact::of(NO_NEXT.rule))],
             ),
         ],
     },
@@ -205,6 +219,12 @@ pub static CLAUSES: [Clause; 14] = [
                 &repaired_at_equal_speeds(Demand::Apart),
                 Verdict::Holds,
                 &[NOT_APART, NO_STAY],
+            ),
+            &Check::new(
+                NamedRule::new("repaired", local::Apart::of(Rule::REPAIRED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[NamedRule::new(NOT_APART.name, local::Apart::of(NOT_APART.rule))],
             ),
         ],
     },

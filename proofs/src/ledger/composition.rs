@@ -20,7 +20,15 @@ pub struct Theorem {
     pub part: Option<String>,
     /// The rules that it speaks of, by their names in the ledger.
     pub rules: Vec<&'static str>,
+    /// Whether it is the certificate of a check by the engine of local rules: it counts for such checks alone.
+    pub is_certificate: bool,
 }
+
+/// The module of the theorems that are certificates.
+const CERTIFIED: &str = "Certified.";
+
+/// The engine whose checks have certificates.
+const LOCAL: &str = "local";
 
 impl Theorem {
     /// The theorem of this name, of which the list of `rules` has a line: the id of a clause, with `_` for `-`, and the
@@ -30,7 +38,8 @@ impl Theorem {
         let line = rules.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(' '))?;
         let (rules, less) = line.split_once(": ").map_or((line, None), |(rules, less)| (rules, Some(less)));
         let part = less.map(str::to_owned).or(part);
-        Some(Self { clause, part, rules: rules.split(' ').collect() })
+        let is_certificate = name.starts_with(CERTIFIED);
+        Some(Self { clause, part, rules: rules.split(' ').collect(), is_certificate })
     }
 }
 
@@ -57,18 +66,21 @@ fn closed(audit: &str) -> impl Iterator<Item = &str> {
     heads().zip(heads().skip(1)).filter(|&(_, below)| below == CLOSED).map(|(name, _)| name)
 }
 
-/// The ledger's words on a clause that holds for `rule`: whether it, or a part of it, is machine-checked beyond the
-/// bound.
-pub(super) fn words(clause: &str, rule: &str) -> Option<String> {
-    let mut parts = Vec::new();
+/// The ledger's words on a clause that holds for `rule` by `engine`: whether it, or a part of it, is machine-checked, by a
+/// certificate or beyond the bound.
+pub(super) fn words(clause: &str, rule: &str, engine: &str) -> Option<String> {
     let about = |theorem: &Theorem| theorem.clause == clause && theorem.rules.contains(&rule);
-    for theorem in theorems().into_iter().filter(about) {
-        match theorem.part {
-            None => return Some("composition: machine-checked".to_owned()),
-            Some(part) => parts.push(part),
-        }
+    let (certificates, others): (Vec<Theorem>, Vec<Theorem>) =
+        theorems().into_iter().filter(about).partition(|theorem| theorem.is_certificate);
+    let (what, found) = match engine {
+        LOCAL if !certificates.is_empty() => ("every N", certificates),
+        _ => ("composition", others),
+    };
+    if found.iter().any(|theorem| theorem.part.is_none()) {
+        return Some(format!("{what}: machine-checked"));
     }
-    (!parts.is_empty()).then(|| format!("composition: machine-checked in part ({})", parts.join(", ")))
+    let parts: Vec<String> = found.into_iter().filter_map(|theorem| theorem.part).collect();
+    (!parts.is_empty()).then(|| format!("{what}: machine-checked in part ({})", parts.join(", ")))
 }
 
 #[cfg(test)]
@@ -119,16 +131,25 @@ mod tests {
     }
 
     #[test]
+    fn a_certificate_counts_for_the_engine_of_local_rules_alone() {
+        assert_eq!(words("KIT-2", "repaired", LOCAL).as_deref(), Some("every N: machine-checked"));
+        assert_eq!(words("KIT-2", "repaired", "states"), None);
+        let contact = words("CHAIN-22", "reel", LOCAL);
+        assert_eq!(contact.as_deref(), Some("every N: machine-checked in part (contact)"));
+        assert_eq!(words("CHAIN-2", "reel", LOCAL).as_deref(), Some("composition: machine-checked"));
+    }
+
+    #[test]
     fn a_clause_of_which_a_part_is_proved_is_said_to_be_so_for_the_rules_that_the_theorem_speaks_of() {
-        assert_eq!(words("CHAIN-1", "reel").as_deref(), Some("composition: machine-checked"));
+        assert_eq!(words("CHAIN-1", "reel", "search").as_deref(), Some("composition: machine-checked"));
         assert_eq!(
-            words("BRICKS-2", "repaired").as_deref(),
+            words("BRICKS-2", "repaired", "search").as_deref(),
             Some("composition: machine-checked in part (marking)")
         );
         for (clause, rule) in
             [("CHAIN-14", "repaired"), ("CHAIN-13", "reel"), ("BRICKS-2", "helpers"), ("BRICKS-2", "careful")]
         {
-            assert_eq!(words(clause, rule), None, "{clause} {rule}");
+            assert_eq!(words(clause, rule, "search"), None, "{clause} {rule}");
         }
     }
 }

@@ -1,22 +1,28 @@
 //! The greatest set of relative places that keep a promise and that no admitted step leaves.
 
 use std::collections::{HashMap, HashSet};
+use std::fmt;
 use std::iter;
 
-use tautline_kernel::ground::Cell;
+use tautline_kernel::ground::{Cell, Step};
 
-use super::{Far, Local, Plan, Robot, RobotOf};
+use super::certificate::terms;
+use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
 use crate::decide::MethodError;
 use crate::protocol::combinations;
 
 /// More relative places than these are refused.
 const MOST_PLACES: usize = 4_000_000;
 
-/// How much farther than the promise looks a set may look.
+/// How much farther than the promise looks a set may look, and with how many relative places.
 const WIDER: i16 = 2;
+const MOST_WIDER_PLACES: usize = 100_000;
+
+/// How much nearer two robots can come in one step.
+const AFAR: i16 = 2;
 
 /// Robots of which a rule speaks at once, the first one in cell (0, 0).
-type Tuple<S> = Vec<Robot<S>>;
+pub(super) type Tuple<S> = Vec<Robot<S>>;
 
 /// A set of relative places that no admitted step of a rule leaves.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -44,12 +50,20 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         let widest = if far == Far::Fine { reach + WIDER } else { reach };
         let mut found = Self::within(rule, reach)?;
         for window in reach + 1..=widest {
-            if found.holds() {
+            if found.holds() || places(rule, window + AFAR).is_none_or(|count| count > MOST_WIDER_PLACES) {
                 break;
             }
             found = Self::within(rule, window)?;
         }
         Ok(found)
+    }
+
+    /// A file that Rocq checks, with the theorem that this set shows that `rule` keeps its promise.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the file would be too large, or if an act of the rule ends in none of its states.
+    pub fn certificate<R: Local<State = S>>(&self, rule: &R) -> Result<String, MethodError> {
+        terms(rule, self)
     }
 
     /// Whether the promise holds of every number of robots.
@@ -73,10 +87,10 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         // Each tuple is looked at once more when one to which it leads is gone.
         let mut before: HashMap<Tuple<S>, Vec<Tuple<S>>> = HashMap::new();
         let mut gone: Vec<Tuple<S>> = Vec::new();
+        let steps = Steps::of(rule);
         for tuple in all.iter().filter(|tuple| kept.contains(*tuple)) {
             let mut is_gone = false;
-            each_step(rule, tuple, &mut |next| {
-                cases += 1;
+            cases += steps.each(tuple, None, &mut |next| {
                 if !is_near(&next) {
                     is_gone |= !is_fine;
                 } else if promised(rule, &next) {
@@ -96,9 +110,8 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         }
         let mut is_left = starts.iter().any(|&start| !kept.contains(start));
         if is_fine && !is_left {
-            for tuple in tuples(rule, window + 2)?.iter().filter(|tuple| !is_near(tuple)) {
-                each_step(rule, tuple, &mut |next| {
-                    cases += 1;
+            for tuple in tuples(rule, window + AFAR)?.iter().filter(|tuple| !is_near(tuple)) {
+                cases += steps.each(tuple, Some(window), &mut |next| {
                     is_left |= is_near(&next) && !kept.contains(&next);
                 })?;
             }
@@ -109,6 +122,23 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
     }
 }
 
+impl<S> fmt::Display for Invariant<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { window, places: (all, safe), kept, .. } = self;
+        let far = match window {
+            0 => "in one cell".to_owned(),
+            1 => "at most 1 cell apart in columns and rows".to_owned(),
+            _ => format!("at most {window} cells apart in columns and rows"),
+        };
+        match kept.len() {
+            kept if kept == *safe => {
+                write!(f, "the promise is an invariant: {safe} of {all} places keep it, {far}")
+            }
+            kept => write!(f, "invariant: {kept} of the {safe} places that keep the promise, of {all} {far}"),
+        }
+    }
+}
+
 /// Whether robots keep the promise, however far they are from each other.
 pub(super) fn promised<R: Local>(rule: &R, robots: &[RobotOf<R>]) -> bool {
     let (reach, far) = rule.reach();
@@ -116,7 +146,7 @@ pub(super) fn promised<R: Local>(rule: &R, robots: &[RobotOf<R>]) -> bool {
 }
 
 /// Whether all are at most so many columns and rows from the first one, which is in cell (0, 0).
-fn is_within<S>(robots: &[Robot<S>], window: i16) -> bool {
+pub(super) fn is_within<S>(robots: &[Robot<S>], window: i16) -> bool {
     robots.iter().all(|robot| robot.at.x.abs() <= window && robot.at.y.abs() <= window)
 }
 
@@ -128,15 +158,20 @@ pub(super) fn relative<S: Copy>(robots: &[Robot<S>]) -> Tuple<S> {
 
 fn moved<S: Copy>(robots: &[Robot<S>], (columns, rows): (i16, i16)) -> Tuple<S> {
     let by = |at: Cell| Cell::new(at.x + columns, at.y + rows);
-    robots.iter().map(|&Robot { at, state }| Robot { at: by(at), state }).collect()
+    robots.iter().map(|&robot| Robot { at: by(robot.at), ..robot }).collect()
+}
+
+/// How many tuples of robots there are within a window, whatever colours they see; `None` if too many to count.
+fn places<R: Local>(rule: &R, window: i16) -> Option<usize> {
+    let of_first = rule.states().len() * usize::from(R::COLOURS);
+    let side = 2 * window as usize + 1;
+    let of_one = side.checked_mul(side)?.checked_mul(of_first)?;
+    (1..R::ROBOTS).try_fold(of_first, |count, _| count.checked_mul(of_one))
 }
 
 /// Every tuple of robots within a window.
 fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, MethodError> {
-    let states = rule.states();
-    let side = 2 * window as usize + 1;
-    let of_one = side.saturating_mul(side).saturating_mul(states.len());
-    let count = (1..R::ROBOTS).try_fold(states.len(), |count, _| count.checked_mul(of_one));
+    let (states, count) = (rule.states(), places(rule, window));
     if count.is_none_or(|count| count > MOST_PLACES) {
         let count = count.map_or_else(|| "too many".to_owned(), |count| count.to_string());
         let why = format!(
@@ -146,53 +181,133 @@ fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, Metho
     }
     let cells = |state| {
         (-window..=window)
-            .flat_map(move |x| (-window..=window).map(move |y| Robot { at: Cell::new(x, y), state }))
+            .flat_map(move |x| (-window..=window).map(move |y| Robot::new(Cell::new(x, y), state)))
+            .flat_map(|robot| (0..R::COLOURS).map(move |on| Robot { on, ..robot }))
     };
-    let first = states.iter().map(|&state| Robot { at: Cell::new(0, 0), state }).collect();
+    let first = states.iter().flat_map(|&state| cells(state)).filter(|robot| robot.at == Cell::new(0, 0));
     let others: Vec<RobotOf<R>> = states.iter().flat_map(|&state| cells(state)).collect();
-    Ok(combinations(iter::once(first).chain(iter::repeat_n(others, R::ROBOTS - 1))))
+    let mut all = combinations(iter::once(first.collect()).chain(iter::repeat_n(others, R::ROBOTS - 1)));
+    all.retain(|tuple| agree(tuple.iter().map(|robot| (robot.at, robot.on))));
+    Ok(all)
+}
+
+/// Where robots may be within a window: the first in cell (0, 0), each of so many others in any cell, column by column, the
+/// second robot's cells changing first.
+pub(super) fn offsets(window: i16, others: usize) -> Vec<Vec<Cell>> {
+    let cells: Vec<Cell> =
+        (-window..=window).flat_map(|x| (-window..=window).map(move |y| Cell::new(x, y))).collect();
+    let mut all = combinations(iter::repeat_n(cells, others));
+    for cells in &mut all {
+        cells.push(Cell::new(0, 0));
+        cells.reverse();
+    }
+    all
+}
+
+/// Whether each cell has one colour.
+fn agree(seen: impl Iterator<Item = (Cell, u8)> + Clone) -> bool {
+    let is_other = |(cell, colour): (Cell, u8)| move |other: (Cell, u8)| other.0 == cell && other.1 != colour;
+    !seen.clone().any(|one| seen.clone().any(is_other(one)))
 }
 
 /// A place far from (0, 0), to see whether a rule is the same there.
 const ELSEWHERE: (i16, i16) = (113, 57);
 
-/// Every tuple to which one step of a tuple may lead, as seen from its first robot then.
-fn each_step<R: Local>(
-    rule: &R,
-    tuple: &[RobotOf<R>],
-    visit: &mut dyn FnMut(Tuple<R::State>),
-) -> Result<(), MethodError> {
-    let states = rule.states();
-    let acts: Vec<_> = tuple.iter().map(|robot| rule.acts(robot.state)).collect();
-    for picked in combinations(acts.iter().map(|acts| acts.iter().collect())) {
+/// What robots can do by a rule.
+struct Steps<'r, R: Local> {
+    rule: &'r R,
+    acts: HashMap<R::State, Vec<ActOf<R>>>,
+}
+
+impl<'r, R: Local> Steps<'r, R> {
+    fn of(rule: &'r R) -> Self {
+        let acts = rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
+        Self { rule, acts }
+    }
+
+    /// Visits every tuple to which one step of a tuple may lead, as seen from its first robot then, and returns how many
+    /// there are; within a window those alone that may be within it.
+    fn each(
+        &self,
+        tuple: &[RobotOf<R>],
+        window: Option<i16>,
+        visit: &mut dyn FnMut(Tuple<R::State>),
+    ) -> Result<u64, MethodError> {
+        let mut cases = 0;
+        for picked in combinations(tuple.iter().map(|robot| self.acts[&robot.state].iter().collect())) {
+            let is_far = window.is_some_and(|window| !come_near(tuple, &picked, window));
+            // Colours multiply the cases.
+            if is_far && R::COLOURS > 1 {
+                continue;
+            }
+            for aims in colours_of_goals::<R>(tuple, &picked) {
+                if !self.admits(tuple, &picked, &aims)? {
+                    continue;
+                }
+                cases += picked.iter().map(|act| act.ends.len() as u64).product::<u64>();
+                if is_far {
+                    continue;
+                }
+                for ends in combinations(picked.iter().map(|act| act.ends.clone())) {
+                    let acts = picked.iter().map(|act| act.step).zip(aims.iter().copied());
+                    let after = tuple.iter().zip(acts).zip(ends).map(|((robot, act), end)| robot.after(act, end));
+                    let next: Vec<_> = after.collect();
+                    if let Some(robot) = next.iter().find(|robot| !self.acts.contains_key(&robot.state)) {
+                        let why = format!("{:?} is none of the states of the rule", robot.state);
+                        return Err(MethodError::new(why));
+                    }
+                    visit(relative(&next));
+                }
+            }
+        }
+        Ok(cases)
+    }
+
+    /// Whether the rule admits these acts of a tuple.
+    fn admits(&self, tuple: &[RobotOf<R>], picked: &[&ActOf<R>], aims: &[u8]) -> Result<bool, MethodError> {
         let plan = |robots: &[RobotOf<R>]| -> Vec<_> {
-            robots.iter().zip(&picked).map(|(robot, act)| robot.plans(act)).collect()
+            let acts = picked.iter().zip(aims);
+            robots.iter().zip(acts).map(|(robot, (act, &aims))| robot.plans(act, aims)).collect()
         };
         let plans = plan(tuple);
-        let is_admitted = rule.admits(&plans);
-        if rule.admits(&plan(&moved(tuple, ELSEWHERE))) != is_admitted {
-            let word = |plan: &Plan<R::State, R::Act>| format!("{:?} in {}", plan.act, plan.robot.at);
-            let words: Vec<String> = plans.iter().map(word).collect();
-            let (columns, rows) = ELSEWHERE;
-            let why = format!(
-                "the rule is not the same everywhere: it answers {} in another way {columns} columns and {rows} rows away",
-                words.join(", ")
-            );
-            return Err(MethodError::new(why));
+        let is_admitted = self.rule.admits(&plans);
+        if self.rule.admits(&plan(&moved(tuple, ELSEWHERE))) == is_admitted {
+            return Ok(is_admitted);
         }
-        if !is_admitted {
-            continue;
-        }
-        for ends in combinations(picked.iter().map(|act| act.ends.clone())) {
-            let after =
-                tuple.iter().zip(&picked).zip(ends).map(|((robot, act), end)| robot.after(act.step, end));
-            let next: Vec<_> = after.collect();
-            if let Some(robot) = next.iter().find(|robot| !states.contains(&robot.state)) {
-                let why = format!("{:?} is none of the states of the rule", robot.state);
-                return Err(MethodError::new(why));
-            }
-            visit(relative(&next));
-        }
+        let word = |plan: &Plan<R::State, R::Act>| format!("{:?} in {}", plan.act, plan.robot.at);
+        let words: Vec<String> = plans.iter().map(word).collect();
+        let (columns, rows) = ELSEWHERE;
+        let why = format!(
+            "the rule is not the same everywhere: it answers {} in another way {columns} columns and {rows} rows away",
+            words.join(", ")
+        );
+        Err(MethodError::new(why))
     }
-    Ok(())
+}
+
+/// Whether robots that do this may be within a window then.
+fn come_near<S: Copy, A: Copy>(tuple: &[Robot<S>], picked: &[&Act<S, A>], window: i16) -> bool {
+    let ends = |robot: usize| {
+        let act = picked[robot];
+        act.ends.iter().map(move |&end| tuple[robot].after((act.step, 0), end).at)
+    };
+    let is_near =
+        |one: Cell, other: Cell| (one.x - other.x).abs() <= window && (one.y - other.y).abs() <= window;
+    (1..tuple.len()).all(|robot| ends(robot).any(|end| ends(0).any(|first| is_near(first, end))))
+}
+
+/// Which colours the cells may have to which these acts lead.
+fn colours_of_goals<R: Local>(tuple: &[RobotOf<R>], picked: &[&ActOf<R>]) -> Vec<Vec<u8>> {
+    if R::COLOURS == 1 {
+        return vec![vec![0; tuple.len()]];
+    }
+    let mut all = combinations(tuple.iter().zip(picked).map(|(robot, act)| match act.step {
+        Step::Stay => vec![robot.on],
+        Step::Cross(_) => (0..R::COLOURS).collect(),
+    }));
+    all.retain(|aims| {
+        let goals = tuple.iter().zip(picked).zip(aims).map(|((robot, act), &aims)| (robot.at.after(act.step), aims));
+        agree(goals.chain(tuple.iter().map(|robot| (robot.at, robot.on))))
+    });
+    all
 }

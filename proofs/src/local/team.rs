@@ -5,7 +5,8 @@ use std::fmt::Write;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::invariant::{promised, relative};
+use super::invariant::promised;
+use super::wider::seen;
 use super::{ActOf, Local, Robot, RobotOf};
 use crate::decide::{Depiction, MethodError};
 use crate::engine::states::{Run, System};
@@ -15,8 +16,35 @@ use crate::protocol::{beside, combinations};
 /// The demand.
 const PROMISE: &str = "the promise is kept by all robots of which the rule speaks";
 
-/// Robots, and the edges that they have met, each with whether it is open.
-pub(super) type Start<S> = (Vec<Robot<S>>, Vec<(Edge, bool)>);
+/// Robots, and what they have met of the layout.
+pub(super) type Start<S> = (Vec<Robot<S>>, Layout);
+
+/// A layout as far as robots have met it.
+#[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
+pub(super) struct Layout {
+    /// Edges, sorted, each with whether it is open.
+    edges: Vec<(Edge, bool)>,
+    /// Cells, sorted, each with its colour.
+    colours: Vec<(Cell, u8)>,
+}
+
+impl Layout {
+    /// The colour of a cell, if it was met.
+    fn colour(&self, cell: Cell) -> Option<u8> {
+        let place = self.colours.binary_search_by_key(&cell, |&(cell, _)| cell).ok()?;
+        Some(self.colours[place].1)
+    }
+
+    /// Notes the colour of a cell.
+    fn put_colour(&mut self, cell: Cell, colour: u8) {
+        if let Err(place) = self.colours.binary_search_by_key(&cell, |&(cell, _)| cell) {
+            self.colours.insert(place, (cell, colour));
+        }
+    }
+}
+
+/// An act, and the colour of the cell to which it leads.
+type Aimed<'a, R> = (&'a ActOf<R>, u8);
 
 /// So many robots that follow a rule.
 pub(super) struct Team<'r, R: Local> {
@@ -27,11 +55,6 @@ pub(super) struct Team<'r, R: Local> {
 
 /// The acts of all robots in words, and what comes of them.
 type Next<S> = (String, Start<S>);
-
-/// The robots of a tuple as seen from the first of them.
-fn seen<S: Copy>(tuple: &[usize], robots: &[Robot<S>]) -> Vec<Robot<S>> {
-    relative(&tuple.iter().map(|&robot| robots[robot]).collect::<Vec<_>>())
-}
 
 impl<'r, R: Local> Team<'r, R> {
     /// # Errors
@@ -52,27 +75,38 @@ impl<'r, R: Local> Team<'r, R> {
     }
 
     pub(super) fn start(&self) -> Start<R::State> {
-        (self.start.clone(), Vec::new())
+        let mut layout = Layout::default();
+        for robot in self.start.iter().filter(|_| R::COLOURS > 1) {
+            layout.put_colour(robot.at, robot.on);
+        }
+        (self.start.clone(), layout)
     }
 
     /// Every plan of all robots that the rule admits, each robot's act one of `acts`.
     fn plans<'a>(
         &self,
-        (robots, edges): &Start<R::State>,
+        (robots, layout): &Start<R::State>,
         acts: &'a [Vec<ActOf<R>>],
-    ) -> Vec<Vec<&'a ActOf<R>>> {
+    ) -> Vec<Vec<Aimed<'a, R>>> {
         let mut all = vec![Vec::new()];
         for (me, (robot, acts)) in robots.iter().zip(acts).enumerate() {
             let is_possible = |act: &&ActOf<R>| match act.step {
                 Step::Stay => true,
                 Step::Cross(side) => {
                     let edge = (Edge::new(robot.at, side), true);
-                    !self.rule.is_fixed(me) && (!act.needs_open || edges.contains(&edge))
+                    !self.rule.is_fixed(me) && (!act.needs_open || layout.edges.contains(&edge))
                 }
             };
             let possible: Vec<_> = acts.iter().filter(is_possible).collect();
-            let with = |plan: Vec<_>| {
-                let next = possible.iter().map(move |&act| [&plan[..], &[act]].concat());
+            let with = |plan: Vec<Aimed<'a, R>>| {
+                let aimed = |&act: &&'a ActOf<R>| {
+                    let goal = robot.at.after(act.step);
+                    let before = robots.iter().zip(&plan).find(|(robot, before)| robot.at.after(before.0.step) == goal);
+                    let known = before.map(|(_, &(_, aims))| aims).or_else(|| layout.colour(goal));
+                    let colours = known.map_or(0..R::COLOURS, |known| known..known + 1);
+                    colours.map(move |aims| (act, aims)).collect::<Vec<_>>()
+                };
+                let next = possible.iter().flat_map(aimed).map(|act| [&plan[..], &[act]].concat());
                 next.filter(|plan| self.admits(robots, plan, me)).collect::<Vec<_>>()
             };
             all = all.into_iter().flat_map(with).collect();
@@ -81,31 +115,34 @@ impl<'r, R: Local> Team<'r, R> {
     }
 
     /// Whether the rule admits the plans of the first robots, `last` the last of them, in every tuple that has it.
-    fn admits(&self, robots: &[RobotOf<R>], plan: &[&ActOf<R>], last: usize) -> bool {
+    fn admits(&self, robots: &[RobotOf<R>], plan: &[Aimed<'_, R>], last: usize) -> bool {
         let is_due = |tuple: &&Vec<usize>| tuple.contains(&last) && tuple.iter().all(|&robot| robot <= last);
         self.tuples.iter().filter(is_due).all(|tuple| {
-            let plans: Vec<_> = tuple.iter().map(|&robot| robots[robot].plans(plan[robot])).collect();
+            let plans: Vec<_> = tuple.iter().map(|&robot| robots[robot].plans(plan[robot].0, plan[robot].1)).collect();
             self.rule.admits(&plans)
         })
     }
 
     /// Whatever comes of a plan, by the edges and by what robots do.
-    fn outcomes((robots, edges): &Start<R::State>, plan: &[&ActOf<R>]) -> Vec<Start<R::State>> {
+    fn outcomes((robots, layout): &Start<R::State>, plan: &[Aimed<'_, R>]) -> Vec<Start<R::State>> {
         let mut outcomes = Vec::new();
-        'ends: for ends in combinations(plan.iter().map(|act| act.ends.clone())) {
-            let (mut after, mut met) = (Vec::new(), edges.clone());
-            for ((robot, act), end) in robots.iter().zip(plan).zip(ends) {
-                if let Step::Cross(side) = act.step
-                    && (end.0 || !R::FAULTS)
-                {
-                    let edge = Edge::new(robot.at, side);
-                    match met.binary_search_by_key(&edge, |&(edge, _)| edge) {
-                        Ok(place) if met[place].1 != end.0 => continue 'ends,
-                        Ok(_) => {}
-                        Err(place) => met.insert(place, (edge, end.0)),
+        'ends: for ends in combinations(plan.iter().map(|(act, _)| act.ends.clone())) {
+            let (mut after, mut met) = (Vec::new(), layout.clone());
+            for ((robot, &(act, aims)), end) in robots.iter().zip(plan).zip(ends) {
+                if let Step::Cross(side) = act.step {
+                    if R::COLOURS > 1 {
+                        met.put_colour(robot.at.after(act.step), aims);
+                    }
+                    if end.0 || !R::FAULTS {
+                        let edge = Edge::new(robot.at, side);
+                        match met.edges.binary_search_by_key(&edge, |&(edge, _)| edge) {
+                            Ok(place) if met.edges[place].1 != end.0 => continue 'ends,
+                            Ok(_) => {}
+                            Err(place) => met.edges.insert(place, (edge, end.0)),
+                        }
                     }
                 }
-                after.push(robot.after(act.step, end));
+                after.push(robot.after((act.step, aims), end));
             }
             outcomes.push((after, met));
         }
@@ -122,7 +159,7 @@ impl<'r, R: Local> Team<'r, R> {
 }
 
 /// The cells that robots are in, robots by number, and below them their states, if there is more than one, and walls.
-fn draw<S: std::fmt::Debug>((robots, edges): &Start<S>) -> String {
+fn draw<S: std::fmt::Debug>((robots, layout): &Start<S>) -> String {
     let (columns, rows) = (robots.iter().map(|robot| robot.at.x), robots.iter().map(|robot| robot.at.y));
     let span =
         |of: &mut dyn Iterator<Item = i16>| of.fold((0, 0), |(low, high), at| (at.min(low), at.max(high)));
@@ -143,7 +180,10 @@ fn draw<S: std::fmt::Debug>((robots, edges): &Start<S>) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", states.join(", "));
     }
-    for (edge, _) in edges.iter().filter(|(_, is_open)| !is_open) {
+    for (cell, colour) in layout.colours.iter().filter(|&&(_, colour)| colour > 0) {
+        let _ = writeln!(text, "colour {colour} in {cell}");
+    }
+    for (edge, _) in layout.edges.iter().filter(|(_, is_open)| !is_open) {
         let _ = writeln!(text, "wall {}|{}", edge.cell(), edge.cell().beyond(edge.side()));
     }
     text
@@ -159,7 +199,7 @@ impl<R: Local> World for Team<'_, R> {
         let acts: Vec<_> = state.0.iter().map(|robot| self.rule.acts(robot.state)).collect();
         let mut all = Vec::new();
         for plan in self.plans(state, &acts) {
-            let words: Vec<String> = plan.iter().map(|act| format!("{:?}", act.act)).collect();
+            let words: Vec<String> = plan.iter().map(|(act, _)| format!("{:?}", act.act)).collect();
             let words = words.join(", ");
             all.extend(Self::outcomes(state, &plan).into_iter().map(|next| (words.clone(), next)));
         }

@@ -5,10 +5,12 @@ use tautline_kernel::pack::Rule;
 
 use super::floors::{Bounds, Drawing, Floors, Size, Starts};
 use super::gains::Gains;
+use super::local;
 use super::played::{Demand, SITUATIONS};
 use super::rays::{self, Rays};
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryAnswer, Verdict};
+use crate::local::EveryNumber;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
 const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
@@ -130,6 +132,18 @@ pub static CLAUSES: [Clause; 8] = [
             &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
             &Check::new(REPAIRED, &far(Demand::Single), Verdict::Holds, &[NO_SINGLE]),
             &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
+            &Check::new(
+                NamedRule::new("published", local::Single(Rule::PUBLISHED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[NamedRule::new(NO_SINGLE.name, local::Single(Rule::PUBLISHED.without(Single)))],
+            ),
+            &Check::new(
+                NamedRule::new("repaired", local::Single(Rule::REPAIRED)),
+                &EveryNumber::DEFAULT,
+                Verdict::Holds,
+                &[NamedRule::new(NO_SINGLE.name, local::Single(Rule::REPAIRED.without(Single)))],
+            ),
         ],
     },
     Clause {

@@ -1,0 +1,95 @@
+//! A planner that is kept to the relation of a local rule: what it plans is done only if the rule admits it. So a
+//! promise that the relation keeps holds of what runs, whoever plans.
+
+use tautline_kernel::ground::{Cell, Edge, Step};
+
+use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
+
+/// A planner, and the rule to which it is kept. It returns an act for each robot.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept<R, P> {
+    /// The rule.
+    pub rule: R,
+    /// The planner.
+    pub planner: P,
+}
+
+impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> Kept<R, P> {
+    /// The acts that the planner returns, if the rule admits them; `None` if it does not: then no robot may act. Known
+    /// of the layout are which edges are open, and the colours of the cells in and beside which robots are.
+    pub fn plan(
+        &self,
+        robots: &[RobotOf<R>],
+        is_known_open: impl Fn(Edge) -> bool,
+        colour: impl Fn(Cell) -> u8,
+    ) -> Option<Vec<ActOf<R>>> {
+        let acts = (self.planner)(robots);
+        let is_possible = |(me, (robot, act)): (usize, (&RobotOf<R>, &ActOf<R>))| {
+            let may_go = match act.step {
+                Step::Stay => true,
+                Step::Cross(side) => {
+                    let is_open = !act.needs_open || is_known_open(Edge::new(robot.at, side));
+                    is_open && !self.rule.is_fixed(me)
+                }
+            };
+            may_go && self.rule.acts(robot.state).contains(act)
+        };
+        let is_admitted = |tuple: &Vec<usize>| {
+            let plan = |&robot: &usize| {
+                let (robot, act): (&RobotOf<R>, &ActOf<R>) = (&robots[robot], &acts[robot]);
+                robot.plans(act, colour(robot.at.after(act.step)))
+            };
+            self.rule.admits(&tuple.iter().map(plan).collect::<Vec<_>>())
+        };
+        let admits = acts.len() == robots.len()
+            && robots.iter().zip(&acts).enumerate().all(is_possible)
+            && self.rule.tuples(robots.len()).iter().all(is_admitted);
+        admits.then_some(acts)
+    }
+}
+
+impl<R: Local, P: Sync> Local for Kept<R, P> {
+    type State = R::State;
+    type Act = R::Act;
+    const ROBOTS: usize = R::ROBOTS;
+    const LEAST: usize = R::LEAST;
+    const FAULTS: bool = R::FAULTS;
+    const COLOURS: u8 = R::COLOURS;
+    const SUBJECT: &'static str = "what runs, each plan kept to the relation";
+
+    fn states(&self) -> Vec<R::State> {
+        self.rule.states()
+    }
+
+    fn acts(&self, state: R::State) -> Vec<Act<R::State, R::Act>> {
+        self.rule.acts(state)
+    }
+
+    fn admits(&self, plans: &[Plan<R::State, R::Act>]) -> bool {
+        self.rule.admits(plans)
+    }
+
+    fn keeps(&self, robots: &[Robot<R::State>]) -> bool {
+        self.rule.keeps(robots)
+    }
+
+    fn reach(&self) -> (i16, Far) {
+        self.rule.reach()
+    }
+
+    fn may_start(&self, robots: &[Robot<R::State>]) -> bool {
+        self.rule.may_start(robots)
+    }
+
+    fn start(&self, robots: usize) -> Vec<Robot<R::State>> {
+        self.rule.start(robots)
+    }
+
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
+        self.rule.tuples(robots)
+    }
+
+    fn is_fixed(&self, robot: usize) -> bool {
+        self.rule.is_fixed(robot)
+    }
+}

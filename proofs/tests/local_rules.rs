@@ -1,0 +1,301 @@
+//! A table of local rules, right ones and wrong ones, each decided for every number of robots: what comes out, the
+//! invariant, and of the wrong ones the smallest team that breaks its promise, which is played again.
+
+use tautline_kernel::chain::{Condition, Role, Rule};
+use tautline_kernel::frontier::{Rule as FrontierRule, Stance};
+use tautline_kernel::ground::{Cell, Step};
+use tautline_kernel::kit::{Condition as KitCondition, Rule as KitRule};
+use tautline_proofs::chain::local::{Contact, Crowd};
+use tautline_proofs::decide::Verdict;
+use tautline_proofs::frontier::local::Alone;
+use tautline_proofs::frontier::world::Rim;
+use tautline_proofs::kit::local::{Apart, Contact as InTouch};
+use tautline_proofs::local::{Act, Far, Invariant, Local, Plan, Robot, all_tuples};
+
+use crate::local::decided;
+
+/// A line of the table.
+fn line<R: Local>(name: &str, rule: &R) -> String {
+    let (verdict, run, story) = decided(rule);
+    let invariant = Invariant::of(rule).expect("a local rule");
+    let (places, safe) = invariant.places;
+    let (kept, cases, verdict) = (invariant.kept.len(), invariant.cases, verdict.word());
+    let found = match run {
+        Some((robots, steps)) => format!("{robots} robots, {steps} steps"),
+        None => format!("{kept} of {safe} of {places}, {cases} cases"),
+    };
+    assert_eq!(run.is_some(), !story.is_empty(), "{name}");
+    format!("{name:<38} {verdict:<8} {found}\n")
+}
+
+#[test]
+fn the_conditions_of_the_chain_for_every_n() {
+    let mut table = String::new();
+    for (name, rule) in [("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED), ("reel", Rule::REEL)] {
+        table += &line(&format!("contact, {name}"), &Contact::<false>(rule));
+        table += &line(&format!("contact whoever fails, {name}"), &Contact::<true>(rule));
+    }
+    for condition in Condition::ALL {
+        table += &line(
+            &format!("contact without {condition:?}"),
+            &Contact::<false>(Rule::REPAIRED.without(condition)),
+        );
+    }
+    let crowd = |rule| Crowd::<1> { rule, roles: &[Role::Follower] };
+    table += &line("crowding", &crowd(Rule::REPAIRED));
+    for condition in [Condition::FullForFollower, Condition::Distinct] {
+        table += &line(&format!("crowding without {condition:?}"), &crowd(Rule::REPAIRED.without(condition)));
+    }
+    insta::assert_snapshot!(table, @"");
+}
+
+#[test]
+fn the_conditions_of_robots_that_keep_in_touch_for_every_n() {
+    let mut table = String::new();
+    let touch = |rule, of_nodes| InTouch { rule, of_nodes };
+    table += &line("contact", &touch(KitRule::REPAIRED, false));
+    table += &line("contact, promised of nodes", &touch(KitRule::REPAIRED, true));
+    for condition in [KitCondition::FromInReach, KitCondition::NextInReach] {
+        table +=
+            &line(&format!("contact without {condition:?}"), &touch(KitRule::REPAIRED.without(condition), false));
+    }
+    let apart = |rule, of_nodes| Apart { rule, of_nodes };
+    table += &line("apart", &apart(KitRule::REPAIRED, false));
+    table += &line("apart, promised of nodes", &apart(KitRule::REPAIRED, true));
+    table += &line("apart without Apart", &apart(KitRule::REPAIRED.without(KitCondition::Apart), false));
+    insta::assert_snapshot!(table, @"");
+}
+
+#[test]
+fn robots_among_frontier_cells_need_no_rim_unless_they_act_at_once() {
+    let alone = Alone::of(FrontierRule::REPAIRED);
+    let no_rim = Alone { is_met: |cell, at, stance| Rim::No.is_met(cell, at, stance), ..alone };
+    let not_entering = Alone {
+        is_met: |cell, at, stance| match stance {
+            Stance::Enters(_) => cell == at,
+            Stance::Stands | Stance::Tries(_) => Rim::Counts.is_met(cell, at, stance),
+        },
+        ..alone
+    };
+    let not_within =
+        Alone { is_met: |cell, at, stance| cell != at && Rim::Counts.is_met(cell, at, stance), ..alone };
+    let mut table = line("one at a time", &alone);
+    table += &line("one at a time, the rim does not count", &no_rim);
+    table += &line("entering does not count", &not_entering);
+    table += &line("robots in a cell do not count", &not_within);
+    table += &line("at once", &Alone { at_once: true, ..alone });
+    table += &line("at once, the rim does not count", &Alone { at_once: true, ..no_rim });
+    insta::assert_snapshot!(table, @"");
+}
+
+/// Plans of two robots that take steps.
+type Plans<'a> = &'a [Plan<(), Step>];
+
+/// A rule of two robots that take steps, as data.
+#[derive(Clone, Copy)]
+struct Own<const COLOURS: u8> {
+    admits: fn(Plans<'_>) -> bool,
+    keeps: fn(&[Robot<()>]) -> bool,
+    reach: (i16, Far),
+    /// Whether a robot may meet a wall.
+    meets_walls: bool,
+    start: fn(usize) -> Cell,
+    tuples: fn(usize) -> Vec<Vec<usize>>,
+}
+
+impl<const COLOURS: u8> Local for Own<COLOURS> {
+    type State = ();
+    type Act = Step;
+    const COLOURS: u8 = COLOURS;
+
+    fn states(&self) -> Vec<()> {
+        vec![()]
+    }
+
+    fn acts(&self, (): ()) -> Vec<Act<(), Step>> {
+        let act = |step| {
+            let may_not = self.meets_walls && step != Step::Stay;
+            let ends = if may_not { vec![(true, ()), (false, ())] } else { vec![(true, ())] };
+            Act { act: step, step, ends, needs_open: false }
+        };
+        Step::ALL.into_iter().map(act).collect()
+    }
+
+    fn admits(&self, plans: Plans<'_>) -> bool {
+        (self.admits)(plans)
+    }
+
+    fn keeps(&self, robots: &[Robot<()>]) -> bool {
+        (self.keeps)(robots)
+    }
+
+    fn reach(&self) -> (i16, Far) {
+        self.reach
+    }
+
+    fn may_start(&self, robots: &[Robot<()>]) -> bool {
+        self.keeps(robots)
+    }
+
+    fn start(&self, robots: usize) -> Vec<Robot<()>> {
+        (0..robots).map(|robot| Robot::new((self.start)(robot), ())).collect()
+    }
+
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
+        (self.tuples)(robots)
+    }
+}
+
+fn steps(one: Cell, other: Cell) -> u16 {
+    let (columns, rows) = one.apart(other);
+    columns + rows
+}
+
+/// Each robot with the next one, and the last one with the first.
+fn ring(robots: usize) -> Vec<Vec<usize>> {
+    let pairs = (0..robots).map(|robot| vec![robot, (robot + 1) % robots]);
+    pairs.filter(|pair| pair[0] != pair[1]).collect()
+}
+
+fn leash(admits: fn(Plans<'_>) -> bool) -> Own<1> {
+    Own {
+        admits,
+        keeps: |robots| is_on_leash(robots[0].at, robots[1].at),
+        reach: (2, Far::Broken),
+        meets_walls: true,
+        start: |robot| [(0, 0), (1, 0), (1, 1), (0, 1)].map(Cell::from)[robot % 4],
+        tuples: ring,
+    }
+}
+
+fn is_on_leash(one: Cell, other: Cell) -> bool {
+    (1..=2).contains(&steps(one, other))
+}
+
+fn of_goals(plans: Plans<'_>) -> bool {
+    is_on_leash(plans[0].to(), plans[1].to())
+}
+
+fn of_cells_and_goals(plans: Plans<'_>) -> bool {
+    let [one, other] = [&plans[0], &plans[1]];
+    is_on_leash(one.robot.at, other.to()) && is_on_leash(one.to(), other.robot.at)
+}
+
+#[test]
+fn robots_on_a_ring_keep_their_distance_if_they_look_at_cells_and_goals() {
+    let mut table = line("leash", &leash(|plans| of_goals(plans) && of_cells_and_goals(plans)));
+    table += &line("leash, of goals alone", &leash(of_goals));
+    table += &line("leash, of goals and cells crosswise", &leash(of_cells_and_goals));
+    let far = |plans: Plans<'_>| {
+        let [one, other] = [&plans[0], &plans[1]];
+        [one.robot.at, one.to()].into_iter().all(|one| {
+            [other.robot.at, other.to()].into_iter().all(|other| steps(one, other) <= 2)
+        })
+    };
+    table += &line("leash, cells may be shared", &leash(far));
+    insta::assert_snapshot!(table, @"");
+}
+
+fn in_a_row(robot: usize) -> Cell {
+    Cell::new(robot as i16, 0)
+}
+
+/// Robots of which no two plan to be in one cell, as planners for many robots have it (PIBT).
+const NO_COLLISION: Own<1> = Own {
+    admits: |plans| plans[0].to() != plans[1].to(),
+    keeps: |robots| robots[0].at != robots[1].at,
+    reach: (0, Far::Fine),
+    meets_walls: false,
+    start: in_a_row,
+    tuples: |robots| all_tuples(robots, 2),
+};
+
+/// Doors are cells of the second colour.
+const DOOR: u8 = 1;
+
+/// Robots of which no two enter one door at once, nor one in which another one is.
+const DOORS: Own<2> = Own {
+    admits: |plans| {
+        let may_enter = |own: &Plan<(), Step>, other: &Plan<(), Step>| {
+            own.aims != DOOR || own.step == Step::Stay || own.to() != other.robot.at && own.to() != other.to()
+        };
+        may_enter(&plans[0], &plans[1]) && may_enter(&plans[1], &plans[0])
+    },
+    keeps: |robots| robots[0].on != DOOR || robots[0].at != robots[1].at,
+    reach: (0, Far::Fine),
+    meets_walls: true,
+    start: in_a_row,
+    tuples: |robots| all_tuples(robots, 2),
+};
+
+#[test]
+fn rules_of_other_people_are_decided_as_well() {
+    let mut table = line("no collision", &NO_COLLISION);
+    table += &line("no collision, walls unknown", &Own { meets_walls: true, ..NO_COLLISION });
+    table += &line("no collision, goals do not count", &Own { admits: |_| true, ..NO_COLLISION });
+    table += &line("doors", &DOORS);
+    let leaves = |plans: Plans<'_>| plans[0].aims != DOOR || plans[0].to() != plans[1].to();
+    table += &line("doors, where others are does not count", &Own { admits: leaves, ..DOORS });
+    let enters = |plans: Plans<'_>| {
+        let is_free = |own: &Plan<(), Step>, other: &Plan<(), Step>| own.aims != DOOR || own.to() != other.robot.at;
+        plans[0].step == Step::Stay || is_free(&plans[0], &plans[1])
+    };
+    table += &line("doors, goals of others do not count", &Own { admits: enters, ..DOORS });
+    insta::assert_snapshot!(table, @"");
+}
+
+/// A robot raises a flag, which nobody is to see, if every other one is in the cell east of it. Two robots may start so; of
+/// three one is elsewhere.
+struct Flags<const LEAST: usize>;
+
+impl<const LEAST: usize> Local for Flags<LEAST> {
+    type State = bool;
+    type Act = bool;
+    const LEAST: usize = LEAST;
+
+    fn states(&self) -> Vec<bool> {
+        vec![false, true]
+    }
+
+    fn acts(&self, is_up: bool) -> Vec<Act<bool, bool>> {
+        let act = |raises| Act { act: raises, step: Step::Stay, ends: vec![(false, raises)], needs_open: false };
+        if is_up { vec![act(true)] } else { vec![act(false), act(true)] }
+    }
+
+    fn admits(&self, plans: &[Plan<bool, bool>]) -> bool {
+        let is_east = |own: Cell, other: Cell| other == Cell::new(own.x + 1, own.y);
+        let may_raise = |own: &Plan<bool, bool>, other: &Plan<bool, bool>| {
+            !own.act || is_east(own.robot.at, other.robot.at)
+        };
+        may_raise(&plans[0], &plans[1]) && may_raise(&plans[1], &plans[0])
+    }
+
+    fn keeps(&self, robots: &[Robot<bool>]) -> bool {
+        robots[0].at != robots[1].at && robots.iter().all(|robot| !robot.state)
+    }
+
+    fn reach(&self) -> (i16, Far) {
+        (1, Far::Broken)
+    }
+
+    fn may_start(&self, robots: &[Robot<bool>]) -> bool {
+        robots.iter().all(|robot| robot.at.x.abs() <= 1 && robot.at.y.abs() <= 1) && self.keeps(robots)
+    }
+
+    fn start(&self, robots: usize) -> Vec<Robot<bool>> {
+        let cells = [(0, 0), (0, 1), (1, 1), (1, 0)].map(Cell::from);
+        cells.into_iter().take(robots).map(|cell| Robot::new(cell, false)).collect()
+    }
+
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
+        all_tuples(robots, 2)
+    }
+}
+
+#[test]
+fn where_two_robots_are_too_coarse_three_are_looked_at_and_else_the_question_is_open() {
+    assert_eq!(decided(&Flags::<3>).0, Verdict::Holds);
+    assert!(!Invariant::of(&Flags::<3>).expect("a local rule").holds());
+    let (verdict, run, _) = decided(&Flags::<2>);
+    assert_eq!((verdict, run), (Verdict::Open, None));
+}
