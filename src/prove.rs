@@ -278,7 +278,8 @@ impl Deciding {
                 Some(folder) => stored(row, folder, &replaceable, out)?,
                 None => None,
             });
-            if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds) {
+            if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds)
+            {
                 certify(row, folder, &replaceable, out);
             }
         }

@@ -175,9 +175,9 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let below = [("bound".to_owned(), [None, None, None])]
-        .into_iter()
-        .chain(rows.iter().map(|row| (row.bound(), [row.decision.note.clone(), row.composition(), row.readings()])));
+    let below = [("bound".to_owned(), [None, None, None])].into_iter().chain(
+        rows.iter().map(|row| (row.bound(), [row.decision.note.clone(), row.composition(), row.readings()])),
+    );
     let mut text = String::new();
     for (line, (bound, beyond)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)

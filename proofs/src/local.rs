@@ -189,7 +189,12 @@ impl EveryNumber {
     pub const DEFAULT: Self = Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000 };
 
     /// An answer by this invariant.
-    fn answer<R: Local, S>(self, invariant: &Invariant<S>, found: Option<Evidence>, is_whole: bool) -> Answer {
+    fn answer<R: Local, S>(
+        self,
+        invariant: &Invariant<S>,
+        found: Option<Evidence>,
+        is_whole: bool,
+    ) -> Answer {
         let holds = found.is_none() && is_whole;
         let note = match (&found, holds) {
             (Some(_), _) => None,

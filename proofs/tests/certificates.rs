@@ -66,7 +66,9 @@ fn without_a_place(text: &str, table: &str, draw: &mut Draw) -> String {
     let mut places = Vec::new();
     for (start, _) in text[from..to].match_indices("0x") {
         let digits = text[from + start + 2..].chars().take_while(char::is_ascii_hexdigit);
-        for (place, value) in digits.enumerate().filter_map(|(place, digit)| Some((place, digit.to_digit(16)?))) {
+        for (place, value) in
+            digits.enumerate().filter_map(|(place, digit)| Some((place, digit.to_digit(16)?)))
+        {
             let bits = (0..4).filter(|bit| value >> bit & 1 == 1);
             places.extend(bits.map(|bit| (from + start + 2 + place, value & !(1 << bit))));
         }

@@ -30,7 +30,12 @@ fn steps<S: Copy>(state: S, may_fail: bool) -> Vec<Act<S, Going>> {
         Act { act: (step, needs_open), step, ends, needs_open }
     };
     let crossing = Step::ALL.into_iter().filter(|&step| step != Step::Stay);
-    Step::ALL.into_iter().map(|step| (step, false)).chain(crossing.map(|step| (step, true))).map(act).collect()
+    Step::ALL
+        .into_iter()
+        .map(|step| (step, false))
+        .chain(crossing.map(|step| (step, true)))
+        .map(act)
+        .collect()
 }
 
 fn as_move<S>(plan: &Plan<S, Going>) -> Move {
@@ -207,9 +212,9 @@ impl Local for Coverage {
         let act = |act, step, ends| Act { act, step, ends, needs_open: false };
         match phase {
             Phase::Base => vec![act(Some(Step::Stay), Step::Stay, vec![(true, phase)])],
-            Phase::Rests => Step::ALL
-                .map(|step| act(Some(step), Step::Stay, vec![(true, Phase::Goes(step))]))
-                .to_vec(),
+            Phase::Rests => {
+                Step::ALL.map(|step| act(Some(step), Step::Stay, vec![(true, Phase::Goes(step))])).to_vec()
+            }
             Phase::Goes(Step::Stay) => vec![act(None, Step::Stay, vec![(true, Phase::Rests)])],
             Phase::Goes(step) => vec![act(None, step, vec![(true, Phase::Rests), (false, Phase::Rests)])],
         }
@@ -290,7 +295,8 @@ impl Local for OfThree {
     }
 
     fn may_start(&self, robots: &[Robot<u8>]) -> bool {
-        robots.iter().map(|robot| robot.state).eq(1..=3) && robots.iter().all(|robot| robot.at == robots[0].at)
+        robots.iter().map(|robot| robot.state).eq(1..=3)
+            && robots.iter().all(|robot| robot.at == robots[0].at)
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<u8>> {

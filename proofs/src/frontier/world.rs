@@ -153,9 +153,8 @@ impl<const ROBOTS: usize> World<ROBOTS> {
     /// The other robots that are in `cell` or entering it, a bit for each; those at its rim among them, if they are
     /// asked for.
     fn inside(&self, robot: usize, cell: Cell, rim: Rim) -> u8 {
-        let is_there = |other: usize| {
-            other != robot && rim.is_met(cell, self.cells[other], self.robots[other].stance())
-        };
+        let is_there =
+            |other: usize| other != robot && rim.is_met(cell, self.cells[other], self.robots[other].stance());
         (0..ROBOTS).filter(|&other| is_there(other)).fold(0, |set, other| set | 1 << other)
     }
 

@@ -5,8 +5,8 @@ use tautline_kernel::kit::Condition::{
 };
 use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule, Runs};
 
-use super::local::{self, Contact};
 use super::lattices::{Lattices, Pass, Size};
+use super::local::{self, Contact};
 use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
@@ -183,7 +183,10 @@ pub static CLAUSES: [Clause; 14] = [
                 NamedRule::new("repaired", Contact::of(Rule::REPAIRED)),
                 &local::TWO,
                 Verdict::Holds,
-                &[NamedRule::new(NO_NEXT.name, Contact::of(NO_NEXT.rule)), NamedRule::new(NO_FROM.name, Contact::of(NO_FROM.rule))],
+                &[
+                    NamedRule::new(NO_NEXT.name, Contact::of(NO_NEXT.rule)),
+                    NamedRule::new(NO_FROM.name, Contact::of(NO_FROM.rule)),
+                ],
             ),
         ],
     },

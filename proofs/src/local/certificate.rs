@@ -21,7 +21,12 @@ enum Tree {
 
 impl Tree {
     /// The tree of so many robots, `leaf` asked of the kinds of each sequence.
-    fn of(kinds: usize, robots: usize, path: &mut Vec<usize>, leaf: &mut dyn FnMut(&[usize]) -> Self) -> Self {
+    fn of(
+        kinds: usize,
+        robots: usize,
+        path: &mut Vec<usize>,
+        leaf: &mut dyn FnMut(&[usize]) -> Self,
+    ) -> Self {
         if path.len() == robots {
             return leaf(path);
         }
@@ -79,10 +84,15 @@ impl<R: Local> Tables<'_, R> {
     /// The table of a set of tuples of robots that are at most so far from the first one.
     fn of_robots(&self, window: i16, mut has: impl FnMut(&Tuple<R::State>) -> bool) -> Tree {
         let colours = usize::from(R::COLOURS);
-        let robot = |kind: usize, at| RobotOf::<R> { at, state: self.states[kind / colours], on: (kind % colours) as u8 };
+        let robot = |kind: usize, at| RobotOf::<R> {
+            at,
+            state: self.states[kind / colours],
+            on: (kind % colours) as u8,
+        };
         let mut leaf = |kinds: &[usize]| {
             let places = offsets(window, R::ROBOTS - 1);
-            let tuple = |cells: &Vec<_>| kinds.iter().zip(cells).map(|(&kind, &at)| robot(kind, at)).collect();
+            let tuple =
+                |cells: &Vec<_>| kinds.iter().zip(cells).map(|(&kind, &at)| robot(kind, at)).collect();
             Tree::Leaf(places.iter().map(|cells| has(&tuple(cells))).collect())
         };
         Tree::of(self.states.len() * colours, R::ROBOTS, &mut Vec::new(), &mut leaf)
@@ -101,15 +111,17 @@ impl<R: Local> Tables<'_, R> {
                 .collect();
             let Some(acts) = acts else { return Tree::Leaf(Vec::new()) };
             let states: Vec<R::State> = kinds.iter().map(|kind| self.states[of_state(kind)]).collect();
-            let is_met = |tuple: &Tuple<R::State>| tuple.iter().map(|robot| robot.state).eq(states.iter().copied());
+            let is_met =
+                |tuple: &Tuple<R::State>| tuple.iter().map(|robot| robot.state).eq(states.iter().copied());
             if self.rule.reach().1 == Far::Broken && !kept.iter().any(is_met) {
                 return Tree::All;
             }
             let admits = |cells: &Vec<_>| {
-                let plans = kinds.iter().zip(&acts).zip(&states).zip(cells).map(|(((kind, act), &state), &at)| {
-                    let robot = RobotOf::<R> { at, state, on: (kind / colours % colours) as u8 };
-                    robot.plans(act, (kind % colours) as u8)
-                });
+                let plans =
+                    kinds.iter().zip(&acts).zip(&states).zip(cells).map(|(((kind, act), &state), &at)| {
+                        let robot = RobotOf::<R> { at, state, on: (kind / colours % colours) as u8 };
+                        robot.plans(act, (kind % colours) as u8)
+                    });
                 self.rule.admits(&plans.collect::<Vec<_>>())
             };
             Tree::Leaf(places.iter().map(admits).collect())
@@ -174,10 +186,13 @@ pub(super) fn terms<R: Local>(rule: &R, invariant: &Invariant<R::State>) -> Resu
     };
     put("admitted", &tables.of_plans(width, &invariant.kept));
     put("promised", &tables.of_robots(reach, |tuple| promised(rule, tuple)));
-    put("started", &tables.of_robots(width, |tuple| {
-        let is_near = is_within(tuple, invariant.window);
-        if is_near { rule.may_start(tuple) } else { far == Far::Fine }
-    }));
+    put(
+        "started",
+        &tables.of_robots(width, |tuple| {
+            let is_near = is_within(tuple, invariant.window);
+            if is_near { rule.may_start(tuple) } else { far == Far::Fine }
+        }),
+    );
     text += " |}.\n\nDefinition certificate_ : certificate := {| window := ";
     let _ = write!(text, "{}; kept :=\n ", invariant.window);
     let is_kept = |tuple: &Tuple<R::State>| invariant.kept.binary_search(tuple).is_ok();

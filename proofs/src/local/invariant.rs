@@ -205,7 +205,7 @@ pub(super) fn offsets(window: i16, others: usize) -> Vec<Vec<Cell>> {
 }
 
 /// Whether each cell has one colour.
-fn agree(seen: impl Iterator<Item = (Cell, u8)> + Clone) -> bool {
+pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)> + Clone) -> bool {
     let is_other = |(cell, colour): (Cell, u8)| move |other: (Cell, u8)| other.0 == cell && other.1 != colour;
     !seen.clone().any(|one| seen.clone().any(is_other(one)))
 }
@@ -250,7 +250,8 @@ impl<'r, R: Local> Steps<'r, R> {
                 }
                 for ends in combinations(picked.iter().map(|act| act.ends.clone())) {
                     let acts = picked.iter().map(|act| act.step).zip(aims.iter().copied());
-                    let after = tuple.iter().zip(acts).zip(ends).map(|((robot, act), end)| robot.after(act, end));
+                    let after =
+                        tuple.iter().zip(acts).zip(ends).map(|((robot, act), end)| robot.after(act, end));
                     let next: Vec<_> = after.collect();
                     if let Some(robot) = next.iter().find(|robot| !self.acts.contains_key(&robot.state)) {
                         let why = format!("{:?} is none of the states of the rule", robot.state);
@@ -306,7 +307,8 @@ fn colours_of_goals<R: Local>(tuple: &[RobotOf<R>], picked: &[&ActOf<R>]) -> Vec
         Step::Cross(_) => (0..R::COLOURS).collect(),
     }));
     all.retain(|aims| {
-        let goals = tuple.iter().zip(picked).zip(aims).map(|((robot, act), &aims)| (robot.at.after(act.step), aims));
+        let goals =
+            tuple.iter().zip(picked).zip(aims).map(|((robot, act), &aims)| (robot.at.after(act.step), aims));
         agree(goals.chain(tuple.iter().map(|robot| (robot.at, robot.on))))
     });
     all

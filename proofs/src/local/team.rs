@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::invariant::promised;
+use super::invariant::{agree, promised};
 use super::wider::seen;
 use super::{ActOf, Local, Robot, RobotOf};
 use crate::decide::{Depiction, MethodError};
@@ -65,6 +65,14 @@ impl<'r, R: Local> Team<'r, R> {
             let why = format!("{} robots start where {robots} should", team.start.len());
             return Err(MethodError::new(why));
         }
+        let is_coloured = team.start.iter().all(|robot| robot.on < R::COLOURS);
+        if !is_coloured || !agree(team.start.iter().map(|robot| (robot.at, robot.on))) {
+            let why = format!(
+                "a team of {robots} starts in cells that have no colour below {}, or two",
+                R::COLOURS
+            );
+            return Err(MethodError::new(why));
+        }
         let may_not = |tuple: &Vec<RobotOf<R>>| !rule.may_start(tuple) || !promised(rule, tuple);
         match team.tuples.iter().map(|tuple| seen(tuple, &team.start)).find(may_not) {
             Some(tuple) => {
@@ -101,7 +109,10 @@ impl<'r, R: Local> Team<'r, R> {
             let with = |plan: Vec<Aimed<'a, R>>| {
                 let aimed = |&act: &&'a ActOf<R>| {
                     let goal = robot.at.after(act.step);
-                    let before = robots.iter().zip(&plan).find(|(robot, before)| robot.at.after(before.0.step) == goal);
+                    let before = robots
+                        .iter()
+                        .zip(&plan)
+                        .find(|(robot, before)| robot.at.after(before.0.step) == goal);
                     let known = before.map(|(_, &(_, aims))| aims).or_else(|| layout.colour(goal));
                     let colours = known.map_or(0..R::COLOURS, |known| known..known + 1);
                     colours.map(move |aims| (act, aims)).collect::<Vec<_>>()
@@ -118,7 +129,8 @@ impl<'r, R: Local> Team<'r, R> {
     fn admits(&self, robots: &[RobotOf<R>], plan: &[Aimed<'_, R>], last: usize) -> bool {
         let is_due = |tuple: &&Vec<usize>| tuple.contains(&last) && tuple.iter().all(|&robot| robot <= last);
         self.tuples.iter().filter(is_due).all(|tuple| {
-            let plans: Vec<_> = tuple.iter().map(|&robot| robots[robot].plans(plan[robot].0, plan[robot].1)).collect();
+            let plans: Vec<_> =
+                tuple.iter().map(|&robot| robots[robot].plans(plan[robot].0, plan[robot].1)).collect();
             self.rule.admits(&plans)
         })
     }

@@ -20,7 +20,10 @@ impl<'r, R: Local> Wider<'r, R> {
         let covers = |robots: usize| {
             let within = wider.tuples(robots);
             let has = |wide: &Vec<usize>, narrow: &Vec<usize>| {
-                wider.parts.iter().any(|part| part.iter().map(|&robot| wide[robot]).eq(narrow.iter().copied()))
+                wider
+                    .parts
+                    .iter()
+                    .any(|part| part.iter().map(|&robot| wide[robot]).eq(narrow.iter().copied()))
             };
             rule.tuples(robots).iter().all(|narrow| within.iter().any(|wide| has(wide, narrow)))
         };
