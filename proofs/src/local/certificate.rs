@@ -158,7 +158,7 @@ const MOST_ENTRIES: usize = 2_000_000;
 pub(super) fn terms<R: Local>(rule: &R, invariant: &Invariant<R::State>) -> Result<String, MethodError> {
     let states = rule.states();
     let acts: Vec<_> = states.iter().map(|&state| rule.acts(state)).collect();
-    let tables = Tables { rule, acts, states };
+    let tables = Tables { rule, states, acts };
     let (reach, far) = rule.reach();
     let width = if far == Far::Fine { invariant.window + 2 } else { invariant.window };
     let colours = usize::from(R::COLOURS).pow(2);

@@ -205,9 +205,9 @@ pub(super) fn offsets(window: i16, others: usize) -> Vec<Vec<Cell>> {
 }
 
 /// Whether each cell has one colour.
-pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)> + Clone) -> bool {
-    let is_other = |(cell, colour): (Cell, u8)| move |other: (Cell, u8)| other.0 == cell && other.1 != colour;
-    !seen.clone().any(|one| seen.clone().any(is_other(one)))
+pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)>) -> bool {
+    let seen: Vec<(Cell, u8)> = seen.collect();
+    seen.iter().all(|one| seen.iter().all(|other| other.0 != one.0 || other.1 == one.1))
 }
 
 /// A place far from (0, 0), to see whether a rule is the same there.
