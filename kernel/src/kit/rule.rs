@@ -128,6 +128,10 @@ impl Rule {
         reach: Reach::PAPER,
     };
 
+    /// As published, read by the words of section 3: a robot drives straight on, and runs KIT where the way ahead is
+    /// blocked.
+    pub const AHEAD: Self = Self { runs: Runs::Ahead, ..Self::PUBLISHED };
+
     /// With all repairs.
     pub const REPAIRED: Self =
         Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED }.without(Condition::Repeats);

@@ -4,7 +4,8 @@
 //! The paper gives neither its map nor its speeds. From its 88 % and 78 % follow 26 paths, of which 23 are explored and
 //! 5 driven by both. So every layout here has 26 paths, all within reach of a node that is drawn as the start, and
 //! there are four families of them: compact, long and branching ones. As published both robots start there, one after
-//! the other; repaired the second one starts beside. Robots drive at 0.3 m/s, unless it is asked for something else,
+//! the other, and run KIT at every node, our main reading, or only where the way ahead is blocked, as the words of
+//! section 3 have it; repaired the second one starts beside. Robots drive at 0.3 m/s, unless it is asked for something else,
 //! and each drive is up to a tenth faster or slower; with equal speeds, robots as published may drive to and fro for
 //! ever.
 
@@ -17,9 +18,8 @@ use std::num::NonZeroU32;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 
-use self::lattice::FAMILIES;
+use self::lattice::{FAMILIES, Family};
 use super::prelude::*;
-use tautline_sim::explore::RuleName;
 use tautline_sim::kit::{self, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::Layout;
 
@@ -28,27 +28,41 @@ pub const PATHS: usize = 26;
 /// 88 % of them.
 pub const EXPLORED: usize = 23;
 
+/// The rule of a team.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TeamRule {
+    /// As published, KIT at every node.
+    Published,
+    /// As published, KIT only where the way ahead is blocked.
+    Ahead,
+    /// With the repairs of its refuted claims.
+    Repaired,
+}
+
 /// Robots under one rule.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Team {
     /// The rule.
-    pub rule: RuleName,
+    pub rule: TeamRule,
     /// How many.
     pub robots: usize,
 }
 
 /// The teams that are compared.
-pub const TEAMS: [Team; 5] = [
-    Team { rule: RuleName::Published, robots: 1 },
-    Team { rule: RuleName::Published, robots: 2 },
-    Team { rule: RuleName::Repaired, robots: 1 },
-    Team { rule: RuleName::Repaired, robots: 2 },
-    Team { rule: RuleName::Repaired, robots: 3 },
+pub const TEAMS: [Team; 7] = [
+    Team { rule: TeamRule::Published, robots: 1 },
+    Team { rule: TeamRule::Published, robots: 2 },
+    Team { rule: TeamRule::Ahead, robots: 1 },
+    Team { rule: TeamRule::Ahead, robots: 2 },
+    Team { rule: TeamRule::Repaired, robots: 1 },
+    Team { rule: TeamRule::Repaired, robots: 2 },
+    Team { rule: TeamRule::Repaired, robots: 3 },
 ];
 
-/// One robot and two as published, which the paper compares.
-const ONE: usize = 0;
-const TWO: usize = 1;
+/// Places in [`TEAMS`] of a team and the one that is to be sooner: two robots against one by each rule, as the paper
+/// compares them, and two repaired robots against two by each reading.
+const RACES: [[usize; 2]; 5] = [[0, 1], [2, 3], [4, 5], [1, 5], [3, 5]];
 
 /// Drives without a new path after which a run is ended.
 const PATIENCE: usize = 1000 * PATHS;
@@ -144,7 +158,7 @@ pub struct Summary {
     settings: Settings,
     /// Family by family, each of all teams.
     pub lines: Vec<Line>,
-    /// Two robots against one, as published, for each family.
+    /// Two robots against one, and repaired against published, for each family.
     pub races: Vec<Race>,
     paper: Vec<PrintedFigure>,
 }
@@ -165,23 +179,39 @@ pub struct Line {
     pub all: Option<Estimate>,
     /// Runs in which a robot was out of contact, in percent.
     pub cut: Option<Estimate>,
-    /// Runs that were ended before all paths were driven.
-    pub ended: u32,
+    /// Runs that reach 88 %, in percent.
+    pub reached: Option<Estimate>,
+    /// Paths explored when the run ends, in percent.
+    pub explored: Option<Estimate>,
+    /// Runs that were ended before all paths were driven, in percent.
+    pub ended: Option<Estimate>,
+    /// Runs that were ended before all nodes were found, in percent.
+    pub lost: Option<Estimate>,
     /// Seconds until each node is found, over the runs that find all.
     pub nodes: Vec<Estimate>,
     /// The efficiency when so many paths are explored, from 1 on.
     pub efficiencies: Vec<Estimate>,
 }
 
-/// Two robots against one.
+/// A team against another one.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Race {
     /// The family.
     pub family: &'static str,
-    /// Seconds by which two find all nodes sooner, over the layouts in which both do.
+    /// The other one.
+    pub other: Team,
+    /// The team that is to be sooner.
+    pub team: Team,
+    /// Seconds by which it finds all nodes sooner, over the layouts in which both do.
     pub gain: Option<Estimate>,
-    /// Layouts in which they are sooner, in percent.
+    /// Of these layouts, those in which it is sooner, in percent.
     pub sooner: Option<Estimate>,
+    /// Of all layouts, those in which both find all nodes, in percent.
+    pub both: Option<Estimate>,
+    /// Of all layouts, those in which it finds all nodes sooner, or the other one never does, in percent.
+    pub ahead: Option<Estimate>,
+    /// Of all layouts, those in which it is the other way round, in percent.
+    pub behind: Option<Estimate>,
 }
 
 impl Table for Kit {
@@ -214,8 +244,8 @@ impl Table for Kit {
         let (mut lines, mut races) = (Vec::new(), Vec::new());
         for (place, family) in FAMILIES.into_iter().enumerate() {
             let teams = of_teams(&results, place);
-            lines.extend(TEAMS.into_iter().zip(&teams).map(|(team, all)| Line::of(family.name, team, all)));
-            races.push(Race::of(family.name, &teams[ONE], &teams[TWO]));
+            lines.extend(TEAMS.into_iter().zip(&teams).map(|(team, all)| Line::of(family, team, all)));
+            races.extend(RACES.map(|places| Race::of(family, places, places.map(|place| &teams[place][..]))));
         }
         let paper = printed::of(self.figure, &lines, &races);
         Ok(Summary { settings: *settings, lines, races, paper })
@@ -232,17 +262,19 @@ impl Table for Kit {
     /// A repaired team always keeps in touch, and one or two of its robots drive every path.
     fn is_broken(&self, merged: &Summary) -> bool {
         let is_broken = |line: &&Line| {
-            line.ended > 0 && line.team.robots < 3 || line.cut.is_some_and(|cut| cut.mean > 0.0)
+            let is_any = |share: Option<Estimate>| share.is_some_and(|share| share.mean > 0.0);
+            is_any(line.ended) && line.team.robots < 3 || is_any(line.cut)
         };
-        let mut repaired = merged.lines.iter().filter(|line| line.team.rule == RuleName::Repaired);
+        let mut repaired = merged.lines.iter().filter(|line| line.team.rule == TeamRule::Repaired);
         repaired.any(|line| is_broken(&line))
     }
 }
 
 fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Outcome {
     let (rule, starts) = match team.rule {
-        RuleName::Published => (Rule::PUBLISHED, vec![start; team.robots]),
-        RuleName::Repaired => (Rule::REPAIRED, kit::starts(layout, start, team.robots)),
+        TeamRule::Published => (Rule::PUBLISHED, vec![start; team.robots]),
+        TeamRule::Ahead => (Rule::AHEAD, vec![start; team.robots]),
+        TeamRule::Repaired => (Rule::REPAIRED, kit::starts(layout, start, team.robots)),
     };
     let mut outcome = Outcome { paths: Vec::new(), overlaps: Vec::new(), nodes: vec![0], is_cut: false };
     let Ok(mut course) = kit::course(rule, layout, &starts, pace, seed) else { return outcome };
@@ -278,50 +310,76 @@ impl Outcome {
         self.paths.len() == PATHS
     }
 
+    /// When so many nodes, which are all, were found, in milliseconds; `None` if they were not.
+    fn found(&self, nodes: usize) -> Option<u64> {
+        self.nodes.get(nodes.checked_sub(1)?).copied()
+    }
+
     /// Of so many explored paths, those driven by one robot alone, in percent.
     fn efficiency(&self, explored: usize) -> Option<f64> {
         let shared = f64::from(*self.overlaps.get(explored.checked_sub(1)?)?);
         let explored = explored as u32;
         Some(100.0 * (1.0 - shared / f64::from(explored)))
     }
+
+    /// The paths that were explored when the run ended, in percent.
+    fn explored(&self) -> f64 {
+        100.0 * f64::from(self.paths.len() as u32) / f64::from(PATHS as u32)
+    }
 }
 
 impl Line {
-    fn of(family: &'static str, team: Team, outcomes: &[&Outcome]) -> Self {
+    fn of(family: Family, team: Team, outcomes: &[&Outcome]) -> Self {
         let path = |number: usize| {
             mean(outcomes.iter().filter_map(|outcome| outcome.paths.get(number - 1)).map(|&end| seconds(end)))
         };
         let is_team = team.robots > 1;
         let efficiency = |explored| mean(outcomes.iter().filter_map(|outcome| outcome.efficiency(explored)));
-        let whole = || outcomes.iter().filter(|outcome| outcome.is_whole());
-        let nodes = outcomes.iter().map(|outcome| outcome.nodes.len()).max().unwrap_or(0);
         let node = |number: usize| {
-            mean(whole().filter_map(|outcome| outcome.nodes.get(number)).map(|&end| seconds(end)))
+            let found = outcomes.iter().filter(|outcome| outcome.found(family.nodes()).is_some());
+            mean(found.filter_map(|outcome| outcome.nodes.get(number)).map(|&end| seconds(end)))
         };
-        let cut = share(outcomes, |outcome| outcome.is_cut).filter(|_| is_team);
         Self {
-            family,
+            family: family.name,
             team,
             efficiency: efficiency(EXPLORED).filter(|_| is_team),
             most: path(EXPLORED),
             all: path(PATHS),
-            cut: cut.map(|share| share.times(100.0)),
-            ended: count(outcomes, |outcome| !outcome.is_whole()),
-            nodes: (0..nodes).filter_map(node).collect(),
+            cut: in_percent(outcomes, |outcome| outcome.is_cut).filter(|_| is_team),
+            reached: in_percent(outcomes, |outcome| outcome.paths.len() >= EXPLORED),
+            explored: mean(outcomes.iter().map(|outcome| outcome.explored())),
+            ended: in_percent(outcomes, |outcome| !outcome.is_whole()),
+            lost: in_percent(outcomes, |outcome| outcome.found(family.nodes()).is_none()),
+            nodes: (0..family.nodes()).filter_map(node).collect(),
             efficiencies: if is_team { (1..=PATHS).filter_map(efficiency).collect() } else { Vec::new() },
         }
     }
 }
 
 impl Race {
-    fn of(family: &'static str, one: &[&Outcome], two: &[&Outcome]) -> Self {
-        let last = |outcome: &Outcome| outcome.nodes.last().copied().unwrap_or(0);
-        let whole = one.iter().zip(two).filter(|(one, two)| one.is_whole() && two.is_whole());
-        let lasts: Vec<(u64, u64)> = whole.map(|(one, two)| (last(one), last(two))).collect();
+    fn of(family: Family, places: [usize; 2], [other, team]: [&[&Outcome]; 2]) -> Self {
+        let found = |outcome: &Outcome| outcome.found(family.nodes());
+        let all: Vec<[Option<u64>; 2]> =
+            other.iter().zip(team).map(|(other, team)| [found(other), found(team)]).collect();
+        let both: Vec<[u64; 2]> = all.iter().filter_map(|&[other, team]| Some([other?, team?])).collect();
+        let is_sooner = |one: Option<u64>, other: Option<u64>| {
+            one.is_some_and(|one| other.is_none_or(|other| one < other))
+        };
+        let [first, second] = places.map(|place| TEAMS[place]);
         Self {
-            family,
-            gain: mean(lasts.iter().map(|&(one, two)| seconds(one) - seconds(two))),
-            sooner: share(&lasts, |(one, two)| two < one).map(|share| share.times(100.0)),
+            family: family.name,
+            other: first,
+            team: second,
+            gain: mean(both.iter().map(|&[other, team]| seconds(other) - seconds(team))),
+            sooner: in_percent(&both, |[other, team]| team < other),
+            both: in_percent(&all, |times| times.iter().all(Option::is_some)),
+            ahead: in_percent(&all, |&[other, team]| is_sooner(team, other)),
+            behind: in_percent(&all, |&[other, team]| is_sooner(other, team)),
         }
     }
+}
+
+/// The share of those that are such, in percent.
+fn in_percent<T>(all: &[T], is_such: impl Fn(&T) -> bool) -> Option<Estimate> {
+    share(all, is_such).map(|share| share.times(100.0))
 }

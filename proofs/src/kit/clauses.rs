@@ -3,7 +3,7 @@
 use tautline_kernel::kit::Condition::{
     Apart, Beside, Caravan, Flags, FromInReach, MakesRoom, Marked, NextInReach, Regroup, Repeats, Stays, Turn,
 };
-use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule, Runs};
+use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule};
 
 use super::lattices::{Lattices, Pass, Size};
 use super::local::{self, Contact};
@@ -38,23 +38,22 @@ const NO_LOOK_BESIDE: NamedRule<Rule> =
     NamedRule::new("neighbours are not looked at", Rule::REPAIRED.without(Beside));
 const NO_CARAVAN: NamedRule<Rule> = NamedRule::new("each goes alone", Rule::REPAIRED.without(Caravan));
 const NO_ROOM: NamedRule<Rule> = NamedRule::new("nobody makes room", Rule::REPAIRED.without(MakesRoom));
-const AHEAD: Rule = Rule { runs: Runs::Ahead, ..Rule::PUBLISHED };
 
 /// The readings of the published rule but for the main one: where KIT runs, whose record counts, and which side is
 /// taken where none is left.
 const READINGS: [(&str, Rule); 7] = [
-    ("ahead", AHEAD),
+    ("ahead", Rule::AHEAD),
     ("the other's record", Rule { records: Records::Others, ..Rule::PUBLISHED }),
-    ("ahead + the other's record", Rule { records: Records::Others, ..AHEAD }),
+    ("ahead + the other's record", Rule { records: Records::Others, ..Rule::AHEAD }),
     ("any side", Rule { fallback: Fallback::Random, ..Rule::PUBLISHED }),
-    ("ahead + any side", Rule { fallback: Fallback::Random, ..AHEAD }),
+    ("ahead + any side", Rule { fallback: Fallback::Random, ..Rule::AHEAD }),
     (
         "the other's record + any side",
         Rule { records: Records::Others, fallback: Fallback::Random, ..Rule::PUBLISHED },
     ),
     (
         "ahead + the other's record + any side",
-        Rule { records: Records::Others, fallback: Fallback::Random, ..AHEAD },
+        Rule { records: Records::Others, fallback: Fallback::Random, ..Rule::AHEAD },
     ),
 ];
 
@@ -171,7 +170,7 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &contact::CHECK,
             &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]).under(REFUTED),
-            &Check::new(NamedRule::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[])
+            &Check::new(NamedRule::new("ahead", Rule::AHEAD), &published(Demand::Contact), Verdict::Refuted, &[])
                 .because("another reading of the paper"),
             &Check::new(
                 REPAIRED,
@@ -403,7 +402,7 @@ mod tests {
         };
         let size = |size: &str| format!("{size} nodes, 3 m apart");
         assert_eq!(story(&published(Demand::Contact), &Rule::PUBLISHED), (5, size("5×1")));
-        assert_eq!(story(&published(Demand::Contact), &AHEAD), (4, size("5×1")));
+        assert_eq!(story(&published(Demand::Contact), &Rule::AHEAD), (4, size("5×1")));
         assert_eq!(story(&published(Demand::Apart), &Rule::PUBLISHED), (3, size("3×1")));
         assert_eq!(story(&APART_AT_EQUAL_SPEEDS, &Rule::PUBLISHED), (4, size("3×1")));
         assert_eq!(story(&published(Demand::Moves), &Rule::PUBLISHED), (1, size("3×1")));

@@ -2,7 +2,7 @@
 //! given, and what happens in it.
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
-use tautline_kernel::kit::{Next, Rule, Runs, Sight};
+use tautline_kernel::kit::{Next, Rule, Sight};
 
 use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
@@ -87,7 +87,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         let (starts, clause) = (self.starts()?.map(place).to_vec(), self.run.demand.clause(ROBOTS));
         let reading = match rule {
             Rule::PUBLISHED => judge::Reading::Published,
-            _ if rule == (Rule { runs: Runs::Ahead, ..Rule::PUBLISHED }) => judge::Reading::Ahead,
+            _ if rule == Rule::AHEAD => judge::Reading::Ahead,
             Rule::REPAIRED if ROBOTS > 2 && speeds == Speeds::Any => {
                 return Some(Box::new(judge::Party { clause, lattice, starts, steps }));
             }

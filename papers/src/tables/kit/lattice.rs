@@ -24,6 +24,11 @@ pub(super) const FAMILIES: [Family; 4] = [
 ];
 
 impl Family {
+    /// How many nodes its lattices have; paths join all.
+    pub(super) const fn nodes(self) -> usize {
+        (self.columns * self.rows) as usize
+    }
+
     /// The layout of this seed, and the node where the team starts: paths in an order that is drawn, first those that
     /// connect nodes which are not connected yet, then others until there are 26.
     pub(super) fn layout(self, seed: u64) -> Result<(Layout, Cell), Diagnostic> {

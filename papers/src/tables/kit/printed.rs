@@ -2,27 +2,44 @@
 
 use super::super::paper;
 use super::super::prelude::*;
-use super::{EXPLORED, Figure, Line, PATHS, Race, Settings, Summary, TEAMS, TWO, Team};
+use super::{EXPLORED, Figure, Line, PATHS, Race, Settings, Summary, Team, TeamRule};
 
-/// The paper's two numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot
-/// and two.
+/// The paper's numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot and
+/// two.
 pub(super) fn of(figure: Figure, lines: &[Line], races: &[Race]) -> Vec<PrintedFigure> {
     let gain = |race: &Race| {
-        PrintedFigure::of(format!("s by which two are sooner, {}", race.family), 444.0, race.gain)
+        let Race { family, team, gain, .. } = race;
+        PrintedFigure::of(format!("s by which two are sooner, {}, {family}", team.rule.word()), 444.0, *gain)
     };
-    let share = |line: &Line| {
-        PrintedFigure::of(format!("% efficiency of two, {}", line.family), 78.0, line.efficiency)
+    let shares = |line: &Line| {
+        let of = format!("of two, {}, {}", line.team.rule.word(), line.family);
+        let efficiency = PrintedFigure::of(format!("% efficiency {of}"), 78.0, line.efficiency);
+        [efficiency, PrintedFigure::of(format!("% explored in the end {of}"), 88.0, line.explored)]
     };
+    let is_published = |team: Team| team.rule != TeamRule::Repaired;
     match figure {
-        Figure::Time => races.iter().filter_map(gain).collect(),
-        Figure::Overlap => lines.iter().filter(|line| line.team == TEAMS[TWO]).filter_map(share).collect(),
+        Figure::Time => races.iter().filter(|race| is_published(race.team)).filter_map(gain).collect(),
+        Figure::Overlap => {
+            let two = lines.iter().filter(|line| line.team.robots == 2 && is_published(line.team));
+            two.flat_map(shares).flatten().collect()
+        }
+    }
+}
+
+impl TeamRule {
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::Ahead => "ahead",
+            Self::Repaired => "repaired",
+        }
     }
 }
 
 impl Team {
     /// Its name.
     pub(super) fn name(self) -> String {
-        format!("{}, {}", self.rule, counted(self.robots, "robot"))
+        format!("{}, {}", self.rule.word(), counted(self.robots, "robot"))
     }
 }
 
@@ -39,8 +56,9 @@ pub(super) fn text(figure: Figure, settings: &Settings, merged: &Summary) -> Str
         Figure::Overlap => overlaps(merged),
     };
     format!(
-        "{head}{body}\nended: runs that went to and fro, or stood still, before all paths were driven; they are in no mean.\n\n{}",
-        paper::text(&merged.paper, 0, [38, 7, 15, 11])
+        "{head}{body}\npublished: KIT at every node. ahead: as published, KIT only where the way ahead is blocked.\n\
+         Runs that go to and fro, or stand still, are ended; a mean of seconds is over those that come so far.\n\n{}",
+        paper::text(&merged.paper, 0, [49, 7, 15, 11])
     )
 }
 
@@ -64,14 +82,20 @@ fn times(merged: &Summary) -> String {
         .left("team", 20, |(_, line)| line.team.name())
         .estimate("half", 13, 0, move |(_, line)| half(line))
         .estimate("all", 13, 0, |(_, line)| line.nodes.last().copied())
-        .right("ended", 6, |(_, line)| line.ended);
+        .estimate("never all %", 18, 1, |(_, line)| line.lost);
     let races = Columns::of(&merged.races)
         .title(
-            "Two robots as published against one: seconds by which they find all nodes sooner, and how often",
+            "A team against another one: seconds by which it finds all nodes sooner, and how often, where both do; and of \
+             all layouts",
         )
         .left("family", 11, |race| race.family)
-        .estimate("sooner by s", 15, 0, |race| race.gain)
-        .estimate("in % of layouts", 18, 1, |race| race.sooner);
+        .left("team", 19, |race| race.team.name())
+        .left("against", 19, |race| race.other.name())
+        .estimate("by s", 13, 0, |race| race.gain)
+        .estimate("sooner %", 18, 1, |race| race.sooner)
+        .estimate("both do %", 18, 1, |race| race.both)
+        .estimate("it first %", 18, 1, |race| race.ahead)
+        .estimate("other first %", 18, 1, |race| race.behind);
     nodes.text() + &races.text()
 }
 
@@ -79,14 +103,20 @@ fn overlaps(merged: &Summary) -> String {
     let title = format!(
         "When {EXPLORED} paths are explored: % of them driven by one robot alone, and seconds; seconds until all are"
     );
-    Columns::of(named(merged))
+    let means = Columns::of(named(merged))
         .title(title)
         .left("family", 11, |(family, _)| family)
         .left("team", 20, |(_, line)| line.team.name())
         .estimate("efficiency", 13, 1, |(_, line)| line.efficiency)
         .estimate("s to 88 %", 13, 0, |(_, line)| line.most)
-        .estimate("s to all", 13, 0, |(_, line)| line.all)
-        .estimate("out of contact %", 18, 1, |(_, line)| line.cut)
-        .right("ended", 6, |(_, line)| line.ended)
-        .text()
+        .estimate("s to all", 13, 0, |(_, line)| line.all);
+    let shares = Columns::of(named(merged))
+        .title("% of the paths explored in the end, and % of the runs that reach 88 %, that never drive all, that lose contact")
+        .left("family", 11, |(family, _)| family)
+        .left("team", 20, |(_, line)| line.team.name())
+        .estimate("explored %", 13, 1, |(_, line)| line.explored)
+        .estimate("reach 88 %", 18, 1, |(_, line)| line.reached)
+        .estimate("never all %", 18, 1, |(_, line)| line.ended)
+        .estimate("out of contact %", 18, 1, |(_, line)| line.cut);
+    means.text() + &shares.text()
 }
