@@ -8,11 +8,11 @@ use std::path::Path;
 use crate::common::Unwatched;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
-use tautline_sim::counterexample::refutation;
+use tautline_sim::counterexample::{minimise::minimise, refutation};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize, Shown};
-use tautline_sim::explore::kit::{APART, CONNECTED, CONTACT, ENDS, KIT};
-use tautline_sim::explore::{Catalogue, Report, RuleName, Setup, Stopped, explore};
+use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
+use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::{Generator, Layout, Size};
 use tautline_sim::options::Options;
@@ -22,9 +22,10 @@ fn generated(description: &str, seed: u64) -> Layout {
     description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
 }
 
-fn setup(rule: RuleName, robots: u16, layout: Layout, seed: u64) -> Setup {
+fn setup(rule: impl Into<RuleId>, robots: u16, layout: Layout, seed: u64) -> Setup {
     let base = layout.default_base().expect("a free cell");
-    let starts = KIT.default_starts(rule.into(), &layout, base, robots);
+    let rule = rule.into();
+    let starts = KIT.default_starts(rule, &layout, base, robots);
     Setup { seed, starts, ..Setup::new(&KIT, rule, robots, layout, base) }
 }
 
@@ -229,7 +230,7 @@ fn teams_without_room_or_contact_say_so() {
     assert!(wrong(&many).unwrap_or_default().contains("9 robots are too many"), "{:?}", wrong(&many));
 }
 
-fn asked(rule: RuleName, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {
+fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {
     Asked {
         scheme: (&KIT).into(),
         rule: rule.into(),
@@ -294,6 +295,25 @@ fn the_smallest_runs_that_break_the_published_rule() {
     assert_eq!(short.stopped, Stopped::Exhausted);
     assert!(short.violations.iter().all(|broken| broken.clause != ENDS), "{:?}", short.violations);
     assert_eq!(run_again(&hunted), found.len(), "{found:?}");
+}
+
+#[test]
+fn the_smallest_runs_that_break_the_reading_ahead() {
+    let hunted = hunted(&asked(AHEAD, 2, (5, 1))).expect("a hunt");
+    assert!(hunted.is_complete);
+    let found = broken(&hunted);
+    assert!(found.contains(&("KIT-1", [5, 1, 0, 4])), "{found:?}");
+    assert_eq!(run_again(&hunted), found.len(), "{found:?}");
+}
+
+#[test]
+fn a_run_of_the_reading_ahead_that_loses_contact_is_made_smaller() {
+    let mut seeds = (0..20).map(|seed| setup(AHEAD, 2, generated("walls:9x5:0.1", seed), seed));
+    let is_cut = |setup: &Setup| run(setup).violations.iter().any(|broken| broken.clause == CONTACT);
+    let cut = seeds.find(is_cut).expect("a run that loses contact");
+    assert_eq!(cut.starts(), [cut.base; 2], "they enter one after the other");
+    let smallest = minimise(&cut, Some(CONTACT), &mut |_| Ok(())).expect("it breaks the clause");
+    assert!(is_cut(&smallest.setup) && smallest.setup.layout.cells().count() <= 9 * 5);
 }
 
 #[test]

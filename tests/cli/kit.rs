@@ -32,6 +32,26 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
 }
 
 #[test]
+fn a_hunt_of_another_reading_stores_runs_that_break_it_again() {
+    let folder = folder();
+    let folder = folder.path();
+    let hunt = ["hunt", "--scheme", "kit", "--robots", "2", "--size", "5x1", "--rule", "ahead"];
+    let ahead = json(folder, &hunt, 1);
+    let found = ahead["counterexamples"].as_array().expect("a list");
+    let cut = found.iter().find(|quarry| quarry["clause"] == "KIT-1").expect("robots lose contact");
+    assert_eq!(cut["steps"], 4);
+    for quarry in found {
+        let replayed = printed(folder, &["replay", quarry["file"].as_str().expect("a file")], 1);
+        assert!(replayed.contains(quarry["clause"].as_str().expect("an id")), "{replayed}");
+    }
+    for command in [&["explore", "open:5x4"][..], &["hunt"]] {
+        let said = refused(folder, &[command, &["--scheme", "kit", "--rule", "beside"]].concat());
+        assert!(said.contains("kit has no rule beside"), "{said}");
+        assert!(["published", "repaired", "ahead"].iter().all(|rule| said.contains(rule)), "{said}");
+    }
+}
+
+#[test]
 fn what_no_robots_that_keep_in_touch_can_be_told_is_refused() {
     let folder = folder();
     let folder = folder.path();

@@ -248,8 +248,8 @@ pub enum Starts {
     Base,
     /// Each in any free cell.
     Anywhere,
-    /// Each in any free cell: without another word as published all at the base, and else the first one there and the
-    /// others beside it.
+    /// Each in any free cell: without another word as repaired the first one at the base and the others beside it, and
+    /// else all at the base.
     Beside,
     /// Each in a free cell of its own: without another word the first one at the base, and the others beside it.
     Alone,
@@ -383,7 +383,7 @@ impl Profile {
         robots: u16,
     ) -> Option<Vec<Cell>> {
         match self.starts {
-            Starts::Beside if rule != RuleId::PUBLISHED => Some(kit::starts(layout, base, robots.into())),
+            Starts::Beside if rule == RuleId::REPAIRED => Some(kit::starts(layout, base, robots.into())),
             Starts::Alone => Some(kit::starts(layout, base, robots.into())),
             Starts::Base | Starts::Anywhere | Starts::Beside => None,
         }

@@ -21,7 +21,7 @@ use self::hunt::Searched;
 
 use super::catalogue::{By, Drawn, Profile, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, Switched};
+use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -63,6 +63,9 @@ pub const CONNECTED: ClauseId = ClauseId::new("KIT-12");
 /// Three robots and more that start side by side leave a path undriven that paths join to their starts.
 pub const WHOLE: ClauseId = ClauseId::new("KIT-13");
 
+/// The published rule, read by the words of section 3.
+pub const AHEAD: RuleId = RuleId::new("ahead");
+
 const MISSED: &str = "Within reach and not driven to";
 
 /// Drives a path without a new one after which a team is taken to go round.
@@ -76,6 +79,11 @@ pub static KIT: Profile = Profile {
             .switched(&switched(Kit::PUBLISHED)),
         Rule::repaired(|setup| start(setup, Kit::REPAIRED), &Searched(Kit::REPAIRED))
             .switched(&switched(Kit::REPAIRED)),
+        Rule::new(AHEAD, "As published, KIT only where the way ahead is blocked", |setup| {
+            start(setup, Kit::AHEAD)
+        })
+        .hunted(&Searched(Kit::AHEAD))
+        .switched(&switched(Kit::AHEAD)),
     ],
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
