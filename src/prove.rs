@@ -203,14 +203,12 @@ impl Deciding {
     /// # Errors
     /// A [`Diagnostic`] if more is asked for.
     pub(super) fn nothing_is_decided(&self) -> Result<(), Diagnostic> {
-        for (option, is_given) in
-            [
-                ("--out", self.out.is_some()),
-                ("--certificate", self.certificate.is_some()),
-                ("--html", self.html.is_some()),
-                ("--force", self.force.force),
-            ]
-        {
+        for (option, is_given) in [
+            ("--out", self.out.is_some()),
+            ("--certificate", self.certificate.is_some()),
+            ("--html", self.html.is_some()),
+            ("--force", self.force.force),
+        ] {
             if is_given {
                 return Err(needless(option, "nothing is decided"));
             }
@@ -235,7 +233,9 @@ impl Deciding {
         let stores = [self.out.is_some(), self.certificate.is_some(), self.html.is_some()];
         if self.force.force && !stores.contains(&true) {
             let what = "--force without a file to store";
-            return Err(Diagnostic::usage(what, "give --out, --certificate or --html, or leave out --force").into());
+            return Err(
+                Diagnostic::usage(what, "give --out, --certificate or --html, or leave out --force").into()
+            );
         }
         let page = self.html.as_deref().map(|path| AtomicFile::new(path, &replaceable)).transpose()?;
         for folder in self.out.iter().chain(&self.certificate) {

@@ -32,7 +32,8 @@ pub use self::course::{Course, Made};
 pub use self::own::Own;
 pub use self::rule::{Rule, RuleId, RuleName, Start, Switches};
 pub use self::run::{
-    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher, run,
+    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher,
+    run,
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Refusal, Scene, Shape, Value, Zone};
 pub use self::setup::{Asked, Play, Setup, explore, team};

@@ -85,12 +85,11 @@ impl Team for Pair {
 static PAIR: Profile = Profile {
     name: "pair",
     about: "Two robots, of which the second follows the first",
-    rules: &[Rule {
-        name: RuleId::new("eager"),
-        about: "The second does not know that the first may meet a wall",
-        start: |setup| Ok(Box::new(Pair::new(&setup.layout, setup.base))),
-        hunt: None,
-    }],
+    rules: &[Rule::new(
+        RuleId::new("eager"),
+        "The second does not know that the first may meet a wall",
+        |setup| Ok(Box::new(Pair::new(&setup.layout, setup.base))),
+    )],
     team: "pair",
     robots: 2..=2,
     starts: Starts::Base,

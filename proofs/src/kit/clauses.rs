@@ -170,8 +170,13 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &contact::CHECK,
             &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]).under(REFUTED),
-            &Check::new(NamedRule::new("ahead", Rule::AHEAD), &published(Demand::Contact), Verdict::Refuted, &[])
-                .because("another reading of the paper"),
+            &Check::new(
+                NamedRule::new("ahead", Rule::AHEAD),
+                &published(Demand::Contact),
+                Verdict::Refuted,
+                &[],
+            )
+            .because("another reading of the paper"),
             &Check::new(
                 REPAIRED,
                 &repaired(Demand::Contact),

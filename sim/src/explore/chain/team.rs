@@ -15,9 +15,7 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
 use super::shown;
-use crate::explore::{
-    Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Survey, Team,
-};
+use crate::explore::{Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Survey, Team};
 use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
