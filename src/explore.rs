@@ -13,6 +13,7 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
 use super::evidence;
+use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
 use super::{
@@ -43,68 +44,6 @@ Examples:
   tautline explore room-32-32-4.map --robots 16 --base 10,12 --format json
   tautline explore office:30x30:4x4 --scheme bricks --robots 20 --html run.html
   tautline explore office:30x30:4x4 --scheme bricks-ants --robots 2 --miss 0.0556 --start 0,0 --start 29,29";
-
-#[derive(Debug, Args)]
-pub(super) struct LayoutArgs {
-    /// A layout file or a generator.
-    pub(super) layout: String,
-    /// The seed of whatever is left to chance. Without it 0.
-    #[arg(long, value_parser = number::<u64>)]
-    pub(super) seed: Option<u64>,
-    /// The image of a ROS map, in place of the one that it names.
-    #[arg(long, value_name = "FILE")]
-    pub(super) image: Option<PathBuf>,
-    #[command(flatten)]
-    coarse: CoarseArgs,
-}
-
-#[derive(Debug, Args)]
-struct CoarseArgs {
-    /// The side of a cell of a ROS map, in metres: a whole number of pixels. Without it a cell is a pixel.
-    #[arg(long = "cell", value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
-    cell_m: Option<f64>,
-    /// The radius of a robot on a ROS map, in metres: cells and ways between them are free where it fits. Without it
-    /// half the side of a cell.
-    #[arg(long = "radius", value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
-    radius_m: Option<f64>,
-}
-
-impl LayoutArgs {
-    pub(super) fn seed(&self) -> u64 {
-        self.seed.unwrap_or(0)
-    }
-
-    /// The files that this is read from.
-    pub(super) fn inputs(&self) -> Vec<PathBuf> {
-        layout::inputs(&self.layout, self.image.as_deref())
-    }
-
-    /// Refuses what only a ROS map can be told.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if something of it is told.
-    pub(super) fn refuse_map_options(&self, why: &str) -> Result<(), Diagnostic> {
-        let told = [
-            ("--image", self.image.is_some()),
-            ("--cell", self.coarse.cell_m.is_some()),
-            ("--radius", self.coarse.radius_m.is_some()),
-        ];
-        told.iter().find(|(_, is_told)| *is_told).map_or(Ok(()), |(option, _)| Err(needless(option, why)))
-    }
-
-    /// The layout.
-    pub(super) fn load(&self) -> Result<Layout, Diagnostic> {
-        let Self { layout, image, coarse, .. } = self;
-        let coarse = Coarse { cell_m: coarse.cell_m, radius_m: coarse.radius_m };
-        layout::load_coarse(layout, self.seed(), image.as_deref(), coarse)
-    }
-
-    /// Whether a seed is given that the layout leaves unused.
-    pub(super) fn has_other_seed(&self) -> bool {
-        let is_random = || self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
-        self.seed.is_some() && !is_random()
-    }
-}
 
 /// Explore a layout once, and check every team move.
 #[derive(Debug, Args)]

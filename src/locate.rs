@@ -79,7 +79,7 @@ pub(super) struct Locate {
     #[arg(long)]
     inside: bool,
     /// How many positions are found. Without it 10000.
-    #[arg(long, value_name = "COUNT", allow_hyphen_values = true, value_parser = trials)]
+    #[arg(long = "runs", value_name = "COUNT", allow_hyphen_values = true, value_parser = trials)]
     trials: Option<u32>,
     /// The seed of whatever is left to chance. Without it 0.
     #[arg(long, value_parser = number::<u64>)]
@@ -198,7 +198,7 @@ impl Locate {
         let given = [
             ("--anchors", !self.anchors.is_empty()),
             ("--at", self.at.is_some()),
-            ("--trials", self.trials.is_some()),
+            ("--runs", self.trials.is_some()),
             ("--inside", self.inside),
             ("--advice", self.advice),
             ("--seed", self.seed.is_some() && self.solver != Solver::Pso),

@@ -9,6 +9,7 @@ mod explore;
 mod findings;
 mod hunt;
 mod interrupt;
+mod layout_args;
 mod library;
 mod locate;
 mod manual;

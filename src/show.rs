@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
-use super::explore::LayoutArgs;
+use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless};
 use tautline_sim::atomic_file::AtomicFile;

@@ -424,13 +424,13 @@ fn the_counterexample_of_a_clause_of_agents_is_drawn() {
 fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
     let folder = folder();
     let table = |threads| {
-        let mut command = tautline(folder.path(), &["reproduce", "repair-cost", "--layouts", "12"]);
+        let mut command = tautline(folder.path(), &["reproduce", "repair-cost", "--runs", "12"]);
         let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
         assert_eq!(output.status.code(), Some(0));
         String::from_utf8(output.stdout).expect("text")
     };
     assert_eq!(table("1"), table("3"));
-    let measured = json(folder.path(), &["reproduce", "repair-cost", "--layouts", "3"], 0);
+    let measured = json(folder.path(), &["reproduce", "repair-cost", "--runs", "3"], 0);
     assert_eq!(measured["densities"].as_array().map(Vec::len), Some(7));
 }
 
@@ -458,7 +458,7 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
     let folder = folder();
     let figure = |threads| {
         let arguments =
-            ["reproduce", "bricks-fig11", "--layouts", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
+            ["reproduce", "bricks-fig11", "--runs", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
         let output = tautline(folder.path(), &arguments).env("RAYON_NUM_THREADS", threads).output();
         let output = output.expect("the program runs");
         assert_eq!(output.status.code(), Some(0));
@@ -466,7 +466,7 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
         (String::from_utf8(output.stdout).expect("text"), drawn)
     };
     assert_eq!(figure("1"), figure("3"));
-    let short = ["--layouts", "1", "--max-steps", "500"];
+    let short = ["--runs", "1", "--max-steps", "500"];
     let area = json(folder.path(), &[&["reproduce", "bricks-fig12"], &short[..]].concat(), 0);
     assert_eq!((&area["miss"], area["lines"].as_array().map(Vec::len)), (&0.0556.into(), Some(56)));
     let ideal = json(folder.path(), &[&["reproduce", "bricks-ideal"], &short[..]].concat(), 0);
@@ -478,7 +478,7 @@ fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
     let folder = folder();
     let folder = folder.path();
     let table = |threads| {
-        let arguments = ["reproduce", "notice-fig5", "--nodes", "300,700", "--topologies", "20"];
+        let arguments = ["reproduce", "notice-fig5", "--nodes", "300,700", "--runs", "20"];
         let output = tautline(folder, &[&arguments[..], &["--channel", "shared"]].concat())
             .env("RAYON_NUM_THREADS", threads)
             .output()
@@ -488,7 +488,7 @@ fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
     };
     assert_eq!(table("1"), table("3"));
     assert_snapshot!("reach_of_broadcasts", table("2"));
-    let asked = ["reproduce", "notice-fig5", "--nodes", "300", "--topologies", "3", "--svg-reach", "a.svg"];
+    let asked = ["reproduce", "notice-fig5", "--nodes", "300", "--runs", "3", "--svg-reach", "a.svg"];
     let measured = json(folder, &[&asked[..], &["--svg-rebroadcasts", "b.svg"]].concat(), 0);
     let first = &measured["densities"][0]["schemes"][0];
     assert_eq!((&first["scheme"], &first["paper"]), (&"k-fnf k=1".into(), &1.0.into()));
@@ -516,9 +516,9 @@ fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
         &["--side", "inf"],
         &["--k", "0"],
         &["--k", "9"],
-        &["--topologies", "0"],
+        &["--runs", "0"],
         &["--channel", "quiet"],
-        &["--nodes", "2", "--topologies", "1", "--svg-reach", "."],
+        &["--nodes", "2", "--runs", "1", "--svg-reach", "."],
     ];
     let said = wrong.map(|arguments| {
         let arguments = [&["reproduce", "notice-fig5"], arguments].concat();
@@ -533,8 +533,7 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
     let folder = folder();
     let folder = folder.path();
     let table = |threads| {
-        let arguments =
-            ["reproduce", "rescue-fig7", "--nodes", "300,700", "--topologies", "12", "--svg", "7.svg"];
+        let arguments = ["reproduce", "rescue-fig7", "--nodes", "300,700", "--runs", "12", "--svg", "7.svg"];
         let output = tautline(folder, &arguments).env("RAYON_NUM_THREADS", threads).output();
         let output = output.expect("the program runs");
         assert_eq!(output.status.code(), Some(0));
@@ -545,7 +544,7 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
     assert_snapshot!("ways_of_robots", table("2").0);
     for (figure, obstacles, trails) in [("rescue-fig6", 0, 3), ("rescue-fig9", 1, 1), ("rescue-fig10", 4, 1)]
     {
-        let measured = json(folder, &["reproduce", figure, "--topologies", "3", "--svg", "ways.svg"], 0);
+        let measured = json(folder, &["reproduce", figure, "--runs", "3", "--svg", "ways.svg"], 0);
         assert_eq!((&measured["id"], &measured["topologies"]), (&figure.into(), &3.into()));
         assert_eq!(measured["obstacles"].as_array().map(Vec::len), Some(obstacles));
         let tan = &measured["densities"][0]["ways"][0];
@@ -555,7 +554,7 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
         assert_eq!(drawn.matches("class=\"trail\"").count(), trails, "{figure}");
         assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
     }
-    let scarce = ["reproduce", "rescue-fig6", "--nodes", "2", "--topologies", "1"];
+    let scarce = ["reproduce", "rescue-fig6", "--nodes", "2", "--runs", "1"];
     let (told, said) = files::left_out(folder, &[&scarce[..], &["--svg", "none.svg"]].concat());
     assert_eq!(told, printed(folder, &scarce, 0));
     assert!(said.contains("take more topologies or nodes"), "{said}");
@@ -567,7 +566,7 @@ fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
     let folder = folder();
     let folder = folder.path();
     let table = |threads| {
-        let arguments = ["reproduce", "rescue-fig8", "--topologies", "20", "--svg", "ways.svg"];
+        let arguments = ["reproduce", "rescue-fig8", "--runs", "20", "--svg", "ways.svg"];
         let output = tautline(folder, &arguments).env("RAYON_NUM_THREADS", threads).output();
         let output = output.expect("the program runs");
         assert_eq!(output.status.code(), Some(0));
@@ -577,7 +576,7 @@ fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
     assert_snapshot!("three_robots_for_three_wfrs", table("2"));
     let drawn = fs::read_to_string(folder.join("ways.svg")).expect("a picture");
     assert_eq!(drawn.matches("class=\"trail\" d=\"M").count(), 6, "three, and the legend");
-    let few = ["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "2", "--topologies", "3"];
+    let few = ["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "2", "--runs", "3"];
     let few = json(folder, &few, 0);
     assert_eq!((&few["id"], &few["rules"][1]["own"]["ours"]["mean"]), (&"rescue-fig8".into(), &0.0.into()));
     assert_eq!((&few["rules"][1]["over_best"], &few["rules"][1]["best"]), (&Value::Null, &Value::Null));
@@ -593,11 +592,11 @@ fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
 #[test]
 fn a_directional_antenna_and_what_noise_does_to_a_scan() {
     let folder = folder();
-    let asked = ["reproduce", "antenna-fig4", "--scans", "200", "--svg", "antenna.svg"];
+    let asked = ["reproduce", "antenna-fig4", "--runs", "200", "--svg", "antenna.svg"];
     assert_snapshot!("antenna", printed(folder.path(), &asked, 0));
     let drawn = fs::read_to_string(folder.path().join("antenna.svg")).expect("a picture");
     assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
-    let near = json(folder.path(), &["reproduce", "antenna-fig4", "--distance", "1", "--scans", "10"], 0);
+    let near = json(folder.path(), &["reproduce", "antenna-fig4", "--distance", "1", "--runs", "10"], 0);
     let levels = near["pattern"].as_array().expect("angles");
     assert_eq!((levels.len(), &levels[12]["degrees"]), (25, &0.into()));
     let level = |place: usize| levels[place]["level_db"].as_f64().expect("heard so near");
@@ -617,13 +616,13 @@ fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
         &["rescue-fig7", "--k", "0"],
         &["rescue-fig7", "--noise-db", "-1"],
         &["rescue-fig7", "--noise-db", "nan"],
-        &["rescue-fig7", "--topologies", "0"],
+        &["rescue-fig7", "--runs", "0"],
         &["rescue-fig9", "--obstacle", "1,2,3"],
         &["rescue-fig9", "--obstacle", "a,b,c,d"],
         &["rescue-fig9", "--obstacle", "200,90,100,210"],
         &["rescue-fig9", "--obstacle", "0,0,inf,300"],
         &["rescue-fig9", "--obstacle", "0,0,300,300"],
-        &["rescue-fig10", "--topologies", "1", "--svg", "."],
+        &["rescue-fig10", "--runs", "1", "--svg", "."],
         &["antenna-fig4", "--distance", "0"],
         &["antenna-fig4", "--noise-db", "0,21"],
     ];
@@ -741,7 +740,7 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["explore", "open:9x9", "--trace", "run", "--svg", "nowhere/run"],
         &["explore", "open:9x9", "--robots", "-1"],
         &["rescue", "--wfr-at", "-1"],
-        &["reproduce", "antenna-fig4", "--scans", "-1"],
+        &["reproduce", "antenna-fig4", "--runs", "-1"],
         &["hunt", "--out", "file"],
         &["hunt", "--out", "file"],
         &["hunt", "--robots", "65"],
@@ -1268,7 +1267,7 @@ fn with_v_every_command_says_what_it_read_and_how_long_it_took() {
         (&["rescue", "--seeds", "0"], 0, "the rescue with seed 0 has "),
         (&["replay", "run.jsonl"], 1, "reading run.jsonl: "),
         (&["show", "rooms-a"], 0, "layout rooms-a: 15x15 cells, 225 free, 39 walls between them"),
-        (&["reproduce", "repair-cost", "--layouts", "1"], 0, "comparing: 7 of 7 in "),
+        (&["reproduce", "repair-cost", "--runs", "1"], 0, "comparing: 7 of 7 in "),
         (&["completions", "bash"], 0, ""),
         (&["man"], 0, ""),
     ];
@@ -1300,7 +1299,7 @@ fn alone(folder: &Path, arguments: &[&str]) -> Command {
 #[test]
 fn where_no_thread_can_be_started_the_work_is_done_without() {
     let folder = folder();
-    let table = ["reproduce", "repair-cost", "--layouts", "2"];
+    let table = ["reproduce", "repair-cost", "--runs", "2"];
     let output = alone(folder.path(), &table).output().expect("prlimit runs");
     let errors = String::from_utf8(output.stderr).expect("text");
     assert_snapshot!(errors.lines().next().unwrap_or_default(), @" WARN the system starts no thread: Ctrl-C will end the work at once");
@@ -1313,7 +1312,7 @@ fn where_no_thread_can_be_started_the_work_is_done_without() {
 #[test]
 fn a_hundred_thousand_threads_are_as_many_as_make_sense() {
     let folder = folder();
-    let table = ["reproduce", "repair-cost", "--layouts", "2"];
+    let table = ["reproduce", "repair-cost", "--runs", "2"];
     let output = tautline(folder.path(), &table).env("RAYON_NUM_THREADS", "100000").output();
     let output = output.expect("the program runs");
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -1371,10 +1370,10 @@ fn one_is_not_many() {
         said(&["explore", "open:1x2", "--scheme", "bricks", "--robots", "1"], 0),
         said(&["explore", "open:3x3", "--robots", "2", "--max-moves", "1"], 0),
         said(&["hunt", "--robots", "2", "--max-walls", "1"], 0),
-        said(&["reproduce", "repair-cost", "--layouts", "1"], 0),
-        said(&["reproduce", "notice-fig5", "--nodes", "20", "--topologies", "1"], 0),
-        said(&["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "1", "--topologies", "1"], 0),
-        said(&["reproduce", "rescue-fig7", "--nodes", "300", "--topologies", "1"], 0),
+        said(&["reproduce", "repair-cost", "--runs", "1"], 0),
+        said(&["reproduce", "notice-fig5", "--nodes", "20", "--runs", "1"], 0),
+        said(&["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "1", "--runs", "1"], 0),
+        said(&["reproduce", "rescue-fig7", "--nodes", "300", "--runs", "1"], 0),
     ];
     assert_snapshot!("one_of_each", said.join("\n"));
 }

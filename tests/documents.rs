@@ -223,7 +223,7 @@ fn the_tables_that_take_minutes_are_those_of_the_pages() {
         ("docs/reel.md", "reel"),
         ("docs/rivals.md", "chain-table1"),
         ("docs/rivals.md", "chain-fig3"),
-        ("docs/chain.md", "repair-cost --layouts 10000"),
+        ("docs/chain.md", "repair-cost --runs 10000"),
     ] {
         let arguments: Vec<&str> = ["reproduce"].into_iter().chain(table.split(' ')).collect();
         shows(page, &printed(&arguments, 0));
@@ -259,7 +259,7 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
         ("docs/chain.md", "contact.svg", "replay docs/chain-1-published-n4.jsonl --svg", 1),
         ("docs/chain.md", "dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),
         ("docs/own-rule.md", "follow-1.svg", "replay docs/follow-1-written.jsonl --svg", 1),
-        ("docs/floor.md", "floors.svg", "reproduce floors --starts 3 --max-steps 100000 --svg", 0),
+        ("docs/floor.md", "floors.svg", "reproduce floors --runs 3 --max-steps 100000 --svg", 0),
         ("docs/floor.md", "trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
         shows(page, &format!("tautline {arguments} docs/{picture}"));

@@ -42,7 +42,7 @@ const COMMANDS: [(&str, &str); 13] = [
         "plan",
         "hunt --rule published --robots 3 --max-walls 2 --plan plan.json --shards 2
          hunt --scheme ants --size 2x2 --plan layouts.json --shards 2
-         reproduce repair-cost --layouts 4 --plan table.json --shards 2",
+         reproduce repair-cost --runs 4 --plan table.json --shards 2",
     ),
     (
         "shard",
@@ -93,9 +93,9 @@ const COMMANDS: [(&str, &str); 13] = [
     ),
     (
         "locate",
-        "locate --trials 20
-         locate --solver closed-form --trials 20 --noise-db 0
-         locate --advice --trials 20 --at 3,3
+        "locate --runs 20
+         locate --solver closed-form --runs 20 --noise-db 0
+         locate --advice --runs 20 --at 3,3
          locate measured.csv",
     ),
     ("show", "show open:3x3"),

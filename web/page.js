@@ -15,7 +15,7 @@ const capital = text => text[0].toUpperCase() + text.slice(1);
 
 /** Calls the engine of a module: a request goes in and an answer comes out, four bytes at a time. */
 function engineOf(instance) {
-  const { tautline_room: room, tautline_put: put, tautline_call: call, tautline_get: get, memory } = instance.exports;
+  const { page_room: room, page_put: put, page_call: call, page_get: get, memory } = instance.exports;
   const ask = request => {
     const bytes = new TextEncoder().encode(JSON.stringify(request));
     room(bytes.length);

@@ -82,7 +82,7 @@ fn what_tautline_did_not_write_is_replaced_only_with_force() {
         (&["replay", "run.jsonl"], "--html"),
         (&["replay", "run.jsonl"], "--svg"),
         (&["show", "rooms-a"], "--svg"),
-        (&["reproduce", "antenna-fig4", "--scans", "10"], "--svg"),
+        (&["reproduce", "antenna-fig4", "--runs", "10"], "--svg"),
     ];
     for (arguments, option) in stored {
         let arguments = [arguments, &[option, "mine"]].concat();
@@ -488,8 +488,8 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
     let explore = ["explore", "cells:256x256:0.1", "--scheme", "bricks", "--robots", "20"];
     let files = ["--trace", "a.jsonl", "--html", "a.html", "--svg", "a.svg"];
     let rescue = ["rescue", "--nodes", "100000", "--area", "3600x3600", "--seeds", "0", "--wfr", "3"];
-    let fig7 = ["reproduce", "rescue-fig7", "--topologies", "5000", "--svg", "a.svg"];
-    let fig5 = ["reproduce", "notice-fig5", "--topologies", "5000", "--svg-reach", "a.svg"];
+    let fig7 = ["reproduce", "rescue-fig7", "--runs", "5000", "--svg", "a.svg"];
+    let fig5 = ["reproduce", "notice-fig5", "--runs", "5000", "--svg-reach", "a.svg"];
     let commands: [&[&str]; 12] = [
         &[&explore[..], &files].concat(),
         &[&rescue[..], &files].concat(),
@@ -499,9 +499,9 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
         &["replay", &floor, "--html", "a.html", "--svg", "a.svg"],
         &fig7,
         &[&fig5[..], &["--svg-rebroadcasts", "b.svg"]].concat(),
-        &["reproduce", "bricks-fig11", "--layouts", "1000", "--svg", "a.svg"],
-        &["reproduce", "antenna-fig4", "--scans", "1000000", "--svg", "a.svg"],
-        &["reproduce", "rescue-fig8", "--topologies", "5000", "--svg", "a.svg"],
+        &["reproduce", "bricks-fig11", "--runs", "1000", "--svg", "a.svg"],
+        &["reproduce", "antenna-fig4", "--runs", "1000000", "--svg", "a.svg"],
+        &["reproduce", "rescue-fig8", "--runs", "5000", "--svg", "a.svg"],
         &["show", "cells:724x724:0.4", "--svg", "a.svg"],
     ];
     for command in commands {

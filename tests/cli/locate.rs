@@ -42,7 +42,7 @@ fn the_report_is_the_same_on_any_number_of_threads() {
     let folder = folder();
     let printed = |threads: &str| {
         let mut command =
-            tautline(folder.path(), &["locate", "--solver", "pso", "--trials", "3000", "--advice"]);
+            tautline(folder.path(), &["locate", "--solver", "pso", "--runs", "3000", "--advice"]);
         let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
         String::from_utf8(output.stdout).expect("text")
     };
@@ -79,7 +79,7 @@ fn positions_of_measurements_are_found_and_drawn() {
     assert_snapshot!(printed(folder, &["locate", "m.csv"], 0));
     let picture = ["locate", "m.csv", "--solver", "least-squares", "--svg", "m.svg", "--format", "json"];
     printed(folder, &picture, 0);
-    let picture = ["locate", "--at", "5,5", "--trials", "10", "--svg", "at.svg"];
+    let picture = ["locate", "--at", "5,5", "--runs", "10", "--svg", "at.svg"];
     printed(folder, &picture, 0);
     for (name, ellipses) in [("m.svg", 5), ("at.svg", 4)] {
         let drawn = fs::read_to_string(folder.join(name)).expect("a picture");
@@ -138,12 +138,12 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
         &["--exponent", "0"],
         &["--exponent", "NaN"],
         &["--noise-db", "-1"],
-        &["--trials", "0"],
+        &["--runs", "0"],
         &["--at", "0,0"],
         &["--rule", "published"],
         &["--inside", "--solver", "pso"],
         &["nowhere.csv"],
-        &["nowhere.csv", "--trials", "5"],
+        &["nowhere.csv", "--runs", "5"],
         &["nowhere.csv", "--power-dbm", "-201"],
         &["nowhere.csv", "--power-dbm", "NaN"],
         &["--power-dbm", "-40"],

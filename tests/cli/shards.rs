@@ -3,7 +3,7 @@
 use super::*;
 
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "3"];
-const TABLE: [&str; 6] = ["reproduce", "frontier-fig7", "--layouts", "10", "--seed", "7"];
+const TABLE: [&str; 6] = ["reproduce", "frontier-fig7", "--runs", "10", "--seed", "7"];
 
 fn hunt_shard(folder: &Path, plan: &str, shard: u32) {
     printed(folder, &["hunt", "--plan", plan, "--shard", &shard.to_string()], 0);

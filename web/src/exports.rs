@@ -23,7 +23,7 @@ thread_local! {
 
 /// Makes room for a request of so many bytes.
 #[unsafe(no_mangle)]
-pub extern "C" fn tautline_room(bytes: u32) {
+pub extern "C" fn page_room(bytes: u32) {
     DOOR.with_borrow_mut(|door| {
         door.buffer.clear();
         door.buffer.resize((bytes as usize).next_multiple_of(4), b' ');
@@ -32,7 +32,7 @@ pub extern "C" fn tautline_room(bytes: u32) {
 
 /// Puts four bytes of the request, the first in the lowest bits.
 #[unsafe(no_mangle)]
-pub extern "C" fn tautline_put(place: u32, word: u32) {
+pub extern "C" fn page_put(place: u32, word: u32) {
     DOOR.with_borrow_mut(|door| {
         if let Some((four, _)) =
             door.buffer.get_mut(4 * place as usize..).and_then(<[u8]>::split_first_chunk_mut)
@@ -44,7 +44,7 @@ pub extern "C" fn tautline_put(place: u32, word: u32) {
 
 /// Answers the request that was put. Returns the bytes of the answer.
 #[unsafe(no_mangle)]
-pub extern "C" fn tautline_call() -> u32 {
+pub extern "C" fn page_call() -> u32 {
     DOOR.with_borrow_mut(|door| {
         let Door { page, buffer } = door;
         let mut answer = page.answer(&String::from_utf8_lossy(buffer)).into_bytes();
@@ -57,7 +57,7 @@ pub extern "C" fn tautline_call() -> u32 {
 
 /// Four bytes of the answer, the first in the lowest bits.
 #[unsafe(no_mangle)]
-pub extern "C" fn tautline_get(place: u32) -> u32 {
+pub extern "C" fn page_get(place: u32) -> u32 {
     DOOR.with_borrow(|door| {
         let four = door.buffer.get(4 * place as usize..).and_then(<[u8]>::first_chunk);
         four.map_or(0, |four| u32::from_le_bytes(*four))

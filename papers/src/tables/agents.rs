@@ -154,7 +154,7 @@ pub struct Agents {
 
 impl Agents {
     const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
-        let examples = &["bricks-fig11 --svg fig11.svg", "bricks-ideal --layouts 20 --format json"];
+        let examples = &["bricks-fig11 --svg fig11.svg", "bricks-ideal --runs 20 --format json"];
         let pictures = &[("svg", "Store a chart")];
         Self {
             figure,
@@ -214,7 +214,7 @@ settings! {
     #[derive(Copy, Eq)]
     pub struct Settings {
         /// Random layouts at each point
-        pub layouts: u32 = 200, one("layouts", "COUNT", from_to(1..=100_000));
+        pub layouts: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of the first layout and its runs; the others have the seeds after it
         pub seed: u64 = 0, one("seed", "SEED", number);
         /// Steps of all agents together after which a run is ended

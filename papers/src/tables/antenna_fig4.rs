@@ -31,7 +31,7 @@ settings! {
         /// Standard deviations of the strengths measured, in dB
         pub noises_db: Vec<f64> = NOISES_DB.into(), list("noise-db", real);
         /// Scans with each, of nodes in random directions
-        pub scans: u32 = 10_000, one("scans", "COUNT", from_to(1..=1_000_000));
+        pub scans: u32 = 10_000, one("runs", "COUNT", from_to(1..=1_000_000));
         /// The seed of all scans
         pub seed: u64 = 0, one("seed", "SEED", number);
     }

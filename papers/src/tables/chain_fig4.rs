@@ -162,14 +162,15 @@ impl Table for ChainFig4 {
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Body { cell_mm, speed_mm, drift_per_mille, .. } = Body::NXT;
-        let mut text = format!(
-            "{ROBOTS} robots: cells of {} m, {speed_mm} mm/s, error {drift_per_mille} ‰ of the way\n\n",
-            cell_mm / 1000
-        );
         let tenths = |number: u64, unit: u64| {
             let tenths = (number * 10 + unit / 2) / unit;
             format!("{}.{}", tenths / 10, tenths % 10)
         };
+        let mut text = format!(
+            "{ROBOTS} robots: cells of {} m, {} m/s, error {drift_per_mille} ‰ of the way\n\n",
+            cell_mm / 1000,
+            tenths(speed_mm, 1000)
+        );
         let a_move = |run: &Run| tenths(run.milliseconds, 1000 * u64::from(run.team_moves.max(1)));
         text += &Columns::of(&merged.runs)
             .left("area", Fit, |run| run.place.words())

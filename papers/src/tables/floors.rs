@@ -25,7 +25,7 @@ settings! {
         /// Agents of the teams
         pub agents: Vec<u16> = vec![1, 4, 20], list("agents", from_to(1..=255));
         /// Cells in which the teams start, in each layout
-        pub starts: u32 = 5, one("starts", "COUNT", from_to(1..=10_000));
+        pub starts: u32 = 5, one("runs", "COUNT", from_to(1..=10_000));
         /// The seed of generated layouts, of the starts and of the sensors that are missed
         pub seed: u64 = 0, one("seed", "SEED", number);
         /// How likely it is that a sensor is missed, from 0 to 0.5

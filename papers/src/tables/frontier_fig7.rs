@@ -38,7 +38,7 @@ settings! {
     #[derive(Copy, Eq)]
     pub struct Settings {
         /// Random layouts
-        pub layouts: u32 = 1000, one("layouts", "COUNT", from_to(1..=100_000));
+        pub layouts: u32 = 1000, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of the first layout and its runs; the others have the seeds after it
         pub seed: u64 = 0, one("seed", "SEED", number);
         /// Columns of each layout
@@ -117,7 +117,7 @@ impl Table for FrontierFig7 {
             help: "How many team moves robots take that go from frontier cell to frontier cell",
             examples: &[
                 "frontier-fig7 --svg moves.svg",
-                "frontier-fig7 --blocked 12 --layouts 100 --format json",
+                "frontier-fig7 --blocked 12 --runs 100 --format json",
             ],
             doing: "exploring",
             pictures: &[("svg", "Store a chart of the team moves")],

@@ -155,7 +155,7 @@ settings! {
         /// The standard deviation of the strengths that robots measure, in dB
         pub noise_db: f64 = 0.0, one("noise-db", "DB", real);
         /// Topologies for each number of nodes
-        pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
+        pub topologies: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of all topologies
         pub seed: u64 = 0, one("seed", "SEED", number);
     }

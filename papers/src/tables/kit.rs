@@ -92,7 +92,7 @@ pub struct Kit {
 
 impl Kit {
     const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
-        let examples = &["kit-fig14 --svg overlap.svg", "kit-fig9 --layouts 100 --format json"];
+        let examples = &["kit-fig14 --svg overlap.svg", "kit-fig9 --runs 100 --format json"];
         let pictures = &[("svg", "Store a chart")];
         Self {
             figure,
@@ -120,19 +120,14 @@ settings! {
     #[derive(Copy, Eq)]
     pub struct Settings {
         /// Random layouts of each family
-        pub layouts: u32 = 1000, one("layouts", "COUNT", from_to(1..=100_000));
+        pub layouts: u32 = 1000, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of the first layout and its runs; the others have the seeds after it
         pub seed: u64 = 0, one("seed", "SEED", number);
-        /// How fast robots drive, in millimetres a second
-        pub speed: NonZeroU32 = Pace::STEADY.speed, one("speed", "MM/S", speed);
-        /// How much faster or slower a drive may be, in thousandths
-        pub spread: u32 = 100, one("spread", "THOUSANDTHS", from_to(0..=900));
+        /// How fast robots drive, in metres a second
+        pub speed: NonZeroU32 = Pace::STEADY.speed, thousandths("speed", "METRES", 1..=100_000);
+        /// By which share a drive may be faster or slower
+        pub spread: u32 = 100, thousandths("spread", "SHARE", 0..=900);
     }
-}
-
-fn speed(text: &str) -> Result<NonZeroU32, String> {
-    let speed = from_to(1..=100_000)(text)?;
-    NonZeroU32::new(speed).ok_or_else(|| "a robot that stands still finds nothing".to_owned())
 }
 
 /// A run of every team in one layout of a family.

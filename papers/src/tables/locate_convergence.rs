@@ -48,7 +48,7 @@ settings! {
         /// Power falls with the distance to the power of this, from 2 to 5
         pub exponent: f64 = 2.0, one("exponent", "ALPHA", real);
         /// Positions that are found
-        pub trials: u32 = 10_000, one("trials", "COUNT", from_to(2..=1_000_000));
+        pub trials: u32 = 10_000, one("runs", "COUNT", from_to(2..=1_000_000));
         /// The seed of whatever is left to chance
         pub seed: u64 = 0, one("seed", "SEED", number);
     }
@@ -124,7 +124,7 @@ impl Table for LocateConvergence {
             more: "Anchors stand at 0,0, at 20,0 and at 0,20 metres, the robot at random places between 0,0 and 20,20.",
             examples: &[
                 "locate-convergence --svg convergence.svg",
-                "locate-convergence --noise-db 4 --trials 1000 --format json",
+                "locate-convergence --noise-db 4 --runs 1000 --format json",
             ],
             doing: "locating",
             pictures: &[("svg", "Store the medians as a picture")],

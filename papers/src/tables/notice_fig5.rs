@@ -44,7 +44,7 @@ settings! {
         pub ks: Vec<Senders> = [1, 2, 3].into_iter().filter_map(Count::new).map(Senders).collect(),
             joined("k", Senders::read);
         /// Topologies for each number of nodes
-        pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
+        pub topologies: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of all topologies
         pub seed: u64 = 0, one("seed", "SEED", number);
         /// The channel between the nodes
@@ -195,7 +195,7 @@ impl Table for NoticeFig5 {
             examples: &[
                 "notice-fig5",
                 "notice-fig5 --svg-reach reach.svg --svg-rebroadcasts rebroadcasts.svg",
-                "notice-fig5 --nodes 300 --k 1,2,4,8 --topologies 1000 --format json",
+                "notice-fig5 --nodes 300 --k 1,2,4,8 --runs 1000 --format json",
                 "notice-fig5 --channel shared",
             ],
             doing: "broadcasting",

@@ -144,6 +144,23 @@ pub(super) fn one<T: ToString + 'static, E: Into<String>>(
     single((name, value, Values::One), T::to_string, read)
 }
 
+/// A setting of so many thousandths, which is given and shown as a decimal number.
+pub(super) fn thousandths<T: Copy + TryFrom<u32> + Into<u32> + 'static>(
+    name: &'static str,
+    value: &'static str,
+    range: RangeInclusive<u32>,
+) -> Vec<Parameter<T>> {
+    let decimal = |thousandths: u32| (f64::from(thousandths) / 1000.0).to_string();
+    let remedy = format!("write a number from {} to {}", decimal(*range.start()), decimal(*range.end()));
+    let read = move |text: &str| {
+        let thousandths = value_parser::real(text)? * 1000.0;
+        let is_in = (f64::from(*range.start())..=f64::from(*range.end())).contains(&thousandths);
+        let found = is_in.then(|| T::try_from(thousandths.round() as u32).ok()).flatten();
+        found.ok_or_else(|| remedy.clone())
+    };
+    single((name, value, Values::One), move |&value| decimal(value.into()), read)
+}
+
 /// A setting chosen by a word.
 pub(super) fn word<T: NamedValues>(name: &'static str, value: &'static str) -> Vec<Parameter<T>> {
     let words = Values::Word(T::WORDS.iter().map(|&(_, word, about)| (word, about)).collect());
@@ -181,7 +198,7 @@ pub(super) fn repeated<T: 'static, E: Into<String>>(
 /// The last text counts.
 fn single<T: 'static, E: Into<String>>(
     (name, value, values): (&'static str, &'static str, Values),
-    show: fn(&T) -> String,
+    show: impl Fn(&T) -> String + 'static,
     read: impl Fn(&str) -> Result<T, E> + 'static,
 ) -> Vec<Parameter<T>> {
     let read = move |value: &mut T, texts: &[&str]| {

@@ -8,7 +8,8 @@ pub(super) use super::columns::Columns;
 pub(super) use super::estimates::{count, mean, percent, ratio, seconds, share, text};
 pub(super) use super::paper::{PrintedFigure, Verdict};
 pub(super) use super::parameter::{
-    Senders, flag, from_to, joined, layout_name, list, nested, one, renamed, repeated, settings, word,
+    Senders, flag, from_to, joined, layout_name, list, nested, one, renamed, repeated, settings, thousandths,
+    word,
 };
 pub(super) use super::runs::{Run, at, of_teams, pairs, runs};
 pub(super) use super::{Description, Observer, Results, Table, Threads, based, generated, usage};

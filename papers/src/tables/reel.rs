@@ -41,7 +41,7 @@ settings! {
     #[derive(Copy, Eq)]
     pub struct Settings {
         /// Random layouts at each density
-        pub layouts: u32 = 100, one("layouts", "COUNT", from_to(1..=1_000_000));
+        pub layouts: u32 = 100, one("runs", "COUNT", from_to(1..=1_000_000));
         /// The seed of the first layout; the others have the seeds after it
         pub seed: u64 = 0, one("seed", "SEED", number);
     }
@@ -136,7 +136,7 @@ impl Table for Reel {
             shows: "the reel against the repaired chain on the same layouts: mean team moves to 50 %, to 75 %, and to \
                     everything within reach, and the cells that it explores",
             help: "How many team moves the reel saves, and what holding contact costs",
-            examples: &["reel", "reel --layouts 1000 --format json"],
+            examples: &["reel", "reel --runs 1000 --format json"],
             doing: "comparing",
             ..Description::NOTHING
         }

@@ -31,7 +31,7 @@ settings! {
     #[derive(Copy, Eq)]
     pub struct Settings {
         /// Random layouts at each density
-        pub layouts: u32 = 300, one("layouts", "COUNT", from_to(1..=1_000_000));
+        pub layouts: u32 = 300, one("runs", "COUNT", from_to(1..=1_000_000));
         /// The seed of the first layout; the others have the seeds after it
         pub seed: u64 = 0, one("seed", "SEED", number);
     }
@@ -139,7 +139,7 @@ impl Table for RepairCost {
             shows: "the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % \
                     and 75 %, and runs that break a clause",
             help: "What the chain's repairs cost in team moves, and what they prevent",
-            examples: &["repair-cost", "repair-cost --layouts 10000 --format json"],
+            examples: &["repair-cost", "repair-cost --runs 10000 --format json"],
             doing: "comparing",
             ..Description::NOTHING
         }

@@ -45,7 +45,7 @@ settings! {
         /// The k of k-FNF
         pub k: Senders = Senders::ONE, one("k", "K", Senders::read);
         /// Topologies
-        pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
+        pub topologies: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of the first topology; the others follow
         pub seed: u64 = 0, one("seed", "SEED", number);
     }
@@ -174,7 +174,7 @@ impl Table for RescueFig8 {
                    as published and repaired. The paper draws one case of it.",
             examples: &[
                 "rescue-fig8 --svg ways.svg",
-                "rescue-fig8 --nodes 1100 --topologies 1000 --format json",
+                "rescue-fig8 --nodes 1100 --runs 1000 --format json",
                 "rescue-fig8 --robots 2 --wfr 4",
             ],
             doing: "rescuing",

@@ -45,11 +45,12 @@ impl Team {
 
 /// The figure for people.
 pub(super) fn text(figure: Figure, settings: &Settings, merged: &Summary) -> String {
-    let Settings { layouts, seed, speed, spread } = settings;
+    let Settings { layouts, seed, speed, spread } = *settings;
+    let (speed, spread) = (f64::from(speed.get()) / 1000.0, f64::from(spread) / 10.0);
     let head = format!(
-        "Lattices with {PATHS} paths, {} of each family, seeds from {seed}; {speed} mm/s, drives up to {spread} \u{2030} \
+        "Lattices with {PATHS} paths, {} of each family, seeds from {seed}; {speed} m/s, drives up to {spread} % \
          faster or slower; means with 95 % intervals\n\n",
-        counted(*layouts, "layout"),
+        counted(layouts, "layout"),
     );
     let body = match figure {
         Figure::Time => times(merged),

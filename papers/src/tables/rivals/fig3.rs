@@ -23,7 +23,7 @@ settings! {
     pub struct Settings {
         /// The parameters of the rivals, and how many layouts each density has
         told: RivalSettings = RivalSettings { runs: 200, ..RivalSettings::default() },
-            renamed(nested(), "runs", ["layouts", "Layouts of each density, and runs in each building"]);
+            renamed(nested(), "runs", ["runs", "Layouts of each density, and runs in each building"]);
     }
 }
 
@@ -70,7 +70,7 @@ impl Table for ChainFig3 {
                     75 %, and what the paper says of them",
             help: "Fig. 3 of the chain's paper: team moves to 50 % and to 75 % by the density of walls",
             more: "Where not all runs get there, the median counts the others as later than any; the chart draws medians.",
-            examples: &["chain-fig3", "chain-fig3 --layouts 20 --svg-50 fig3a.svg"],
+            examples: &["chain-fig3", "chain-fig3 --runs 20 --svg-50 fig3a.svg"],
             doing: "comparing",
             pictures: &[
                 ("svg-50", "Store team moves to 50 % as a chart"),

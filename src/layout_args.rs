@@ -1,0 +1,72 @@
+//! The layout that a command is given: a file or a generator, and how a ROS map is read.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::layout::{self, Coarse, Generator, Layout};
+use tautline_sim::value_parser::real;
+
+use super::{needless, number};
+
+#[derive(Debug, Args)]
+pub(super) struct LayoutArgs {
+    /// A layout file or a generator.
+    pub(super) layout: String,
+    /// The seed of whatever is left to chance. Without it 0.
+    #[arg(long, value_parser = number::<u64>)]
+    pub(super) seed: Option<u64>,
+    /// The image of a ROS map, in place of the one that it names.
+    #[arg(long, value_name = "FILE")]
+    pub(super) image: Option<PathBuf>,
+    #[command(flatten)]
+    coarse: CoarseArgs,
+}
+
+#[derive(Debug, Args)]
+struct CoarseArgs {
+    /// The side of a cell of a ROS map, in metres: a whole number of pixels. Without it a cell is a pixel.
+    #[arg(long = "cell", value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
+    cell_m: Option<f64>,
+    /// The radius of a robot on a ROS map, in metres: cells and ways between them are free where it fits. Without it
+    /// half the side of a cell.
+    #[arg(long = "radius", value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
+    radius_m: Option<f64>,
+}
+
+impl LayoutArgs {
+    pub(super) fn seed(&self) -> u64 {
+        self.seed.unwrap_or(0)
+    }
+
+    /// The files that this is read from.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        layout::inputs(&self.layout, self.image.as_deref())
+    }
+
+    /// Refuses what only a ROS map can be told.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if something of it is told.
+    pub(super) fn refuse_map_options(&self, why: &str) -> Result<(), Diagnostic> {
+        let told = [
+            ("--image", self.image.is_some()),
+            ("--cell", self.coarse.cell_m.is_some()),
+            ("--radius", self.coarse.radius_m.is_some()),
+        ];
+        told.iter().find(|(_, is_told)| *is_told).map_or(Ok(()), |(option, _)| Err(needless(option, why)))
+    }
+
+    /// The layout.
+    pub(super) fn load(&self) -> Result<Layout, Diagnostic> {
+        let Self { layout, image, coarse, .. } = self;
+        let coarse = Coarse { cell_m: coarse.cell_m, radius_m: coarse.radius_m };
+        layout::load_coarse(layout, self.seed(), image.as_deref(), coarse)
+    }
+
+    /// Whether a seed is given that the layout leaves unused.
+    pub(super) fn has_other_seed(&self) -> bool {
+        let is_random = || self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
+        self.seed.is_some() && !is_random()
+    }
+}
