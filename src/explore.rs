@@ -16,9 +16,7 @@ use super::evidence;
 use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
-use super::{
-    CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, number, positive, progress, whole,
-};
+use super::{CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, positive, progress, whole};
 use crate::value_parser::{self, chosen};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
@@ -31,10 +29,9 @@ use tautline_sim::explore::{
 };
 use tautline_sim::failures::Failures;
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::layout::{self, Coarse, Generator, Layout};
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
 use tautline_sim::trace::{Summary, Trace, lines};
-use tautline_sim::value_parser::{probability, real};
+use tautline_sim::value_parser::probability;
 use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
