@@ -198,7 +198,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-2",
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
-            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED),
             &Check::new(
                 REPAIRED,
                 &repaired_at_equal_speeds(Demand::Contact),

@@ -59,18 +59,18 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     fn look(
         &self,
         rule: &Rule,
-        sizes: &[Size],
         demand: Option<Demand>,
-        limits: Limits<'_>,
+        (until, limits): (Until, Limits<'_>),
     ) -> Findings<ROBOTS> {
         let mut looked = Findings { states: 0, is_whole: true, covered: Vec::new(), broken: None };
-        for (number, &(width, height, most)) in (0..).zip(sizes) {
-            // Mostly nothing is broken; where it is, the fewest walls are looked for.
+        for (number, &(width, height, most)) in (0..).zip(self.sizes) {
+            // Mostly nothing is broken; where it is, the fewest walls are looked for, unless one violation is enough.
             let all = self.search(rule, (width, height, most), demand, (limits, &mut looked));
             if all.is_none() {
                 continue;
             }
-            let fewer = (0..most).find_map(|walls| {
+            let mut tried = if until == Until::Exhausted { 0..most } else { 0..0 };
+            let fewer = tried.find_map(|walls| {
                 let size = (width, height, walls);
                 self.search(rule, size, demand, (limits, &mut looked)).map(|found| (walls, found))
             });
@@ -160,14 +160,14 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             let key = (self.family(rule), *rule);
             let kept: Result<&(bool, u64, bool, Vec<&'static str>), MethodError> =
                 desk.memory.recall(key, |_| {
-                    let looked = self.look(rule, self.sizes, None, limits);
+                    let looked = self.look(rule, None, (until, limits));
                     Ok((looked.broken.is_none(), looked.states, looked.is_whole, looked.covered))
                 });
             if let (true, states, is_whole, covered) = kept?.clone() {
                 return Ok(self.answer(Findings { states, is_whole, covered, broken: None }));
             }
         }
-        Ok(self.answer(self.look(rule, self.sizes, Some(self.demand), limits)))
+        Ok(self.answer(self.look(rule, Some(self.demand), (until, limits))))
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
