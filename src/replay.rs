@@ -12,6 +12,7 @@ use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Area;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Depiction, Evidence};
+use tautline_proofs::judge::AnyCase;
 use tautline_proofs::judge::chain::{Exhibit, judge, judges};
 use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
@@ -211,7 +212,7 @@ impl Replay {
         let is_judged = match (chain, agent.zip(clause)) {
             (Some(exhibit), _) => self.judge_chain(&exhibit)?,
             (None, Some((frames, clause))) => self.judge_floor(&of_agent(&setup, clause, &frames))?,
-            (None, None) => false,
+            (None, None) => self.judge_case(clause.and_then(|clause| (setup.scheme.case)(&setup, clause)))?,
         };
         let said = clause.map(|clause| said(clause.as_str(), is_judged));
         self.show(&setup, &report, clause, Remarks { said, is_rule_run: None }, files, out)
@@ -359,15 +360,16 @@ impl Replay {
             },
             Depiction::Agents(course) => self.judge_floor(&of_course(clause.id, course)),
             Depiction::Choices | Depiction::Story(_) | Depiction::Messages { .. } => {
-                match check.case(&evidence.choices) {
-                    Some(case) => {
-                        case.judge().map_err(|objection| self.rejected(&objection))?;
-                        Ok(true)
-                    }
-                    None => Ok(false),
-                }
+                self.judge_case(check.case(&evidence.choices))
             }
         }
+    }
+
+    /// Whether a judge accepts what is written down for it, if anything is.
+    fn judge_case(&self, case: Option<Box<dyn AnyCase>>) -> Result<bool, Halt> {
+        let Some(case) = case else { return Ok(false) };
+        case.judge().map_err(|objection| self.rejected(&objection))?;
+        Ok(true)
     }
 
     /// Whether the judge of the chain accepts it.

@@ -14,8 +14,8 @@ use tautline_sim::counterexample::minimise::{Broken, Case, Obstacles, minimise, 
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
-    Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Senses,
-    Setup, Starts, Stopped, Team, run,
+    Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Setup,
+    Starts, Stopped, Team, run,
 };
 use tautline_sim::layout::{self, Layout};
 use tautline_sim::trace::{self, StoredRun, Writer};
@@ -83,7 +83,6 @@ impl Team for Pair {
 
 /// The pair as a row, as those of the catalogue are.
 static PAIR: Profile = Profile {
-    name: "pair",
     about: "Two robots, of which the second follows the first",
     rules: &[Rule::new(
         RuleId::new("eager"),
@@ -93,12 +92,9 @@ static PAIR: Profile = Profile {
     team: "pair",
     robots: 2..=2,
     starts: Starts::Base,
-    senses: Senses::Bumps,
     look: Look::Apart,
-    knowledge: None,
     clauses: &[Clause::new("PAIR-1")],
-    extras: &[],
-    drawn: &[],
+    ..Profile::named("pair")
 };
 
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.

@@ -4,6 +4,12 @@ use std::fs;
 
 use super::{folder, json, names, printed, ran, refused};
 
+/// Whether the judge has accepted a counterexample; it knows nothing of KIT-14.
+fn is_judged(replayed: &str, clause: &str) -> bool {
+    let said = format!("the judge accepts it as a counterexample to {clause}");
+    replayed.contains(&said) != (clause == "KIT-14")
+}
+
 #[test]
 fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
     let folder = folder();
@@ -20,6 +26,7 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
         let replayed = printed(folder, &["replay", file], 1);
         let clause = quarry["clause"].as_str().expect("an id");
         assert!(replayed.contains(&format!("{clause} is broken in team move")), "{replayed}");
+        assert!(is_judged(&replayed, clause), "{replayed}");
     }
     assert!(stored().count() >= 5);
     assert_eq!(stored().count(), found.len());
@@ -42,7 +49,8 @@ fn a_hunt_of_another_reading_stores_runs_that_break_it_again() {
     assert_eq!(cut["steps"], 4);
     for quarry in found {
         let replayed = printed(folder, &["replay", quarry["file"].as_str().expect("a file")], 1);
-        assert!(replayed.contains(quarry["clause"].as_str().expect("an id")), "{replayed}");
+        let clause = quarry["clause"].as_str().expect("an id");
+        assert!(is_judged(&replayed, clause), "{replayed}");
     }
     for command in [&["explore", "open:5x4"][..], &["hunt"]] {
         let said = refused(folder, &[command, &["--scheme", "kit", "--rule", "beside"]].concat());

@@ -75,32 +75,16 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         events.filter(|event| matches!(event, Event::Decides(.., Next::Drives(_)))).count()
     }
 
-    /// The run of two robots by the published rule, or of three by the repaired one, written down for the judge.
+    /// The run written down for the judge, if there is one for it.
     pub(super) fn case(&self) -> Option<Box<dyn AnyCase>> {
-        let Setting { rule, area, speeds, .. } = self.setting;
-        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
-        let walls = self.given()?.0.into_iter();
-        let barred = walls.map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side())))).collect();
-        let lattice = Lattice { columns: area.width() as i32, rows: area.height() as i32, barred };
-        let events = self.steps()?.1.into_iter().flat_map(|turned| turned.events);
-        let steps = events.map(|event| written(&event)).collect::<Option<Vec<_>>>()?;
-        let (starts, clause) = (self.starts()?.map(place).to_vec(), self.run.demand.clause(ROBOTS));
-        let reading = match rule {
-            Rule::PUBLISHED => judge::Reading::Published,
-            _ if rule == Rule::AHEAD => judge::Reading::Ahead,
-            Rule::REPAIRED if ROBOTS > 2 && speeds == Speeds::Any => {
-                return Some(Box::new(judge::Party { clause, lattice, starts, steps }));
-            }
-            _ => return None,
+        let Self { setting, run } = self;
+        let clause = match (setting.speeds, run.demand) {
+            (Speeds::Equal, Demand::Contact) => "KIT-2",
+            (Speeds::Any | Speeds::Equal | Speeds::OneByOne, demand) => demand.clause(ROBOTS),
         };
-        let (speeds, clause) = match (speeds, self.run.demand) {
-            (Speeds::Any, _) => (judge::Speeds::Any, clause),
-            (Speeds::Equal, Demand::Contact) => (judge::Speeds::Equal, "KIT-2"),
-            (Speeds::Equal, _) => (judge::Speeds::Equal, clause),
-            (Speeds::OneByOne, _) => return None,
-        };
-        let round = self.run.round().len();
-        Some(Box::new(judge::Run { clause, reading, speeds, lattice, starts, steps, round }))
+        let walls = self.given()?.0;
+        let (start, steps) = self.steps()?;
+        case(clause, (setting, &walls), &start, steps, run.round().len())
     }
 
     /// The events, a line for each.
@@ -123,6 +107,41 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         }
         lines
     }
+}
+
+/// A run from `start` on, with these walls and steps, of which the last `round` come again for ever, said to break
+/// `clause`: written down for the judge of two robots by the published rule, or of three by the repaired one; `None` if it is no such
+/// run, or the judge does not know the clause.
+pub fn case<const ROBOTS: usize>(
+    clause: &'static str,
+    (setting, walls): (&Setting<ROBOTS>, &[Edge]),
+    start: &World<ROBOTS>,
+    steps: Vec<Successor<ROBOTS>>,
+    round: usize,
+) -> Option<Box<dyn AnyCase>> {
+    let Setting { rule, area, speeds, .. } = *setting;
+    let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
+    let barred =
+        walls.iter().map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side())))).collect();
+    let lattice = Lattice { columns: area.width() as i32, rows: area.height() as i32, barred };
+    let starts = start.team.robots().iter().map(|robot| place(robot.stance.to())).collect();
+    let events = steps.into_iter().flat_map(|turned| turned.events);
+    let steps = events.map(|event| written(&event)).collect::<Option<Vec<_>>>()?;
+    let speeds = match speeds {
+        Speeds::Any => judge::Speeds::Any,
+        Speeds::Equal => judge::Speeds::Equal,
+        Speeds::OneByOne => return None,
+    };
+    let reading = match rule {
+        Rule::PUBLISHED => judge::Reading::Published,
+        Rule::AHEAD => judge::Reading::Ahead,
+        Rule::REPAIRED if judge::Party::knows(clause) && ROBOTS > 2 && speeds == judge::Speeds::Any => {
+            return Some(Box::new(judge::Party { clause, lattice, starts, steps }));
+        }
+        _ => return None,
+    };
+    let run = judge::Run { clause, reading, speeds, lattice, starts, steps, round };
+    (ROBOTS == 2 && judge::Run::knows(clause)).then(|| Box::new(run) as Box<dyn AnyCase>)
 }
 
 /// An event as the judge reads it.

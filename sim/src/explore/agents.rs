@@ -14,7 +14,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
-use super::catalogue::{By, Drawn, Look, Profile, Senses, Starts};
+use super::catalogue::{By, Drawn, Look, Profile, Senses};
 use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, is_visited};
 use super::run::{End, Survey, Team};
@@ -29,18 +29,11 @@ const MAX_AGENTS: usize = 255;
 
 /// The row of all agents, of which theirs are made.
 pub(super) const AGENTS: Profile = Profile {
-    name: "",
-    about: "",
-    rules: &[],
-    team: "team",
     robots: 1..=MAX_AGENTS,
-    starts: Starts::Anywhere,
     senses: Senses::Floor,
-    extras: &[],
     drawn: &[Drawn { what: "which sensors are missed", by: By::Miss }],
     look: Look::Apart,
-    knowledge: None,
-    clauses: &[],
+    ..Profile::named("")
 };
 
 /// An agent is done, and a cell that it could get to is unexplored.

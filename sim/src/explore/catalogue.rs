@@ -8,6 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Cell;
+use tautline_proofs::judge::AnyCase;
 
 use super::SCHEMES;
 use super::clause::{Clause, ClauseId};
@@ -239,6 +240,8 @@ pub struct Profile {
     pub knowledge: Option<Knowledge>,
     /// The clauses that its runs can break, in order.
     pub clauses: &'static [Clause],
+    /// A run that is said to break a clause, written down for a judge; `None` if none reads it.
+    pub case: fn(&Setup, ClauseId) -> Option<Box<dyn AnyCase>>,
 }
 
 /// Where the robots of a team start.
@@ -411,6 +414,7 @@ impl Profile {
             look: Look::Robots,
             knowledge: None,
             clauses: &[],
+            case: |_, _| None,
         }
     }
 }

@@ -102,6 +102,7 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
         Clause::new(ANY_SHORTEST.as_str()),
     ],
+    case: scripted::case,
     ..Profile::named("kit")
 };
 

@@ -43,10 +43,18 @@ impl<S: System> Script<S> {
     where
         S::State: PartialEq,
     {
-        let Some(home) = self.past.iter().position(|(state, _)| *state == self.state) else { return false };
-        let round = &self.past[home..];
+        let Some(round) = self.round() else { return false };
         let awake = round.iter().fold(Bits::MAX, |awake, (state, _)| awake & self.system.awake(state));
         let acting = round.iter().fold(0, |acting, (_, robots)| acting | robots);
         awake & !acting == 0
+    }
+
+    /// The states before the choices that have led back to where the robots were, and who acted then.
+    pub(super) fn round(&self) -> Option<&[(S::State, Bits)]>
+    where
+        S::State: PartialEq,
+    {
+        let home = self.past.iter().position(|(state, _)| *state == self.state)?;
+        Some(&self.past[home..])
     }
 }

@@ -6,15 +6,17 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
 use tautline_proofs::engine::world::World as _;
+use tautline_proofs::judge::AnyCase;
+use tautline_proofs::kit::counterexample;
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
-use super::{COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes};
+use super::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes};
 use crate::diagnostic::Diagnostic;
-use crate::explore::ClauseId;
 use crate::explore::run::{End, Survey, Team};
 use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};
+use crate::explore::{ClauseId, RuleId};
 use crate::kit::paths;
 use crate::layout::Layout;
 
@@ -41,12 +43,36 @@ pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnosti
     }
 }
 
-fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
+/// The run of `setup`, which has choices and is said to break `clause`, written down for the judge of KIT.
+pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn AnyCase>> {
+    let rule = match setup.rule {
+        AHEAD => Kit::AHEAD,
+        RuleId::PUBLISHED => Kit::PUBLISHED,
+        RuleId::REPAIRED => Kit::REPAIRED,
+        _ => return None,
+    };
+    match setup.robots {
+        2 => written_down::<2>(setup, rule, clause),
+        3 => written_down::<3>(setup, rule, clause),
+        _ => None,
+    }
+}
+
+fn written_down<const ROBOTS: usize>(setup: &Setup, rule: Kit, clause: ClauseId) -> Option<Box<dyn AnyCase>> {
+    let mut script = script::<ROBOTS>(setup, rule).ok()?;
+    let (setting, start) = (script.system, script.state);
+    let steps: Vec<Successor<ROBOTS>> = std::iter::from_fn(|| script.choose(|_| true)).collect();
+    let round = if clause == ENDS { script.round()?.len() } else { 0 };
+    let walls: Vec<Edge> = setup.layout.walls().collect();
+    counterexample::case(clause.as_str(), (&setting, &walls), &start, steps, round)
+}
+
+/// The world of `setup`, and its choices.
+fn script<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Script<Setting<ROBOTS>>, Diagnostic> {
     let layout = &setup.layout;
-    let starts = setup.starts();
     let setting = Setting::<ROBOTS>::new(rule, (layout.width(), layout.height()));
     let blank = TinyGrid::new(layout.size().area());
-    let cells = <[Cell; ROBOTS]>::try_from(starts.as_slice());
+    let cells = <[Cell; ROBOTS]>::try_from(setup.starts());
     let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
         return Err(of_choices("the layout is too large for choices"));
     };
@@ -62,8 +88,12 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>,
     let Some(world) = setting.start(cells) else {
         return Err(of_choices("the robots cannot start so"));
     };
-    let due = paths(layout, setup.base);
-    Ok(Box::new(Scripted { script: Script::new(setting, world, choices), cells: starts, due }))
+    Ok(Script::new(setting, world, choices))
+}
+
+fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
+    let due = paths(&setup.layout, setup.base);
+    Ok(Box::new(Scripted { script: script::<ROBOTS>(setup, rule)?, cells: setup.starts(), due }))
 }
 
 struct Scripted<const ROBOTS: usize> {
