@@ -206,6 +206,11 @@ fn the_ways_of_robots_are_those_of_the_page() {
 }
 
 #[test]
+fn the_margins_of_contact_are_those_of_the_page() {
+    shows("docs/kit.md", &printed(&["reproduce", "margins"], 0));
+}
+
+#[test]
 fn the_errors_of_positions_are_those_of_the_page() {
     for table in ["locate-fig8", "locate-convergence"] {
         shows("docs/position.md", &printed(&["reproduce", table], 0));

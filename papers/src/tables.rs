@@ -18,6 +18,7 @@ pub mod journeys;
 pub mod kit;
 pub mod locate_convergence;
 pub mod locate_fig8;
+pub mod margins;
 pub mod notice_fig5;
 pub mod optimum;
 mod paper;
@@ -69,6 +70,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &journeys::RESCUE_FIG10,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,
+    &margins::Margins,
     &frontier_fig7::FrontierFig7,
     &locate_fig8::LocateFig8,
     &locate_convergence::LocateConvergence,

@@ -28,3 +28,4 @@ mod walk;
 mod whole;
 
 pub use observed::{Deception, Subject};
+pub use pair::{Farthest, farthest};

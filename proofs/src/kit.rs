@@ -12,3 +12,5 @@ mod talks;
 #[cfg(test)]
 mod traps;
 pub mod world;
+
+pub use pairs::farthest;

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Cell, Circle, Edge, Step};
 
 use super::breach::stays_in_range;
 use super::observed::Subject;
-use crate::engine::{Outcome, Stop, assume, require};
+use crate::engine::{Outcome, Stop, assume, outcomes, require};
 
 /// The state of an edge that a robot plans to cross.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -114,6 +114,37 @@ impl Pair {
             (true, true) => "both are blocked",
         }
     }
+}
+
+/// The largest distances of two neighbours in the chain, squared, in quarters of a squared cell: after a team move, and at any
+/// moment of it, whoever of the two has gone.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Farthest {
+    /// From centre to centre.
+    pub centres: [u32; 2],
+    /// From the centre of the one to the farthest corner of a cell round the other.
+    pub cells: [u32; 2],
+}
+
+/// The largest distances over all pairs of neighbours that are `related` before a team move, and all plans that `rule`
+/// admits to them.
+pub fn farthest(rule: &Rule, related: impl Fn(Cell, Cell) -> bool) -> Farthest {
+    let mut farthest = Farthest::default();
+    for pair in outcomes(|oracle| Pair::pick(rule, &related, oracle).ok()) {
+        let Pair { behind, ahead } = pair;
+        // Distance is convex, so it is largest where each is at an end of its way.
+        let ends = |robot: Attempt| [robot.plan.from, robot.plan.to()];
+        let corners = ends(behind).into_iter().flat_map(|one| ends(ahead).map(|other| (one, other)));
+        let after = (behind.arrived, ahead.arrived);
+        for (place, (one, other)) in corners.map(|corner| (1, corner)).chain([(0, after)]) {
+            let (dx, dy) = one.apart(other);
+            let squared = |dx: u32, dy: u32| dx * dx + dy * dy;
+            let [dx, dy] = [dx, dy].map(|offset| 2 * u32::from(offset));
+            farthest.centres[place] = farthest.centres[place].max(squared(dx, dy));
+            farthest.cells[place] = farthest.cells[place].max(squared(dx + 1, dy + 1));
+        }
+    }
+    farthest
 }
 
 /// CHAIN-1, inductive step: neighbours in E_C of each other are so after the move.

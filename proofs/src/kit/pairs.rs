@@ -4,7 +4,7 @@ use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Side, Step, Steps};
 use tautline_kernel::kit::{Condition, Message, Reach, Rule, Stance};
 
-use crate::engine::{Choices, Outcome, Replay, assume, require};
+use crate::engine::{Choices, Outcome, Replay, assume, outcomes, require};
 use crate::judge::AnyCase;
 use crate::judge::kit::{Sent, Wire};
 
@@ -60,6 +60,26 @@ pub(super) fn pairs() -> String {
         "two robots, {} places of one round the other, each at every quarter of its path",
         stances * stances * offsets
     )
+}
+
+/// The largest distances of two robots of which that is so, squared, in squared paths: while both stand, and wherever they
+/// are on their paths.
+pub fn farthest(is: impl Fn(Stance, Stance) -> bool) -> [u32; 2] {
+    let pairs = outcomes(|oracle| Some(pair(oracle))).filter(|&[one, other]| is(one, other));
+    let mut farthest = [0; 2];
+    for [one, other] in pairs {
+        // Distance is convex, so it is largest where each is at an end of its path.
+        for (from, to) in [one.from(), one.to()]
+            .into_iter()
+            .flat_map(|from| [other.from(), other.to()].map(|to| (from, to)))
+        {
+            let (dx, dy) = from.apart(to);
+            let squared = u32::from(dx).pow(2) + u32::from(dy).pow(2);
+            let first = if one.stands() && other.stands() { 0 } else { 1 };
+            farthest[first..].iter_mut().for_each(|most| *most = squared.max(*most));
+        }
+    }
+    farthest
 }
 
 /// KIT-1: who is sure to hear another one is at most 10 m from it, wherever the two are on their paths.
@@ -179,7 +199,6 @@ pub(super) fn read_back(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::outcomes;
 
     /// The pairs of stances, the first robot at 0,0, of which that is so, and the largest and the least squared
     /// distance of their ends.
@@ -200,5 +219,6 @@ mod tests {
         assert_eq!(count(is_in_contact), (653, 10, 0));
         let both = |one: Stance, other: Stance| is_in_contact(one, other) && one.is_apart_from(other);
         assert_eq!(count(both), (580, 10, 1));
+        assert_eq!(farthest(is_in_contact), [10, 10]);
     }
 }
