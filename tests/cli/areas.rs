@@ -104,7 +104,7 @@ fn an_area_too_small_for_the_team_is_refused_with_what_would_be_right() {
         for rule in scheme.rules {
             let has_own_cells = match scheme.starts {
                 Starts::Alone => true,
-                Starts::Beside => rule.name != RuleId::PUBLISHED,
+                Starts::Beside => rule.name == RuleId::REPAIRED,
                 Starts::Base | Starts::Anywhere => false,
             };
             let team = ["--scheme", scheme.name, "--rule", rule.name.as_str(), "--robots", "3"];
