@@ -188,24 +188,25 @@ impl EveryNumber {
     /// Every number of robots; teams of up to four robots, in a hundred thousand steps each.
     pub const DEFAULT: Self = Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000 };
 
-    /// An answer by this invariant.
+    /// An answer by this invariant; `way` is one that robots may go, if the question is open.
     fn answer<R: Local, S>(
         self,
         invariant: &Invariant<S>,
         found: Option<Evidence>,
-        is_whole: bool,
+        way: Option<&[String]>,
     ) -> Answer {
-        let holds = found.is_none() && is_whole;
-        let note = match (&found, holds) {
+        let note = match (&found, way) {
             (Some(_), _) => None,
-            (None, true) => Some(invariant.to_string()),
-            (None, false) => Some(format!(
-                "places of {} robots are too coarse, and no run of up to {} robots was found",
+            (None, None) => Some(invariant.to_string()),
+            (None, Some(way)) => Some(format!(
+                "places of {} robots are too coarse, and no run of up to {} robots was found; as far as these places tell, \
+                 robots may go from {}",
                 R::ROBOTS,
-                self.most_robots
+                self.most_robots,
+                way.join(" to ")
             )),
         };
-        Answer { note, ..Answer::new(found, is_whole, Method::<R>::shows(&self), invariant.cases) }
+        Answer { note, ..Answer::new(found, way.is_none(), Method::<R>::shows(&self), invariant.cases) }
     }
 }
 
@@ -223,7 +224,7 @@ impl<R: Local> Method<R> for EveryNumber {
     fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let invariant = Invariant::of(rule)?;
         if invariant.holds() {
-            return Ok(self.answer::<R, _>(&invariant, None, true));
+            return Ok(self.answer::<R, _>(&invariant, None, None));
         }
         for robots in R::LEAST..=self.most_robots {
             let team = Team::new(rule, robots)?;
@@ -233,16 +234,16 @@ impl<R: Local> Method<R> for EveryNumber {
                 let once = [&[(robots - R::LEAST) as u32], &run.steps[..]].concat();
                 let choices = Choices { once, again: Vec::new() };
                 let evidence = Evidence { choices, demand: run.demand, seen: team.story(run) };
-                return Ok(self.answer::<R, _>(&invariant, Some(evidence), true));
+                return Ok(self.answer::<R, _>(&invariant, Some(evidence), None));
             }
         }
         if let Some(wider) = Wider::of(rule, self.most_robots) {
             let invariant = Invariant::of(&wider)?;
             if invariant.holds() {
-                return Ok(self.answer::<R, _>(&invariant, None, true));
+                return Ok(self.answer::<R, _>(&invariant, None, None));
             }
         }
-        Ok(self.answer::<R, _>(&invariant, None, false))
+        Ok(self.answer::<R, _>(&invariant, None, Some(&invariant.way_out(rule)?)))
     }
 
     /// There is one where places of as many robots as the rule speaks of suffice.

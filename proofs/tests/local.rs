@@ -176,3 +176,56 @@ fn any_planner_that_is_kept_to_the_relation_keeps_the_promise() {
     });
     assert!(breaks, "the planner alone keeps nothing");
 }
+
+/// A leash in a layout whose cells have colours: those of a team that starts may be wrong.
+struct Coloured(u8);
+
+impl Local for Coloured {
+    type State = u8;
+    type Act = Step;
+    const COLOURS: u8 = 2;
+
+    fn states(&self) -> Vec<u8> {
+        LEASH.states()
+    }
+
+    fn acts(&self, state: u8) -> Vec<Act<u8, Step>> {
+        LEASH.acts(state)
+    }
+
+    fn admits(&self, _: &[Plan<u8, Step>]) -> bool {
+        true
+    }
+
+    fn keeps(&self, robots: &[Robot<u8>]) -> bool {
+        LEASH.keeps(robots)
+    }
+
+    fn reach(&self) -> (i16, Far) {
+        LEASH.reach()
+    }
+
+    fn may_start(&self, robots: &[Robot<u8>]) -> bool {
+        LEASH.may_start(robots)
+    }
+
+    fn start(&self, robots: usize) -> Vec<Robot<u8>> {
+        LEASH.start(robots).into_iter().map(|robot| Robot { on: self.0, ..robot }).collect()
+    }
+
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
+        chain(robots)
+    }
+}
+
+#[test]
+fn a_team_that_starts_in_cells_without_a_colour_is_refused() {
+    let (memory, watch) = (&mut Cache::default(), &mut unwatched);
+    let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+    assert_eq!(decided(&Coloured(1)).0, Verdict::Refuted);
+    let refusal = EveryNumber::DEFAULT.decide(&Coloured(2), Until::Exhausted, &mut desk);
+    insta::assert_snapshot!(
+        refusal.expect_err("there is no such colour"),
+        @"a team of 2 starts in cells that have no colour below 2, or two"
+    );
+}

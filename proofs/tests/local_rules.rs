@@ -6,11 +6,13 @@ use tautline_kernel::frontier::{Rule as FrontierRule, Stance};
 use tautline_kernel::ground::{Cell, Step};
 use tautline_kernel::kit::{Condition as KitCondition, Rule as KitRule};
 use tautline_proofs::chain::local::{Contact, Crowd};
-use tautline_proofs::decide::Verdict;
+use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
+use tautline_proofs::decide::{Cache, Verdict};
+use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::frontier::local::Alone;
 use tautline_proofs::frontier::world::Rim;
 use tautline_proofs::kit::local::{Apart, Contact as InTouch};
-use tautline_proofs::local::{Act, Far, Invariant, Local, Plan, Robot, all_tuples};
+use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples};
 
 use crate::local::decided;
 
@@ -345,8 +347,11 @@ impl<const LEAST: usize> Local for Flags<LEAST> {
 
 #[test]
 fn where_two_robots_are_too_coarse_three_are_looked_at_and_else_the_question_is_open() {
+    static OPEN: Check<Flags<2>> =
+        Check::new(NamedRule::new("flags", Flags::<2>), &EveryNumber::DEFAULT, Verdict::Open, &[]);
     assert_eq!(decided(&Flags::<3>).0, Verdict::Holds);
     assert!(!Invariant::of(&Flags::<3>).expect("a local rule").holds());
-    let (verdict, run, _) = decided(&Flags::<2>);
-    assert_eq!((verdict, run), (Verdict::Open, None));
+    let decision = OPEN.decide(&mut Cache::default(), &mut unwatched).expect("a local rule");
+    assert_eq!((decision.verdict, decision.counterexample), (Verdict::Open, None));
+    insta::assert_snapshot!(decision.note.expect("what was found"), @"places of 2 robots are too coarse, and no run of up to 4 robots was found; as far as these places tell, robots may go from 0,0 false | 1,0 false to 0,0 true | 1,0 false");
 }

@@ -71,6 +71,31 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         !self.is_left
     }
 
+    /// A shortest way of the robots of which the rule speaks from a start to where they break the promise, each place in
+    /// words: what others do to them plays no part, so that no team need go so. Empty if there is none.
+    pub(super) fn way_out<R: Local<State = S>>(&self, rule: &R) -> Result<Vec<String>, MethodError> {
+        let steps = Steps::of(rule);
+        let starts = tuples(rule, self.window)?.into_iter().filter(|tuple| rule.may_start(tuple));
+        let mut ways: Vec<(Tuple<S>, Option<usize>)> = starts.map(|tuple| (tuple, None)).collect();
+        let mut known: HashSet<Tuple<S>> = ways.iter().map(|(tuple, _)| tuple.clone()).collect();
+        let mut last = 0;
+        while last < ways.len() && promised(rule, &ways[last].0) {
+            let tuple = ways[last].0.clone();
+            steps.each(&tuple, None, &mut |next| {
+                let is_new = is_within(&next, self.window) || !promised(rule, &next);
+                if is_new && known.insert(next.clone()) {
+                    ways.push((next, Some(last)));
+                }
+            })?;
+            last += 1;
+        }
+        let before = |&place: &usize| ways[place].1;
+        let places = iter::successors(ways.get(last).map(|_| last), before);
+        let mut way: Vec<String> = places.map(|place| words(&ways[place].0)).collect();
+        way.reverse();
+        Ok(way)
+    }
+
     fn within<R: Local<State = S>>(rule: &R, window: i16) -> Result<Self, MethodError> {
         let is_fine = rule.reach().1 == Far::Fine;
         let all = tuples(rule, window)?;
@@ -137,6 +162,15 @@ impl<S> fmt::Display for Invariant<S> {
             kept => write!(f, "invariant: {kept} of the {safe} places that keep the promise, of {all} {far}"),
         }
     }
+}
+
+/// Where robots are, in words: their cells, and their states if there are several.
+fn words<S: fmt::Debug>(tuple: &[Robot<S>]) -> String {
+    let word = |robot: &Robot<S>| match format!("{:?}", robot.state).as_str() {
+        "()" => format!("{}", robot.at),
+        state => format!("{} {state}", robot.at),
+    };
+    tuple.iter().map(word).collect::<Vec<_>>().join(" | ")
 }
 
 /// Whether robots keep the promise, however far they are from each other.
