@@ -17,29 +17,47 @@ pub(super) const THREE: EveryNumber = EveryNumber { teams: "N = 3", most_robots:
 /// The kernel keeps every plan that it returns to the relation: see `Rule::admits_plan`.
 const EVERY_PLAN: &str = "the relation, to which every plan is kept";
 
-/// A step, and whether the side that it crosses is known to be open.
-pub type Going = (Step, bool);
+/// A step, and how it comes about.
+pub type Going = (Step, Sort);
 
-/// Every step over a side that may be a wall, and over one that is known to be open; `may_fail` says whether a robot may
-/// stay behind where no wall is.
+/// How a step of a robot comes about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sort {
+    /// By a plan. If it crosses a side, that may be a wall.
+    Tries,
+    /// By a plan, over a side that is known to be open.
+    KnownOpen,
+    /// The team takes its last move back.
+    TakesBack,
+}
+
+/// Every step by a plan. Where robots may stay behind though no wall is there, a team that takes a move back is not where
+/// it was: so that is looked at, too.
 fn steps<S: Copy>(state: S, may_fail: bool) -> Vec<Act<S, Going>> {
-    let act = |(step, needs_open): Going| {
+    let act = |sort, step| {
         let goes = vec![(true, state)];
-        let may_not = step != Step::Stay && (!needs_open || may_fail);
+        let may_not = step != Step::Stay && (sort != Sort::KnownOpen || may_fail);
         let ends = if may_not { [goes, vec![(false, state)]].concat() } else { goes };
-        Act { act: (step, needs_open), step, ends, needs_open }
+        Act { act: (step, sort), step, ends, needs_open: sort == Sort::KnownOpen }
     };
     let crossing = Step::ALL.into_iter().filter(|&step| step != Step::Stay);
-    Step::ALL
-        .into_iter()
-        .map(|step| (step, false))
-        .chain(crossing.map(|step| (step, true)))
-        .map(act)
-        .collect()
+    let planned = Step::ALL.into_iter().map(|step| act(Sort::Tries, step));
+    let taken_back = Step::ALL.into_iter().filter(|_| may_fail).map(|step| act(Sort::TakesBack, step));
+    planned.chain(crossing.map(|step| act(Sort::KnownOpen, step))).chain(taken_back).collect()
 }
 
 fn as_move<S>(plan: &Plan<S, Going>) -> Move {
-    Move { from: plan.robot.at, step: plan.step, known_open: plan.act.1 }
+    Move { from: plan.robot.at, step: plan.step, known_open: plan.act.1 == Sort::KnownOpen }
+}
+
+/// The moves that a robot may have planned which takes its part in the last team move back: a robot that need not go back
+/// has stayed behind, or planned to stay.
+fn undone(back: Move) -> Vec<Move> {
+    let planned = |step| Move { from: back.to(), step, known_open: true };
+    match back.step {
+        Step::Cross(_) => vec![planned(back.step.reverse())],
+        Step::Stay => Step::ALL.map(planned).to_vec(),
+    }
 }
 
 /// So many robots in one cell.
@@ -66,7 +84,16 @@ impl<const FAULTS: bool> Local for Contact<FAULTS> {
     }
 
     fn admits(&self, plans: &[Plan<(), Going>]) -> bool {
-        pair::admits(&self.0, as_move(&plans[0]), as_move(&plans[1]))
+        let (own, ahead) = (as_move(&plans[0]), as_move(&plans[1]));
+        match [&plans[0], &plans[1]].map(|plan| plan.act.1 == Sort::TakesBack) {
+            [false, false] => pair::admits(&self.0, own, ahead),
+            [true, true] => {
+                let is_admitted =
+                    |&own: &Move| undone(ahead).iter().any(|&ahead| pair::admits(&self.0, own, ahead));
+                self.0.keeps_contact(own.to(), ahead.to()) && undone(own).iter().any(is_admitted)
+            }
+            [true, false] | [false, true] => false,
+        }
     }
 
     fn keeps(&self, robots: &[Robot<()>]) -> bool {
