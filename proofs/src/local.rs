@@ -145,6 +145,12 @@ pub trait Local: Sync {
     /// Of which tuples of so many robots the rule speaks.
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>>;
 
+    /// Whether an act is possible whatever was before. One that is possible in some pasts only is looked at as if it always
+    /// were; but no run with it is called real, and no planner that is kept to the rule may do it.
+    fn is_always_possible(&self, _: Self::Act) -> bool {
+        true
+    }
+
     /// Whether a robot never leaves its cell: a base.
     fn is_fixed(&self, _robot: usize) -> bool {
         false

@@ -116,6 +116,11 @@ impl<const FAULTS: bool> Local for Contact<FAULTS> {
         chain(robots)
     }
 
+    /// A team takes a move back only after it has made one.
+    fn is_always_possible(&self, (_, sort): Going) -> bool {
+        sort != Sort::TakesBack
+    }
+
     fn is_fixed(&self, robot: usize) -> bool {
         robot == 0
     }

@@ -32,7 +32,7 @@ impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> Kept<R, P> {
                     is_open && !self.rule.is_fixed(me)
                 }
             };
-            may_go && self.rule.acts(robot.state).contains(act)
+            may_go && self.rule.is_always_possible(act.act) && self.rule.acts(robot.state).contains(act)
         };
         let is_admitted = |tuple: &Vec<usize>| {
             let plan = |&robot: &usize| {
@@ -87,6 +87,10 @@ impl<R: Local, P: Sync> Local for Kept<R, P> {
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
         self.rule.tuples(robots)
+    }
+
+    fn is_always_possible(&self, act: R::Act) -> bool {
+        self.rule.is_always_possible(act)
     }
 
     fn is_fixed(&self, robot: usize) -> bool {

@@ -99,6 +99,7 @@ impl<'r, R: Local> Team<'r, R> {
         let mut all = vec![Vec::new()];
         for (me, (robot, acts)) in robots.iter().zip(acts).enumerate() {
             let is_possible = |act: &&ActOf<R>| match act.step {
+                _ if !self.rule.is_always_possible(act.act) => false,
                 Step::Stay => true,
                 Step::Cross(side) => {
                     let edge = (Edge::new(robot.at, side), true);

@@ -78,6 +78,10 @@ impl<R: Local> Local for Wider<'_, R> {
         all_tuples(robots, Self::ROBOTS).into_iter().filter(is_bound).collect()
     }
 
+    fn is_always_possible(&self, act: R::Act) -> bool {
+        self.rule.is_always_possible(act)
+    }
+
     fn is_fixed(&self, robot: usize) -> bool {
         self.rule.is_fixed(robot)
     }
