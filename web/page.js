@@ -1,6 +1,7 @@
 "use strict";
-// A page to draw on, with the engine inside. Everything that is shown comes from the engine as data: nothing here knows a scheme.
-// A game is its settings and the answers that were given; a step back, another answer, a link and a file are made of these two.
+// A page to draw on, with the engine inside. Everything that is shown comes from the engine as data: nothing here knows
+// a scheme. A game is its settings and the answers that were given; a step back, another answer, a link and a file are
+// made of these two.
 
 const find = id => document.getElementById(id);
 const make = (name, about = {}, ...inside) => {

@@ -1,6 +1,6 @@
 "use strict";
-// Drives the page in a browser as a person would, and says what it has seen. Usage: node test.cjs PAGE BROWSER; pictures of
-// what it looks at go to the folder that TAUTLINE_SHOTS names, if it names one.
+// Drives the page in a browser as a person would, and says what it has seen. Usage: node test.cjs PAGE BROWSER; pictures
+// of what it looks at go to the folder that TAUTLINE_SHOTS names, if it names one.
 
 const assert = require("node:assert/strict");
 const { readFileSync, writeFileSync, mkdtempSync } = require("node:fs");

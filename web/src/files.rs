@@ -51,7 +51,9 @@ fn run(name: &str, content: String) -> Result<Value, Diagnostic> {
             })?;
             let settings = Settings::of(&setup, None);
             Ok(json!({ "run": {
-                "settings": written(&settings), "steps": report.steps, "clause": clause.map(|clause| clause.to_string()),
+                "settings": written(&settings),
+                "steps": report.steps,
+                "clause": clause.map(|clause| clause.to_string()),
             } }))
         }
         StoredRun::Foreign(_) => Err(Diagnostic::in_file(

@@ -44,13 +44,18 @@ fn scheme(scheme: Scheme) -> Value {
     })
 }
 
-/// The conditions of a rule, each by its name, its sentence, and whether it is in force.
-pub(crate) fn conditions<R: Conditional>(rule: &R) -> Value {
-    switched(R::CONDITIONS, rule.in_force())
+/// The row of a rule that is not hunted.
+pub(crate) fn unhunted<R: Conditional>(name: &str, about: &str, rule: &R) -> Value {
+    let conditions = switched(R::CONDITIONS, rule.in_force());
+    json!({ "name": name, "about": about, "conditions": conditions, "hunt": null })
 }
 
+/// The conditions of a rule, each by its name, its sentence, and whether it is in force.
 fn switched(conditions: &[(&str, &str)], in_force: u16) -> Value {
-    let row = |(bit, (name, sentence)): (u32, &(&str, &str))| json!({ "name": name, "sentence": sentence.trim(), "on": in_force >> bit & 1 == 1 });
+    let row = |(bit, (name, sentence)): (u32, &(&str, &str))| {
+        let is_on = in_force >> bit & 1 == 1;
+        json!({ "name": name, "sentence": sentence.trim(), "on": is_on })
+    };
     (0..).zip(conditions).map(row).collect()
 }
 

@@ -13,7 +13,7 @@ use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
 use super::{ByHand, Picture, Played, Scene, Shown, number};
 use crate::play::Play;
-use crate::schemes::conditions;
+use crate::schemes::unhunted;
 use crate::settings::Settings;
 
 pub(super) const MRC: ByHand = ByHand { name: "mrc", start, row: Some(row) };
@@ -28,7 +28,6 @@ const STAGES: &[Value] = &[
 const KINDS: &[Kind] = &[Kind::heard("a message under way")];
 
 fn row() -> Json {
-    let named = |name: &str, about: &str, rule: Rule| json!({ "name": name, "about": about, "conditions": conditions(&rule), "hunt": null });
     let option = |field: &str, about: &str| json!({ "field": field, "takes": "COUNT", "about": about });
     json!({
         "name": "mrc",
@@ -38,11 +37,11 @@ fn row() -> Json {
         "options": [
             option("wfrs", "How many wait for rescue, from 1 to 3. Without it 2"),
             option("events", "How often something happens to them. Without it 2"),
-            option("faults", "How many messages may be lost or come twice, timers go off early, robots and nodes fail. Without it 2"),
+            option("faults", "How many messages may be lost or come twice, and timers, robots and nodes fail. Without it 2"),
         ],
         "rules": [
-            named("repaired", "With the repairs of its refuted claims", Rule::REPAIRED),
-            named("published", "As the paper publishes it", Rule::PUBLISHED),
+            unhunted("repaired", "With the repairs of its refuted claims", &Rule::REPAIRED),
+            unhunted("published", "As the paper publishes it", &Rule::PUBLISHED),
         ],
     })
 }

@@ -15,7 +15,7 @@ use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
 use super::{ByHand, Picture, Played, Scene, Shown, number, starts};
 use crate::play::Play;
-use crate::schemes::conditions;
+use crate::schemes::unhunted;
 use crate::settings::Settings;
 
 pub(super) const NOTICE: ByHand = ByHand { name: "notice", start, row: Some(row) };
@@ -35,17 +35,16 @@ fn rule(conditions: Conditions, k: u8) -> Rule {
 }
 
 fn row() -> Json {
-    let named = |name: &str, about: &str, own: Conditions| json!({ "name": name, "about": about, "conditions": conditions(&rule(own, 1)), "hunt": null });
     json!({
         "name": "notice",
-        "about": "NOTICE: a message that spreads through a network, node by node; each start is a node, the first the source",
+        "about": "NOTICE: a message that spreads from node to node; each start is a node, the first the source",
         "team": "network", "robot": "node", "robots": [2, SMALL], "base": false, "starts": "anywhere",
         "misses": false, "draws": true, "by_hand": "only",
         "options": [{ "field": "k", "takes": "COUNT",
-            "about": "A node that has heard so many senders besides the first does not forward; 0 is any number. Without it 1" }],
+            "about": "How many senders besides the first keep a node from forwarding; 0 is any number. Without it 1" }],
         "rules": [
-            named("repaired", "With the repairs of its refuted claims", Conditions::REPAIRED),
-            named("published", "As the paper publishes it", Conditions::PUBLISHED),
+            unhunted("repaired", "With the repairs of its refuted claims", &rule(Conditions::REPAIRED, 1)),
+            unhunted("published", "As the paper publishes it", &rule(Conditions::PUBLISHED, 1)),
         ],
     })
 }
