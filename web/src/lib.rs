@@ -1,6 +1,6 @@
 //! The engine behind a page to draw on: one call takes a request as JSON and answers with JSON. A page draws cells,
 //! sides, robots and layers as data; it knows no scheme. A scheme is a row of the simulator's catalogue, or a world of
-//! the proofs that is played by hand ([`by_hand`]).
+//! the proofs that is played by hand.
 //!
 //! A game is a run that can be made again: its settings and the answers that were given say all, so that a step back,
 //! another answer, a link and a file are the same thing.
