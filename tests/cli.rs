@@ -18,6 +18,8 @@ mod failures;
 mod files;
 #[path = "cli/first_steps.rs"]
 mod first_steps;
+#[path = "cli/frames.rs"]
+mod frames;
 #[path = "cli/frontier.rs"]
 mod frontier;
 #[path = "cli/kit.rs"]
@@ -88,7 +90,8 @@ fn an_open_area_takes_62_team_moves() {
         printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--draw", "order"], 0)
     );
     printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--trace", "run.jsonl"], 0);
-    assert_snapshot!("frames_of_62_moves", printed(folder.path(), &["replay", "run.jsonl"], 0));
+    let frames = printed(folder.path(), &["replay", "run.jsonl"], 0);
+    assert_snapshot!("frames_of_62_moves", frames::in_short(&frames));
     assert_eq!(names(folder.path()), ["run.jsonl"]);
 }
 
@@ -112,7 +115,8 @@ fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
     let files = ["chain-1-published-n4.jsonl", "chain-13-published-n4.jsonl", "chain-2-published-n4.jsonl"];
     assert_eq!(names(folder), files);
     for (clause, file) in ["CHAIN-1", "CHAIN-13", "CHAIN-2"].into_iter().zip(files) {
-        assert_snapshot!(format!("counterexample_to_{clause}"), printed(folder, &["replay", file], 1));
+        let frames = printed(folder, &["replay", file], 1);
+        assert_snapshot!(format!("counterexample_to_{clause}"), frames::in_short(&frames));
         let replayed = json(folder, &["replay", file], 1);
         assert_eq!(replayed["counterexample_to"], clause);
         assert_eq!(replayed["violations"][0]["clause"], clause);
