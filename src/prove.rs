@@ -16,7 +16,7 @@ use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::clause::{Clause, Variant};
-use tautline_proofs::decide::{Depiction, Verdict};
+use tautline_proofs::decide::{Answer, Depiction, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
@@ -460,9 +460,9 @@ fn of_variants(row: &Row) -> Vec<String> {
 /// The other readings of the rule of a row.
 fn readings(row: &Row) -> Vec<ReadingLine> {
     let registered = row.check.variants().into_iter().filter_map(Variant::reading);
-    let line = |((name, registered), verdict): ((&'static str, Verdict), &Verdict)| ReadingLine {
+    let line = |((name, registered), answer): ((&'static str, Verdict), &Answer)| ReadingLine {
         name,
-        verdict: verdict.word(),
+        verdict: answer.verdict.word(),
         registered: registered.word(),
     };
     registered.zip(&row.decision.readings).map(line).collect()

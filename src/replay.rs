@@ -25,7 +25,7 @@ use super::viewers::{self, ViewerArgs, ViewerFiles};
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
 use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::counterexample::judge_input::{exhibit, of_agent, of_course, written_down};
+use tautline_sim::counterexample::judge_input::{exhibit, of_agent, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::{self, page, svg};
@@ -358,8 +358,7 @@ impl Replay {
                 }
                 Some(_) | None => Ok(false),
             },
-            Depiction::Agents(course) => self.judge_floor(&of_course(clause.id, course)),
-            Depiction::Choices | Depiction::Story(_) | Depiction::Messages { .. } => {
+            Depiction::Agents(_) | Depiction::Choices | Depiction::Story(_) | Depiction::Messages { .. } => {
                 self.judge_case(check.case(&evidence.choices))
             }
         }

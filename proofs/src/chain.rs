@@ -9,6 +9,7 @@ pub mod clauses;
 mod crowd;
 mod death;
 mod environment;
+mod every_area;
 mod game;
 pub mod invariant;
 pub mod links;

@@ -4,7 +4,10 @@
 
 use std::fmt;
 
-use crate::decide::{Answer, Cache, Context, Evidence, Method, MethodError, RefutationPlay, Verdict};
+use crate::ambiguity::Paper;
+use crate::decide::{
+    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Verdict,
+};
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Watch;
 use crate::engine::{Choices, ScriptError, Until};
@@ -70,6 +73,8 @@ pub struct Check<R: 'static> {
     pub readings: &'static [Reading<R>],
     /// Why the check is there although it is refuted, if not as a paper's sentence.
     pub reason: Option<&'static str>,
+    /// The ambiguities that these readings are about, if they stand as data.
+    pub paper: Option<&'static Paper>,
     /// How its counterexamples are written down for a judge, where its method does not know.
     pub case: Option<Case<R>>,
 }
@@ -95,6 +100,12 @@ impl<R: Copy> Check<R> {
     pub const fn because(self, reason: &'static str) -> Self {
         Self { reason: Some(reason), ..self }
     }
+
+    /// The check, whose readings take interpretations of this paper.
+    #[must_use]
+    pub const fn of(self, paper: &'static Paper) -> Self {
+        Self { paper: Some(paper), ..self }
+    }
 }
 
 impl<R> Check<R> {
@@ -105,7 +116,7 @@ impl<R> Check<R> {
         expected: Verdict,
         mutants: &'static [NamedRule<R>],
     ) -> Self {
-        Self { about, method, expected, mutants, readings: &[], reason: None, case: None }
+        Self { about, method, expected, mutants, readings: &[], reason: None, paper: None, case: None }
     }
 
     /// The rule of the variant with this number: of a mutant, or of a reading.
@@ -148,8 +159,8 @@ pub struct Decision {
     pub killed: Vec<&'static str>,
     /// Mutants that were not: the check is too weak.
     pub survived: Vec<&'static str>,
-    /// The verdicts under the other readings of the rule, in their order.
-    pub readings: Vec<Verdict>,
+    /// The answers under the other readings of the rule, in their order.
+    pub readings: Vec<Answer>,
     /// What else was found, in words.
     pub note: Option<String>,
 }
@@ -162,12 +173,12 @@ impl Decision {
         Self { verdict, cases, given_up, counterexample, killed, survived, readings, note }
     }
 
-    /// Adds the verdict on a variant.
-    pub fn add(&mut self, variant: Variant, verdict: Verdict) {
-        match (variant, verdict) {
+    /// Adds the answer about a variant.
+    pub fn add(&mut self, variant: Variant, answer: Answer) {
+        match (variant, answer.verdict) {
             (Variant::Mutant(name), Verdict::Refuted) => self.killed.push(name),
             (Variant::Mutant(name), _) => self.survived.push(name),
-            (Variant::Reading { .. }, _) => self.readings.push(verdict),
+            (Variant::Reading { .. }, _) => self.readings.push(answer),
         }
     }
 
@@ -177,7 +188,7 @@ impl Decision {
             check.variants().into_iter().filter_map(Variant::reading).map(|(_, expected)| expected);
         self.verdict == check.expected()
             && self.survived.is_empty()
-            && readings.eq(self.readings.iter().copied())
+            && readings.eq(self.readings.iter().map(|answer| answer.verdict))
     }
 }
 
@@ -235,6 +246,9 @@ pub trait AnyCheck: Sync {
     /// Why it is there although it is refuted, if not as a paper's sentence.
     fn reason(&self) -> Option<&'static str>;
 
+    /// The ambiguities that these readings are about, if they stand as data.
+    fn paper(&self) -> Option<&'static Paper>;
+
     /// A name for what it shares with the checks of the same name: see [`Method::family`].
     fn family(&self) -> Option<String>;
 
@@ -247,8 +261,8 @@ pub trait AnyCheck: Sync {
     /// [`MethodError`] if its method cannot begin.
     fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
 
-    /// The verdict on the variant with this number; open if there is none. One violation is enough, unless the decision
-    /// is to tell of more.
+    /// The answer about the variant with this number; open if there is none. One violation is enough, unless the
+    /// decision is to tell of more.
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
@@ -257,7 +271,7 @@ pub trait AnyCheck: Sync {
         number: usize,
         until: Until,
         desk: &mut Context<'_, '_>,
-    ) -> Result<Verdict, MethodError>;
+    ) -> Result<Answer, MethodError>;
 
     /// Decides it, and its variants, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
@@ -287,6 +301,15 @@ pub trait AnyCheck: Sync {
 
     /// The counterexample that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>>;
+
+    /// The size of the counterexample that these choices make: see [`Method::size`].
+    fn size(&self, choices: &Choices) -> Option<Size>;
+
+    /// The smallest counterexample to its own rule: see [`Method::smallest`].
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin.
+    fn smallest(&self) -> Result<Option<Drawn>, MethodError>;
 }
 
 impl<R: Sync> AnyCheck for Check<R> {
@@ -321,6 +344,10 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.reason
     }
 
+    fn paper(&self) -> Option<&'static Paper> {
+        self.paper
+    }
+
     fn family(&self) -> Option<String> {
         self.method.family(&self.about.rule)
     }
@@ -338,9 +365,9 @@ impl<R: Sync> AnyCheck for Check<R> {
         number: usize,
         until: Until,
         desk: &mut Context<'_, '_>,
-    ) -> Result<Verdict, MethodError> {
-        let Some(rule) = self.variant(number) else { return Ok(Verdict::Open) };
-        Ok(self.method.decide(rule, until, desk)?.verdict)
+    ) -> Result<Answer, MethodError> {
+        let Some(rule) = self.variant(number) else { return Ok(Answer::open()) };
+        self.method.decide(rule, until, desk)
     }
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
@@ -354,6 +381,14 @@ impl<R: Sync> AnyCheck for Check<R> {
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         let rule = &self.about.rule;
         self.case.map_or_else(|| self.method.case(rule, choices), |case| case(rule, choices))
+    }
+
+    fn size(&self, choices: &Choices) -> Option<Size> {
+        self.method.size(&self.about.rule, choices)
+    }
+
+    fn smallest(&self) -> Result<Option<Drawn>, MethodError> {
+        self.method.smallest(&self.about.rule)
     }
 }
 

@@ -6,11 +6,13 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 
+use crate::engine::smallest::Certificate;
 use crate::engine::states::{self, Limits, MemoryLimit, Step, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
 use crate::judge::AnyCase;
+use crate::plural::counted;
 use crate::run::Run;
 
 /// A check's verdict.
@@ -47,6 +49,20 @@ pub struct Evidence {
     pub demand: &'static str,
     /// The counterexample for a person.
     pub seen: Depiction,
+}
+
+impl Evidence {
+    /// The size of the counterexample, in words.
+    pub fn size(&self) -> String {
+        match &self.seen {
+            Depiction::Choices | Depiction::Story(_) => counted(self.choices.all().count(), "choice"),
+            Depiction::Robots(run) => {
+                format!("{} and {}", counted(run.walls.len(), "wall"), counted(run.frames.len(), "team move"))
+            }
+            Depiction::Agents(course) => counted(course.turns.len(), "act"),
+            Depiction::Messages { events, .. } => counted(*events, "event"),
+        }
+    }
 }
 
 /// A counterexample as a person sees it.
@@ -102,6 +118,11 @@ impl Answer {
             None => Verdict::Open,
         };
         Self { verdict, cases, given_up: 0, counterexample, note: None }
+    }
+
+    /// Nothing was looked at.
+    pub const fn open() -> Self {
+        Self { verdict: Verdict::Open, cases: 0, given_up: 0, counterexample: None, note: None }
     }
 
     /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
@@ -225,7 +246,27 @@ pub trait Method<R>: Sync {
     fn case(&self, _: &R, _: &Choices) -> Option<Box<dyn AnyCase>> {
         None
     }
+
+    /// The size of the counterexample to `rule` that these choices make, if smaller ones can be asked for.
+    fn size(&self, _: &R, _: &Choices) -> Option<Size> {
+        None
+    }
+
+    /// The smallest counterexample to `rule` over areas, barriers, robots and starts, or over networks, if it can be
+    /// asked for.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin.
+    fn smallest(&self, _: &R) -> Result<Option<Drawn>, MethodError> {
+        Ok(None)
+    }
 }
+
+/// The class of a counterexample, in words, and its moves.
+pub type Size = (String, usize);
+
+/// The smallest counterexample, drawn, and all that is smaller, each class in words.
+pub type Drawn = Certificate<String, String>;
 
 /// A body: one case of a clause about `rule`, made by the choices that the oracle answers.
 pub type Body<R> = fn(rule: &R, oracle: &mut dyn Oracle) -> Outcome;

@@ -9,6 +9,7 @@
 mod bodies;
 pub mod lots;
 mod script;
+pub mod smallest;
 pub mod states;
 #[cfg(kani)]
 pub mod symbolic;

@@ -16,6 +16,8 @@ mod ground;
 #[cfg(feature = "rooms")]
 pub mod kit;
 #[cfg(feature = "rooms")]
+pub mod marks;
+#[cfg(feature = "rooms")]
 pub mod mrc;
 #[cfg(feature = "rooms")]
 pub mod notice;

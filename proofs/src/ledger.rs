@@ -2,11 +2,12 @@
 
 mod composition;
 mod jobs;
+mod readings;
 
 use std::fmt::{self, Write};
 use std::iter;
 
-use crate::clause::{AnyCheck, Clause, Decision, Variant};
+use crate::clause::{AnyCheck, Clause, Decision};
 use crate::decide::Verdict;
 
 pub use composition::{Theorem, theorems};
@@ -114,32 +115,6 @@ impl Row {
         let words = || composition::words(self.clause.id, self.check.rule(), self.check.engine());
         (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
-
-    /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone.
-    pub fn readings(&self) -> Option<String> {
-        let others = self.check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name);
-        let all: Vec<(&str, Verdict)> = others.zip(self.decision.readings.iter().copied()).collect();
-        let names = |verdict: Verdict| {
-            let (own, of) = ((self.check.rule(), self.decision.verdict), all.iter().copied());
-            let found: Vec<&str> =
-                iter::once(own).chain(of).filter(|one| one.1 == verdict).map(|one| one.0).collect();
-            (found.len(), found.join(", "))
-        };
-        let ((refuted, which), of) = (names(Verdict::Refuted), all.len() + 1);
-        let mut words = match refuted {
-            0 => "refuted under no reading".to_owned(),
-            1 => format!("refuted under one of {of} readings: {which}"),
-            _ if refuted == of => format!("refuted under all {of} readings: {which}"),
-            _ => format!("refuted under {refuted} of {of} readings: {which}"),
-        };
-        for verdict in [Verdict::Holds, Verdict::Unrefuted, Verdict::Open] {
-            if let (1.., which) = names(verdict) {
-                // Writing to a string cannot fail.
-                let _ = write!(words, "; {} under {which}", verdict.word());
-            }
-        }
-        (!all.is_empty()).then_some(words)
-    }
 }
 
 /// The checks of `clauses`, in order: the clause, and the number of the check.
@@ -175,9 +150,9 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let below = [("bound".to_owned(), [None, None, None])].into_iter().chain(
-        rows.iter().map(|row| (row.bound(), [row.decision.note.clone(), row.composition(), row.readings()])),
-    );
+    let below = [("bound".to_owned(), [const { None }; 4])].into_iter().chain(rows.iter().map(|row| {
+        (row.bound(), [row.decision.note.clone(), row.composition(), row.readings(), row.credit(rows)])
+    }));
     let mut text = String::new();
     for (line, (bound, beyond)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)
@@ -226,6 +201,7 @@ pub fn indented(indent: usize, text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::clause::Variant;
 
     #[test]
     fn every_id_is_there_once_and_every_clause_has_a_mutant() {

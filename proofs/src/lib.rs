@@ -1,8 +1,10 @@
 //! Tautline's claims, and how they are decided. The clauses of `SPEC.md` stand in the rooms of their schemes, with
 //! their mutants; shared rooms know no scheme, so that anyone can bring a rule of their own.
 //!
-//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`protocol`], [`local`], [`decide`], [`clause`], [`ledger`], [`judge`].
+//! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`protocol`], [`local`], [`decide`],
+//! [`clause`], [`ambiguity`], [`ledger`], [`judge`].
 
+pub mod ambiguity;
 #[cfg(feature = "rooms")]
 pub mod ants;
 #[cfg(feature = "rooms")]

@@ -19,5 +19,6 @@ mod plans;
 mod rescue;
 mod rocq;
 mod search;
+mod smallest;
 mod trap;
 mod trees;

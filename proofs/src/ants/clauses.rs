@@ -6,17 +6,18 @@ use tautline_kernel::ants::Rule;
 use tautline_kernel::floor::Replaced::{Beside, Counted};
 
 use super::{replaced, ties};
+use crate::ambiguity::Paper;
 use crate::clause::{Check, Clause, NamedRule, readings};
 use crate::decide::{EveryAnswer, Verdict};
 use crate::floor::plans::Area;
-use crate::floor::series::{Deception, Floors, Subject};
+use crate::floor::series::{Deception, Floors, MISSED, Subject};
 use crate::floor::team::{Demand, Series};
 
 const PUBLISHED: NamedRule<Subject<Rule>> = NamedRule::new("published", Subject::of(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject<Rule>> = NamedRule::new("repaired", Subject::of(Rule::Repaired));
 
-/// The readings of the published rule but for the main one, which loses the sensor that was missed: that it stays beside the
-/// new one, or that this one counts on from it.
+static PAPER: Paper = Paper { ambiguities: &[MISSED], excluded: &[], repairs: &["repaired"] };
+
 const BESIDE: NamedRule<Rule> = NamedRule::new("beside", Rule::Published(Beside));
 const COUNTED: NamedRule<Rule> = NamedRule::new("counted", Rule::Published(Counted));
 const READINGS: [(&str, Rule); 2] = [(BESIDE.name, BESIDE.rule), (COUNTED.name, COUNTED.rule)];
@@ -55,7 +56,8 @@ pub static CLAUSES: [Clause; 3] = [
                finite number of times.",
         checks: &[
             &Check::new(PUBLISHED, &EXPLORES, Verdict::Holds, &[])
-                .under(&readings(EXPLORING, [Verdict::Holds; 2])),
+                .under(&readings(EXPLORING, [Verdict::Holds; 2]))
+                .of(&PAPER),
             &Check::new(REPAIRED, &EXPLORES, Verdict::Holds, &[uncounted(Rule::Repaired)]),
         ],
     },
@@ -75,6 +77,7 @@ pub static CLAUSES: [Clause; 3] = [
         checks: &[
             &Check::new(NamedRule::new("published", Rule::PUBLISHED), &KEEPS, Verdict::Refuted, &[])
                 .under(&readings(READINGS, [Verdict::Holds; 2]))
+                .of(&PAPER)
                 .judged(replaced::replacement),
             &Check::new(BESIDE, &KEEPS, Verdict::Holds, LOST),
             &Check::new(COUNTED, &KEEPS, Verdict::Holds, LOST),

@@ -9,17 +9,20 @@ use tautline_kernel::bricks::{Precedence, Rule};
 use tautline_kernel::floor::{Replaced, Ring, Scan};
 
 use super::floors::{
-    ALONE, AS_SHIPPED, AT_ONCE, COUNTED, FAILING, HALF_BLIND, HELPING, IN_TURNS, ONE_COUNTED, ROUND,
-    SEVEN_MISSED, THREE, THRICE_MISSED, TOGETHER, TREES, TREES_FAILING, TREES_HALF_BLIND, TWICE,
+    ALONE, AS_SHIPPED, AT_ONCE, BEHIND_A_WALL, COUNTED, FAILING, HALF_BLIND, HALF_BLIND_PAIR, HELPING,
+    IN_ONE_CELL, IN_TURNS, ONE_COUNTED, PAIR, ROUND, SEVEN_MISSED, THREE, THRICE_MISSED, TOGETHER, TREES,
+    TREES_FAILING, TREES_HALF_BLIND, TWICE, pair_of,
 };
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
 use super::tree::{AmongChildren, Child, Own, labels};
+use crate::ambiguity::Charity::{Charitable, Literal};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::Verdict;
-use crate::floor::series::{Deception, Floors, Subject};
+use crate::floor::series::{Deception, Floors, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
-use crate::floor::team::{Demand, Demands};
+use crate::floor::team::{Demand, Demands, Series};
 use crate::step_checks;
 
 /// Agents that follow `scheme`, under this name.
@@ -45,6 +48,21 @@ const READINGS: [(&str, Subject<Rule>); 5] = [
     ("counted", replacing(Rule::PUBLISHED, Replaced::Counted)),
     ("alone + counted", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted)),
 ];
+
+static PAPER: Paper = Paper {
+    ambiguities: &[
+        Ambiguity {
+            words: "nothing is said of two agents in one cell",
+            interpretations: &[
+                Interpretation::new("together", "a cell in which another agent is may be marked", Literal),
+                Interpretation::new("alone", "a cell in which another agent is is not marked", Charitable),
+            ],
+        },
+        MISSED,
+    ],
+    excluded: &[],
+    repairs: &["repaired", "robust"],
+};
 
 const fn replacing(rule: Rule, replaced: Replaced) -> Subject<Rule> {
     Subject::of(Rule { replaced, ..rule })
@@ -201,14 +219,14 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-4",
         sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::shared(&TOGETHER, Knowing)).under(KNOWS_ALONE),
+            &refuted(PUBLISHED, &Floors::broken_on(PAIR, &TOGETHER, Knowing)).under(KNOWS_ALONE).of(&PAPER),
             &holds(REPAIRED, &Floors::shared(&TOGETHER, Knowing), &[NOT_ALONE]),
-            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(REFUTED),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
             &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[]),
-            &refuted(MDFS, &Floors::shared(&TREES, Knowing)).because("a rival"),
-            &refuted(TREE, &Floors::shared(&TREES_HALF_BLIND, Knowing))
+            &refuted(MDFS, &Floors::broken_on(PAIR, &TREES, Knowing)).because("a rival"),
+            &refuted(TREE, &Floors::broken_on(HALF_BLIND_PAIR, &TREES_HALF_BLIND, Knowing))
                 .because("with missed sensors; the rule careful is for those"),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Knowing), &[BELIEVING]),
             &holds(DOUBTING_ONCE, &Floors::shared(&ROUND, Knowing), &[]),
@@ -219,7 +237,7 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-5",
         sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::new(&HALF_BLIND, Explores)).under(REFUTED),
+            &refuted(PUBLISHED, &Floors::new(&HALF_BLIND, Explores)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::new(&HALF_BLIND, Explores), &[TRUSTING, ONCE_OVER]),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Explores), &[BELIEVING]),
         ],
@@ -229,7 +247,7 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Every run in which every agent acts again and again MUST end with every cell visited, whatever \
                    sensors are missed a finite number of times.",
         checks: &[
-            &refuted(PUBLISHED, &Floors::new(&ALONE, Ends)).under(SEEING),
+            &refuted(PUBLISHED, &Floors::broken_on(BEHIND_A_WALL, &ALONE, Ends)).under(SEEING).of(&PAPER),
             &holds(
                 REPAIRED,
                 &Floors::shared(&TOGETHER, Ends),
@@ -240,7 +258,7 @@ pub static CLAUSES: [Clause; 15] = [
                 ],
             ),
             &holds(ROBUST, &Floors::new(&TWICE, Ends), &[named("walks no laps", Rule::ROBUST.without(Laps))]),
-            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)).under(REFUTED),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Ends), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Ends), &[PARENTS_MARKED]),
             &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[]),
@@ -258,14 +276,14 @@ pub static CLAUSES: [Clause; 15] = [
                     named("known sensors replaced", DOUBTING_RULE.without(Remembers)),
                 ],
             ),
-            &refuted(DOUBTING_ONCE, &Floors::new(&THRICE_MISSED, Ends))
+            &refuted(DOUBTING_ONCE, &Floors::broken_on(pair_of(THRICE_MISSED[0]), &THRICE_MISSED, Ends))
                 .because("more scans miss a sensor than the rule allows for"),
             &holds(
                 DOUBTING,
                 &Floors::shared(&AS_SHIPPED, Ends),
                 &[named("two scans are believed", TreeRule::DOUBTING.reading(2))],
             ),
-            &refuted(DOUBTING, &Floors::new(&SEVEN_MISSED, Ends))
+            &refuted(DOUBTING, &Floors::broken_on(pair_of(SEVEN_MISSED[0]), &SEVEN_MISSED, Ends))
                 .because("more scans miss a sensor than the rule allows for"),
         ],
     },
@@ -301,7 +319,8 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-11",
         sentence: "Agents that fail MUST not keep the others from an end with every cell visited.",
         checks: &[
-            &refuted(REPAIRED, &Floors::new(&FAILING, Ends)).because("laps need every agent; trees do not"),
+            &refuted(REPAIRED, &Floors::broken_on(IN_ONE_CELL, &FAILING, Ends))
+                .because("laps need every agent; trees do not"),
             &holds(TREE, &Floors::new(&TREES_FAILING, Ends), &[NO_EXITS]),
         ],
     },
@@ -314,8 +333,15 @@ pub static CLAUSES: [Clause; 15] = [
                 &Floors::new(&ONE_COUNTED, own(Own::Twice)),
                 &[named(TWICE_ADOPTED, TreeRule::HELPERS.without(LowerOnly))],
             ),
-            &refuted(TREE, &Floors::new(&ONE_COUNTED, own(Own::Twice)))
-                .because("the rule helpers makes no more than two"),
+            &refuted(
+                TREE,
+                &Floors::broken_on(
+                    Series { area: BEHIND_A_WALL.area, ..ONE_COUNTED[0] },
+                    &ONE_COUNTED,
+                    own(Own::Twice),
+                ),
+            )
+            .because("the rule helpers makes no more than two"),
         ],
     },
     Clause {

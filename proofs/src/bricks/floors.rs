@@ -42,6 +42,23 @@ pub(super) const TOGETHER: [Series; 7] = [
 /// One agent alone, nothing missed.
 pub(super) const ALONE: [Series; 1] = [Series::new(Area::blocked(4, 4), 1)];
 
+/// Two agents in three cells, the fewest in which one shuts the other in.
+pub(super) const PAIR: Series = Series::new(Area::blocked(3, 1), 2);
+
+/// The same with a missed sensor.
+pub(super) const HALF_BLIND_PAIR: Series = pair_of(Series::missing(Area::blocked(3, 1), 1, 1));
+
+/// Two agents in three cells, else as in another series.
+pub(super) const fn pair_of(series: Series) -> Series {
+    Series { area: Area::blocked(3, 1), agents: 2, ..series }
+}
+
+/// One agent in six cells, round one of whose walls it can go for ever.
+pub(super) const BEHIND_A_WALL: Series = Series::new(Area::walled(3, 2), 1);
+
+/// Two agents in the only cell, of which one may fail.
+pub(super) const IN_ONE_CELL: Series = Series::failing(Area::blocked(1, 1), 2);
+
 /// Sensors missed; small areas first and patient agents last, as in [`TOGETHER`].
 pub(super) const HALF_BLIND: [Series; 7] = [
     missing(Area::blocked(3, 2), 1, 4),

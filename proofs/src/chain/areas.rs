@@ -2,15 +2,18 @@
 //! counterexample has the fewest cells, of these the fewest walls, and of these the fewest team moves. Each demand is
 //! decided by itself: a run goes on when it breaks another one.
 
+use std::fmt;
 use std::ops::ControlFlow;
 
 use serde::Serialize;
-use tautline_kernel::ground::{Area, Cell};
+use tautline_kernel::ground::Area;
 
 use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
 use super::observed::Subject;
-use super::search::{Findings as OfOne, Search, Unsearchable};
+use super::search::{Findings as OfOne, Search, Unsearchable, search as search_one};
+use crate::engine::smallest::{Certificate, Class, Most, Searched, areas, smallest};
+use crate::engine::tree::Watch;
 
 /// Areas to search, and for what.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -55,6 +58,17 @@ pub struct Smallest {
     pub bounds: Bounds,
     /// The run.
     pub found: Counterexample,
+}
+
+/// The base, and the walls that are met.
+impl fmt::Display for Smallest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let run = self.bounds.run(&self.found);
+        write!(f, "base {}, walls", self.bounds.base)?;
+        run.walls
+            .iter()
+            .try_for_each(|wall| write!(f, " {}|{}", wall.cell(), wall.cell().beyond(wall.side())))
+    }
 }
 
 /// The findings of a search over areas.
@@ -103,15 +117,6 @@ impl Findings {
     fn has(&self, invariant: Invariant) -> bool {
         self.broken.iter().any(|known| known.found.broken == invariant)
     }
-}
-
-/// Columns and rows of all areas with so many cells, the flattest first.
-fn areas(cells: u32) -> impl Iterator<Item = Area> {
-    let sizes = (1..=cells).filter(move |rows| cells.is_multiple_of(*rows));
-    sizes.filter_map(move |rows| {
-        let (columns, rows) = (i16::try_from(cells / rows).ok()?, i16::try_from(rows).ok()?);
-        Area::new(Cell::new(0, 0), Cell::new(columns - 1, rows - 1))
-    })
 }
 
 /// Edges of the area with most of them that has at most so many cells.
@@ -203,4 +208,32 @@ impl Areas {
         tree.counterexamples.iter().for_each(|broken| found.add(bounds, broken));
         Ok(None)
     }
+}
+
+/// The smallest run of chains that follow `observed` which breaks `invariant`, over areas, walls, robots and bases.
+///
+/// # Errors
+/// [`Unsearchable`] if a class is beyond what can be searched.
+pub fn smallest_run(
+    observed: Subject,
+    invariant: Invariant,
+    most: &Most,
+    watch: Watch<'_>,
+) -> Result<Certificate<Class, Smallest>, Unsearchable> {
+    smallest(most, |Class { area, barriers, robots }, until| {
+        let walls = barriers.min(area.edges().count() as u32);
+        let mut all = Searched::default();
+        for base in area.cells() {
+            let bounds = Bounds { area, base, until, ..Bounds::new(observed, robots, walls) };
+            let bounds = Bounds { invariants: vec![invariant], ..bounds };
+            if bounds.reach()? != area {
+                continue;
+            }
+            let OfOne { runs, complete, counterexamples, given_up, .. } = search_one(&bounds, watch)?;
+            let broken = counterexamples.into_iter().find(|one| one.broken == invariant);
+            let shortest = broken.map(|found| (found.frames.len(), Smallest { bounds, found }));
+            all.add(Searched { cases: runs, is_whole: complete && given_up == 0, shortest });
+        }
+        Ok(all)
+    })
 }

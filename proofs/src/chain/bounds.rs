@@ -7,8 +7,9 @@ use super::breach::Breach;
 use super::invariant::Invariant;
 use super::observed::Subject;
 use super::whole;
-use crate::engine::Until;
+use crate::decide::{Depiction, Evidence};
 use crate::engine::tree::{self, Limits};
+use crate::engine::{Choices, Until};
 use crate::run::{Ending, Frame, Run, walls};
 
 /// A run that breaks an invariant.
@@ -64,6 +65,13 @@ impl Bounds {
             breaks: found.broken.breach().map(Breach::clause),
             ending: if found.broken.is_of_the_end() { Ending::Over } else { Ending::Move },
         }
+    }
+
+    /// The evidence that the run gives.
+    pub(super) fn evidence(&self, found: &Counterexample) -> Evidence {
+        let seen = Depiction::Robots(Box::new(self.run(found)));
+        let choices = Choices { once: found.answers.clone(), again: Vec::new() };
+        Evidence { choices, demand: found.demand, seen }
     }
 
     /// The limits of the search.

@@ -8,6 +8,7 @@ use tautline_kernel::chain::{Budget, High, Rule};
 use tautline_kernel::ground::Circle;
 
 use super::breach::Breach;
+use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact, Coverage, Crowd, OfThree};
 use super::observed::{Deception, Subject};
@@ -15,6 +16,7 @@ use super::search::EveryLayout;
 use super::{crowd, optimum, pair, small, three, walk, whole};
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
+use crate::engine::smallest::Most;
 use crate::ground::clauses::{NARROWER, WIDER};
 use crate::local::EveryNumber;
 use crate::step_checks;
@@ -73,7 +75,10 @@ step_checks! { Subject;
         };
 }
 
-/// The bound at which the published rule first fails with four robots.
+/// The bound within which the smallest counterexamples are looked for.
+pub(super) const AREAS: Most = Most { cells: 10, barriers: 13, robots: 2..=5 };
+
+/// The bound of four robots in the paper's area.
 const FOUR_ROBOTS: (usize, u32) = (4, 4);
 
 /// The bound of the planner's clauses: four robots, too, but one wall fewer.
@@ -153,7 +158,7 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_ROBOTS),
+                &EveryArea(Invariant::Without(Breach::Contact), AREAS),
                 Verdict::Refuted,
                 &[],
             ),
@@ -203,7 +208,7 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
+                &EveryArea(Invariant::Without(Breach::Crowding), AREAS),
                 Verdict::Refuted,
                 &[],
             ),
@@ -425,7 +430,7 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_ROBOTS),
+                &EveryArea(Invariant::Without(Breach::Completeness), AREAS),
                 Verdict::Refuted,
                 &[],
             ),
@@ -454,14 +459,14 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-14",
         sentence: "When a run ends, every chain-reachable cell MUST be explored.",
         checks: &[
-            &Check::new(PUBLISHED, &EveryLayout(Invariant::Exhausts, (3, 2)), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &EveryArea(Invariant::Exhausts, AREAS), Verdict::Refuted, &[]),
             &Check::new(
                 REPAIRED,
                 &EveryLayout(Invariant::Exhausts, (3, 2)),
                 Verdict::Holds,
                 &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
-            &Check::new(REPAIRED, &EveryLayout(Invariant::Exhausts, (3, 3)), Verdict::Refuted, &[])
+            &Check::new(REPAIRED, &EveryArea(Invariant::Exhausts, AREAS), Verdict::Refuted, &[])
                 .because("no repair yet: walls part the ways of neighbours"),
         ],
     },

@@ -5,8 +5,9 @@ use tautline_kernel::chain::Condition::{CoveredBehind, SafeAhead};
 use tautline_kernel::chain::{Habit, Rule, World};
 
 use super::barrier::{self, Reading};
-use super::clauses::{FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
+use super::clauses::{AREAS, FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
 use super::death::{self, Aftermath, DeathCase};
+use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact};
 use super::observed::Subject;
@@ -217,7 +218,7 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "Whichever robots go, and in whatever order, each robot MUST be in E_C of its neighbours in the \
                    chain before, between and after their moves.",
         checks: &[
-            &Check::new(REPAIRED, &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS), Verdict::Refuted, &[])
+            &Check::new(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS), Verdict::Refuted, &[])
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
             &Check::new(

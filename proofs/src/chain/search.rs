@@ -9,7 +9,8 @@ pub use super::bounds::{Bounds, Counterexample};
 use super::game::ChainGame;
 use super::invariant::Invariant;
 use super::observed::Subject;
-use crate::decide::{self, Answer, Context, Depiction, Evidence, Method, RefutationPlay};
+
+use crate::decide::{self, Answer, Context, Method, RefutationPlay};
 use crate::engine::tree::{self, Progress, Tree, Watch, Waves};
 use crate::engine::{Choices, ScriptError, Until};
 use crate::run::Frame;
@@ -68,7 +69,11 @@ pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Findings, Unsearchabl
 
 /// Plays a run that breaks `invariant` again, whose choices are the answers of the world. It is one run, whatever
 /// number of runs break it.
-fn replay(bounds: &Bounds, invariant: Invariant, choices: &Choices) -> Result<Counterexample, ScriptError> {
+pub(super) fn replay(
+    bounds: &Bounds,
+    invariant: Invariant,
+    choices: &Choices,
+) -> Result<Counterexample, ScriptError> {
     let search = Search::new(bounds).map_err(|_| ScriptError::Unbroken)?;
     if !choices.again.is_empty() {
         return Err(ScriptError::Over { at: choices.once.len() });
@@ -188,13 +193,6 @@ impl EveryLayout {
         let companions = self.0.companions(&observed.intended);
         Bounds { invariants: companions.to_vec(), ..Bounds::new(*observed, robots, max_walls) }
     }
-
-    /// The evidence that `found` gives, within `bounds`.
-    fn evidence(bounds: &Bounds, found: &Counterexample) -> Evidence {
-        let seen = Depiction::Robots(Box::new(bounds.run(found)));
-        let choices = Choices { once: found.answers.clone(), again: Vec::new() };
-        Evidence { choices, demand: found.demand, seen }
-    }
 }
 
 impl Method<Subject> for EveryLayout {
@@ -226,7 +224,7 @@ impl Method<Subject> for EveryLayout {
         let found = memory.recall(bounds.clone(), |bounds| search(bounds, *watch));
         let found = found.map_err(decide::MethodError::new)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == self.0);
-        let evidence = broken.map(|found| Self::evidence(&bounds, found));
+        let evidence = broken.map(|found| bounds.evidence(found));
         let is_whole = found.complete && found.given_up == 0;
         let answer = Answer::new(evidence, is_whole, self.shows(), found.runs - found.given_up);
         Ok(Answer { given_up: found.given_up, ..answer })
@@ -235,6 +233,6 @@ impl Method<Subject> for EveryLayout {
     fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let bounds = self.bounds(observed);
         let run = replay(&bounds, self.0, choices)?;
-        Ok(RefutationPlay { of: vec![2; run.answers.len()], evidence: Self::evidence(&bounds, &run) })
+        Ok(RefutationPlay { of: vec![2; run.answers.len()], evidence: bounds.evidence(&run) })
     }
 }

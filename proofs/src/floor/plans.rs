@@ -60,6 +60,12 @@ impl FloorPlan {
         walls >> (y * self.width + x) & 1 == 1
     }
 
+    /// The blocked cells and the walls: how many.
+    pub(crate) const fn barriers(&self) -> u32 {
+        let cells = (self.width * self.height) as u32;
+        cells - self.free.count_ones() + self.walls.east.count_ones() + self.walls.south.count_ones()
+    }
+
     /// The free cells.
     pub(crate) fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
         let plan = *self;
@@ -113,6 +119,26 @@ impl FloorPlan {
     /// Whether there are free cells, and all of them are connected.
     pub(crate) fn is_one(&self) -> bool {
         self.free != 0 && self.spread(self.free, Edges::default()) == self.free
+    }
+}
+
+/// The rows, a `#` for each blocked cell, and the walls.
+impl fmt::Display for FloorPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for place in 0..(self.width * self.height) as usize {
+            if place > 0 && place.is_multiple_of(self.width as usize) {
+                f.write_str("/")?;
+            }
+            f.write_str(if self.free >> place & 1 == 1 { "." } else { "#" })?;
+        }
+        for cell in self.cells() {
+            for edge in [Side::East, Side::South].map(|side| Edge::new(cell, side)) {
+                if self.has_wall(edge) {
+                    write!(f, " {cell}|{}", cell.beyond(edge.side()))?;
+                }
+            }
+        }
+        Ok(())
     }
 }
 

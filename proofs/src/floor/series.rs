@@ -1,12 +1,38 @@
 //! The checks of agents on small floors, whatever their scheme: which plans, how many agents, what they miss, whether
 //! they fail, and what is demanded of every state.
 
+use tautline_kernel::ground::{Area as Rect, Cell};
+
 use super::look::Report;
-use super::plans::Area;
+use super::plans::{Area, FloorPlan};
+use super::small::StateOf;
 use super::team::{Demand, Demands, Series, Team, Turns};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
-use crate::engine::states::Limits;
+use crate::ambiguity::Charity::{Charitable, Literal};
+use crate::ambiguity::{Ambiguity, Interpretation};
+use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
+use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::engine::states::{Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
+use crate::judge::{AnyCase, Case};
+
+/// The readings of what becomes of a sensor that was missed.
+pub(crate) const MISSED: Ambiguity = Ambiguity {
+    words: "“moves into the cell and places a new sensor on the floor and marks it with the state 1 … traversed yet \
+            one more time”",
+    interpretations: &[
+        Interpretation::new("lost", "the old sensor's content is lost", Literal),
+        Interpretation::new(
+            "beside",
+            "the old sensor stays beside the new one, and the higher state is read",
+            Charitable,
+        ),
+        Interpretation::new(
+            "counted",
+            "the new sensor takes the state of the old one over and counts on",
+            Charitable,
+        ),
+    ],
+};
 
 /// How the observer of a mutant is deceived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -64,7 +90,7 @@ impl Series {
         Self { turns: Turns::Overlapping, ..Self::new(area, 2) }
     }
 
-    /// The teams of `subject`, one in each plan.
+    /// The teams of `subject`, one in each plan, those with the fewest blocked cells and walls first.
     pub(crate) fn teams<S: Demands>(self, subject: &Subject<S>, demand: Demand<S::Own>) -> Vec<Team<S>> {
         let series = match (subject.deception, self.turns) {
             (Deception::ActsAtOnce, Turns::Overlapping) => Self { turns: Turns::Free, ..self },
@@ -72,7 +98,9 @@ impl Series {
             (Deception::None | Deception::ActsAtOnce, _) => self,
         };
         let scheme = subject.scheme.with_patience(self.patience);
-        self.area.plans().map(|plan| Team { plan, scheme, series, demand }).collect()
+        let mut plans: Vec<FloorPlan> = self.area.plans().collect();
+        plans.sort_by_key(FloorPlan::barriers);
+        plans.into_iter().map(|plan| Team { plan, scheme, series, demand }).collect()
     }
 
     /// The words for it in a bound, `who` standing for its agents.
@@ -100,6 +128,8 @@ impl Series {
 /// The small floors of a check, and what is demanded of every state of the agents on them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Floors<D: 'static> {
+    /// Those on which the demand is first broken, if that is known.
+    first: Option<Series>,
     series: &'static [Series],
     demand: Demand<D>,
     /// Whether other clauses are about them, so that all demands are looked at in one pass.
@@ -109,12 +139,22 @@ pub(crate) struct Floors<D: 'static> {
 impl<D: Copy> Floors<D> {
     /// Floors that one clause alone is about.
     pub(crate) const fn new(series: &'static [Series], demand: Demand<D>) -> Self {
-        Self { series, demand, is_shared: false }
+        Self { first: None, series, demand, is_shared: false }
     }
 
     /// Floors that several clauses are about.
     pub(crate) const fn shared(series: &'static [Series], demand: Demand<D>) -> Self {
-        Self { series, demand, is_shared: true }
+        Self { first: None, series, demand, is_shared: true }
+    }
+
+    /// Floors on which the demand is broken, first on `first`.
+    pub(crate) const fn broken_on(first: Series, series: &'static [Series], demand: Demand<D>) -> Self {
+        Self { first: Some(first), series, demand, is_shared: false }
+    }
+
+    /// The series, in their order.
+    fn all(&self) -> impl Iterator<Item = Series> {
+        self.first.into_iter().chain(self.series.iter().copied())
     }
 
     /// These floors with the demands of all clauses that are about them, if these are several.
@@ -131,7 +171,7 @@ impl<D: Copy> Floors<D> {
         (limits, until): (Limits<'_>, Until),
     ) -> Report {
         let mut report = Report::new();
-        let mut series: Vec<(u32, &Series)> = (0..).zip(self.series).collect();
+        let mut series: Vec<(u32, Series)> = (0..).zip(self.all()).collect();
         if until == Until::Violation {
             series.sort_by_key(|(_, series)| (series.patience, series.area.cells()));
         }
@@ -150,8 +190,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
     }
 
     fn bound(&self) -> String {
-        let series =
-            (0..).zip(self.series).map(|(place, series)| series.words(S::name(place, series.agents)));
+        let series = (0..).zip(self.all()).map(|(place, series)| series.words(S::name(place, series.agents)));
         series.chain(S::bounds()).collect::<Vec<_>>().join("; ")
     }
 
@@ -181,15 +220,100 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
     }
 
     fn replay(&self, subject: &Subject<S>, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let (of, team, start, run) = self.found(subject, choices)?;
+        let seen = Depiction::Agents(Box::new(team.course(start, &run)));
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
+
+    /// With marks, if it is no counterexample without them.
+    fn case(&self, subject: &Subject<S>, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        let (clause, (_, team, start, run)) = (self.clause()?, self.found(subject, choices).ok()?);
+        let unmarked = team.written(clause, start.clone(), &run, false);
+        let is_enough = unmarked.judge().is_ok();
+        Some(Box::new(if is_enough { unmarked } else { team.written(clause, start, &run, true) }))
+    }
+
+    fn size(&self, subject: &Subject<S>, choices: &Choices) -> Option<Size> {
+        let Depiction::Agents(course) = self.replay(subject, choices).ok()?.evidence.seen else {
+            return None;
+        };
+        let area = Rect::new(Cell::new(0, 0), Cell::new(course.width - 1, course.height - 1))?;
+        let barriers = (course.blocked.len() + course.walls.len()) as u32;
+        let class = Class { area, barriers, robots: course.end.cells.len() };
+        Some((class.to_string(), course.turns.len()))
+    }
+
+    fn smallest(&self, subject: &Subject<S>) -> Result<Option<Drawn>, MethodError> {
+        // What is missed, and which turns are taken, as in the series with least of it.
+        let least = self.all().min_by_key(|series| (series.patience, series.max_misses));
+        let Some(least) = least else { return Ok(None) };
+        let cells = if least.max_misses == 0 { 9 } else { 6 };
+        let most = Most { cells, barriers: 2, robots: 1..=2 };
+        let search = |class, until| Ok::<_, MethodError>(self.shortest(subject, class, (least, until)));
+        Ok(Some(smallest(&most, search)?.drawn_by_cells(|plan| plan)))
+    }
+}
+
+/// From how many each choice was made, the team, its start, and the run.
+type Found<S> = (Vec<u32>, Team<S>, StateOf<S>, Run<&'static str>);
+
+impl<D: Copy> Floors<D> {
+    /// The run that these choices make.
+    fn found<S: Demands<Own = D>>(
+        &self,
+        subject: &Subject<S>,
+        choices: &Choices,
+    ) -> Result<Found<S>, ScriptError> {
         let mut script = Script::new(choices);
-        let series = self.series[script.choose(self.series.len())?];
-        let teams = series.teams(subject, self.demand);
-        let team = &teams[script.choose(teams.len())?];
+        let all: Vec<Series> = self.all().collect();
+        let series = all[script.choose(all.len())?];
+        let mut teams = series.teams(subject, self.demand);
+        let team = script.choose(teams.len())?;
+        let team = teams.swap_remove(team);
         let mut starts: Vec<_> = team.starts().collect();
         let number = script.choose(starts.len())?;
         let start = starts.swap_remove(number);
-        let (of, run) = script.play(team, (number, start.clone()), |_| true)?;
-        let seen = Depiction::Agents(Box::new(team.course(start, &run)));
-        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+        let (of, run) = script.play(&team, (number, start.clone()), |_| true)?;
+        Ok((of, team, start, run))
+    }
+
+    /// The clause about these floors that is refuted for some rule, if one is.
+    fn clause(&self) -> Option<&'static str> {
+        Some(match self.demand {
+            Demand::Connected => "BRICKS-3",
+            Demand::Knowing => "BRICKS-4",
+            Demand::Explores => "BRICKS-5",
+            Demand::Ends if self.all().any(|series| series.may_fail) => "BRICKS-11",
+            Demand::Ends => "BRICKS-6",
+            Demand::Own(_) => "BRICKS-12",
+            Demand::All => return None,
+        })
+    }
+
+    /// The shortest run in a class that breaks the demand, each kind of barriers by itself.
+    fn shortest<S: Demands<Own = D>>(
+        &self,
+        subject: &Subject<S>,
+        class: Class,
+        (least, until): (Series, Until),
+    ) -> Searched<String> {
+        let ((width, height), agents) = (class.size(), class.robots as u32);
+        let mut all = Searched::default();
+        for area in [Area::blocked(width, height), Area::walled(width, height)] {
+            let series = Series { area, agents, ..least };
+            let mut teams = series.teams(subject, self.demand);
+            teams.retain(|team| team.plan.barriers() <= class.barriers);
+            for team in teams {
+                let found = search(&team, team.starts(), Limits::NONE);
+                let run = found.broken.into_iter().next();
+                let shortest = run.map(|run| (run.steps.len() + run.round().len(), team.plan.to_string()));
+                let is_enough = shortest.is_some() && until == Until::Violation;
+                all.add(Searched { cases: found.states, is_whole: found.is_whole, shortest });
+                if is_enough {
+                    return all;
+                }
+            }
+        }
+        all
     }
 }

@@ -7,14 +7,15 @@ use std::slice;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Cell, Step};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View, unseen};
 use super::plans::{Area, FloorPlan};
 use super::small::{Misses, PartOf, Small, StateOf};
-use crate::engine::states::{Bits, Places, Run, System};
+use crate::engine::states::{Bits, Places, Run, Step as Made, System};
 use crate::engine::world::{self, World, any_of, picked};
 use crate::floor_trace::{Course, Scene, Turn};
+use crate::judge::{Floor, marks as judge};
 
 /// How the actions of two agents may overlap.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -226,6 +227,65 @@ impl<S: Demands> Team<S> {
         Scene {
             cells: state.bodies.iter().map(|body| body.cell).collect(),
             marks: self.plan.cells().filter_map(mark).collect(),
+        }
+    }
+
+    /// `run`, which begins in `state` and is said to break `clause`, written down for the judge; with marks if they
+    /// matter.
+    pub(crate) fn written(
+        &self,
+        clause: &'static str,
+        start: StateOf<S>,
+        run: &Run<&str>,
+        has_marks: bool,
+    ) -> judge::Run {
+        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
+        let mark = |state: &StateOf<S>, cell| {
+            let at = self.plan.place(cell)?;
+            match state.sensors.all[at].mark() {
+                Mark::Unexplored => None,
+                Mark::Explored => Some(judge::Mark::Explored),
+                Mark::Closing => Some(judge::Mark::Closing),
+                Mark::Visited | Mark::Sealed => Some(judge::Mark::Visited),
+            }
+        };
+        let turn = |(before, made): (StateOf<S>, Made<Self>)| {
+            let Action { agent, fails, step, .. } = made.event;
+            let (from, body) = (before.bodies[agent].cell, &made.state.bodies[agent]);
+            let fate = match (fails, body.is_awake()) {
+                (true, _) => judge::Fate::Fails,
+                (false, true) => judge::Fate::Awake,
+                (false, false) => judge::Fate::Done,
+            };
+            let (known, new) = (|cell| mark(&before, cell), |cell| mark(&made.state, cell));
+            let changed = self.plan.cells().filter(|&cell| has_marks && new(cell) != known(cell));
+            let written = |cell| Some(judge::Write { at: place(cell), mark: new(cell)? });
+            let mut writes: Vec<judge::Write> = changed.filter_map(written).collect();
+            writes.sort_unstable_by_key(|write| write.at);
+            let is_shut = known(body.cell).is_some_and(|mark| mark != judge::Mark::Explored);
+            let is_missed = has_marks && body.cell != from && (is_shut || new(body.cell) < known(body.cell));
+            let side = match step {
+                Step::Cross(side) => Side::ALL.iter().position(|&other| other == side),
+                Step::Stay => None,
+            };
+            judge::Turn { agent, side, fate, writes, is_missed }
+        };
+        let Course { width, height, blocked, walls, round, .. } = self.course(start.clone(), run);
+        let ends = |wall: Edge| {
+            let (one, other) = (place(wall.cell()), place(wall.cell().beyond(wall.side())));
+            (one.min(other), one.max(other))
+        };
+        judge::Run {
+            clause,
+            floor: Floor {
+                columns: width.into(),
+                rows: height.into(),
+                barred: blocked.into_iter().map(place).collect(),
+            },
+            walls: walls.into_iter().map(ends).collect(),
+            starts: start.bodies.iter().map(|body| place(body.cell)).collect(),
+            turns: run.played(self, start).map(turn).collect(),
+            round,
         }
     }
 

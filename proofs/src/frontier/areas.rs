@@ -5,7 +5,8 @@ use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use super::world::{Demand, Event, Setting, World};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay};
+use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, Floor, frontier as judge};
@@ -291,6 +292,41 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
 
     fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         self.found(rule, choices).ok()?.1.case()
+    }
+
+    fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {
+        let (_, Counterexample { setting, run }) = self.found(rule, choices).ok()?;
+        let class = Class { area: setting.area, barriers: setting.max_obstacles.into(), robots: ROBOTS };
+        Some((class.to_string(), run.steps.len() + run.round().len()))
+    }
+
+    fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
+        let most = Most { cells: 4, barriers: 4, robots: 1..=2 };
+        let of = |class: Class, _| match class.robots {
+            1 => Areas::<1>::of(self).shortest(rule, class),
+            2 => Areas::<2>::of(self).shortest(rule, class),
+            _ => Ok(Searched::default()),
+        };
+        Ok(Some(smallest(&most, of)?.drawn_by_cells(|story| story)))
+    }
+}
+
+impl<const ROBOTS: usize> Areas<ROBOTS> {
+    /// The same demand on so many robots.
+    const fn of<const OTHERS: usize>(other: &Areas<OTHERS>) -> Self {
+        let Areas { sizes, max_losses, max_wrong, demand, covers } = *other;
+        Self { sizes, max_losses, max_wrong, demand, covers }
+    }
+
+    /// The shortest run in a class that breaks the demand.
+    fn shortest(&self, rule: &Rule, class: Class) -> Result<Searched<String>, MethodError> {
+        let setting = self.setting(rule, class.size())?;
+        let setting = Setting { max_obstacles: class.barriers as u8, ..setting };
+        let found = search(&setting, setting.starts(), Limits::NONE);
+        let run = found.broken.into_iter().next();
+        let shortest =
+            run.map(|run| (run.steps.len() + run.round().len(), Counterexample { setting, run }.story()));
+        Ok(Searched { cases: found.states, is_whole: found.is_whole, shortest })
     }
 }
 

@@ -11,6 +11,8 @@ use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
 use super::world::Demand;
+use crate::ambiguity::Charity::{Charitable, Literal};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryAnswer, EveryState, Verdict};
 use crate::local::EveryNumber;
@@ -43,6 +45,66 @@ const READINGS: [(&str, Rule); 15] = [
     ("literal + printed + adaptive", adaptive(Rule::PRINTED.without(Record))),
     ("wanders + literal + printed + adaptive", adaptive(wandering(Rule::PRINTED.without(Record)))),
 ];
+
+static PAPER: Paper = Paper {
+    ambiguities: &[
+        Ambiguity {
+            words: "nothing is said of a robot without a candidate",
+            interpretations: &[
+                Interpretation::new("stops", "a robot without a candidate stops", Literal),
+                Interpretation::new(
+                    "wanders",
+                    "a robot without a candidate goes to an explored side neighbour",
+                    Charitable,
+                ),
+            ],
+        },
+        Ambiguity {
+            words: "“takes 90° turn and move 5 steps forward and turn 90° again … continues moving until it reaches \
+                    the destination”",
+            interpretations: &[
+                Interpretation::new(
+                    "gives up",
+                    "a robot gives a cell that it cannot enter up as an obstacle",
+                    Charitable,
+                ),
+                Interpretation::new("literal", "a robot goes on until it is there", Literal),
+            ],
+        },
+        Ambiguity {
+            words: "“exactly at the midpoint of the cell, occupancy probability value will be 1”",
+            interpretations: &[
+                Interpretation::new(
+                    "corrected",
+                    "d_r in equation (11) is the distance to the rim of the circle",
+                    Charitable,
+                ),
+                Interpretation::new(
+                    "printed",
+                    "d_r in equation (11) is the distance to the midpoint",
+                    Literal,
+                ),
+            ],
+        },
+        Ambiguity {
+            words: "“threshold value is decided based on previous probability values”",
+            interpretations: &[
+                Interpretation::new(
+                    "fixed",
+                    "the threshold is ½, as it is where the robot's own cell counts",
+                    Charitable,
+                ),
+                Interpretation::new(
+                    "adaptive",
+                    "the threshold is the mean of the four neighbours' probabilities",
+                    Literal,
+                ),
+            ],
+        },
+    ],
+    excluded: &[],
+    repairs: &["plain", "repaired"],
+};
 
 const fn wandering(rule: Rule) -> Rule {
     Rule { otherwise: Otherwise::Wanders, ..rule }
@@ -221,7 +283,9 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]).under(&COVERS),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[])
+                .under(&COVERS)
+                .of(&PAPER),
             &Check::new(PRINTED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[])
                 .because("another reading of the paper"),
             &Check::new(ALL_CELLS, &smallest::<1>(Demand::Covers), Verdict::Holds, &[NEIGHBOURS_ALONE]),
@@ -240,7 +304,9 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-2",
         sentence: "Two robots MUST never be in one cell.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]).under(&APART),
+            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[])
+                .under(&APART)
+                .of(&PAPER),
             &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[plain(Look)]),
             &Check::new(PLAIN, &three(Demand::Alone), Verdict::Holds, &[]),
             &Check::new(PLAIN, &lossy(two(Demand::Alone)), Verdict::Holds, &[]),
@@ -266,7 +332,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-3",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Ends), Verdict::Holds, &[]).under(&ENDS),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Ends), Verdict::Holds, &[]).under(&ENDS).of(&PAPER),
             &Check::new(LITERAL, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[])
                 .because("another reading of the paper"),
             &Check::new(WANDERS, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[])
@@ -287,7 +353,9 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-4",
         sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]).under(&REFUTED),
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[])
+                .under(&REFUTED)
+                .of(&PAPER),
             &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Knows), Verdict::Holds, &[]),
             &Check::new(PLAIN, &three(Demand::Knows), Verdict::Holds, &[]),
@@ -303,7 +371,7 @@ pub static CLAUSES: [Clause; 9] = [
         id: "FRONTIER-5",
         sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
         checks: &[
-            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(&MARKS),
+            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(&MARKS).of(&PAPER),
             &Check::new(PUBLISHED, &OFF_QUARTER, Verdict::Refuted, &[])
                 .judged(|rule, choices| drift_of(rule, QUARTER).case(&SMALLEST, choices)),
             &Check::new(PUBLISHED, &OFF_LESS, Verdict::Holds, &[]),

@@ -1,5 +1,6 @@
-//! The judge of POSITION: places where the published equations return no position (POSITION-1), and motions that
-//! they do not follow (POSITION-4). Lengths are whole numbers. It knows the sentences of `SPEC.md` alone.
+//! The judge of POSITION: places where the published equations return no position (POSITION-1), second positions that
+//! are not told (POSITION-3), and motions that the equations do not follow (POSITION-4). Lengths are whole numbers. It
+//! knows the sentences of `SPEC.md` alone.
 
 use super::change::plain;
 use super::{Case, Objection, Place, must};
@@ -80,5 +81,72 @@ impl Case for Moved {
         let due = [is_told(anchors), is_told(moved)];
         must(self.is_told == due, "the equations return something else").map_err(whole)?;
         must(due[0] != due[1], "the positions move with the anchors, or there are none").map_err(whole)
+    }
+}
+
+/// Three anchors, distances to them, the positions that are told, and one that fits as well. Lengths are whole
+/// millimetres, so that a place is a minimum if no place beside it fits better.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Second {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// A, B and C.
+    pub anchors: [Place; 3],
+    /// The distances to them.
+    pub distances: [i32; 3],
+    /// The standard deviation of a distance by the noise, in millionths of it.
+    pub noise: i32,
+    /// The positions that are told, the best first.
+    pub told: Vec<Place>,
+    /// The position that fits as well.
+    pub other: Place,
+}
+
+plain!(Second { anchors, distances, noise, told, other });
+
+/// Positions nearer to each other count as one, in millimetres.
+const ONE_MM: f64 = 500.0;
+
+/// The distance between two places.
+fn apart((x, y): Place, other: Place) -> f64 {
+    f64::from(x - other.0).hypot(f64::from(y - other.1))
+}
+
+impl Second {
+    /// The sum of the squared residuals, in square millimetres.
+    fn misfit(&self, at: Place) -> f64 {
+        let misses = self.anchors.iter().zip(self.distances);
+        misses.map(|(&anchor, far)| (f64::from(far) - apart(anchor, at)).powi(2)).sum()
+    }
+
+    /// Whether no place beside it fits better.
+    fn is_minimum(&self, (x, y): Place) -> bool {
+        let beside = (-1..=1).flat_map(|column| (-1..=1).map(move |row| (x + column, y + row)));
+        beside.into_iter().all(|place| self.misfit(place) >= self.misfit((x, y)))
+    }
+}
+
+impl Case for Second {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let whole = |what| Objection { at: 0, what };
+        let Self { anchors, distances, noise, ref told, other, .. } = *self;
+        must(self.clause == "POSITION-3", "the judge does not know this clause").map_err(whole)?;
+        must(!is_line(anchors), "the anchors are on one line").map_err(whole)?;
+        must(distances.iter().all(|&far| far > 0), "a distance is not positive").map_err(whole)?;
+        must(noise > 0, "there is no noise").map_err(whole)?;
+        let Some(&best) = told.first() else { return Err(whole("no position is told")) };
+        must(told.iter().all(|&place| self.is_minimum(place)), "a place is told that is no minimum")
+            .map_err(whole)?;
+        must(self.is_minimum(other), "a place beside the other one fits better").map_err(whole)?;
+        must(told.iter().all(|&place| apart(place, other) > ONE_MM), "the other position is told")
+            .map_err(whole)?;
+        let errors = distances.map(|far| (f64::from(far) * f64::from(noise) / 1e6).powi(2));
+        let alike = 3.84 * errors.iter().sum::<f64>() / 3.0;
+        must((self.misfit(other) - self.misfit(best)).abs() <= alike, "the two do not fit alike")
+            .map_err(whole)
     }
 }

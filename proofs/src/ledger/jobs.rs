@@ -16,7 +16,7 @@ use rayon::Yield;
 
 use super::{Row, checks};
 use crate::clause::{Clause, Decision, Variant};
-use crate::decide::{Answer, Cache, Context, MethodError, Verdict};
+use crate::decide::{Answer, Cache, Context, MethodError};
 use crate::engine::Until;
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Progress;
@@ -244,8 +244,8 @@ impl Collector<'_> {
             for &question in job.questions.iter().filter(|question| !is_answered(question)) {
                 let variant = question.variant(&self.shared.checks);
                 let came = match variant {
-                    None => Reply::Own(Answer::new(None, false, Verdict::Open, 0)),
-                    Some(variant) => Reply::Variant(variant, Verdict::Open),
+                    None => Reply::Own(Answer::open()),
+                    Some(variant) => Reply::Variant(variant, Answer::open()),
                 };
                 let undecided = if is_unended {
                     Indecision::Unended { variant, seconds: self.shared.limits.patience_s }
@@ -271,8 +271,8 @@ impl Collector<'_> {
                     let (check, decision) = (clause.checks[number], Decision::of(answer));
                     rows.push(Row { clause, number, check, decision, undecided, seconds });
                 }
-                (Reply::Variant(variant, verdict), Some(row)) => {
-                    row.decision.add(variant, verdict);
+                (Reply::Variant(variant, answer), Some(row)) => {
+                    row.decision.add(variant, answer);
                     row.undecided = [row.undecided, undecided].into_iter().flatten().min();
                     row.seconds += seconds;
                 }
@@ -336,7 +336,7 @@ struct Completion {
 /// The answer to a question.
 enum Reply {
     Own(Answer),
-    Variant(Variant, Verdict),
+    Variant(Variant, Answer),
 }
 
 /// The checks, those with most others in their family first, as these may take longest, each family with the variants
@@ -431,6 +431,6 @@ mod tests {
         };
         let job = jobs.iter().find(|job| job.questions.iter().any(is_published)).expect("a mutant");
         let (clause, check) = of(job.place());
-        assert_eq!((clause, check.rule(), job.until), ("CHAIN-1", "published", Until::Exhausted));
+        assert_eq!((clause, check.rule(), job.until), ("CHAIN-3", "published", Until::Exhausted));
     }
 }

@@ -8,6 +8,8 @@ use tautline_kernel::mrc::{Condition, Rule};
 
 use super::within::Within;
 use super::{Demand, Faults, Leases, LossKind, Misreading, Setting, Subject, records};
+use crate::ambiguity::Charity::{Charitable, Literal, Probable};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryAnswer, Verdict};
 
@@ -64,8 +66,7 @@ const FILLED: Check<Subject> = Check::new(
     &[NamedRule::new("whoever is chosen goes", Subject::rescuing(Rule::REPAIRED.without(StillAsks)))],
 );
 
-/// The readings of the choice of a WFR but for the published one, which chooses anew at each MOVE: that the first MOVE
-/// decides, or all that come until a window closes; and whether a later MOVE is answered.
+/// The reading with these conditions, under which a choice stands.
 const fn chosen(conditions: &[Condition]) -> Subject {
     let mut rule = Rule::PUBLISHED.with(ChoiceStands);
     let mut left = conditions;
@@ -75,6 +76,35 @@ const fn chosen(conditions: &[Condition]) -> Subject {
     }
     Subject::rescuing(rule)
 }
+
+/// The readings of a WFR's choice: at each MOVE, at the first, or when a window closes; and whether a MOVE that comes
+/// later is answered.
+static PAPER: Paper = Paper {
+    ambiguities: &[
+        Ambiguity {
+            words: "“When a WFR node receives multiple MOVE packets … it first selects the mobile robot … with the \
+                    smallest MHC value”",
+            interpretations: &[
+                Interpretation::new(
+                    "anew",
+                    "each MOVE makes it choose, so that none comes after the choice",
+                    Literal,
+                ),
+                Interpretation::new("first", "the first MOVE decides", Probable),
+                Interpretation::new("window", "all that come until a window closes decide", Charitable),
+            ],
+        },
+        Ambiguity {
+            words: "“sends the RESB<RSN, MID> packet to all mobile robots that have sent MOVE packets”",
+            interpretations: &[
+                Interpretation::new("unanswered", "a MOVE after the choice is not answered", Literal),
+                Interpretation::new("answered", "a MOVE after the choice is answered with it", Charitable),
+            ],
+        },
+    ],
+    excluded: &[("anew", "answered")],
+    repairs: &["repaired"],
+};
 
 const READINGS: [(&str, Subject); 4] = [
     ("first", chosen(&[])),
@@ -118,7 +148,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(HOLDS),
+                .under(HOLDS)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::OneRobotForACall, TWO),
@@ -134,7 +165,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two WFRs MUST never count on the same robot.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO), Verdict::Refuted, &[])
-                .under(HOLDS_IN_A_WINDOW),
+                .under(HOLDS_IN_A_WINDOW)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::OneCallForARobot, TWO),
@@ -150,7 +182,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(REFUTED),
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::BestOfTheWindow, TWO),
@@ -179,7 +212,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::CountsOnConsent, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(REFUTED),
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::CountsOnConsent, TWO),
@@ -195,7 +229,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(REFUTED),
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::IsServed, TWO_AND_ONE),
@@ -224,7 +259,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(REFUTED),
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::AsksAnew, TWO),
@@ -281,7 +317,8 @@ pub static CLAUSES: [Clause; 14] = [
                    chosen.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(REFUTED),
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::TakesWhatItAsksFor, TWO),
@@ -303,7 +340,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A WFR MUST tell its choice to every robot whose MOVE of its call it has received, and to no other.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(HOLDS_ANSWERED_IN_A_WINDOW),
+                .under(HOLDS_ANSWERED_IN_A_WINDOW)
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &Within(Demand::TellsWhoAsked, TWO),

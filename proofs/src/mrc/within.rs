@@ -1,15 +1,19 @@
 //! A check that no state, and no run, breaks a demand within a setting.
 
+use std::fmt;
+
 use tautline_kernel::mrc::{Rule, Upward, Word};
 
 use super::chart::chart;
 use super::space::{self, Ending, Refutation};
 use super::state::{Action, Message, place};
-use super::{Demand, Setting, Subject};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use super::{Demand, Faults, Setting, Subject};
+use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
+use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, mrc as judge};
+use crate::plural::counted;
 
 /// Every state within a setting is checked for a demand.
 pub(super) struct Within(pub Demand, pub Setting);
@@ -71,6 +75,78 @@ impl Method<Subject> for Within {
         let setting = self.setting(observed);
         let (_, broken) = space::replay(&setting, self.0, Script::new(choices)).ok()?;
         written(&setting, &broken)
+    }
+
+    fn size(&self, observed: &Subject, choices: &Choices) -> Option<Size> {
+        let setting = self.setting(observed);
+        let (_, broken) = space::replay(&setting, self.0, Script::new(choices)).ok()?;
+        Some((Counts::of(&setting).to_string(), length(&broken)))
+    }
+
+    /// Fewest WFRs first, then faults, robots, hops and events.
+    fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
+        let (demand, most) = (self.0, self.setting(observed));
+        let mut search = |Counts([wfrs, faults, robots, max_hops, events]): Counts| {
+            let faults = Faults::any(faults as u8);
+            let setting =
+                Setting { wfrs, faults, robots, max_hops: max_hops as u16, events: events as u8, ..most };
+            let found = space::search(&setting, space::Until::Broken(demand), Limits::NONE);
+            let broken = found.broken(demand);
+            let shortest = broken.map(|broken| (length(broken), chart(&setting, broken)));
+            Ok::<_, MethodError>(Searched { cases: found.states, is_whole: found.complete, shortest })
+        };
+        let mut made = Certificate::default();
+        for counts in Counts::up_to(&most) {
+            made.look([counts], &mut search)?;
+            if made.smallest.is_some() {
+                break;
+            }
+        }
+        Ok(Some(made.drawn(|chart| chart)))
+    }
+}
+
+/// The actions of a run, those that come again once.
+const fn length(broken: &Refutation) -> usize {
+    let again = match &broken.ending {
+        Ending::Round(round) => round.len(),
+        Ending::There | Ending::Still => 0,
+    };
+    broken.actions.len() + again
+}
+
+/// WFRs, faults, robots, hops and events.
+#[derive(Clone, Copy)]
+struct Counts([usize; 5]);
+
+impl Counts {
+    const fn of(setting: &Setting) -> Self {
+        let Setting { wfrs, robots, faults, max_hops, events, .. } = *setting;
+        Self([wfrs, faults.in_all as usize, robots, max_hops as usize, events as usize])
+    }
+
+    /// All within a setting, in order.
+    fn up_to(most: &Setting) -> impl Iterator<Item = Self> {
+        let Self(bounds) = Self::of(most);
+        let least = [1, 0, 1, 1, 1];
+        let of = (0..5).map(|place| bounds[place] + 1 - least[place]).product::<usize>();
+        (0..of).map(move |mut number| {
+            let mut counts = least;
+            for place in (0..5).rev() {
+                let of = bounds[place] + 1 - least[place];
+                counts[place] += number % of;
+                number /= of;
+            }
+            Self(counts)
+        })
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self([wfrs, faults, robots, hops, events]) = *self;
+        let things = [(wfrs, "WFR"), (faults, "fault"), (robots, "robot"), (hops, "hop"), (events, "event")];
+        f.write_str(&things.map(|(count, one)| counted(count, one)).join(", "))
     }
 }
 

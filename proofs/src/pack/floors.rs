@@ -6,7 +6,10 @@ use tautline_kernel::pack::Rule;
 
 use super::gains::Gains;
 use super::played::{Demand, Floor, RunOutcome, play, story};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Verdict};
+use crate::decide::{
+    self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
+};
+use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, Floor as Written, pack as judge};
@@ -164,6 +167,37 @@ fn is_one(cells: &[Cell]) -> bool {
 }
 
 impl Floors {
+    /// The team moves until the demand is broken.
+    fn moves(&self, played: &RunOutcome) -> usize {
+        played.until(self.demand, self.bounds.range_cells).count()
+    }
+
+    /// The shortest run in a class that breaks the demand.
+    fn shortest(&self, rule: &Rule, class: Class, until: Until) -> Result<Searched<String>, MethodError> {
+        let (rule, area) = (self.bounds.rule(rule)?, Bounds::area(class.size())?);
+        // Where cells are R_c apart, whether robots are linked rests on equality.
+        let range_cells = usize::from(self.bounds.range_cells);
+        if self.demand == Demand::Connected && area.width().max(area.height()) > range_cells {
+            return Ok(Searched::default());
+        }
+        let bounds = Bounds { robots: class.robots, ..self.bounds };
+        let mut all = Searched::default();
+        let sets = 0..1_u64 << (area.width() * area.height());
+        for obstacles in sets.filter(|set| set.count_ones() <= class.barriers) {
+            for starts in bounds.starts(area, obstacles) {
+                let floor = Floor { area, obstacles, starts };
+                let Some(played) = play(&rule, &floor, bounds.gains) else { continue };
+                let is_broken = played.broken.contains(&self.demand);
+                let shortest = is_broken.then(|| (self.moves(&played), story(&rule, &floor, &played)));
+                all.add(Searched { cases: 1, is_whole: true, shortest });
+                if is_broken && until == Until::Violation {
+                    return Ok(all);
+                }
+            }
+        }
+        Ok(all)
+    }
+
     /// The run on one floor; `None` if it breaks something else, or nothing.
     fn run(
         &self,
@@ -264,6 +298,22 @@ impl Method<Rule> for Floors {
             self.evidence(rule, [number, set, start]).ok().flatten().ok_or(ScriptError::Unbroken)?;
         let of = [self.bounds.count(), sets.len(), starts].map(|of| of as u32).to_vec();
         Ok(RefutationPlay { of, evidence })
+    }
+
+    fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {
+        let &[number, set, start] = &choices.once[..] else { return None };
+        let place = [number, set, start].map(|place| place as usize);
+        let (played, floor) = self.run(rule, place).ok().flatten()?;
+        let (barriers, robots) = (floor.obstacles.count_ones(), floor.starts.len());
+        let class = Class { area: floor.area, barriers, robots };
+        Some((class.to_string(), self.moves(&played)))
+    }
+
+    fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
+        let most = Most { cells: 12, barriers: 2, robots: 1..=3 };
+        Ok(Some(
+            smallest(&most, |class, until| self.shortest(rule, class, until))?.drawn_by_cells(|story| story),
+        ))
     }
 
     fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {

@@ -1,12 +1,16 @@
 //! Two positions that fit alike (POSITION-3): the mirror image of a robot in the line of its anchors, and second minima
 //! that an independent search finds, by looking at a whole grid of places and going downhill in steps along the axes.
 
+use std::array;
+
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::position::{Point, Range};
+use tautline_kernel::position::{Point, Range, Signal};
 
 use super::lattice::{is_line, place};
 use super::way::{NOISE_DB, Way, signal};
-use crate::engine::{Outcome, Stop, assume, require};
+use crate::engine::{Choices, Outcome, Replay, Stop, assume, require};
+use crate::judge::position::Second;
+use crate::judge::{AnyCase, Place};
 
 /// The side of the lattice.
 const SIDE: u32 = 4;
@@ -101,33 +105,76 @@ fn minima(ranges: &[Range]) -> Vec<Point> {
     found
 }
 
+/// Distances with noise from random anchors to a random robot.
+fn drawn(signal: &Signal, oracle: &mut (impl Oracle + ?Sized)) -> [Range; 3] {
+    let mut part = || f64::from(oracle.pick(1 << 20)) / f64::from(1 << 20);
+    let mut random = || Point::new(SQUARE_M * part(), SQUARE_M * part());
+    let (anchors, at) = ([random(), random(), random()], random());
+    anchors.map(|anchor| {
+        let deviation = (0..PARTS).map(|_| part()).sum::<f64>() - f64::from(PARTS) / 2.0;
+        let level_db = signal.level_db(anchor.distance_m(at)) + NOISE_DB * deviation;
+        Range::new(anchor, signal.distance_m(level_db))
+    })
+}
+
+/// The best minimum on the grid, and another one that fits as well, if there is one. Minima that are nearly too bad, or
+/// near the best one, do not count.
+fn two_minima(signal: &Signal, ranges: &[Range]) -> Option<(Point, Option<Point>)> {
+    let mut found = minima(ranges);
+    found.sort_by(|one, other| cost(ranges, *one).total_cmp(&cost(ranges, *other)));
+    let [first, others @ ..] = &found[..] else { return None };
+    let error = signal.relative_error();
+    let squares: f64 = ranges.iter().map(|range| range.distance_m * range.distance_m).sum();
+    let ambiguous = 3.84 * error * error * squares / 3.0;
+    let above = |place: &Point| cost(ranges, *place) - cost(ranges, *first);
+    let fits = |place: &&Point| above(place) < 0.9 * ambiguous && place.distance_m(*first) > APART_M;
+    Some((*first, others.iter().find(fits).copied()))
+}
+
+/// Millimetres in a metre: the judge knows whole ones.
+const MM: f64 = 1e3;
+
+/// The counterexample that these choices make, written down for the judge in whole millimetres: another problem, by
+/// less than the clause leaves open.
+pub(super) fn second(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let (signal, answers) = (signal()?, choices.all().collect::<Vec<_>>());
+    let whole = |metres: f64| (metres * MM).round() as i32;
+    let metres = |(x, y): Place| Point::new(f64::from(x) / MM, f64::from(y) / MM);
+    let place = |at: Point| (whole(at.x_m), whole(at.y_m));
+    let drawn = drawn(&signal, &mut Replay::new(&answers));
+    let (anchors, distances) = (drawn.map(|one| place(one.anchor)), drawn.map(|one| whole(one.distance_m)));
+    let ranges: [Range; 3] =
+        array::from_fn(|one| Range::new(metres(anchors[one]), f64::from(distances[one]) / MM));
+    let settled = |at: Point| {
+        let mut at = place(at);
+        let fits = |place: Place| cost(&ranges, metres(place));
+        loop {
+            let beside = (-1..=1).flat_map(|x| (-1..=1).map(move |y| (x, y)));
+            let beside = beside.map(|(x, y)| (at.0 + x, at.1 + y));
+            match beside.min_by(|one, other| fits(*one).total_cmp(&fits(*other))) {
+                Some(better) if fits(better) < fits(at) => at = better,
+                Some(_) | None => return at,
+            }
+        }
+    };
+    let told = way(&ranges, None).ok()?.places().map(settled).collect();
+    let other = settled(two_minima(&signal, &ranges)?.1?);
+    let noise = (signal.relative_error() * 1e6).round() as i32;
+    Some(Box::new(Second { clause: "POSITION-3", anchors, distances, noise, told, other }))
+}
+
 /// POSITION-3: whatever the grid finds to fit as well, by a margin, is told.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn tells_second_minima(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
-    let mut part = || f64::from(oracle.pick(1 << 20)) / f64::from(1 << 20);
-    let mut random = || Point::new(SQUARE_M * part(), SQUARE_M * part());
-    let (anchors, at) = ([random(), random(), random()], random());
     let signal = signal().ok_or(Stop::Assumed)?;
-    let ranges = anchors.map(|anchor| {
-        let deviation = (0..PARTS).map(|_| part()).sum::<f64>() - f64::from(PARTS) / 2.0;
-        let level_db = signal.level_db(anchor.distance_m(at)) + NOISE_DB * deviation;
-        Range::new(anchor, signal.distance_m(level_db))
-    });
-    let mut found = minima(&ranges);
-    found.sort_by(|one, other| cost(&ranges, *one).total_cmp(&cost(&ranges, *other)));
-    let [first, others @ ..] = &found[..] else { return Err(Stop::GivenUp) };
-    let error = signal.relative_error();
-    let squares: f64 = ranges.iter().map(|range| range.distance_m * range.distance_m).sum();
-    let ambiguous = 3.84 * error * error * squares / 3.0;
-    let above = |place: &Point| cost(&ranges, *place) - cost(&ranges, *first);
+    let ranges = drawn(&signal, oracle);
+    let (first, second) = two_minima(&signal, &ranges).ok_or(Stop::GivenUp)?;
     let told = way(&ranges, None).map_err(|_| Stop::Violated("a position is told"))?;
-    let has = |place: &Point| told.places().any(|told| told.distance_m(*place) < 1e-2);
-    require(above(&told.best) < 1e-6, "no place of the grid leads to a better fit")?;
-    // Minima that are nearly too bad, or near each other, may be told or not.
-    let second =
-        others.iter().find(|place| above(place) < 0.9 * ambiguous && place.distance_m(*first) > APART_M);
+    let has = |place: Point| told.places().any(|told| told.distance_m(place) < 1e-2);
+    let above = cost(&ranges, told.best) - cost(&ranges, first);
+    require(above < 1e-6, "no place of the grid leads to a better fit")?;
     require(second.is_none_or(has), "a second minimum that fits as well is told")?;
     Ok(if second.is_some() { "two minima" } else { "one minimum" })
 }

@@ -2,7 +2,6 @@
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::floor_trace::{Course, Turn};
 use tautline_proofs::judge::chain::{Exhibit, Move, Place, Repairs};
 use tautline_proofs::judge::floor;
 use tautline_proofs::run::Frame;
@@ -22,25 +21,6 @@ pub fn exhibit(setup: &Setup, clause: &str, frames: &[Frame]) -> Exhibit {
         base: place(setup.base),
         robots: setup.robots.into(),
         moves: frames.iter().map(written_down).collect(),
-    }
-}
-
-/// The turns of agents on a small floor, said to break `clause`.
-pub fn of_course(clause: &str, course: &Course) -> floor::Exhibit {
-    let turn = |turn: &Turn| floor::Turn {
-        agent: turn.agent,
-        to: place(turn.before.cells[turn.agent].after(turn.step)),
-        is_done: turn.is_done,
-    };
-    floor::Exhibit {
-        clause: clause.to_owned(),
-        width: course.width.into(),
-        height: course.height.into(),
-        walls: course.walls.iter().copied().map(sides).collect(),
-        blocked: course.blocked.iter().copied().map(place).collect(),
-        starts: course.turns.first().map_or_else(Vec::new, |first| places(&first.before.cells)),
-        turns: course.turns.iter().map(turn).collect(),
-        round: course.round,
     }
 }
 

@@ -1,0 +1,156 @@
+//! Rows under the readings of a paper: which of them a check refutes, which it does not, and what a repair adds to
+//! these.
+
+use std::fmt::Write;
+use std::ptr;
+
+use super::Row;
+use crate::clause::Variant;
+use crate::decide::{Evidence, Verdict};
+
+/// A reading, and the verdict under it.
+type Read = (&'static str, Verdict);
+
+/// Whether nothing refutes the sentence.
+const fn stands(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Holds | Verdict::Unrefuted)
+}
+
+impl Row {
+    /// The readings other than that of the rule itself, in their order.
+    fn others(&self) -> impl Iterator<Item = &'static str> {
+        self.check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name)
+    }
+
+    /// The verdict under each reading, that of the rule itself first.
+    fn read(&self) -> impl Iterator<Item = Read> {
+        let verdicts = self.decision.readings.iter().map(|answer| answer.verdict);
+        [(self.check.rule(), self.decision.verdict)].into_iter().chain(self.others().zip(verdicts))
+    }
+
+    /// Under which readings of the rule it is refuted, and under which it is not; `None` if there is one alone.
+    pub(super) fn readings(&self) -> Option<String> {
+        let of = self.read().count();
+        let most = self.most_charitable();
+        let named = |name: &'static str| match most {
+            Some((most, evidence)) if most == name => {
+                format!("{name} (the most charitable, {})", evidence.size())
+            }
+            Some(_) | None => name.to_owned(),
+        };
+        let names = |verdict: Verdict| {
+            let found: Vec<String> =
+                self.read().filter(|one| one.1 == verdict).map(|one| named(one.0)).collect();
+            (found.len(), found.join(", "))
+        };
+        let (refuted, which) = names(Verdict::Refuted);
+        let mut words = match refuted {
+            0 => "refuted under no reading".to_owned(),
+            1 => format!("refuted under one of {of} readings: {which}"),
+            _ if refuted == of => format!("refuted under all {of} readings: {which}"),
+            _ => format!("refuted under {refuted} of {of} readings: {which}"),
+        };
+        for verdict in [Verdict::Holds, Verdict::Unrefuted, Verdict::Open] {
+            if let (1.., which) = names(verdict) {
+                // Writing to a string cannot fail.
+                let _ = write!(words, "; {} under {which}", verdict.word());
+            }
+        }
+        (of > 1).then_some(words)
+    }
+
+    /// The most charitable reading that is refuted, of equals the first, with its counterexample.
+    pub fn most_charitable(&self) -> Option<(&'static str, &Evidence)> {
+        let paper = self.check.paper()?;
+        let others = self.others().zip(&self.decision.readings);
+        let others = others.filter_map(|(name, answer)| Some((name, answer.counterexample.as_ref()?)));
+        let own = self.decision.counterexample.as_ref().map(|evidence| (self.check.rule(), evidence));
+        let most = |best: (_, _), one: (_, _)| {
+            if paper.charity(one.0) > paper.charity(best.0) { one } else { best }
+        };
+        own.into_iter().chain(others).reduce(most)
+    }
+
+    /// The row before this one that has the paper's readings of its clause, if this one is the first after it that is
+    /// about this repair.
+    fn published<'a>(&self, rows: &'a [Self]) -> Option<&'a Self> {
+        let place =
+            rows.iter().position(|row| row.clause.id == self.clause.id && row.number == self.number)?;
+        let before = rows[..place].iter().rev().take_while(|row| row.clause.id == self.clause.id);
+        let paper = before.clone().find(|row| row.check.paper().is_some())?;
+        let is_first = before
+            .take_while(|row| row.number != paper.number)
+            .all(|row| row.check.rule() != self.check.rule());
+        let is_repair = paper.check.paper()?.repairs.contains(&self.check.rule());
+        (is_first && is_repair).then_some(paper)
+    }
+
+    /// Under which readings of the paper the sentence of a repair's row holds without the repair, and which sentences
+    /// the repair adds: those of `rows` that hold of it, and that all these readings break.
+    pub(super) fn credit(&self, rows: &[Self]) -> Option<String> {
+        let paper = self.published(rows)?;
+        let mut holding: Vec<&str> = paper.read().filter(|one| stands(one.1)).map(|one| one.0).collect();
+        let mut words = match holding.as_slice() {
+            [] => return None,
+            [own, ..] if *own == paper.check.rule() => {
+                holding.truncate(1);
+                "holds as published, too".to_owned()
+            }
+            others => format!("holds as published under {}", others.join(", ")),
+        };
+        if !stands(self.decision.verdict) {
+            return Some(words + "; our repair does not");
+        }
+        let is_broken = |row: &Self, name: &&str| {
+            row.read().any(|(other, verdict)| other == *name && verdict == Verdict::Refuted)
+        };
+        let is_of = |other: &Self| match (paper.check.paper(), other.check.paper()) {
+            (Some(one), Some(other)) => ptr::eq(one, other),
+            _ => false,
+        };
+        let adds = |row: &&Self| {
+            let of = row.published(rows).filter(|of| is_of(of));
+            let is_kept = row.check.rule() == self.check.rule() && stands(row.decision.verdict);
+            is_kept && of.is_some_and(|of| holding.iter().all(|name| is_broken(of, name)))
+        };
+        let mut added: Vec<&str> = rows.iter().filter(adds).map(|row| row.clause.id).collect();
+        added.dedup();
+        if !added.is_empty() {
+            let _ = write!(words, "; our repair adds {}", added.join(", "));
+        }
+        Some(words)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::super::clauses;
+    use super::*;
+
+    #[test]
+    fn the_readings_that_are_decided_are_those_of_the_papers() {
+        let checks = || clauses().flat_map(|clause| clause.checks);
+        for check in checks() {
+            let Some(paper) = check.paper() else { continue };
+            let names = check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name);
+            for name in names {
+                let asked: Vec<&str> = name.split(" + ").collect();
+                assert_eq!(paper.reading(&asked).as_deref(), Ok(name), "{check:?}");
+            }
+        }
+        // Some check of each paper has all.
+        let complete = |check: &dyn crate::clause::AnyCheck| {
+            let names =
+                check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name.to_owned());
+            let all: BTreeSet<String> = names.chain(["published".to_owned()]).collect();
+            check.paper().is_some_and(|paper| all == paper.readings().into_iter().collect())
+        };
+        for scheme in ["ANTS", "BRICKS", "MRC", "FRONTIER"] {
+            let of =
+                clauses().filter(|clause| clause.id.starts_with(scheme)).flat_map(|clause| clause.checks);
+            assert!(of.into_iter().any(|check| complete(*check)), "{scheme}");
+        }
+    }
+}

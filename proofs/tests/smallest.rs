@@ -1,0 +1,48 @@
+//! The smallest counterexamples over areas, barriers, robots and starts, or over networks, each with a certificate of
+//! all that is smaller, which was exhausted; and whether the ledger has them.
+
+use std::fmt::Write;
+
+use tautline_proofs::decide::{Cache, Verdict};
+use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::ledger;
+
+/// The refuted clauses of which smaller counterexamples can be asked for.
+fn table(is_wanted: impl Fn(&str) -> bool) -> String {
+    let (mut table, mut memory) = (String::new(), Cache::default());
+    for clause in ledger::clauses().filter(|clause| is_wanted(clause.id)) {
+        for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
+            let Some(made) = check.smallest().expect("registered checks fit") else { continue };
+            assert!(made.is_whole, "{} was cut off", clause.id);
+            let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
+            let found = decision.counterexample.expect("what is refuted has a counterexample");
+            let (class, moves) = check.size(&found.choices).expect("it has a size");
+            let smallest = made.smallest.as_ref().map(|one| (one.class.clone(), one.moves));
+            let (id, rule, size) = (clause.id, check.rule(), made.size());
+            writeln!(table, "{id} {rule}: {size}").expect("text");
+            if smallest != Some((class.clone(), moves)) {
+                writeln!(table, "  in the ledger: {class}, {moves} moves").expect("text");
+            }
+            for (class, cases) in &made.exhausted {
+                writeln!(table, "  none in {class}: {cases}").expect("text");
+            }
+        }
+    }
+    table
+}
+
+/// Those that take minutes.
+fn is_long(clause: &str) -> bool {
+    ["CHAIN-14", "BRICKS-"].iter().any(|long| clause.starts_with(long))
+}
+
+#[test]
+fn nothing_is_smaller_than_the_smallest_counterexamples() {
+    insta::assert_snapshot!(table(|clause| !is_long(clause)));
+}
+
+#[test]
+#[ignore = "takes minutes: cargo test --release -p tautline-proofs --test all -- --ignored nothing_is_smaller_than_those"]
+fn nothing_is_smaller_than_those_that_take_long() {
+    insta::assert_snapshot!(table(is_long));
+}
