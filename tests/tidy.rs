@@ -24,7 +24,7 @@ const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
     kernel bricks chain frontier kit mrc notice pack position tan:
-    proofs clause decide engine floor_trace judge local plural protocol run step_check team: *
+    proofs ambiguity clause decide engine floor_trace judge local plural protocol run step_check team: *
     proofs ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain
@@ -39,7 +39,7 @@ const KNOWN_TO: &str = "
 /// By crate and rooms: the only rooms that they may import.
 const KNOWS: &str = "
     proofs engine: plural
-    proofs judge plural:
+    proofs ambiguity judge plural:
     sim diagnostic named_values: diagnostic named_values
     field radio: radio
     field tan: radio
