@@ -75,7 +75,7 @@ pub fn farthest(is: impl Fn(Stance, Stance) -> bool) -> [u32; 2] {
         {
             let (dx, dy) = from.apart(to);
             let squared = u32::from(dx).pow(2) + u32::from(dy).pow(2);
-            let first = if one.stands() && other.stands() { 0 } else { 1 };
+            let first = usize::from(!one.stands() || !other.stands());
             farthest[first..].iter_mut().for_each(|most| *most = squared.max(*most));
         }
     }
