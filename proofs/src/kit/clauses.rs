@@ -10,6 +10,8 @@ use super::local::{self, Contact};
 use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
+use crate::ambiguity::Charity::{Charitable, Literal, Probable};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryState, Verdict};
 use crate::local::EveryNumber;
@@ -64,6 +66,62 @@ const ANSWERING: [(&str, Rule); 2] = [
 ];
 
 const REFUTED: &[Reading<Rule>] = &readings(READINGS, [Verdict::Refuted; 7]);
+
+/// The ambiguities that these readings are about. Under *every* two robots have the paper's 78 % and keep its contact more
+/// often, so that it is the more charitable one, though *ahead* is closer to the words.
+static PAPER: Paper = Paper {
+    ambiguities: &[
+        Ambiguity {
+            words: "“If there is no any obstacle within the range of 3.5m distances, robot moves forward”",
+            interpretations: &[
+                Interpretation::new("every", "KIT chooses the direction at every node", Charitable),
+                Interpretation::new("ahead", "KIT chooses where the way ahead is blocked", Literal),
+            ],
+        },
+        Ambiguity {
+            words: "“nodes in the directions that Robot-B has not turned”",
+            interpretations: &[
+                Interpretation::new("both records", "what either robot has explored counts", Probable),
+                Interpretation::new("the other's record", "what the other has explored counts", Literal),
+            ],
+        },
+        Ambiguity {
+            words: "“turned to a filtered direction randomly”, where no direction is unexplored",
+            interpretations: &[
+                Interpretation::new(
+                    "nearest side",
+                    "one that leads to an unexplored side soonest",
+                    Charitable,
+                ),
+                Interpretation::new("any side", "any of them", Literal),
+            ],
+        },
+    ],
+    excluded: &[],
+    repairs: &["repaired", "robust"],
+};
+
+/// The ambiguity about who answers.
+static PAPER_ON_ANSWERS: Paper = Paper {
+    ambiguities: &[Ambiguity {
+        words: "“send the respond … when it is moving one node to another. It does not send when it is turning”",
+        interpretations: &[
+            Interpretation::new("stands silent", "a robot that stands does not answer", Literal),
+            Interpretation::new(
+                "answers always",
+                "one that stands and has not begun to turn answers",
+                Charitable,
+            ),
+            Interpretation::new(
+                "the first goes first",
+                "of two that ask the first robot goes first",
+                Probable,
+            ),
+        ],
+    }],
+    excluded: &[],
+    repairs: &["repaired", "robust"],
+};
 
 step_checks! { Certainty;
     contact: pairs::contact, NamedRule::new("repaired", Certainty::OURS), pairs::pairs,
@@ -169,7 +227,9 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",
         checks: &[
             &contact::CHECK,
-            &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(
                 NamedRule::new("ahead", Rule::AHEAD),
                 &published(Demand::Contact),
@@ -198,7 +258,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-2",
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
-            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED).of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &repaired_at_equal_speeds(Demand::Contact),
@@ -218,8 +278,10 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST never be nearer to each other than 3 m, once both have left their starts.",
         checks: &[
             &apart::CHECK,
-            &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[]).under(REFUTED),
-            &Check::new(PUBLISHED, &APART_AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
+            &Check::new(PUBLISHED, &APART_AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED).of(&PAPER),
             &Check::new(REPAIRED, &repaired(Demand::Apart), Verdict::Holds, &[NOT_APART, NO_STAY]),
             &Check::new(
                 REPAIRED,
@@ -241,7 +303,8 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &Check::new(PUBLISHED, &ANSWERED, Verdict::Refuted, &[])
                 .judged(|rule, choices| talks::case(&talks(rule, talks::Demand::Answered), choices))
-                .under(&readings(ANSWERING, [Verdict::Refuted; 2])),
+                .under(&readings(ANSWERING, [Verdict::Refuted; 2]))
+                .of(&PAPER_ON_ANSWERS),
             &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
             &Check::new(REPAIRED, &ANSWERED_THOUGH_LOST, Verdict::Refuted, &[])
                 .because("a message is lost; the rule robust asks again")
@@ -295,7 +358,9 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-6",
         sentence: "While an uncovered side is within reach, a robot MUST drive or be able to decide.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Moves), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Moves), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(REPAIRED, &repaired(Demand::Moves), Verdict::Holds, &[NO_TURN, NO_REGROUP]),
         ],
     },
@@ -303,7 +368,7 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-7",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]).under(REFUTED).of(&PAPER),
             &Check::new(REPAIRED, &repaired(Demand::Ends), Verdict::Holds, &[NO_STAY]),
             &Check::new(REPAIRED, &side_by_side(Demand::Ends), Verdict::Holds, &[]),
         ],
@@ -312,7 +377,9 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-8",
         sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know it.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(REPAIRED, &repaired(Demand::Covers), Verdict::Holds, &[NO_REGROUP, UNMARKED]),
             &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Refuted, &[])
                 .because("three robots that start anywhere; side by side it holds"),
@@ -331,7 +398,9 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it blocked, and \
                    no other side.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Marks), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Marks), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(REPAIRED, &repaired(Demand::Marks), Verdict::Holds, &[UNMARKED, OTHERS]),
         ],
     },
@@ -340,7 +409,9 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while another \
                    one drives a new path.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Shortens), Verdict::Refuted, &[]).under(REFUTED),
+            &Check::new(PUBLISHED, &published(Demand::Shortens), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(REPAIRED, &repaired(Demand::Shortens), Verdict::Holds, &[NO_STAY]),
         ],
     },

@@ -147,7 +147,7 @@ mod tests {
             let all: BTreeSet<String> = names.chain(["published".to_owned()]).collect();
             check.paper().is_some_and(|paper| all == paper.readings().into_iter().collect())
         };
-        for scheme in ["ANTS", "BRICKS", "MRC", "FRONTIER"] {
+        for scheme in ["ANTS", "BRICKS", "MRC", "KIT", "FRONTIER"] {
             let of =
                 clauses().filter(|clause| clause.id.starts_with(scheme)).flat_map(|clause| clause.checks);
             assert!(of.into_iter().any(|check| complete(*check)), "{scheme}");
