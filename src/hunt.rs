@@ -346,11 +346,11 @@ impl Answer<'_> {
 
 /// How to see the run of a file again, and, where no search has chosen anything in it, to hold a rule to it.
 pub(super) fn again(file: &str, setup: &Setup) -> String {
-    let mut text = format!("replay it with: tautline replay {file}\n");
-    if setup.choices.is_empty() && setup.missed.is_empty() {
-        text += &format!("try a rule on it: tautline explore {file} --rule RULE\n");
+    let again = format!("replay it with: tautline replay {file}\n");
+    if !setup.choices.is_empty() || !setup.missed.is_empty() {
+        return again;
     }
-    text
+    again + "try a rule on it: tautline explore " + file + " --rule RULE\n"
 }
 
 /// A counterexample as a person sees it.

@@ -9,8 +9,11 @@ use tautline_proofs::ledger::{Row, indented, title};
 
 use super::PUBLISHED;
 
-/// The headings of the counts, and what is counted in each.
-const COUNTS: [(&str, fn(&Row) -> bool); 5] = [
+/// A heading, and whether a row is counted below it.
+type Count = (&'static str, fn(&Row) -> bool);
+
+/// The counts.
+const COUNTS: [Count; 5] = [
     ("holds", |row| row.decision.verdict == Verdict::Holds),
     ("sampled", |row| row.decision.verdict == Verdict::Unrefuted),
     ("refuted", |row| is_refuted(row) && row.check.rule() == PUBLISHED),
@@ -28,12 +31,12 @@ fn is_refuted(row: &Row) -> bool {
 
 /// The screen. What takes time is not on it, so that it is the same everywhere.
 pub(super) fn screen(rows: &[Row]) -> String {
-    let mut text = line("scheme", "", COUNTS.map(|(heading, _)| heading.to_owned()));
+    let mut text = line("scheme", "", &COUNTS.map(|(heading, _)| heading.to_owned()));
     for scheme in rows.chunk_by(|one, next| one.clause.scheme() == next.clause.scheme()) {
         let name = scheme[0].clause.scheme();
-        text += &line(name, title(name), counts(scheme));
+        text += &line(name, title(name), &counts(scheme));
     }
-    text += &line("in all", "", counts(rows));
+    text += &line("in all", "", &counts(rows));
     text + "\nholds: within the bound that the ledger prints; sampled: drawn at random, not\nrefuted; refuted: as published.\n"
         + "\nRefuted as published:\n"
         + &indented(2, &ids(rows))
@@ -45,13 +48,13 @@ pub(super) fn screen(rows: &[Row]) -> String {
 }
 
 /// A line of the table.
-fn line(name: &str, title: &str, counts: [String; COUNTS.len()]) -> String {
-    let counts: String = counts
-        .iter()
-        .zip(COUNTS)
-        .map(|(count, (heading, _))| format!("  {count:>0$}", heading.len()))
-        .collect();
-    format!("{name:NAME$}{title:TITLE$}{counts}\n")
+fn line(name: &str, title: &str, counts: &[String; COUNTS.len()]) -> String {
+    let mut line = format!("{name:NAME$}{title:TITLE$}");
+    for (count, (heading, _)) in counts.iter().zip(COUNTS) {
+        // Writing to a string cannot fail.
+        let _ = write!(line, "  {count:>0$}", heading.len());
+    }
+    line + "\n"
 }
 
 fn counts(rows: &[Row]) -> [String; COUNTS.len()] {

@@ -3,6 +3,7 @@
 //! checked to follow from them: walls stay, and a cell is explored when a robot is in it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 
 /// Column and row.
 type Place = (usize, usize);
@@ -141,12 +142,11 @@ pub(crate) fn in_short(replayed: &str) -> String {
         let bumped = bumps.iter().map(|(side, (x, y))| format!("a wall is met {side} of {x},{y}"));
         let said: Vec<String> = moved.chain(bumped).collect();
         let said = if said.is_empty() { "nobody moves".to_owned() } else { said.join(", ") };
-        lines += &format!("{}: {said}\n", frame.title.trim_start_matches("move "));
+        // Writing to a string cannot fail.
+        let _ = writeln!(lines, "{}: {said}", frame.title.trim_start_matches("move "));
         // The story of a counterexample draws the last team move itself.
-        let matters = match number + 1 == frames.len() {
-            true => story.is_empty(),
-            false => number == 0 || !bumps.is_subset(&met),
-        };
+        let is_last = number + 1 == frames.len();
+        let matters = if is_last { story.is_empty() } else { number == 0 || !bumps.is_subset(&met) };
         if matters {
             drawings += &(frame.text() + "\n");
         }

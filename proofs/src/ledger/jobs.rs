@@ -152,7 +152,7 @@ struct SharedState {
 
 /// A thread's news for whoever waits.
 enum ThreadNews {
-    Done(Completion),
+    Done(Box<Completion>),
     Refused(MethodError),
     /// A bug, which is the waiting thread's to raise.
     Bug(Box<dyn Any + Send>),
@@ -176,7 +176,7 @@ impl SharedState {
             let mut desk = Context { memory, watch, room: &self.limits.room };
             for &question in &job.questions {
                 match job.answer(question, &self.checks, &mut desk) {
-                    Ok(done) => send(ThreadNews::Done(done)),
+                    Ok(done) => send(ThreadNews::Done(Box::new(done))),
                     Err(refused) => return send(ThreadNews::Refused(refused)),
                 }
             }
@@ -208,7 +208,7 @@ impl Collector<'_> {
         let mut next_look = Instant::now() + BETWEEN_LOOKS;
         while left > 0 {
             match next(told, next_look) {
-                Some(ThreadNews::Done(answer)) => done.push(answer),
+                Some(ThreadNews::Done(answer)) => done.push(*answer),
                 Some(ThreadNews::Refused(refused)) => return Err(refused),
                 Some(ThreadNews::Bug(bug)) => panic::resume_unwind(bug),
                 Some(ThreadNews::End) => left -= 1,

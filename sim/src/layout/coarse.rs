@@ -4,7 +4,7 @@
 
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use super::{Layout, problem};
+use super::Layout;
 use crate::diagnostic::Diagnostic;
 
 /// The size of cells and robots on a map whose pixels have one.
@@ -32,9 +32,11 @@ impl Coarse {
     pub(super) fn of(self, pixels: &Layout, resolution_m: f64) -> Result<Layout, Diagnostic> {
         let cell = self.cell_m.unwrap_or(resolution_m) / resolution_m;
         let side = cell.round();
-        if !(cell.is_finite() && side >= 1.0 && (cell - side).abs() < ROUNDING) {
-            let (below, above) =
-                (cell.floor().max(1.0) * resolution_m, (cell.floor().max(0.0) + 1.0) * resolution_m);
+        if !(cell > 0.0 && cell.is_finite()) {
+            return Err(Diagnostic::of_field("cell", "a cell has no such side", "give metres above 0"));
+        }
+        if side < 1.0 || (cell - side).abs() >= ROUNDING {
+            let [below, above] = [cell.floor(), cell.floor() + 1.0].map(|side| side.max(1.0) * resolution_m);
             let what = format!("a cell is no whole number of pixels, which are {resolution_m} m wide");
             return Err(Diagnostic::of_field(
                 "cell",
@@ -54,7 +56,7 @@ impl Coarse {
         if !(radius >= 0.0 && radius.is_finite()) {
             return Err(Diagnostic::of_field(
                 "radius",
-                "a robot's radius is below 0",
+                "a robot has no such radius",
                 "give metres from 0 on",
             ));
         }
@@ -75,7 +77,11 @@ impl Coarse {
                 }
             }
         }
-        if layout.free_cells() == 0 { Err(problem::no_free_cell()) } else { Ok(layout) }
+        if layout.free_cells() == 0 {
+            let what = "no cell is free for a robot of this radius";
+            return Err(Diagnostic::of_field("radius", what, "give a smaller `radius`, or a smaller `cell`"));
+        }
+        Ok(layout)
     }
 }
 
@@ -135,11 +141,19 @@ mod tests {
 
     #[test]
     fn sizes_that_fit_nothing_are_refused() {
-        let refused = |coarse: Coarse| coarse.of(&pixels(&[]), 0.05).expect_err("a fault").to_string();
-        insta::assert_snapshot!(refused(coarse(0.12, None)), @"");
-        insta::assert_snapshot!(refused(coarse(0.5, None)), @"");
-        insta::assert_snapshot!(refused(coarse(0.2, Some(-0.1))), @"");
-        insta::assert_snapshot!(refused(coarse(f64::NAN, None)), @"");
-        insta::assert_snapshot!(refused(coarse(0.2, Some(3.0))), @"");
+        let said = |coarse: Coarse| coarse.of(&pixels(&[]), 0.05).expect_err("a fault").to_string();
+        let refused = [coarse(0.12, None), coarse(0.02, None), coarse(0.5, None), coarse(f64::NAN, None)]
+            .into_iter()
+            .chain([-0.1, f64::INFINITY, 3.0].map(|radius_m| coarse(0.2, Some(radius_m))));
+        let refused: Vec<String> = refused.map(said).collect();
+        insta::assert_snapshot!(refused.join("\n"), @r"
+        a cell is no whole number of pixels, which are 0.05 m wide; take a `cell` of 0.100 or 0.150
+        a cell is no whole number of pixels, which are 0.05 m wide; take a `cell` of 0.050 or 0.050
+        the map has 8×4 pixels of 0.05 m: no cell fits into it; take a `cell` of at most 0.200
+        a cell has no such side; give metres above 0
+        a robot has no such radius; give metres from 0 on
+        a robot has no such radius; give metres from 0 on
+        no cell is free for a robot of this radius; give a smaller `radius`, or a smaller `cell`
+        ");
     }
 }
