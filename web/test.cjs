@@ -43,8 +43,11 @@ const tests = {
       const gaps = times.slice(1).map((time, i) => time - times[i]).sort((one, other) => one - other);
       say(`${bounds}: ${Math.round(took)} ms, ${Math.round(rate)} frames a second, the longest ${Math.round(gaps.at(-1))} ms; ${list.map(one => one.split(".")[0]).join("; ")}`);
       // A machine that others use, too, is slower: the bounds are for one of its own.
-      if (process.env.TAUTLINE_STRICT) assert(took < within, `${took} ms`);
-      if (took > 1000) assert(rate > 30, `${rate} frames a second`);
+      // Speed is measured where nothing else runs, and told everywhere.
+      if (process.env.TAUTLINE_STRICT) {
+        assert(took < within, `${took} ms`);
+        if (took > 1000) assert(rate > 30, `${rate} frames a second`);
+      }
     }
     assert.match(await page.textContent("#why"), /is broken/);
     await shoot(page, "refutation");
@@ -59,8 +62,8 @@ const tests = {
     await page.click("[data-condition=Unfold]");
     assert.match(await page.textContent("#conditions-head"), /a mutant/);
     await page.click("#find");
-    await page.waitForSelector("#found button", { timeout: 20000 });
-    await page.waitForSelector("#find:not([hidden])", { timeout: 20000 });
+    await page.waitForSelector("#found button");
+    await page.waitForSelector("#find:not([hidden])");
     assert.match(await page.textContent("#why"), /CHAIN-\d+ is broken/);
     say(`a new user's minute took ${Date.now() - begin} ms`);
     await shoot(page, "minute");
@@ -176,14 +179,14 @@ const tests = {
     await page.fill("[data-quarry=robots]", "6");
     await page.fill("[data-quarry=max_walls]", "6");
     await page.click("#find");
-    await page.waitForSelector("#large:not([hidden])", { timeout: 60000 });
+    await page.waitForSelector("#large:not([hidden])");
     const words = await page.textContent("#large");
     assert.match(words, /tautline hunt --scheme chain --rule repaired --robots 6 --max-walls 6/);
     await shoot(page, "large");
     await page.click("#large button");
     await page.waitForTimeout(300);
     await page.click("#stop");
-    await page.waitForSelector("#find:not([hidden])", { timeout: 10000 });
+    await page.waitForSelector("#find:not([hidden])");
     assert.match(await page.textContent("#far"), /Stopped/);
   },
 
@@ -227,7 +230,7 @@ async function shoot(page, name, fullPage = false) {
 
 async function open(page, hash = "") {
   await page.goto(url + hash);
-  await page.waitForSelector("body[data-ready]", { timeout: 30000 });
+  await page.waitForSelector("body[data-ready]");
 }
 
 /** Clicks on a side of a cell. */
@@ -248,6 +251,8 @@ async function clickSide(page, x, y, side) {
     if (wanted && !name.includes(wanted)) continue;
     const context = await browser.newContext({ viewport: { width: 1200, height: 900 } });
     const page = await context.newPage();
+    // However slow the machine is: what does not come fails, what is late does not.
+    page.setDefaultTimeout(120_000);
     const faults = [];
     // What the page fetches besides itself leaves it, or would.
     page.on("request", request => { if (!/^(file:|blob:|data:|about:)/.test(request.url())) faults.push(`request ${request.url()}`); });

@@ -56,7 +56,7 @@ pub fn format(path: &Path) -> Option<String> {
 /// The lines of a file, one at a time.
 pub struct Lines {
     path: PathBuf,
-    input: Box<dyn BufRead>,
+    input: Box<dyn BufRead + Send>,
     /// How many were read.
     count: usize,
     /// How to make such a file again.
