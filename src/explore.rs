@@ -388,14 +388,14 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
 fn reach(setup: &Setup) -> String {
     let reach = team(setup).ok().and_then(|team| team.reach(&setup.layout));
     match reach {
-        Some(Reach { cells, connected, robots }) if cells < connected => format!(
+        Some(Reach { cells, connected, robots }) => format!(
             "{cells} of {} are within reach of a {} of {}; of one of {robots} all {connected} that are connected with \
              the base\n",
             counted(setup.layout.free_cells(), "free cell"),
             setup.scheme.team,
             setup.robots,
         ),
-        Some(_) | None => String::new(),
+        None => String::new(),
     }
 }
 

@@ -62,9 +62,6 @@ impl FromStr for Bytes {
 /// Seconds that one step may take, unless the user says otherwise.
 const PATIENCE: NonZeroU32 = NonZeroU32::new(PATIENCE_S).expect("it is above 0");
 
-/// The name of the rules that the papers publish.
-const PUBLISHED: &str = "published";
-
 /// Decide the clauses of SPEC.md within their bounds, and print the verdicts.
 ///
 /// Without a clause one screen tells how many verdicts there are of each kind. With one, or with `--verbose`, each check

@@ -201,6 +201,7 @@ pub fn indented(indent: usize, text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ambiguity::PUBLISHED;
     use crate::clause::Variant;
 
     #[test]
@@ -218,7 +219,7 @@ mod tests {
     fn what_is_refuted_is_a_sentence_of_a_paper_or_has_a_reason() {
         for clause in clauses() {
             for check in clause.checks {
-                let is_on_purpose = check.expected() == Verdict::Refuted && check.rule() != "published";
+                let is_on_purpose = check.expected() == Verdict::Refuted && check.rule() != PUBLISHED;
                 assert_eq!(check.reason().is_some(), is_on_purpose, "{}: {check:?}", clause.id);
             }
         }

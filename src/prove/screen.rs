@@ -4,10 +4,9 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use tautline_proofs::ambiguity::PUBLISHED;
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::ledger::{Row, indented, title};
-
-use super::PUBLISHED;
 
 /// A heading, and whether a row is counted below it.
 type Count = (&'static str, fn(&Row) -> bool);

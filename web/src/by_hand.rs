@@ -8,6 +8,7 @@ mod notice;
 
 use serde_json::Value;
 use tautline_kernel::choice::Oracle;
+use tautline_kernel::conditions::Conditional;
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::world::{Turn, World};
@@ -25,7 +26,7 @@ pub(crate) struct ByHand {
     /// Its name.
     pub(crate) name: &'static str,
     /// Its world with these settings, at its start.
-    start: fn(&Settings) -> Result<Box<dyn Play>, Diagnostic>,
+    start: Start,
     /// The row that a page shows, if no catalogue has one.
     pub(crate) row: Option<fn() -> Value>,
 }
@@ -41,6 +42,35 @@ pub(crate) fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
         Diagnostic::usage(what, "play it on a layout")
     })?;
     (world.start)(settings)
+}
+
+/// A world with these settings, at its start.
+type Start = fn(&Settings) -> Result<Box<dyn Play>, Diagnostic>;
+
+/// The world of one, two or three robots, as the settings say.
+fn small_team(settings: &Settings, of: [Start; 3]) -> Result<Box<dyn Play>, Diagnostic> {
+    let start = usize::from(settings.robots).checked_sub(1).and_then(|place| of.get(place));
+    let start = start.ok_or_else(|| {
+        let what = format!("{} robots are too many to play every order of theirs by hand", settings.robots);
+        Diagnostic::of_field("robots", what, "take 1, 2 or 3")
+    })?;
+    start(settings)
+}
+
+/// The rule of this name among `rules`, with the conditions that are switched on.
+fn chosen<R: Conditional>(rules: &[(&str, R)], settings: &Settings) -> Result<R, Diagnostic> {
+    let found = rules.iter().find(|(name, _)| *name == settings.rule);
+    let &(_, rule) = found.ok_or_else(|| {
+        let names: Vec<&str> = rules.iter().map(|&(name, _)| name).collect();
+        let what = format!("the rule {} asks nothing that could be decided by hand", settings.rule);
+        Diagnostic::of_field("rule", what, format!("take {}", names.join(" or ")))
+    })?;
+    Ok(settings.on.map_or(rule, |on| rule.with_in_force(on)))
+}
+
+/// The fault of a layout that a small world does not hold.
+fn too_large() -> Diagnostic {
+    Diagnostic::of_field("layout", "the layout is too large to be played by hand", "take a smaller one")
 }
 
 /// A world whose states can be shown.

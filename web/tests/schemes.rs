@@ -106,3 +106,23 @@ fn every_hunt_is_made_in_slices_and_its_findings_are_played() {
     assert!(hunted.iter().any(|one| one.starts_with("kit KIT-3 ")), "{hunted:?}");
     assert!(hunted.iter().any(|one| one.starts_with("frontier FRONTIER-")), "{hunted:?}");
 }
+
+#[test]
+fn a_rule_that_is_played_by_hand_is_itself_or_refused() {
+    let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
+    let schemes = list["schemes"].as_array().expect("a list");
+    let opened = |name: &str, rule: &str| {
+        let scheme = schemes.iter().find(|scheme| scheme["name"] == name).expect("a scheme");
+        let mut settings = settings(scheme, &json!({ "name": rule }));
+        settings["world"] = json!(true);
+        let open = json!({ "do": "open", "settings": settings, "steps": 30 });
+        Page::default().answer(&open.to_string())
+    };
+    let games = ["published", "repaired", "ahead"].map(|rule| opened("kit", rule));
+    assert!(games[0] != games[1] && games[1] != games[2] && games[2] != games[0], "{games:?}");
+    let refused = opened("frontier", "hungarian");
+    assert!(
+        refused.contains("hungarian asks nothing") && refused.contains("take published or "),
+        "{refused}"
+    );
+}

@@ -42,7 +42,7 @@ pub trait Team {
         self.area(layout).cells().filter(|&cell| layout.is_free(cell)).count() as u32
     }
 
-    /// How far the team comes in `layout`, where that depends on how many robots it has.
+    /// How far the team comes in `layout`, if one with more robots came farther.
     fn reach(&self, layout: &Layout) -> Option<Reach> {
         let _ = layout;
         None

@@ -1,6 +1,5 @@
 //! Frontier cells by hand: which robot looks or arrives next, and which messages are lost.
 
-use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::frontier::{Map, Rule, Status, TinyMap};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::frontier::areas::{setting, words};
@@ -8,7 +7,7 @@ use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor, World}
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Layer, Place, Shape, Value};
 
-use super::{ByHand, Picture, Played, Scene, Shown};
+use super::{ByHand, Picture, Played, Scene, Shown, chosen, small_team, too_large};
 use crate::play::Play;
 use crate::settings::Settings;
 
@@ -28,15 +27,7 @@ const RULES: [(&str, Rule); 6] = [
 ];
 
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
-    match settings.robots {
-        1 => begin::<1>(settings),
-        2 => begin::<2>(settings),
-        3 => begin::<3>(settings),
-        robots => {
-            let what = format!("{robots} robots are too many to play every order of theirs by hand");
-            Err(Diagnostic::of_field("robots", what, "take 1, 2 or 3"))
-        }
-    }
+    small_team(settings, [begin::<1>, begin::<2>, begin::<3>])
 }
 
 fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
@@ -44,14 +35,7 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
     let is_lossy = plain.options.remove("loss").is_some();
     let setup = plain.setup()?;
     let layout = &setup.layout;
-    let rule = RULES.iter().find(|(name, _)| *name == settings.rule).map(|&(_, rule)| rule);
-    let rule = rule.ok_or_else(|| {
-        Diagnostic::of_field("rule", "a rival that assigns cells asks nothing", "take another rule")
-    })?;
-    let rule = settings.on.map_or(rule, |on| rule.with_in_force(on));
-    let too_large = || {
-        Diagnostic::of_field("layout", "the layout is too large to be played by hand", "take a smaller one")
-    };
+    let rule = chosen(&RULES, settings)?;
     let setting = setting::<ROBOTS>(rule, (layout.width(), layout.height())).ok_or_else(too_large)?;
     let mut given = TinyMap::new(setting.area).ok_or_else(too_large)?;
     layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));

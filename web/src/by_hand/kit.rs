@@ -1,6 +1,5 @@
 //! Keep In Touch by hand: which robot arrives next, which decides, and where it turns.
 
-use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Cell, EdgeMark, Grid, TinyGrid};
 use tautline_kernel::kit::{Reach, Rule, Stance};
 use tautline_proofs::kit::counterexample::words;
@@ -8,7 +7,7 @@ use tautline_proofs::kit::world::{Demand, Setting, Speeds, Successor, World};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Joins, Layer, Place, Shape, Value, Zone};
 
-use super::{ByHand, Picture, Played, Scene, Shown};
+use super::{ByHand, Picture, Played, Scene, Shown, chosen, small_team, too_large};
 use crate::play::Play;
 use crate::settings::Settings;
 
@@ -26,26 +25,18 @@ const RECORD: &[Value] =
 /// The place of the records among the layers.
 const RECORDS: usize = 1;
 
+/// The rules of the kernel by the names that the catalogue has for them.
+const RULES: [(&str, Rule); 3] =
+    [("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED), ("ahead", Rule::AHEAD)];
+
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
-    match settings.robots {
-        1 => begin::<1>(settings),
-        2 => begin::<2>(settings),
-        3 => begin::<3>(settings),
-        robots => {
-            let what = format!("{robots} robots are too many to play every order of theirs by hand");
-            Err(Diagnostic::of_field("robots", what, "take 1, 2 or 3"))
-        }
-    }
+    small_team(settings, [begin::<1>, begin::<2>, begin::<3>])
 }
 
 fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
     let setup = settings.setup()?;
     let layout = &setup.layout;
-    let rule = if settings.rule == "published" { Rule::PUBLISHED } else { Rule::REPAIRED };
-    let rule = settings.on.map_or(rule, |on| rule.with_in_force(on));
-    let too_large = || {
-        Diagnostic::of_field("layout", "the layout is too large to be played by hand", "take a smaller one")
-    };
+    let rule = chosen(&RULES, settings)?;
     let setting = Setting::<ROBOTS>::new(rule, (layout.width(), layout.height())).ok_or_else(too_large)?;
     let mut given = TinyGrid::new(setting.area).ok_or_else(too_large)?;
     for edge in setting.area.edges().filter(|&edge| !layout.is_open(edge)) {

@@ -308,12 +308,15 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
     Breach::Contact.is_in(&here, &here)
 }
 
-/// How far a chain of so many robots comes from `base`.
-fn reach(layout: &Layout, base: Cell, robots: usize) -> Reach {
+/// How far a chain of so many robots comes from `base`, unless it comes everywhere.
+fn reach(layout: &Layout, base: Cell, robots: usize) -> Option<Reach> {
     let area = layout.size().area();
     let within = |robots| within_reach(area, base, robots, |edge| layout.is_open(edge)).len();
     let (cells, connected) = (within(robots), layout.spread(&[base]).len());
-    let (mut too_few, mut enough) = (0, robots);
+    if cells == connected {
+        return None;
+    }
+    let (mut too_few, mut enough) = (robots, 2 * robots);
     while within(enough) < connected {
         (too_few, enough) = (enough, 2 * enough);
     }
@@ -325,7 +328,7 @@ fn reach(layout: &Layout, base: Cell, robots: usize) -> Reach {
             enough = half;
         }
     }
-    Reach { cells, connected, robots: enough }
+    Some(Reach { cells, connected, robots: enough })
 }
 
 impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
@@ -334,7 +337,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     }
 
     fn reach(&self, layout: &Layout) -> Option<Reach> {
-        self.cells.first().map(|&base| reach(layout, base, self.cells.len()))
+        reach(layout, *self.cells.first()?, self.cells.len())
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
