@@ -142,8 +142,10 @@ pub trait Local: Sync {
     /// A team of so many robots at its start: each tuple of which the rule speaks must be one that may start.
     fn start(&self, robots: usize) -> Vec<Robot<Self::State>>;
 
-    /// Of which tuples of so many robots the rule speaks.
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>>;
+    /// Of which tuples of so many robots the rule speaks: of all, unless it says otherwise.
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
+        all_tuples(robots, Self::ROBOTS)
+    }
 
     /// Whether an act is possible whatever was before. One that is possible in some pasts only is looked at as if it always
     /// were; but no run with it is called real, and no planner that is kept to the rule may do it.
@@ -162,6 +164,11 @@ type ActOf<R> = Act<<R as Local>::State, <R as Local>::Act>;
 
 /// A robot of a rule.
 type RobotOf<R> = Robot<<R as Local>::State>;
+
+/// So many robots beside each other in a row of cells of the first colour.
+pub fn in_a_row<S: Copy>(robots: usize, state: S) -> Vec<Robot<S>> {
+    (0..robots as i16).map(|x| Robot::new(Cell::new(x, 0), state)).collect()
+}
 
 /// Every way to name `of` of so many robots, in any order.
 pub fn all_tuples(robots: usize, of: usize) -> Vec<Vec<usize>> {

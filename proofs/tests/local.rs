@@ -9,7 +9,7 @@ use tautline_proofs::decide::{Cache, Context, Depiction, Method, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
-use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan, Robot, chain};
+use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan, Robot, chain, in_a_row};
 
 /// The answer about a rule, which is played again if it is refuted: the verdict, how many robots refute it in how many
 /// steps, and the drawing.
@@ -89,7 +89,7 @@ impl Local for Leash {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<u8>> {
-        (0..robots as i16).map(|x| Robot::new(Cell::new(x, 0), 0)).collect()
+        in_a_row(robots, 0)
     }
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {

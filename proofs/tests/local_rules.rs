@@ -11,7 +11,7 @@ use tautline_proofs::decide::{Cache, Verdict};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::frontier::local::Alone;
 use tautline_proofs::frontier::world::Rim;
-use tautline_proofs::kit::local::{Apart, Contact as InTouch};
+use tautline_proofs::kit::local::Two;
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples};
 
 use crate::local::decided;
@@ -74,7 +74,7 @@ fn the_conditions_of_the_chain_for_every_n() {
 #[test]
 fn the_conditions_of_robots_that_keep_in_touch_for_every_n() {
     let mut table = String::new();
-    let touch = |rule, of_nodes| InTouch { rule, of_nodes };
+    let touch = |rule, of_nodes| Two { of_nodes, ..Two::in_contact(rule) };
     table += &line("contact", &touch(KitRule::REPAIRED, false));
     table += &line("contact, promised of nodes", &touch(KitRule::REPAIRED, true));
     for condition in [KitCondition::FromInReach, KitCondition::NextInReach] {
@@ -83,7 +83,7 @@ fn the_conditions_of_robots_that_keep_in_touch_for_every_n() {
             &touch(KitRule::REPAIRED.without(condition), false),
         );
     }
-    let apart = |rule, of_nodes| Apart { rule, of_nodes };
+    let apart = |rule, of_nodes| Two { of_nodes, ..Two::apart(rule) };
     table += &line("apart", &apart(KitRule::REPAIRED, false));
     table += &line("apart, promised of nodes", &apart(KitRule::REPAIRED, true));
     table += &line("apart without Apart", &apart(KitRule::REPAIRED.without(KitCondition::Apart), false));
@@ -338,10 +338,6 @@ impl<const LEAST: usize> Local for Flags<LEAST> {
     fn start(&self, robots: usize) -> Vec<Robot<bool>> {
         let cells = [(0, 0), (0, 1), (1, 1), (1, 0)].map(Cell::from);
         cells.into_iter().take(robots).map(|cell| Robot::new(cell, false)).collect()
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 2)
     }
 }
 

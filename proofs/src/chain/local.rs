@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Cell, Circle, Step};
 
 use super::breach::stays_in_range;
 use super::{pair, three};
-use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, all_tuples, chain};
+use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, chain};
 
 /// Of a clause of which contact is a part.
 pub(super) const ITS_CONTACT: EveryNumber = EveryNumber { part: "contact alone", ..EveryNumber::DEFAULT };
@@ -194,10 +194,6 @@ impl<const COLOURS: u8> Local for Crowd<COLOURS> {
         let on = |robot| if robot == 0 { COLOURS - 1 } else { 0 };
         let robot = |robot| Robot { at: Cell::new(robot as i16, 0), state: role(robot), on: on(robot) };
         (0..robots).map(robot).collect()
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 3)
     }
 
     fn is_fixed(&self, robot: usize) -> bool {

@@ -5,7 +5,7 @@ use tautline_kernel::frontier::{Condition, Robot as Explorer, Rule, Sight, Stanc
 use tautline_kernel::ground::{Area, Cell, Side, Step};
 
 use super::world::Rim;
-use crate::local::{Act, Far, Local, Plan, Robot, all_tuples};
+use crate::local::{Act, Far, Local, Plan, Robot, in_a_row};
 
 /// Robots of which no two are to be in one cell.
 #[derive(Clone, Copy, Debug)]
@@ -121,10 +121,6 @@ impl Local for Alone {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<Stance>> {
-        (0..robots as i16).map(|x| Robot::new(Cell::new(x, 0), Stance::Stands)).collect()
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 2)
+        in_a_row(robots, Stance::Stands)
     }
 }

@@ -6,7 +6,7 @@ use tautline_kernel::kit::Condition::{
 use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule};
 
 use super::lattices::{Lattices, Pass, Size};
-use super::local::{self, Contact};
+use super::local::{self, Two};
 use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
@@ -244,12 +244,12 @@ pub static CLAUSES: [Clause; 14] = [
                 &[NO_NEXT, NO_FROM, NO_STAY, OLD_PATHS],
             ),
             &Check::new(
-                NamedRule::new("repaired", Contact::of(Rule::REPAIRED)),
+                NamedRule::new("repaired", Two::in_contact(Rule::REPAIRED)),
                 &local::TWO,
                 Verdict::Holds,
                 &[
-                    NamedRule::new(NO_NEXT.name, Contact::of(NO_NEXT.rule)),
-                    NamedRule::new(NO_FROM.name, Contact::of(NO_FROM.rule)),
+                    NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule)),
+                    NamedRule::new(NO_FROM.name, Two::in_contact(NO_FROM.rule)),
                 ],
             ),
         ],
@@ -266,10 +266,10 @@ pub static CLAUSES: [Clause; 14] = [
                 &[NO_NEXT, NO_STAY, OLD_PATHS],
             ),
             &Check::new(
-                NamedRule::new("repaired", Contact::of(Rule::REPAIRED)),
+                NamedRule::new("repaired", Two::in_contact(Rule::REPAIRED)),
                 &local::TWO,
                 Verdict::Holds,
-                &[NamedRule::new(NO_NEXT.name, Contact::of(NO_NEXT.rule))],
+                &[NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule))],
             ),
         ],
     },
@@ -290,10 +290,10 @@ pub static CLAUSES: [Clause; 14] = [
                 &[NOT_APART, NO_STAY],
             ),
             &Check::new(
-                NamedRule::new("repaired", local::Apart::of(Rule::REPAIRED)),
+                NamedRule::new("repaired", Two::apart(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
                 Verdict::Holds,
-                &[NamedRule::new(NOT_APART.name, local::Apart::of(NOT_APART.rule))],
+                &[NamedRule::new(NOT_APART.name, Two::apart(NOT_APART.rule))],
             ),
         ],
     },

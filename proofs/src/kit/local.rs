@@ -1,10 +1,10 @@
 //! Two robots that keep in touch, as a local rule: KIT-1 to KIT-3 for every lattice and every order of events, by the
 //! kernel's own conditions. One robot acts at a time.
 
-use tautline_kernel::ground::{Cell, Side, Step};
+use tautline_kernel::ground::{Side, Step};
 use tautline_kernel::kit::{Reach, Rule, Stance};
 
-use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, all_tuples};
+use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, in_a_row};
 
 /// Two robots: of more the kernel asks that sets of them hear each other.
 pub(super) const TWO: EveryNumber =
@@ -54,33 +54,44 @@ fn admits(plans: &[Plan<Step, Doing>], may_drive: impl Fn(Stance, Stance) -> boo
         && is_admitted(&plans[1], &plans[0])
 }
 
-/// Robots side by side.
-fn in_a_row(robots: usize) -> Vec<Robot<Step>> {
-    (0..robots as i16).map(|x| Robot::new(Cell::new(x, 0), Step::Stay)).collect()
-}
-
 fn are_in_a_row(robots: &[Robot<Step>]) -> bool {
     let (columns, rows) = robots[0].at.apart(robots[1].at);
     robots.iter().all(|robot| robot.state == Step::Stay) && columns + rows == 1
 }
 
-/// The contact of two robots, at whatever speeds they drive (KIT-1, KIT-2).
+/// A promise about two robots.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Promise {
+    /// They hear each other (KIT-1, KIT-2).
+    Contact,
+    /// They are at least one path apart (KIT-3).
+    Apart,
+}
+
+/// Two robots of a team, at whatever speeds they drive.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact {
+pub struct Two {
     /// Their rule.
     pub rule: Rule,
+    /// What is promised.
+    pub promise: Promise,
     /// Whether the promise is about the nodes alone that they have left last: the engine finds the rest.
     pub of_nodes: bool,
 }
 
-impl Contact {
-    /// At every moment, by this rule.
-    pub const fn of(rule: Rule) -> Self {
-        Self { rule, of_nodes: false }
+impl Two {
+    /// Contact at every moment, by this rule.
+    pub const fn in_contact(rule: Rule) -> Self {
+        Self { rule, promise: Promise::Contact, of_nodes: false }
+    }
+
+    /// Robots that are apart at every moment, by this rule.
+    pub const fn apart(rule: Rule) -> Self {
+        Self { rule, promise: Promise::Apart, of_nodes: false }
     }
 }
 
-impl Local for Contact {
+impl Local for Two {
     type State = Step;
     type Act = Doing;
 
@@ -93,20 +104,28 @@ impl Local for Contact {
     }
 
     fn admits(&self, plans: &[Plan<Step, Doing>]) -> bool {
-        admits(plans, |path, other| self.rule.hears(other, path))
+        admits(plans, |path, other| match self.promise {
+            Promise::Contact => self.rule.hears(other, path),
+            Promise::Apart => self.rule.keeps_apart(path, other),
+        })
     }
 
     fn keeps(&self, robots: &[Robot<Step>]) -> bool {
         let (one, other) = (stance(&robots[0]), stance(&robots[1]));
-        if self.of_nodes {
-            Reach::PAPER.joins(one.from(), other.from())
-        } else {
-            one.is_sure_of(other, Reach::PAPER)
+        match (self.promise, self.of_nodes) {
+            (Promise::Contact, true) => Reach::PAPER.joins(one.from(), other.from()),
+            (Promise::Contact, false) => one.is_sure_of(other, Reach::PAPER),
+            (Promise::Apart, true) => one.from() != other.from(),
+            (Promise::Apart, false) => one.is_apart_from(other),
         }
     }
 
     fn reach(&self) -> (i16, Far) {
-        (4, Far::Broken)
+        match (self.promise, self.of_nodes) {
+            (Promise::Contact, _) => (4, Far::Broken),
+            (Promise::Apart, true) => (0, Far::Fine),
+            (Promise::Apart, false) => (2, Far::Fine),
+        }
     }
 
     fn may_start(&self, robots: &[Robot<Step>]) -> bool {
@@ -114,64 +133,6 @@ impl Local for Contact {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<Step>> {
-        in_a_row(robots)
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 2)
-    }
-}
-
-/// Any two robots of a team are at least one path apart, at whatever speeds they drive (KIT-3).
-#[derive(Clone, Copy, Debug)]
-pub struct Apart {
-    /// Their rule.
-    pub rule: Rule,
-    /// Whether the promise is about the nodes alone that they have left last: the engine finds the rest.
-    pub of_nodes: bool,
-}
-
-impl Apart {
-    /// At every moment, by this rule.
-    pub const fn of(rule: Rule) -> Self {
-        Self { rule, of_nodes: false }
-    }
-}
-
-impl Local for Apart {
-    type State = Step;
-    type Act = Doing;
-
-    fn states(&self) -> Vec<Step> {
-        Step::ALL.to_vec()
-    }
-
-    fn acts(&self, state: Step) -> Vec<Act<Step, Doing>> {
-        acts(state)
-    }
-
-    fn admits(&self, plans: &[Plan<Step, Doing>]) -> bool {
-        admits(plans, |path, other| self.rule.keeps_apart(path, other))
-    }
-
-    fn keeps(&self, robots: &[Robot<Step>]) -> bool {
-        let (one, other) = (stance(&robots[0]), stance(&robots[1]));
-        if self.of_nodes { one.from() != other.from() } else { one.is_apart_from(other) }
-    }
-
-    fn reach(&self) -> (i16, Far) {
-        (if self.of_nodes { 0 } else { 2 }, Far::Fine)
-    }
-
-    fn may_start(&self, robots: &[Robot<Step>]) -> bool {
-        are_in_a_row(robots)
-    }
-
-    fn start(&self, robots: usize) -> Vec<Robot<Step>> {
-        in_a_row(robots)
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 2)
+        in_a_row(robots, Step::Stay)
     }
 }

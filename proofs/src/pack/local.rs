@@ -1,10 +1,10 @@
 //! Two robots of a pack, as a local rule: PACK-2 for every number of robots and every floor, by the kernel's own
 //! condition. Robots take their steps one after the other, also those of one team move.
 
-use tautline_kernel::ground::{Cell, Step};
+use tautline_kernel::ground::Step;
 use tautline_kernel::pack::Rule;
 
-use crate::local::{Act, Far, Local, Plan, Robot, all_tuples};
+use crate::local::{Act, Far, Local, Plan, Robot, in_a_row};
 
 /// Robots of which no two are to be in one cell.
 #[derive(Clone, Copy, Debug)]
@@ -45,10 +45,6 @@ impl Local for Single {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<()>> {
-        (0..robots as i16).map(|x| Robot::new(Cell::new(x, 0), ())).collect()
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, 2)
+        in_a_row(robots, ())
     }
 }
