@@ -262,7 +262,7 @@ impl Explore {
         Ok(Some(setup))
     }
 
-    /// What is asked for; what nobody says is that of the stored run, where there is one of the scheme.
+    /// The request; whatever nobody says is that of the stored run, where there is one of the scheme.
     fn asked(&self, stored: Option<&Setup>) -> Asked {
         let scheme = self.scheme.or(stored.map(|run| run.scheme)).unwrap_or_else(|| DEFAULT_SCHEME.into());
         let stored = stored.filter(|run| run.scheme == scheme);

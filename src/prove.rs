@@ -125,7 +125,7 @@ struct Line {
     given_up: u64,
     verdict: &'static str,
     registered: &'static str,
-    /// What is machine-checked beyond the bound.
+    /// The part that is machine-checked beyond the bound.
     #[serde(skip_serializing_if = "Option::is_none")]
     composition: Option<String>,
     /// Why it is registered as refuted, if not as the sentence of a paper.

@@ -92,7 +92,7 @@ impl fmt::Display for ReadingError {
 
 impl std::error::Error for ReadingError {}
 
-/// What stands between the interpretations in the name of a reading.
+/// The text between the interpretations in the name of a reading.
 const AND: &str = " + ";
 
 /// The name of the reading that takes the first interpretation of each ambiguity.

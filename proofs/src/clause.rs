@@ -161,7 +161,7 @@ pub struct Decision {
     pub survived: Vec<&'static str>,
     /// The answers under the other readings of the rule, in their order.
     pub readings: Vec<Answer>,
-    /// What else was found, in words.
+    /// Whatever else was found, in words.
     pub note: Option<String>,
 }
 

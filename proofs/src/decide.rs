@@ -105,7 +105,7 @@ pub struct Answer {
     pub given_up: u64,
     /// The counterexample, if it is refuted.
     pub counterexample: Option<Evidence>,
-    /// What else was found, in words.
+    /// Whatever else was found, in words.
     pub note: Option<String>,
 }
 

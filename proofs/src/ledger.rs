@@ -115,6 +115,13 @@ impl Row {
         let words = || composition::words(self.clause.id, self.check.rule(), self.check.engine());
         (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
+
+    /// Everything that is known beside the verdict within the bound: what else was found, what is machine-checked, what
+    /// comes out under other readings, and what the paper is credited with, whose sentence is among `rows`.
+    pub fn beyond(&self, rows: &[Self]) -> Vec<String> {
+        let all = [self.decision.note.clone(), self.composition(), self.readings(), self.credit(rows)];
+        all.into_iter().flatten().collect()
+    }
 }
 
 /// The checks of `clauses`, in order: the clause, and the number of the check.
@@ -150,9 +157,9 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let below = [("bound".to_owned(), [const { None }; 4])].into_iter().chain(rows.iter().map(|row| {
-        (row.bound(), [row.decision.note.clone(), row.composition(), row.readings(), row.credit(rows)])
-    }));
+    let below = [("bound".to_owned(), Vec::new())]
+        .into_iter()
+        .chain(rows.iter().map(|row| (row.bound(), row.beyond(rows))));
     let mut text = String::new();
     for (line, (bound, beyond)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)
@@ -164,7 +171,7 @@ pub fn table(rows: &[Row]) -> String {
             .collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", padded.join("  ").trim_end());
-        for words in iter::once(bound).chain(beyond.into_iter().flatten()) {
+        for words in iter::once(bound).chain(beyond) {
             text.push_str(&indented(widths[0] + 2, &words));
         }
     }

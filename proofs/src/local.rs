@@ -114,7 +114,7 @@ pub trait Local: Sync {
     const LEAST: usize = Self::ROBOTS;
     /// Whether a robot may be kept from going though no wall stands in its way.
     const FAULTS: bool = false;
-    /// What the verdict is about, in words.
+    /// The subject of the verdict, in words.
     const SUBJECT: &'static str = "the relation";
     /// How many colours cells may have. A layout gives each cell a colour below that.
     const COLOURS: u8 = 1;

@@ -99,7 +99,7 @@ pub struct Extra {
     pub about: &'static str,
     /// Reads what is typed.
     pub read: fn(&str, &mut Options) -> Result<(), String>,
-    /// What the clauses assume and a run that is told it need not keep to.
+    /// An assumption of the clauses that a run need not keep to which is told it.
     pub assumed: Option<&'static str>,
     /// How it would be typed, if it is told.
     pub typed: fn(&Options) -> Option<String>,

@@ -16,10 +16,12 @@ pub(super) fn report(rows: &[Row], ledger: &Ledger) -> Result<String, Halt> {
     let titles: BTreeMap<&str, &str> =
         rows.iter().map(|row| row.clause.scheme()).map(|scheme| (scheme, title(scheme))).collect();
     let pages = rows.iter().map(page).collect::<Result<Vec<_>, Halt>>()?;
+    let beyond: Vec<Vec<String>> = rows.iter().map(|row| row.beyond(rows)).collect();
     let [style, script] = shared();
     let parts = [
         ("{{titles}}", json(&titles)),
         ("{{ledger}}", json(ledger)),
+        ("{{beyond}}", json(&beyond)),
         ("{{style}}", json(&style)),
         ("{{script}}", json(&script)),
         // Last, since pages have marks, too.

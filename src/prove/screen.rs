@@ -77,7 +77,7 @@ fn ids(rows: &[Row]) -> String {
     schemes.join(", ")
 }
 
-/// What is refuted on purpose, by its reason.
+/// Rows that are refuted on purpose, by their reasons.
 fn reasons(rows: &[Row]) -> String {
     let mut found: Vec<(&str, Vec<String>)> = Vec::new();
     for row in rows.iter().filter(|row| COUNTS[3].1(row)) {

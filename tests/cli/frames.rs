@@ -108,7 +108,7 @@ fn step(from: Place, to: Place) -> &'static str {
     }
 }
 
-/// What `tautline replay` prints of a team with a base and at most nine robots, in short.
+/// The text that `tautline replay` prints of a team with a base and at most nine robots, in short.
 pub(crate) fn in_short(replayed: &str) -> String {
     let (text, drawn) = replayed.split_at(replayed.find("\nmove ").expect("a drawing") + 1);
     let mut paragraphs = drawn.split("\n\n").peekable();

@@ -75,10 +75,10 @@ fn too_large() -> Diagnostic {
 
 /// A world whose states can be shown.
 trait Shown: World {
-    /// What stands still.
+    /// The part that stands still.
     fn scene(&self) -> Scene;
 
-    /// What may happen next, in words, as the plan lists it.
+    /// The events that may happen next, in words, as the plan lists them.
     fn options(&self, state: &Self::State, plan: &Self::Plan) -> Vec<String>;
 
     /// How a state looks.
@@ -88,7 +88,7 @@ trait Shown: World {
     fn clause(&self, demand: Self::Demand) -> (&'static str, String);
 }
 
-/// What stands still in a world.
+/// The part of a world that stands still.
 struct Scene {
     area: Area,
     /// The noun for whoever acts.
@@ -220,9 +220,9 @@ impl<W: Shown> Play for Played<W> {
 struct Asked<'a> {
     answers: &'a mut Answers,
     dice: &'a mut SeededOracle,
-    /// What may happen, until one of it is picked.
+    /// The events that may happen, until one of them is picked.
     options: Vec<String>,
-    /// What was picked.
+    /// The event that was picked.
     taken: String,
 }
 

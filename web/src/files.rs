@@ -12,7 +12,7 @@ use crate::settings::{Settings, ground};
 /// The most bytes of a file that a page reads.
 const MOST_BYTES: usize = 16 << 20;
 
-/// What is in a file: a layout or a run.
+/// The content of a file: a layout or a run.
 pub(crate) fn read(name: &str, content: String) -> Result<Value, Diagnostic> {
     let wrong = |what: &str, remedy: &str| Err(Diagnostic::in_file(name, what, remedy));
     if content.len() > MOST_BYTES {

@@ -101,7 +101,7 @@ impl Hunting {
         Ok((hunting, json!({ "command": command })))
     }
 
-    /// What is asked, without a budget.
+    /// The request, without a budget.
     fn asked(&self) -> Result<Asked<'static>, Diagnostic> {
         let Quarry { robots, size, max_walls, max_misses, max_losses, error } = self.quarry;
         let size = size.map(|[columns, rows]| Size::new(columns, rows)).transpose()?;

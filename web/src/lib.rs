@@ -25,7 +25,7 @@ use game::Game;
 use hunt::{Hunting, Quarry};
 pub use settings::Settings;
 
-/// What a page can ask.
+/// A request of a page.
 #[derive(Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 enum Request {

@@ -1,4 +1,4 @@
-//! What a page plays: a board that stands still, and steps that say what they change.
+//! The game that a page plays: a board that stands still, and steps that say what they change.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -9,7 +9,7 @@ use crate::ask::Answers;
 
 /// Something that is played step by step.
 pub(crate) trait Play {
-    /// What stands still.
+    /// The board.
     fn board(&self) -> Board;
 
     /// Makes the next step.
@@ -21,7 +21,7 @@ pub(crate) trait Play {
     }
 }
 
-/// What stands still.
+/// The part of a game that stands still.
 #[derive(Serialize)]
 pub(crate) struct Board {
     pub(crate) columns: usize,
@@ -51,13 +51,13 @@ pub(crate) struct Board {
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Step {
-    /// What it changes.
+    /// The changes that it makes.
     Made(Box<Delta>),
     /// The run is over.
     Over(Over),
 }
 
-/// What a step changes. Cells and sides are told by their numbers in the whole board.
+/// The changes of a step. Cells and sides are told by their numbers in the whole board.
 #[derive(Default, Serialize)]
 pub(crate) struct Delta {
     /// The number of the step.

@@ -35,7 +35,7 @@ impl Run {
         self.setup.layout.size().area()
     }
 
-    /// What the team move `made` has changed.
+    /// The changes of the team move `made`.
     fn delta(&self, made: &Made, walls: Vec<(Edge, bool)>) -> Delta {
         let area = self.area();
         let number = |cell| place(area, cell);

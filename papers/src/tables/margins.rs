@@ -22,7 +22,7 @@ const PATH_M: f64 = 3.0;
 pub struct Margins;
 
 settings! {
-    /// What robots and radios are taken to be.
+    /// The assumptions about robots and radios.
     pub struct Settings {
         /// How far robots hear each other, in metres
         pub range_m: f64 = 10.0, one("range", "METRES", positive);
@@ -38,7 +38,7 @@ fn positive(text: &str) -> Result<f64, String> {
     if number.is_finite() && number > 0.0 { Ok(number) } else { Err("write a number above 0".to_owned()) }
 }
 
-/// What is measured of two robots.
+/// The measure of two robots.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kept {
@@ -114,7 +114,7 @@ pub struct Summary {
 pub struct Line {
     /// The rule.
     pub rule: &'static str,
-    /// What is measured.
+    /// The measure.
     pub kept: Kept,
     /// The side of a cell, or a path, in metres.
     pub side_m: f64,
@@ -130,7 +130,7 @@ pub struct Line {
     pub weaker_db: Option<f64>,
     /// The largest side with which the range suffices, in metres.
     pub largest_m: f64,
-    /// What is left of r_cov at any moment, in metres; KIT has none.
+    /// The rest of r_cov at any moment, in metres; KIT has none.
     pub of_r_cov_m: Option<f64>,
     /// Whether the range suffices however late a robot goes.
     pub is_late_allowed: bool,

@@ -45,7 +45,7 @@ pub(super) const ALONE: [Series; 1] = [Series::new(Area::blocked(4, 4), 1)];
 /// Two agents in three cells, the fewest in which one shuts the other in.
 pub(super) const PAIR: Series = Series::new(Area::blocked(3, 1), 2);
 
-/// The same with a missed sensor.
+/// Those floors with a missed sensor.
 pub(super) const HALF_BLIND_PAIR: Series = pair_of(Series::missing(Area::blocked(3, 1), 1, 1));
 
 /// Two agents in three cells, else as in another series.

@@ -1,4 +1,4 @@
-//! What two or three robots of a chain may plan at once, as local rules: CHAIN-1 to CHAIN-3, CHAIN-15 and CHAIN-19 for
+//! Plans that two or three robots of a chain may make at once, as local rules: CHAIN-1 to CHAIN-3, CHAIN-15 and CHAIN-19 for
 //! every layout, by the kernel's own conditions.
 
 use tautline_kernel::chain::{Condition, Move, Role, Rule};

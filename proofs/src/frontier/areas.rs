@@ -312,7 +312,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
 }
 
 impl<const ROBOTS: usize> Areas<ROBOTS> {
-    /// The same demand on so many robots.
+    /// This demand on so many robots.
     const fn of<const OTHERS: usize>(other: &Areas<OTHERS>) -> Self {
         let Areas { sizes, max_losses, max_wrong, demand, covers } = *other;
         Self { sizes, max_losses, max_wrong, demand, covers }

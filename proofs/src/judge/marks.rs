@@ -28,7 +28,7 @@ pub struct Write {
     pub mark: Mark,
 }
 
-/// What becomes of an agent in its turn.
+/// The fate of an agent in its turn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {
     /// It goes on.
@@ -46,7 +46,7 @@ pub struct Turn {
     pub agent: usize,
     /// The side by which it leaves its cell, if it goes: east, south, west, north.
     pub side: Option<usize>,
-    /// What becomes of it.
+    /// Its fate.
     pub fate: Fate,
     /// The marks that it changes; none in a run of which marks do not matter.
     pub writes: Vec<Write>,

@@ -73,7 +73,7 @@ pub enum Promise {
 pub struct Two {
     /// Their rule.
     pub rule: Rule,
-    /// What is promised.
+    /// The promise.
     pub promise: Promise,
     /// Whether the promise is about the nodes alone that they have left last: the engine finds the rest.
     pub of_nodes: bool,

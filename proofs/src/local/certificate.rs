@@ -130,7 +130,7 @@ impl<R: Local> Tables<'_, R> {
         Tree::of(kinds, R::ROBOTS, &mut Vec::new(), &mut leaf)
     }
 
-    /// What each state can do: where each act leads, and what may come of it.
+    /// The acts of each state: where each leads, and what may come of it.
     fn moves(&self) -> Result<String, MethodError> {
         let number = |state: &R::State| {
             let place = self.states.iter().position(|known| known == state);

@@ -247,7 +247,7 @@ pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)>) -> bool {
 /// A place far from (0, 0), to see whether a rule is the same there.
 const ELSEWHERE: (i16, i16) = (113, 57);
 
-/// What robots can do by a rule.
+/// The acts of robots by a rule.
 struct Steps<'r, R: Local> {
     rule: &'r R,
     acts: HashMap<R::State, Vec<ActOf<R>>>,

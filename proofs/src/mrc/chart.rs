@@ -54,7 +54,7 @@ pub fn chart(setting: &Setting, broken: &Refutation) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What happens by `action` before it leads to the state `after`, in words.
+/// The words for an `action` that leads to the state `after`: whatever happens before that.
 pub fn happens(setting: &Setting, before: &State, action: Action, after: &State) -> String {
     let mut words = match action {
         Action::Raise(wfr) => format!("something happens at {}", name(Actor::Wfr(wfr))),

@@ -153,7 +153,7 @@ impl Asked {
         }
     }
 
-    /// What was asked for to make `setup`, but for its layout, its limits, and what a search has chosen in it.
+    /// The request that makes `setup`, but for its layout, its limits, and what a search has chosen in it.
     pub fn again(setup: &Setup) -> Self {
         let Setup { scheme, rule, robots, seed, base, starts, miss, options, .. } = setup.clone();
         let starts = starts.unwrap_or_default();

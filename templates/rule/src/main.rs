@@ -38,7 +38,7 @@ impl Rule for East {
     }
 }
 
-/// What is around the rule: every layout of 4×2 cells with at most two walls on the way.
+/// The surroundings of the rule: every layout of 4×2 cells with at most two walls on the way.
 static SETTING: Setting<'_, East> = Setting {
     senses: Senses::TEAM,
     longest_run: 20,
