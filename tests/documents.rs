@@ -10,6 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::commands::documents;
+use crate::proved::proved;
 use insta::assert_snapshot;
 use tautline_proofs::ledger;
 
@@ -156,7 +157,7 @@ fn the_exit_codes_of_the_documents_are_those_of_the_help() {
 
 #[test]
 fn the_ledger_and_the_chart_are_those_of_the_documents() {
-    let all = printed(&["prove", "--verbose"], 0);
+    let all = &proved().told;
     let (ledger, stories) = all.split_once("\n\n").expect("a ledger, then counterexamples");
     for line in ledger.lines() {
         assert!(line.chars().count() <= 80, "wider than 80 columns: {line}");
@@ -171,7 +172,7 @@ fn the_ledger_and_the_chart_are_those_of_the_documents() {
     assert_snapshot!("screen", screen);
     let (_, of_mrc_1) = stories.split_once("MRC-1 as published").expect("it is refuted");
     let (_, chart) = of_mrc_1.split_once("events.\n\n").expect("a chart");
-    let (chart, _) = chart.split_once("\n\nMRC-2 as").expect("the next story");
+    let (chart, _) = chart.split_once("\n\nreplay it with: ").expect("the next story");
     shows("docs/mrc.md", chart.trim_end());
 }
 

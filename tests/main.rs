@@ -9,6 +9,7 @@ mod fuzz_corpus;
 mod layouts;
 mod mcap;
 mod page;
+mod proved;
 mod python;
 mod recipes;
 mod refutations;

@@ -4,6 +4,7 @@
 pub mod clauses;
 pub mod networks;
 mod random;
+mod shapes;
 pub mod spread;
 
 use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};

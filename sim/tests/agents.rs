@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::{env, fs};
+use std::{env, fs, thread};
 
 use crate::common::Unwatched;
 use insta::assert_snapshot;
@@ -309,11 +309,15 @@ fn published_maps_are_visited_if_they_are_there() {
     let Some(folder) = env::var_os("TAUTLINE_MAPS") else { return };
     let files = fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").path());
     let maps: BTreeSet<_> = files.filter(|path| path.extension().is_some_and(|end| end == "map")).collect();
-    for path in maps {
-        let name = path.display().to_string();
-        let layout = layout::load(&name, 0, None::<&Path>).expect("a map");
-        is_visited(&name, &layout, largest_part(&layout));
-    }
+    thread::scope(|scope| {
+        for path in maps {
+            scope.spawn(move || {
+                let name = path.display().to_string();
+                let layout = layout::load(&name, 0, None::<&Path>).expect("a map");
+                is_visited(&name, &layout, largest_part(&layout));
+            });
+        }
+    });
 }
 
 #[test]

@@ -6,7 +6,8 @@ use tautline_kernel::kit::Rule;
 
 use super::counterexample::Counterexample;
 use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay};
+use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{END, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::AnyCase;
@@ -178,9 +179,41 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         self.found(rule, choices).ok()?.1.case()
     }
+
+    fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {
+        let (_, Counterexample { setting, run }) = self.found(rule, choices).ok()?;
+        let class = Class { area: setting.area, barriers: setting.max_walls.into(), robots: ROBOTS };
+        Some((class.to_string(), run.steps.len() + run.round().len()))
+    }
+
+    fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
+        let most = Most { cells: 10, barriers: 4, robots: 1..=3 };
+        let of = |class: Class, _| match class.robots {
+            1 => Ok(Lattices::<1>::of(self).shortest(rule, class)),
+            2 => Ok(Lattices::<2>::of(self).shortest(rule, class)),
+            _ => Ok(Lattices::<3>::of(self).shortest(rule, class)),
+        };
+        Ok(Some(smallest(&most, of)?.drawn_by_cells(|story| story)))
+    }
 }
 
 impl<const ROBOTS: usize> Lattices<ROBOTS> {
+    /// This demand on so many robots.
+    const fn of<const OTHERS: usize>(other: &Lattices<OTHERS>) -> Self {
+        let Lattices { sizes, speeds, answers, starts, demand, pass, covers } = *other;
+        Self { sizes, speeds, answers, starts, demand, pass, covers }
+    }
+
+    /// The shortest run in a class that breaks the demand; nothing where the lattice is too large.
+    fn shortest(&self, rule: &Rule, class: Class) -> Searched<String> {
+        let ((width, height), walls) = (class.size(), class.barriers as u8);
+        let mut looked = Findings { states: 0, is_whole: true, covered: Vec::new(), broken: None };
+        let desk = (Limits::NONE, &mut looked);
+        let found = self.search(rule, (width, height, walls), Some(self.demand), desk);
+        let shortest = found.map(|found| (found.run.steps.len() + found.run.round().len(), found.story()));
+        Searched { cases: looked.states, is_whole: looked.is_whole, shortest }
+    }
+
     /// From how many each choice is made, and the run.
     fn found(
         &self,

@@ -1,20 +1,22 @@
 //! Every small network, and every state that it can come to (NOTICE-1 to NOTICE-6).
 
+use std::fmt;
+
 use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
 use super::Subject;
+use super::shapes::{SMALL, shapes};
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
+use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::{Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover};
 use crate::judge::{AnyCase, notice as judge};
-
-/// The largest network of which every state is looked at.
-pub const SMALL: usize = 5;
+use crate::plural::counted;
 
 /// A network, the rule of its nodes, and what is demanded of them.
 pub struct Case {
@@ -26,49 +28,6 @@ pub struct Case {
 /// Among five nodes nobody hears more than three senders besides the first: all k there are.
 fn every_k() -> [Option<Count>; 4] {
     [Some(Count::ONE), Count::new(2), Count::new(3), None]
-}
-
-/// Every connected network of at most [`SMALL`] nodes, one of each shape as seen from the source, the smallest first.
-fn shapes() -> Vec<Links<SMALL>> {
-    let mut shapes = Vec::new();
-    for nodes in 1..=SMALL {
-        let pairs: Vec<(usize, usize)> =
-            (0..nodes).flat_map(|one| (one + 1..nodes).map(move |other| (one, other))).collect();
-        let orders = orders(nodes);
-        let drawn = |set: u32, order: &[usize]| {
-            let mut links = Links::NONE;
-            for (_, &(one, other)) in pairs.iter().enumerate().filter(|(place, _)| set >> place & 1 == 1) {
-                links.add(order[one], order[other]);
-            }
-            links
-        };
-        let mut sets: Vec<u32> = (0..1 << pairs.len()).collect();
-        sets.sort_by_key(|set| set.count_ones());
-        let all = (1 << nodes) - 1;
-        let shape = |set: u32| {
-            let links = drawn(set, &orders[0]);
-            let is_first = || orders.iter().all(|order| links <= drawn(set, order));
-            (links.component() == all && is_first()).then_some(links)
-        };
-        shapes.extend(sets.into_iter().filter_map(shape));
-    }
-    shapes
-}
-
-/// Every order of `nodes` that leaves the source in its place.
-fn orders(nodes: usize) -> Vec<Vec<usize>> {
-    let mut orders = vec![vec![0]];
-    for node in 1..nodes {
-        let longer = |order: Vec<usize>| {
-            (1..=node).map(move |place| {
-                let mut longer = order.clone();
-                longer.insert(place, node);
-                longer
-            })
-        };
-        orders = orders.into_iter().flat_map(longer).collect();
-    }
-    orders
 }
 
 /// The rules under which it is.
@@ -208,6 +167,26 @@ impl System for Case {
     /// Among several demands the others are looked for.
     fn is_enough(&self, _: Self::Demand) -> bool {
         self.demands.len() == 1
+    }
+}
+
+/// Networks with so many nodes and links.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Class {
+    nodes: u32,
+    links: u32,
+}
+
+impl Class {
+    fn of(Case { links, .. }: &Case) -> Self {
+        let ends: u32 = links.0.iter().map(|links| links.count_ones()).sum();
+        Self { nodes: links.component().count_ones(), links: ends / 2 }
+    }
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}", counted(self.nodes, "node"), counted(self.links, "link"))
     }
 }
 
@@ -366,6 +345,37 @@ impl Method<Subject> for Networks {
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand.1, seen } })
     }
 
+    fn size(&self, observed: &Subject, choices: &Choices) -> Option<Size> {
+        let (&place, events) = choices.once.split_first()?;
+        let case = self.cases(observed).nth(place as usize)?;
+        Some((Class::of(&case).to_string(), events.len()))
+    }
+
+    /// Fewest nodes first, then links, then events.
+    fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
+        let cases: Vec<(u32, Case)> = (0..).zip(self.cases(observed)).collect();
+        let mut made = Certificate::default();
+        for group in cases.chunk_by(|(_, one), (_, other)| Class::of(one) == Class::of(other)) {
+            let mut search = |_| {
+                let mut searched = Searched::default();
+                for (place, case) in group {
+                    let found = search(case, [Spread::start(&case.links)], Limits::NONE);
+                    let run = found.broken.into_iter().next();
+                    let shortest = run.map(|Run { steps, .. }| {
+                        (steps.len(), self.story(observed, &[&[*place], &steps[..]].concat()))
+                    });
+                    searched.add(Searched { cases: found.looked_at, is_whole: found.is_whole, shortest });
+                }
+                Ok::<_, MethodError>(searched)
+            };
+            made.look([Class::of(&group[0].1)], &mut search)?;
+            if made.smallest.is_some() {
+                break;
+            }
+        }
+        Ok(Some(made.drawn(|story| story)))
+    }
+
     fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         let (Demand::Reaches, Rules::Only(k @ 1..)) = (self.demand, self.rules) else { return None };
         let (&place, choices) = choices.once.split_first()?;
@@ -396,14 +406,6 @@ mod tests {
     use super::super::spread::Event;
 
     use super::*;
-
-    #[test]
-    fn there_is_one_network_of_each_shape() {
-        let shapes = shapes();
-        let of_size =
-            |nodes: u32| shapes.iter().filter(|links| links.component().count_ones() == nodes).count();
-        assert_eq!([1, 2, 3, 4, 5].map(of_size), [1, 1, 3, 11, 58]);
-    }
 
     /// The demand that a observed breaks first, and how.
     fn broken(networks: Networks, observed: Subject) -> (&'static str, String) {

@@ -7,7 +7,7 @@ use tautline_kernel::net::{NodeId, Notice};
 use tautline_kernel::notice::{Count, Node, Reaction};
 
 use super::Subject;
-use super::networks::SMALL;
+use super::shapes::SMALL;
 use super::spread::{Demand, Links, Point, Spread, call, hear, notice};
 use crate::engine::{Choices, Outcome, Replay, require};
 use crate::judge::AnyCase;
