@@ -13,8 +13,8 @@ use self::asked::RivalSettings;
 use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};
-use tautline_sim::explore::chain::CHAIN;
-use tautline_sim::explore::{Limits, Milestone, Report, RuleName, Setup, explore, run};
+use tautline_sim::explore::chain::{CHAIN, REEL};
+use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, explore, run};
 use tautline_sim::layout::Layout;
 
 pub use fig3::ChainFig3;
@@ -35,6 +35,8 @@ const ROOMS: [&str; 2] = ["rooms-a", "rooms-b"];
 pub enum Contender {
     /// A chain of this rule.
     Chain(RuleName),
+    /// The reel.
+    Reel,
     /// A rival.
     Rival {
         /// How it chooses.
@@ -57,11 +59,16 @@ impl Contender {
         Self::Rival { search: Search::Pool(pool), links, cells: Cells::Distinct }
     }
 
-    /// The chain of both rules, and both rivals under both rules of links.
-    const fn all(pool: u32) -> [Self; 6] {
+    /// Our own teams: the chain of both rules, and the reel.
+    const OURS: [Self; 3] = [Self::Chain(RuleName::Published), Self::Chain(RuleName::Repaired), Self::Reel];
+
+    /// Our own teams, and both rivals under both rules of links.
+    const fn all(pool: u32) -> [Self; 7] {
+        let [published, repaired, reel] = Self::OURS;
         [
-            Self::Chain(RuleName::Published),
-            Self::Chain(RuleName::Repaired),
+            published,
+            repaired,
+            reel,
             Self::full(Links::Safe),
             Self::full(Links::Covered),
             Self::pool(pool, Links::Safe),
@@ -72,7 +79,7 @@ impl Contender {
     /// Whether a run has anything that is left to chance besides its layout.
     const fn is_chancy(self) -> bool {
         match self {
-            Self::Chain(_) => false,
+            Self::Chain(_) | Self::Reel => false,
             Self::Rival { .. } => true,
         }
     }
@@ -80,6 +87,7 @@ impl Contender {
     fn name(self) -> String {
         match self {
             Self::Chain(rule) => format!("chain, {rule}"),
+            Self::Reel => REEL.to_string(),
             Self::Rival { search, links, cells } => {
                 let search = match search {
                     Search::Full => "Full search".to_owned(),
@@ -97,11 +105,13 @@ impl Contender {
     /// A run in `layout`, the base in its middle.
     fn run(self, told: &RivalSettings, layout: &Layout, seed: u64, limits: Limits) -> Result<Outcome, Halt> {
         let (layout, base) = based(layout.clone())?;
+        let chain = |rule: RuleId, layout| {
+            let setup = Setup { seed, limits, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };
+            explore(&setup, &mut |_| Ok(()))
+        };
         let report = match self {
-            Self::Chain(rule) => {
-                let setup = Setup { seed, limits, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };
-                explore(&setup, &mut |_| Ok(()))?
-            }
+            Self::Chain(rule) => chain(rule.into(), layout)?,
+            Self::Reel => chain(REEL, layout)?,
             Self::Rival { search, links, cells } => {
                 let mut team = rival(told.parameters(search, links, cells), ROBOTS, &layout, base, seed)?;
                 run(&mut *team, &layout, limits, &mut |_| Ok(()))?

@@ -60,7 +60,7 @@ fn areas() -> impl Iterator<Item = &'static str> {
 impl Table for ChainFig3 {
     type Settings = Settings;
     type Job = Job;
-    type Sample = [Outcome; 6];
+    type Sample = [Outcome; 7];
     type Summary = Summary;
 
     fn about(&self) -> Description {
@@ -90,7 +90,7 @@ impl Table for ChainFig3 {
         let seed = run.seed(settings.told.seed);
         let layout = generated(&description, seed)?;
         let limits = Limits { until: Some(Milestone::ThreeQuarters), ..Limits::default() };
-        let mut outcomes = [Outcome { milestones: [None; 3], explored: 0, cells: 0 }; 6];
+        let mut outcomes = [Outcome { milestones: [None; 3], explored: 0, cells: 0 }; 7];
         for (outcome, who) in outcomes.iter_mut().zip(Contender::all(settings.told.pool)) {
             *outcome = who.run(&settings.told, &layout, seed, limits)?;
         }

@@ -173,13 +173,13 @@ impl Table for ChainTable1 {
     }
 }
 
-/// Both chains, then the rivals by links, cells and pools.
+/// Our own teams, then the rivals by links, cells and pools.
 fn teams(pool: u32) -> Vec<Contender> {
     let mut pools: Vec<u32> = POOLS.into_iter().chain([pool]).collect();
     pools.sort_unstable();
     pools.dedup();
     let searches: Vec<Search> = pools.into_iter().map(Search::Pool).chain([Search::Full]).collect();
-    let mut teams = vec![Contender::Chain(RuleName::Published), Contender::Chain(RuleName::Repaired)];
+    let mut teams = Contender::OURS.to_vec();
     for links in [Links::Safe, Links::Covered] {
         for cells in [Cells::Distinct, Cells::Shared] {
             teams.extend(searches.iter().map(|&search| Contender::Rival { search, links, cells }));
@@ -216,7 +216,7 @@ fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<PrintedFigure> {
                 [70.0, 80.0]
             }
             Contender::Rival { search: Search::Pool(_), .. } => [25.0, 43.0],
-            Contender::Chain(RuleName::Repaired) => return None,
+            Contender::Chain(RuleName::Repaired) | Contender::Reel => return None,
         };
         let paper = if share.room == ROOMS[0] { first } else { second };
         let what = format!("% of {}: {}", share.room, share.who.name());
