@@ -6,8 +6,9 @@
 use crate::prelude::*;
 
 /// The rule, and rules with one thing wrong.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Rule {
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Rule {
+    /// As Dijkstra wrote it.
     Published,
     /// Machine 0 is as all others are.
     Uniform,
@@ -15,10 +16,13 @@ enum Rule {
     CountsOn,
 }
 
-/// Machines, and the states of each.
-struct Ring {
-    machines: usize,
-    states: u8,
+/// So many machines, and the states of each.
+#[derive(Clone, Copy, Debug)]
+pub struct Ring {
+    /// Machines.
+    pub machines: usize,
+    /// States of each.
+    pub states: u8,
 }
 
 impl fmt::Display for Ring {
@@ -31,7 +35,9 @@ impl fmt::Display for Ring {
     }
 }
 
-struct Machines(Rule, usize, u8);
+/// The machines of a ring.
+#[derive(Debug)]
+pub struct Machines(Rule, usize, u8);
 
 impl Machines {
     fn has_privilege(&self, ring: &[u8], machine: usize) -> bool {

@@ -5,7 +5,7 @@
 mod alpha;
 mod ba_star;
 mod burgard;
-mod dijkstra;
+pub mod dijkstra;
 mod frontiers;
 mod gathering;
 mod lacam;

@@ -4,7 +4,7 @@ use tautline_kernel::choice::Oracle;
 
 use super::{Demand, Move, Protocol, When, beside};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
-use crate::engine::states::{self, Bits, Ending, System};
+use crate::engine::states::{self, Bits, Ending, Findings, Limits, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 use crate::engine::{Choices, Script, ScriptError, Until};
 
@@ -135,6 +135,15 @@ impl<P: Protocol> Keeps<P> {
         let starts = playing.protocol.starts();
         Ok((playing, starts))
     }
+
+    /// The states, and the shortest run that breaks the demand if there is one.
+    ///
+    /// # Errors
+    /// [`MethodError`] if there is no such demand, or if the protocol cannot be within its bound.
+    pub fn search(&self, rule: &P::Rule, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
+        let (playing, starts) = self.playing(rule)?;
+        Ok(states::search(&playing, starts, limits))
+    }
 }
 
 impl<P: Protocol> Method<P::Rule> for Keeps<P> {
@@ -150,7 +159,7 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
     fn decide(&self, rule: &P::Rule, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let (playing, starts) = self.playing(rule)?;
         states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
-        let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
+        let limits = Limits { room: desk.room, ..Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
         let evidence = found.broken.first().and_then(|run| {
             Some(Evidence {

@@ -1,0 +1,81 @@
+//! States a second and bytes a state of the search over states beside stateright's on one core, both with the moves of
+//! one protocol: Dijkstra's ring of eight machines from all starts. Ours also looks for runs that never come to one
+//! privilege. Each search is a process of its own, so that its memory is what the kernel says.
+
+#[path = "../tests/common/model.rs"]
+mod model;
+
+use std::process::Command;
+use std::time::Instant;
+use std::{env, fs};
+
+use stateright::{Checker, Model};
+use tautline_library::dijkstra::{Machines, Ring, Rule};
+use tautline_proofs::engine::states::Limits;
+use tautline_proofs::protocol::{Keeps, Protocol};
+
+use self::model::Counted;
+
+/// The most kilobytes that this process had at a time.
+fn peak() -> u64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    line.and_then(|line| line.trim().trim_end_matches(" kB").parse().ok()).unwrap_or(0)
+}
+
+/// Searches by one of them, and prints states, microseconds and kilobytes.
+fn search(who: &str, states: u8) {
+    let (rule, ring) = (Rule::Published, Ring { machines: 8, states });
+    let start = Instant::now();
+    let count = if who == "ours" {
+        Keeps::<Machines>(ring, 1).search(&rule, Limits::NONE).expect("there is a ring").states
+    } else {
+        let model = Counted(Machines::new(&rule, &ring).expect("there is a ring"));
+        model.checker().threads(1).spawn_bfs().join().unique_state_count() as u64
+    };
+    println!("{count} {} {}", start.elapsed().as_micros(), peak());
+}
+
+/// The states, microseconds and kilobytes of the faster of two searches.
+fn fastest(who: &str, states: u8) -> [u64; 3] {
+    let run = |_| {
+        let program = env::current_exe().expect("this program");
+        let output = Command::new(program).args([who, &states.to_string()]).output().expect("it runs");
+        let mut numbers = str::from_utf8(&output.stdout).expect("numbers").split_whitespace();
+        [(); 3].map(|()| numbers.next().and_then(|number| number.parse().ok()).expect("a number"))
+    };
+    (0..2).map(run).min_by_key(|&[_, micros, _]| micros).expect("two runs")
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a ratio")]
+fn ratio(one: u64, other: u64) -> f64 {
+    one as f64 / other as f64
+}
+
+fn main() {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    match &arguments[..] {
+        [who, states] if who == "ours" || who == "theirs" => {
+            search(who, states.parse().expect("states of a machine"));
+        }
+        _ if arguments.iter().any(|argument| argument == "--bench") => {
+            println!("Dijkstra's ring of 8 machines on one core: million states a second, bytes a state");
+            println!("states of each      states   ours  stateright  ratio   ours  stateright  ratio");
+            for states in [5, 6, 7, 8] {
+                let [[count, micros, kilos], [same, other_micros, other_kilos]] =
+                    ["ours", "theirs"].map(|who| fastest(who, states));
+                assert_eq!(count, same, "both find the same states");
+                let (rate, other_rate) = (ratio(count, micros), ratio(count, other_micros));
+                println!(
+                    "{states:14} {count:11} {rate:6.2} {other_rate:11.2} {:6.2} {:6} {:11} {:6.2}",
+                    rate / other_rate,
+                    1024 * kilos / count,
+                    1024 * other_kilos / count,
+                    ratio(kilos, other_kilos)
+                );
+            }
+        }
+        // A bench is also built and run as a test, which asks for nothing.
+        _ => {}
+    }
+}

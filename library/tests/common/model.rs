@@ -1,0 +1,33 @@
+//! A protocol as a model of stateright. It shares the moves with the search over states, and nothing of the engine.
+
+use std::fmt::Debug;
+
+use stateright::{Model, Property};
+use tautline_proofs::protocol::{Move, Protocol};
+
+/// A protocol, whose states are counted.
+pub struct Counted<P>(pub P);
+
+impl<P: Protocol> Model for Counted<P>
+where
+    P::State: Debug,
+{
+    type State = P::State;
+    type Action = Move<P::State>;
+
+    fn init_states(&self) -> Vec<P::State> {
+        self.0.starts()
+    }
+
+    fn actions(&self, state: &P::State, actions: &mut Vec<Move<P::State>>) {
+        actions.extend(self.0.moves(state));
+    }
+
+    fn next_state(&self, _: &P::State, action: Move<P::State>) -> Option<P::State> {
+        Some(action.to)
+    }
+
+    fn properties(&self) -> Vec<Property<Self>> {
+        vec![Property::always("nothing", |_, _| true)]
+    }
+}
