@@ -98,15 +98,13 @@ impl Protocol for Robots {
         Ok(Self(rule, bound))
     }
 
-    fn starts(&self) -> Vec<Vec<Robot>> {
+    fn starts(&self) -> impl Iterator<Item = Vec<Robot>> {
         let width = self.1.width;
         let places = (0..width * width)
             .flat_map(|cell| (0..4).map(move |way| (cell % width, cell / width, way, false)));
         let any: Vec<Robot> = places.collect();
-        let mut starts =
-            combinations((0..self.1.robots).map(|me| any[..if me == 0 { 4 } else { any.len() }].to_vec()));
-        starts.retain(|robots| (0..robots.len()).all(|me| self.near(robots, me) >= self.1.alpha));
-        starts
+        combinations((0..self.1.robots).map(move |me| any[..if me == 0 { 4 } else { any.len() }].to_vec()))
+            .filter(|robots| (0..robots.len()).all(|me| self.near(robots, me) >= self.1.alpha))
     }
 
     fn moves(&self, robots: &Vec<Robot>) -> Vec<Move<Vec<Robot>>> {
@@ -117,7 +115,7 @@ impl Protocol for Robots {
             let ways =
                 |me: usize| if acting.contains(&me) { self.ways(robots, me) } else { vec![robots[me]] };
             let actors = acting.iter().fold(0, |set, me| set | 1 << me);
-            let to = combinations(all.iter().map(|&me| ways(me))).into_iter();
+            let to = combinations(all.iter().map(|&me| ways(me)));
             to.map(move |to| Move { actors, words: "go", to: self.seen(to) }).collect::<Vec<_>>()
         };
         acting.into_iter().flat_map(act).collect()

@@ -47,12 +47,11 @@ impl Protocol for Sweep {
         Ok(Self(rule, graphs.all()?))
     }
 
-    fn starts(&self) -> Vec<State> {
+    fn starts(&self) -> impl Iterator<Item = State> {
         let all = self.1.iter().zip(0..);
         all.flat_map(|(graph, number)| {
             (0..graph.len() as u8).map(move |cell| (number, cell, 1 << cell, None))
         })
-        .collect()
     }
 
     fn moves(&self, &(number, here, covered, point): &State) -> Vec<Move<State>> {

@@ -67,7 +67,7 @@ impl Protocol for Machines {
         Ok(Self(rule, bound.machines, bound.states))
     }
 
-    fn starts(&self) -> Vec<Vec<u8>> {
+    fn starts(&self) -> impl Iterator<Item = Vec<u8>> {
         combinations((0..self.1).map(|_| (0..self.2).collect()))
     }
 

@@ -96,15 +96,14 @@ impl<R: Explorers> Protocol for Exploration<R> {
         Ok(Self(rule, teams.robots, teams.graphs.all()?))
     }
 
-    fn starts(&self) -> Vec<State> {
-        let all = self.2.iter().zip(0..).flat_map(|(graph, number)| {
+    fn starts(&self) -> impl Iterator<Item = State> {
+        self.2.iter().zip(0..).flat_map(|(graph, number)| {
             let places = graph.places(self.1).into_iter();
             places.map(move |cells| {
                 let seen = cells.iter().fold(0, |set, &cell| set | sight(graph, cell));
                 (number, seen, cells.clone(), vec![None; cells.len()])
             })
-        });
-        all.collect()
+        })
     }
 
     fn moves(&self, state: &State) -> Vec<Move<State>> {

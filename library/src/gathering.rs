@@ -74,8 +74,8 @@ impl Protocol for Ring {
         Ok(Self(rule, Row(nodes, robots, order)))
     }
 
-    fn starts(&self) -> Vec<State> {
-        vec![(0..self.1.1).map(|robot| (robot, None)).collect()]
+    fn starts(&self) -> impl Iterator<Item = State> {
+        iter::once((0..self.1.1).map(|robot| (robot, None)).collect())
     }
 
     fn moves(&self, robots: &State) -> Vec<Move<State>> {

@@ -27,9 +27,10 @@ pub use page::page;
 
 /// All that the file of a rule is made with.
 mod prelude {
-    pub(crate) use std::fmt;
+    pub(crate) use std::{fmt, iter};
 
     pub(crate) use tautline_proofs::clause::{Check, NamedRule};
+    pub(crate) use tautline_proofs::compact;
     pub(crate) use tautline_proofs::decide::MethodError;
     pub(crate) use tautline_proofs::decide::Verdict::{Holds, Refuted};
     pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations};

@@ -79,11 +79,11 @@ impl Protocol for Ring {
         Err(MethodError::new(format_args!("a ring has 9 to 16 nodes, not {nodes}")))
     }
 
-    fn starts(&self) -> Vec<State> {
+    fn starts(&self) -> impl Iterator<Item = State> {
         let from = |second: u8| (second + 1..self.1.0).map(move |third| [0, second, third]);
         let any: Vec<[u8; 3]> = (1..self.1.0).flat_map(from).collect();
         let cells = if self.1.1 { any } else { vec![[0, 1, 4]] };
-        cells.into_iter().map(|cells| cells.map(|cell| (cell, None))).collect()
+        cells.into_iter().map(|cells| cells.map(|cell| (cell, None)))
     }
 
     fn moves(&self, robots: &State) -> Vec<Move<State>> {

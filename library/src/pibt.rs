@@ -79,10 +79,10 @@ impl Protocol for Team {
         Ok(Self(*rule, *bound, bound.graphs.all()?))
     }
 
-    fn starts(&self) -> Vec<State> {
+    fn starts(&self) -> impl Iterator<Item = State> {
         let order: Vec<u8> = (0..self.1.robots as u8).collect();
         let starts = self.1.instances(&self.2);
-        starts.map(|(graph, starts, goals)| (graph as u16, starts, goals, order.clone())).collect()
+        starts.map(move |(graph, starts, goals)| (graph as u16, starts, goals, order.clone()))
     }
 
     fn moves(&self, (graph, now, goals, order): &State) -> Vec<Move<State>> {

@@ -66,8 +66,8 @@ impl<R: Planner> Protocol for Planned<R> {
         Ok(Self(*rule, graphs, starts))
     }
 
-    fn starts(&self) -> Vec<State> {
-        self.2.clone()
+    fn starts(&self) -> impl Iterator<Item = State> {
+        self.2.iter().cloned()
     }
 
     fn moves(&self, (graph, now, goals, plan): &State) -> Vec<Move<State>> {
@@ -122,7 +122,6 @@ fn components(graph: &Graph, robots: usize) -> Vec<Vec<Vec<u8>>> {
 
 /// Every joint move of all robots.
 fn joint_moves(graph: &Graph, now: &[u8]) -> Vec<Vec<u8>> {
-    let mut moves = combinations(now.iter().map(|&cell| [graph.beside(cell), &[cell]].concat()));
-    moves.retain(|to| !conflicts(now, to));
-    moves
+    let moves = combinations(now.iter().map(|&cell| [graph.beside(cell), &[cell]].concat()));
+    moves.filter(|to| !conflicts(now, to)).collect()
 }

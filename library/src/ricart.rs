@@ -35,6 +35,14 @@ enum Phase {
     Inside,
     Done,
 }
+compact!(
+    enum Phase {
+        Idle,
+        Wants,
+        Inside,
+        Done,
+    }
+);
 
 /// A node: its phase, the number of its request, the largest number that it knows, who has replied, and who waits.
 type Node = (Phase, u8, u8, u8, u8);
@@ -77,8 +85,8 @@ impl Protocol for Nodes {
         Ok(Self(rule, Net { nodes, losses }))
     }
 
-    fn starts(&self) -> Vec<State> {
-        vec![(vec![(Phase::Idle, 0, 0, 0, 0); self.1.nodes], Mail::new(self.1.losses))]
+    fn starts(&self) -> impl Iterator<Item = State> {
+        iter::once((vec![(Phase::Idle, 0, 0, 0, 0); self.1.nodes], Mail::new(self.1.losses)))
     }
 
     fn moves(&self, (nodes, mail): &State) -> Vec<Move<State>> {

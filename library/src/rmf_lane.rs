@@ -24,6 +24,14 @@ enum Place {
     Midpoint,
     Across,
 }
+compact!(
+    enum Place {
+        Bay,
+        Lane,
+        Midpoint,
+        Across,
+    }
+);
 
 /// How many robots there are.
 struct Robots(usize);
@@ -57,8 +65,8 @@ impl Protocol for Lane {
         Ok(Self(rule, robots))
     }
 
-    fn starts(&self) -> Vec<State> {
-        vec![(vec![Place::Bay; self.1], None)]
+    fn starts(&self) -> impl Iterator<Item = State> {
+        iter::once((vec![Place::Bay; self.1], None))
     }
 
     fn moves(&self, (places, holder): &State) -> Vec<Move<State>> {

@@ -54,9 +54,9 @@ impl Protocol for Places {
         fits.then_some(Self(rule, robots)).ok_or_else(|| MethodError::new("there are 2 to 4 robots"))
     }
 
-    fn starts(&self) -> Vec<State> {
+    fn starts(&self) -> impl Iterator<Item = State> {
         let robots = (0..self.1).map(|robot| (robot, (robot + 1) % self.1)).collect();
-        vec![(robots, (0..self.1).map(Some).chain([None]).collect())]
+        iter::once((robots, (0..self.1).map(Some).chain([None]).collect()))
     }
 
     fn moves(&self, (robots, reserved): &State) -> Vec<Move<State>> {

@@ -54,12 +54,11 @@ impl Protocol for Coverage {
         Ok(Self(rule, graphs.all()?))
     }
 
-    fn starts(&self) -> Vec<State> {
-        let all = self.1.iter().zip(0..).flat_map(|(graph, number)| {
+    fn starts(&self) -> impl Iterator<Item = State> {
+        self.1.iter().zip(0..).flat_map(|(graph, number)| {
             let starts = (0..graph.len() as u8).flat_map(|block| (0..4).map(move |quarter| (block, quarter)));
             starts.map(move |start| (number, start, start, bit(start), Vec::new()))
-        });
-        all.collect()
+        })
     }
 
     /// Quarters are numbered clockwise from the north-west, and each looks at one side of the block: north, east, south,

@@ -5,13 +5,14 @@
 //! An actor is awake in a state if one of its moves is possible there. A run is weakly fair if it leaves out nobody who
 //! is awake throughout.
 
+mod compact;
 mod film;
 mod keeps;
 mod mail;
 
 use std::fmt::{Debug, Display};
-use std::hash::Hash;
 
+pub use self::compact::Compact;
 pub use self::film::beside;
 pub use self::keeps::Keeps;
 pub use self::mail::{Letter, Mail};
@@ -24,8 +25,8 @@ pub trait Protocol: Sized + Sync + 'static {
     type Rule: Sync;
     /// The surroundings; their words are the bound.
     type Bound: Display + Sync;
-    /// All that is.
-    type State: Clone + Eq + Hash + Debug;
+    /// All that is. What is made of numbers, of words (`compact!`), of lists of them is [`Compact`].
+    type State: Clone + Eq + Compact + Debug;
 
     /// The demands.
     const DEMANDS: &'static [Demand<Self>];
@@ -39,7 +40,7 @@ pub trait Protocol: Sized + Sync + 'static {
     fn new(rule: &Self::Rule, bound: &Self::Bound) -> Result<Self, MethodError>;
 
     /// The states in which runs begin; the smallest ones first, as they are told first.
-    fn starts(&self) -> Vec<Self::State>;
+    fn starts(&self) -> impl Iterator<Item = Self::State>;
 
     /// Every move that is possible in `state`, always in the same order. If there is none, the run is over.
     fn moves(&self, state: &Self::State) -> Vec<Move<Self::State>>;
@@ -76,16 +77,20 @@ impl<S> Move<S> {
     }
 }
 
-/// Every way to take one of each of these.
-pub fn combinations<T: Clone>(choices: impl IntoIterator<Item = Vec<T>>) -> Vec<Vec<T>> {
-    let with = |taken: Vec<Vec<T>>, choices: Vec<T>| {
-        let next = |taken: Vec<T>| {
-            let each = choices.iter().map(move |choice| [&taken[..], std::slice::from_ref(choice)].concat());
-            each.collect::<Vec<_>>()
+/// Every way to take one of each of these, the last one changing first.
+pub fn combinations<T: Clone>(choices: impl IntoIterator<Item = Vec<T>>) -> impl Iterator<Item = Vec<T>> {
+    let choices: Vec<Vec<T>> = choices.into_iter().collect();
+    let count: usize = choices.iter().map(Vec::len).product();
+    (0..count).map(move |mut number| {
+        let mut left = count;
+        let take = |choices: &Vec<T>| {
+            left /= choices.len();
+            let taken = choices[number / left].clone();
+            number %= left;
+            taken
         };
-        taken.into_iter().flat_map(next).collect()
-    };
-    choices.into_iter().fold(vec![Vec::new()], with)
+        choices.iter().map(take).collect()
+    })
 }
 
 /// When a demand is looked at.

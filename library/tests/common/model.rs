@@ -16,7 +16,7 @@ where
     type Action = Move<P::State>;
 
     fn init_states(&self) -> Vec<P::State> {
-        self.0.starts()
+        self.0.starts().collect()
     }
 
     fn actions(&self, state: &P::State, actions: &mut Vec<Move<P::State>>) {

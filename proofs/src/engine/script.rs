@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use super::states::{Bits, Ending, Run, Step, System, steps};
+use super::states::{Bits, Ending, Run, Step, System, is_same, steps};
 
 /// The choices of a refutation, each the number of what was chosen.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -170,8 +170,7 @@ impl<'a> Script<'a> {
             state = step.state;
         }
         system.make_canonical(&mut state);
-        let comes_back =
-            (0..system.places(&home)).all(|place| system.part(&state, place) == system.part(&home, place));
+        let comes_back = is_same(system, &state, &home);
         let is_fair = is_bound && owed != 0 && awake & !acting == 0;
         Ok(system.broken_by_endless_runs().filter(|_| comes_back && is_fair))
     }

@@ -16,7 +16,8 @@ mod search;
 
 use std::collections::VecDeque;
 use std::hash::Hash;
-use std::{fmt, iter, mem};
+use std::ops::ControlFlow;
+use std::{fmt, mem};
 
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
@@ -39,14 +40,15 @@ pub fn places(differing: impl IntoIterator<Item = bool>) -> Places {
 /// A world whose ways merge: its states are searched.
 pub trait System: World {
     /// A part of a state. The fewer different parts there are, the less memory a search takes; the whole state may be
-    /// one part.
+    /// one part, or be kept in bytes of its own.
     type Part: Clone + Eq + Hash;
 
     /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others
     /// unless there is more to tell.
     fn make_canonical(&self, _: &mut Self::State) {}
 
-    /// How many parts `state` has: as many as every other state.
+    /// How many parts `state` has: as many as every other state. A state of no parts is kept as the bytes that
+    /// [`Self::write`] makes of it.
     fn places(&self, _: &Self::State) -> usize {
         1
     }
@@ -62,6 +64,42 @@ pub trait System: World {
 
     /// Makes `part` the part of `state` in this place. Until all its parts are put, others may be another state's.
     fn put(&self, state: &mut Self::State, place: usize, part: &Self::Part);
+
+    /// Appends the bytes that tell a state of no parts from all others.
+    fn write(&self, _: &Self::State, _: &mut Vec<u8>) {}
+
+    /// Makes `state` the one of which [`Self::write`] made these bytes.
+    fn read(&self, _: &mut Self::State, _: &[u8]) {}
+
+    /// Makes every step from `state`, one for each combination of answers, always in the same order.
+    fn each_step<B>(
+        &self,
+        state: &Self::State,
+        mut take: impl FnMut(Step<Self>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let mut planned = state.clone();
+        let Some(plan) = self.plan(&mut planned, &[]) else { return ControlFlow::Continue(()) };
+        let (mut answers, mut log) = (Odometer::default(), Vec::new());
+        loop {
+            let mut after = planned.clone();
+            log.clear();
+            let event = self.settle(&mut after, &plan, &mut log, &mut answers);
+            let turn = Turn {
+                before: state,
+                planned: &planned,
+                after: &after,
+                plan: &plan,
+                event: &event,
+                sent: &log,
+            };
+            let (occurs, acting) = (self.occurs(&turn), self.acting(&turn));
+            let (is_bound, breaks) = (self.is_bound(&turn), self.broken_by(&turn));
+            take(Step { state: after, event, occurs, acting, is_bound, breaks })?;
+            if !answers.advance() {
+                return ControlFlow::Continue(());
+            }
+        }
+    }
 
     /// Who acts in a step; of no use in a step that is not bound to be made.
     fn acting(&self, _: &Turn<'_, Self>) -> Bits {
@@ -113,23 +151,25 @@ pub struct Step<S: System + ?Sized> {
     pub breaks: Vec<S::Demand>,
 }
 
-/// Every step of `system` from `state`, one for each combination of answers, always in the same order.
+/// Every step of `system` from `state`, in the order of [`System::each_step`].
 pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = Step<S>> {
-    let mut planned = state.clone();
-    let plan = system.plan(&mut planned, &[]);
-    let mut answers = plan.is_some().then(Odometer::default);
-    iter::from_fn(move || {
-        let (plan, world) = (plan.as_ref()?, answers.as_mut()?);
-        let (mut after, mut log) = (planned.clone(), Vec::new());
-        let event = system.settle(&mut after, plan, &mut log, world);
-        if !world.advance() {
-            answers = None;
-        }
-        let turn = Turn { before: state, planned: &planned, after: &after, plan, event: &event, sent: &log };
-        let (occurs, acting) = (system.occurs(&turn), system.acting(&turn));
-        let (is_bound, breaks) = (system.is_bound(&turn), system.broken_by(&turn));
-        Some(Step { state: after, event, occurs, acting, is_bound, breaks })
-    })
+    let mut all = Vec::new();
+    let _: ControlFlow<()> = system.each_step(state, |step| {
+        all.push(step);
+        ControlFlow::Continue(())
+    });
+    all.into_iter()
+}
+
+/// Whether two states are the same one, as far as they are kept.
+pub fn is_same<S: System>(system: &S, one: &S::State, other: &S::State) -> bool {
+    let written = |state: &S::State| {
+        let mut bytes = Vec::new();
+        system.write(state, &mut bytes);
+        bytes
+    };
+    (0..system.places(one)).all(|place| system.part(one, place) == system.part(other, place))
+        && written(one) == written(other)
 }
 
 /// A rule whose steps are not a function of their state.
@@ -153,14 +193,13 @@ pub fn repeats<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
 ) -> Result<(), Unrepeatable> {
-    let parts = |state: &S::State| -> Vec<S::Part> {
-        (0..system.places(state)).map(|place| system.part(state, place)).collect()
-    };
     let mut states: VecDeque<S::State> = starts.into_iter().take(TRIED).collect();
     for _ in 0..TRIED {
         let Some(state) = states.pop_front() else { break };
         let first: Vec<S::State> = steps(system, &state).map(|step| step.state).collect();
-        if !steps(system, &state).map(|step| parts(&step.state)).eq(first.iter().map(parts)) {
+        let again: Vec<S::State> = steps(system, &state).map(|step| step.state).collect();
+        let are_same = |(one, other): (&S::State, &S::State)| is_same(system, one, other);
+        if first.len() != again.len() || !first.iter().zip(&again).all(are_same) {
             return Err(Unrepeatable);
         }
         states.extend(first.into_iter().take(TRIED.saturating_sub(states.len())));

@@ -220,9 +220,8 @@ fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, Metho
     };
     let first = states.iter().flat_map(|&state| cells(state)).filter(|robot| robot.at == Cell::new(0, 0));
     let others: Vec<RobotOf<R>> = states.iter().flat_map(|&state| cells(state)).collect();
-    let mut all = combinations(iter::once(first.collect()).chain(iter::repeat_n(others, R::ROBOTS - 1)));
-    all.retain(|tuple| agree(tuple.iter().map(|robot| (robot.at, robot.on))));
-    Ok(all)
+    let all = combinations(iter::once(first.collect()).chain(iter::repeat_n(others, R::ROBOTS - 1)));
+    Ok(all.filter(|tuple| agree(tuple.iter().map(|robot| (robot.at, robot.on)))).collect())
 }
 
 /// Where robots may be within a window: the first in cell (0, 0), each of so many others in any cell, column by column, the
@@ -230,12 +229,12 @@ fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, Metho
 pub(super) fn offsets(window: i16, others: usize) -> Vec<Vec<Cell>> {
     let cells: Vec<Cell> =
         (-window..=window).flat_map(|x| (-window..=window).map(move |y| Cell::new(x, y))).collect();
-    let mut all = combinations(iter::repeat_n(cells, others));
-    for cells in &mut all {
+    let from_first = |mut cells: Vec<Cell>| {
         cells.push(Cell::new(0, 0));
         cells.reverse();
-    }
-    all
+        cells
+    };
+    combinations(iter::repeat_n(cells, others)).map(from_first).collect()
 }
 
 /// Whether each cell has one colour.
@@ -336,14 +335,14 @@ fn colours_of_goals<R: Local>(tuple: &[RobotOf<R>], picked: &[&ActOf<R>]) -> Vec
     if R::COLOURS == 1 {
         return vec![vec![0; tuple.len()]];
     }
-    let mut all = combinations(tuple.iter().zip(picked).map(|(robot, act)| match act.step {
+    let all = combinations(tuple.iter().zip(picked).map(|(robot, act)| match act.step {
         Step::Stay => vec![robot.on],
         Step::Cross(_) => (0..R::COLOURS).collect(),
     }));
-    all.retain(|aims| {
+    let may_be = |aims: &Vec<u8>| {
         let goals =
             tuple.iter().zip(picked).zip(aims).map(|((robot, act), &aims)| (robot.at.after(act.step), aims));
         agree(goals.chain(tuple.iter().map(|robot| (robot.at, robot.on))))
-    });
-    all
+    };
+    all.filter(may_be).collect()
 }

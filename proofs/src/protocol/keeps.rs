@@ -1,10 +1,12 @@
 //! A check that a protocol keeps a demand within its bound.
 
+use std::ops::ControlFlow;
+
 use tautline_kernel::choice::Oracle;
 
-use super::{Demand, Move, Protocol, When, beside};
+use super::{Compact, Demand, Move, Protocol, When, beside};
 use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
-use crate::engine::states::{self, Bits, Ending, Findings, Limits, System};
+use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 use crate::engine::{Choices, Script, ScriptError, Until};
 
@@ -30,8 +32,7 @@ impl<P: Protocol> World for Playing<P> {
     type Demand = &'static str;
 
     fn plan(&self, state: &mut P::State, _: &[u8]) -> Option<Self::Plan> {
-        let is_met = matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.protocol, state));
-        if is_met { None } else { any_of(self.protocol.moves(state)) }
+        any_of(self.moves(state))
     }
 
     fn settle(
@@ -47,8 +48,7 @@ impl<P: Protocol> World for Playing<P> {
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
-        let is_broken = matches!(self.demand.when, When::Always(is_kept) if !is_kept(&self.protocol, turn.before, turn.after));
-        is_broken.then_some(self.demand.words).into_iter().collect()
+        self.broken_between(turn.before, turn.after)
     }
 
     fn broken_at_end(&self, state: &P::State, _: &[u8]) -> Vec<&'static str> {
@@ -70,14 +70,36 @@ impl<P: Protocol> World for Playing<P> {
 }
 
 impl<P: Protocol> System for Playing<P> {
-    type Part = P::State;
+    /// A state has no parts.
+    type Part = ();
 
-    fn part(&self, state: &P::State, _: usize) -> P::State {
-        state.clone()
+    fn places(&self, _: &P::State) -> usize {
+        0
     }
 
-    fn put(&self, state: &mut P::State, _: usize, part: &P::State) {
-        state.clone_from(part);
+    fn part(&self, _: &P::State, _: usize) {}
+
+    fn put(&self, _: &mut P::State, _: usize, (): &()) {}
+
+    fn write(&self, state: &P::State, to: &mut Vec<u8>) {
+        state.write(to);
+    }
+
+    fn read(&self, state: &mut P::State, mut bytes: &[u8]) {
+        *state = P::State::read(&mut bytes);
+    }
+
+    /// Takes the moves as they are, without a copy of each.
+    fn each_step<B>(
+        &self,
+        state: &P::State,
+        mut take: impl FnMut(Step<Self>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.moves(state).into_iter().try_for_each(|Move { actors, words, to }| {
+            let breaks = self.broken_between(state, &to);
+            let (occurs, is_bound) = (bit(P::COVERS, words), actors != 0);
+            take(Step { state: to, event: (actors, words), occurs, acting: actors, is_bound, breaks })
+        })
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
@@ -105,6 +127,37 @@ impl<P: Protocol> System for Playing<P> {
 }
 
 impl<P: Protocol> Playing<P> {
+    /// The moves from a state: none once the demand is met.
+    fn moves(&self, state: &P::State) -> Vec<Move<P::State>> {
+        let is_met = matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.protocol, state));
+        if is_met { Vec::new() } else { self.protocol.moves(state) }
+    }
+
+    fn broken_between(&self, before: &P::State, after: &P::State) -> Vec<&'static str> {
+        let is_broken =
+            matches!(self.demand.when, When::Always(is_kept) if !is_kept(&self.protocol, before, after));
+        is_broken.then_some(self.demand.words).into_iter().collect()
+    }
+
+    /// Whether the first few states come back from their bytes.
+    ///
+    /// # Errors
+    /// [`MethodError`] if one does not: two states might be taken for one.
+    fn comes_back(&self) -> Result<(), MethodError> {
+        let first = |state: P::State| {
+            let next: Vec<P::State> = self.moves(&state).into_iter().map(|next| next.to).collect();
+            next.into_iter().chain([state])
+        };
+        let differs = |state: &P::State| {
+            let mut bytes = Vec::new();
+            state.write(&mut bytes);
+            P::State::read(&mut &bytes[..]) != *state
+        };
+        self.protocol.starts().take(TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
+            Err(MethodError::new(format_args!("the state {state:?} does not come back from its bytes")))
+        })
+    }
+
     /// The run, drawn state by state.
     fn story(&self, start: &P::State, run: &states::Run<&'static str>) -> Depiction {
         let mut frames = vec![("start".to_owned(), self.protocol.draw(start))];
@@ -128,21 +181,29 @@ impl<P: Protocol> Playing<P> {
 }
 
 impl<P: Protocol> Keeps<P> {
-    fn playing(&self, rule: &P::Rule) -> Result<(Playing<P>, Vec<P::State>), MethodError> {
+    fn playing(&self, rule: &P::Rule) -> Result<Playing<P>, MethodError> {
         let none = || MethodError::new(format_args!("there is no demand {}", self.1));
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
-        let playing = Playing { protocol: P::new(rule, &self.0)?, demand };
-        let starts = playing.protocol.starts();
-        Ok((playing, starts))
+        Ok(Playing { protocol: P::new(rule, &self.0)?, demand })
     }
 
     /// The states, and the shortest run that breaks the demand if there is one.
     ///
     /// # Errors
-    /// [`MethodError`] if there is no such demand, or if the protocol cannot be within its bound.
+    /// [`MethodError`] if there is no such demand, if the protocol cannot be within its bound, or if its moves are not a
+    /// function of their state, or its states not of their bytes.
     pub fn search(&self, rule: &P::Rule, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
-        let (playing, starts) = self.playing(rule)?;
-        Ok(states::search(&playing, starts, limits))
+        self.searched(&self.playing(rule)?, limits)
+    }
+
+    fn searched(
+        &self,
+        playing: &Playing<P>,
+        limits: Limits<'_>,
+    ) -> Result<Findings<&'static str>, MethodError> {
+        states::repeats(playing, playing.protocol.starts()).map_err(MethodError::new)?;
+        playing.comes_back()?;
+        Ok(states::search(playing, playing.protocol.starts(), limits))
     }
 }
 
@@ -157,28 +218,30 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
 
     /// The choices are the number of the start, and those of the moves. A check over no start is open.
     fn decide(&self, rule: &P::Rule, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
-        let (playing, starts) = self.playing(rule)?;
-        states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
-        let limits = Limits { room: desk.room, ..Limits::NONE };
-        let found = states::search(&playing, starts.iter().cloned(), limits);
+        let playing = self.playing(rule)?;
+        let found = self.searched(&playing, Limits { room: desk.room, ..Limits::NONE })?;
         let evidence = found.broken.first().and_then(|run| {
             Some(Evidence {
                 choices: run.choices(),
                 demand: run.demand,
-                seen: playing.story(starts.get(run.start)?, run),
+                seen: playing.story(&playing.protocol.starts().nth(run.start)?, run),
             })
         });
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
-        let is_whole = found.is_whole && is_covered && !starts.is_empty();
+        let is_whole = found.is_whole && is_covered && found.states > 0;
         Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
     }
 
     fn replay(&self, rule: &P::Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        let (playing, starts) = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
+        let playing = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
         let mut script = Script::new(choices);
-        let number = script.choose(starts.len())?;
-        let (of, run) = script.play(&playing, (number, starts[number].clone()), |_| true)?;
-        let seen = playing.story(&starts[number], &run);
+        let number = script.choose(playing.protocol.starts().count())?;
+        let start = playing.protocol.starts().nth(number).ok_or(ScriptError::Unbroken)?;
+        let (of, run) = script.play(&playing, (number, start.clone()), |_| true)?;
+        let seen = playing.story(&start, &run);
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
     }
 }
+
+/// Starts whose states are made of their bytes again before a search.
+const TRIED: usize = 500;

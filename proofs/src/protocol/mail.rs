@@ -1,5 +1,7 @@
 //! Messages under way between nodes: they arrive in any order, and some may be lost.
 
+use super::Compact;
+
 /// A message: its sender, its receiver, and what it says.
 pub type Letter<M> = (usize, usize, M);
 
@@ -40,6 +42,17 @@ impl<M: Clone + Ord> Mail<M> {
     pub fn losses(&self) -> impl Iterator<Item = Self> {
         let left = self.losses.checked_sub(1);
         self.arrivals().filter_map(move |(_, mail)| Some(Self { losses: left?, ..mail }))
+    }
+}
+
+impl<M: Compact> Compact for Mail<M> {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.under_way.write(to);
+        self.losses.write(to);
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        Self { under_way: Vec::read(from), losses: u32::read(from) }
     }
 }
 

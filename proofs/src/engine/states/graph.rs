@@ -30,11 +30,11 @@ impl Graph {
     pub(super) const fn new(keeps_arcs: bool) -> Self {
         Self {
             starts: Vec::new(),
-            from: Pile::new(1),
+            from: Pile::new(),
             keeps_arcs,
-            owed: Pile::new(1),
-            first_arc: Pile::new(1),
-            arcs: Pile::new(1),
+            owed: Pile::new(),
+            first_arc: Pile::new(),
+            arcs: Pile::new(),
         }
     }
 
@@ -55,26 +55,26 @@ impl Graph {
     /// Adds the start with this number.
     pub(super) fn add_start(&mut self, start: u32) {
         self.starts.push(start);
-        self.from.push([0]);
+        self.from.push(0);
     }
 
     /// Adds a node that was first found by a step from another.
     pub(super) fn add(&mut self, from: u32) {
-        self.from.push([from]);
+        self.from.push(from);
     }
 
     /// The next node is gone on from, in which this is owed.
     pub(super) fn go_on(&mut self, owed: impl FnOnce() -> Bits) {
         if self.keeps_arcs {
-            self.owed.push([owed()]);
-            self.first_arc.push([self.arcs.len() as u32]);
+            self.owed.push(owed());
+            self.first_arc.push(self.arcs.len() as u32);
         }
     }
 
     /// Adds a step from the node that is gone on from.
     pub(super) fn add_arc(&mut self, arc: Arc) {
         if self.keeps_arcs {
-            self.arcs.push([arc]);
+            self.arcs.push(arc);
         }
     }
 

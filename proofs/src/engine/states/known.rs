@@ -1,6 +1,6 @@
 //! The states that are known, each as the numbers of its parts.
 
-use std::hash::{BuildHasher, Hash};
+use std::hash::{BuildHasher, Hash, Hasher};
 
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry;
@@ -11,19 +11,15 @@ use super::{Places, System};
 /// Things in the order in which they came, in pieces, so that none is ever moved.
 pub(super) struct Pile<T> {
     pieces: Vec<Vec<T>>,
-    /// Things of one entry, which stay together.
-    width: usize,
-    /// Entries.
     length: usize,
 }
 
 /// Entries of a piece.
 const PIECE: usize = 1 << 16;
 
-impl<T: Copy> Pile<T> {
-    /// No entries; each is to be of `width` things.
-    pub(super) const fn new(width: usize) -> Self {
-        Self { pieces: Vec::new(), width, length: 0 }
+impl<T> Pile<T> {
+    pub(super) const fn new() -> Self {
+        Self { pieces: Vec::new(), length: 0 }
     }
 
     pub(super) const fn len(&self) -> usize {
@@ -32,28 +28,81 @@ impl<T: Copy> Pile<T> {
 
     /// The bytes that it takes.
     pub(super) fn bytes(&self) -> u64 {
-        let full = self.pieces.len().saturating_sub(1) * PIECE * self.width;
+        let full = self.pieces.len().saturating_sub(1) * PIECE;
         ((full + self.pieces.last().map_or(0, Vec::capacity)) * size_of::<T>()) as u64
     }
 
-    pub(super) fn push(&mut self, entry: impl IntoIterator<Item = T>) {
+    pub(super) fn push(&mut self, entry: T) {
         if self.length.is_multiple_of(PIECE) {
             self.pieces.push(Vec::new());
         }
         if let Some(piece) = self.pieces.last_mut() {
-            piece.extend(entry);
+            piece.push(entry);
             self.length += 1;
         }
     }
+}
 
-    pub(super) fn entry(&self, place: usize) -> &[T] {
-        let first = place % PIECE * self.width;
-        &self.pieces[place / PIECE][first..first + self.width]
+impl<T: Copy> Pile<T> {
+    pub(super) fn at(&self, place: usize) -> T {
+        self.pieces[place / PIECE][place % PIECE]
+    }
+}
+
+/// Strings of bytes in the order in which they came, in pieces.
+#[derive(Default)]
+struct Codes {
+    pieces: Vec<Piece>,
+    length: usize,
+    /// Bytes of all pieces but the last one.
+    full: usize,
+}
+
+#[derive(Default)]
+struct Piece {
+    bytes: Vec<u8>,
+    /// The length of all its strings, while it is the same.
+    width: usize,
+    /// Else where each string ends.
+    ends: Vec<u32>,
+}
+
+impl Piece {
+    const fn size(&self) -> usize {
+        self.bytes.capacity() + self.ends.capacity() * size_of::<u32>()
+    }
+}
+
+impl Codes {
+    /// The bytes that they take.
+    fn bytes(&self) -> u64 {
+        (self.full + self.pieces.last().map_or(0, Piece::size)) as u64
     }
 
-    /// The only thing of an entry.
-    pub(super) fn at(&self, place: usize) -> T {
-        self.entry(place)[0]
+    fn push(&mut self, code: &[u8]) {
+        let place = self.length % PIECE;
+        if place == 0 {
+            self.full += self.pieces.last().map_or(0, Piece::size);
+            self.pieces.push(Piece { width: code.len(), ..Piece::default() });
+        }
+        let Some(piece) = self.pieces.last_mut() else { return };
+        if piece.ends.is_empty() && code.len() != piece.width {
+            piece.ends = (1..=place).map(|before| (before * piece.width) as u32).collect();
+        }
+        piece.bytes.extend_from_slice(code);
+        if !piece.ends.is_empty() || code.len() != piece.width {
+            piece.ends.push(piece.bytes.len() as u32);
+        }
+        self.length += 1;
+    }
+
+    fn entry(&self, place: usize) -> &[u8] {
+        let (piece, place) = (&self.pieces[place / PIECE], place % PIECE);
+        if piece.ends.is_empty() {
+            return &piece.bytes[place * piece.width..(place + 1) * piece.width];
+        }
+        let first = place.checked_sub(1).map_or(0, |before| piece.ends[before]);
+        &piece.bytes[first as usize..piece.ends[place] as usize]
     }
 }
 
@@ -81,7 +130,8 @@ impl<P: Eq + Hash> Parts<P> {
 /// The hash of a state.
 type HashOfState = u32;
 
-/// A state by the numbers of its parts: most of them are also those of the states before and after it.
+/// A state by the numbers of its parts, most of which are also those of the states before and after it, or in bytes of
+/// its own.
 #[derive(Default)]
 struct Code {
     bytes: Vec<u8>,
@@ -110,14 +160,15 @@ impl Code {
     }
 }
 
-/// States by the numbers of their parts. A number takes as many bytes as the largest needs.
+/// States by the numbers of their parts, of which each takes as many bytes as the largest needs; or, where states have
+/// no parts, in bytes of their own.
 pub(super) struct StateTable<P> {
     parts: Parts<P>,
     /// Bytes of a number.
     width: usize,
     /// Parts of a state.
     places: usize,
-    codes: Pile<u8>,
+    codes: Codes,
     /// The states by their hashes, each with its own beside it: the table grows without a look at the numbers.
     nodes: HashTable<(u32, HashOfState)>,
     /// The state that is shown; at first none, and all numbers are 0.
@@ -132,7 +183,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
             parts: Parts { places: HashTable::new(), parts: Vec::new() },
             width: 1,
             places: 0,
-            codes: Pile::new(0),
+            codes: Codes::default(),
             nodes: HashTable::new(),
             shown: Code::default(),
             made: Code::default(),
@@ -141,7 +192,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
 
     /// The number of states.
     pub(super) const fn len(&self) -> usize {
-        self.codes.len()
+        self.codes.length
     }
 
     /// The bytes that they take, and will have taken once the next one is there.
@@ -152,16 +203,18 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.codes.bytes() + table + parts as u64
     }
 
-    /// Makes a state the one that is shown: `put` gets the parts that it does not share with the one that was before,
-    /// each with its place.
-    pub(super) fn show(&mut self, node: usize, mut put: impl FnMut(usize, &P)) {
+    /// Makes of `state`, which was shown last, the state of a node: only the parts that they do not share are put.
+    pub(super) fn show<S: System<Part = P>>(&mut self, system: &S, node: usize, state: &mut S::State) {
         let Self { parts, codes, places, width, shown, .. } = self;
         let code = codes.entry(node);
+        if *places == 0 {
+            return system.read(state, code);
+        }
         for place in 0..*places {
             let number_in = |bytes: &[u8]| number(&bytes[place * *width..(place + 1) * *width]);
             let number = number_in(code);
             if number != number_in(&shown.bytes) {
-                put(place, &parts.parts[number as usize]);
+                system.put(state, place, &parts.parts[number as usize]);
                 shown.put(place, *width, number);
             }
         }
@@ -185,9 +238,9 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         match nodes.entry(spread(made.hash), is_same(made, codes), |&(_, hash)| spread(hash)) {
             Entry::Occupied(known) => (known.get().0, false),
             Entry::Vacant(vacant) => {
-                let node = codes.len() as u32;
+                let node = codes.length as u32;
                 vacant.insert((node, made.hash));
-                codes.push(made.bytes.iter().copied());
+                codes.push(&made.bytes);
                 (node, true)
             }
         }
@@ -202,10 +255,15 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
 
     /// Makes `state` the one in the making.
     fn take_apart<S: System<Part = P>>(&mut self, system: &S, state: &S::State, differing: Places) {
-        if self.codes.len() == 0 {
+        if self.codes.length == 0 {
             self.places = system.places(state);
-            self.codes = Pile::new(self.places * self.width);
             self.shown = Code::zero(self.places, self.width);
+        }
+        if self.places == 0 {
+            self.made.bytes.clear();
+            system.write(state, &mut self.made.bytes);
+            self.made.hash = hash_of(&self.made.bytes);
+            return;
         }
         assert_eq!(system.places(state), self.places, "all states of a system have the same number of parts");
         while self.parts.parts.len() + self.places > 1 << (8 * self.width) {
@@ -228,9 +286,11 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
 
     /// Writes all numbers with a byte more.
     fn widen(&mut self) {
-        let mut codes = Pile::new(self.places * (self.width + 1));
-        for node in 0..self.codes.len() {
-            codes.push(widened(self.codes.entry(node), self.width));
+        let (mut codes, mut code) = (Codes::default(), Vec::new());
+        for node in 0..self.codes.length {
+            code.clear();
+            code.extend(widened(self.codes.entry(node), self.width));
+            codes.push(&code);
         }
         self.codes = codes;
         self.shown.bytes = widened(&self.shown.bytes, self.width).collect();
@@ -261,8 +321,15 @@ const fn hash_at(place: usize, number: u32) -> HashOfState {
     (mixed >> u32::BITS) as HashOfState
 }
 
+/// The hash of a state in bytes of its own.
+fn hash_of(bytes: &[u8]) -> HashOfState {
+    let mut hasher = FxBuildHasher.build_hasher();
+    hasher.write(bytes);
+    (hasher.finish() >> u32::BITS) as HashOfState
+}
+
 /// Whether a state in the table has this code.
-fn is_same(code: &Code, codes: &Pile<u8>) -> impl Fn(&(u32, HashOfState)) -> bool {
+fn is_same(code: &Code, codes: &Codes) -> impl Fn(&(u32, HashOfState)) -> bool {
     |&(node, hash)| hash == code.hash && codes.entry(node as usize) == code.bytes
 }
 
@@ -326,27 +393,40 @@ mod tests {
             known.show_last();
         }
         assert_eq!(known.width, 3);
-        let put = |known: &mut StateTable<u32>, state: u32| {
-            let mut put = Vec::new();
-            known.show(state as usize, |place, &part| put.push((place, part)));
-            put
-        };
+        let mut shown = parts(STATES - 1);
         for state in (0..STATES).step_by(97) {
-            put(&mut known, state);
+            known.show(&Triples, state as usize, &mut shown);
+            assert_eq!(shown, parts(state));
             assert_eq!(known.meet(&Triples, &parts(state + 1), 0b011), (state + 1, false));
             assert_eq!(known.meet(&Triples, &[state, 7, 7], 0b010), (known.len() as u32 - 1, true));
         }
         assert_eq!(known.find(&Triples, &[1, 1, 7]), None);
-        assert_eq!(put(&mut known, 5), [(0, 5), (1, 6)]);
-        assert_eq!(put(&mut known, 5), []);
+        // The part that both share is not put.
+        shown[2] = 0;
+        known.show(&Triples, 5, &mut shown);
+        assert_eq!(shown, [5, 6, 0]);
     }
 
     #[test]
     fn bytes_are_those_of_full_pieces_and_of_the_last_one() {
-        let mut pile = Pile::new(2);
+        let mut pile = Pile::new();
         (0..=PIECE as u32).for_each(|entry| pile.push([entry, !entry]));
-        assert_eq!((pile.len(), pile.entry(PIECE)), (PIECE + 1, &[PIECE as u32, !(PIECE as u32)][..]));
+        assert_eq!((pile.len(), pile.at(PIECE)), (PIECE + 1, [PIECE as u32, !(PIECE as u32)]));
         let full = (PIECE * 2 * size_of::<u32>()) as u64;
         assert!((full + 8..full + 64).contains(&pile.bytes()), "{}", pile.bytes());
+    }
+
+    /// In the second piece, the first three are as long as each other, and the rest are not.
+    #[test]
+    fn codes_of_any_length_come_back() {
+        let code = |place: usize| {
+            let length = if place < PIECE + 3 { 3 } else { place % 5 };
+            place.to_le_bytes()[..length].to_vec()
+        };
+        let mut codes = Codes::default();
+        (0..2 * PIECE + 9).for_each(|place| codes.push(&code(place)));
+        assert!((0..codes.length).all(|place| codes.entry(place) == code(place)));
+        let (first, second) = (3 * PIECE, 2 * PIECE + 4 * PIECE);
+        assert!((first + second..2 * (first + second)).contains(&(codes.bytes() as usize)));
     }
 }

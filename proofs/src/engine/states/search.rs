@@ -122,7 +122,7 @@ impl<'a, S: System> Search<'a, S> {
     /// The state of a node. It is to be given back as what is shown.
     fn state(&mut self, node: usize) -> Option<Box<S::State>> {
         let mut state = self.shown.take()?;
-        self.known.show(node, |place, part| self.system.put(&mut state, place, part));
+        self.known.show(self.system, node, &mut state);
         Some(state)
     }
 
@@ -163,7 +163,8 @@ impl<'a, S: System> Search<'a, S> {
         self.looked_at += 1;
         self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
-        for (number, step) in (0..).zip(steps(system, state)) {
+        let mut numbers = 0..;
+        system.each_step(state, |step| {
             making.next();
             let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
             if self.steps == most_steps || self.graph.is_full() {
@@ -181,10 +182,11 @@ impl<'a, S: System> Search<'a, S> {
                 is_still = false;
                 self.graph.add_arc(Arc { to, acting });
             }
-            for demand in breaks {
-                self.note(Violation { demand, node, how: How::Step(number) })?;
-            }
-        }
+            let number = numbers.next().unwrap_or(u32::MAX);
+            breaks
+                .into_iter()
+                .try_for_each(|demand| self.note(Violation { demand, node, how: How::Step(number) }))
+        })?;
         self.has_ended |= is_last;
         if is_still {
             for demand in system.broken_at_end(state, &[]) {
@@ -255,7 +257,7 @@ impl<'a, S: System> Search<'a, S> {
         let Self { system, known, graph, shown, taken, .. } = self;
         let awake = |node: usize| -> Bits {
             let Some(state) = shown else { return 0 };
-            known.show(node, |place, part| system.put(state, place, part));
+            known.show(*system, node, state);
             system.awake(state)
         };
         let Some((node, round)) = graph.first_round(awake, taken)? else { return Ok(()) };

@@ -1,0 +1,234 @@
+//! States as bytes: as few as a search over states has to keep of each.
+
+/// Something that a state is made of, and its bytes.
+pub trait Compact: Sized {
+    /// Appends the bytes that tell it from every other value.
+    fn write(&self, to: &mut Vec<u8>);
+
+    /// Takes its bytes from the beginning of these. Of bytes that [`Self::write`] did not make, anything may come.
+    fn read(from: &mut &[u8]) -> Self;
+
+    /// Appends the bytes of several, one after the other.
+    #[inline]
+    fn write_all(all: &[Self], to: &mut Vec<u8>) {
+        all.iter().for_each(|value| value.write(to));
+    }
+
+    /// Takes so many.
+    #[inline]
+    fn read_all(count: usize, from: &mut &[u8]) -> Vec<Self> {
+        (0..count).map(|_| Self::read(from)).collect()
+    }
+}
+
+impl Compact for u8 {
+    #[inline]
+    fn write(&self, to: &mut Vec<u8>) {
+        to.push(*self);
+    }
+
+    #[inline]
+    fn read(from: &mut &[u8]) -> Self {
+        from.split_off_first().copied().unwrap_or(0)
+    }
+
+    #[inline]
+    fn write_all(all: &[Self], to: &mut Vec<u8>) {
+        to.extend_from_slice(all);
+    }
+
+    #[inline]
+    fn read_all(count: usize, from: &mut &[u8]) -> Vec<Self> {
+        from.split_off(..count).unwrap_or(&[]).to_vec()
+    }
+}
+
+macro_rules! number {
+    ($($number:ty),*) => {$(
+        impl Compact for $number {
+            #[inline]
+            fn write(&self, to: &mut Vec<u8>) {
+                to.extend_from_slice(&self.to_le_bytes());
+            }
+
+            #[inline]
+            fn read(from: &mut &[u8]) -> Self {
+                from.split_off(..size_of::<Self>())
+                    .and_then(|bytes| bytes.try_into().ok())
+                    .map_or(0, Self::from_le_bytes)
+            }
+        }
+    )*};
+}
+
+number!(u16, u32, u64, u128, i8, i16, i32, i64, i128);
+
+/// In seven bits a byte, the lowest first: most are small.
+impl Compact for usize {
+    #[inline]
+    fn write(&self, to: &mut Vec<u8>) {
+        let mut left = *self;
+        while left > 0x7f {
+            to.push(left as u8 | 0x80);
+            left >>= 7;
+        }
+        to.push(left as u8);
+    }
+
+    #[inline]
+    fn read(from: &mut &[u8]) -> Self {
+        let (mut number, mut shift) = (0, 0);
+        loop {
+            let byte = u8::read(from);
+            number |= Self::from(byte & 0x7f) << shift;
+            shift += 7;
+            if byte < 0x80 || shift >= Self::BITS {
+                return number;
+            }
+        }
+    }
+}
+
+impl Compact for bool {
+    fn write(&self, to: &mut Vec<u8>) {
+        to.push((*self).into());
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        u8::read(from) != 0
+    }
+}
+
+impl<T: Compact> Compact for Option<T> {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.is_some().write(to);
+        if let Some(value) = self {
+            value.write(to);
+        }
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        bool::read(from).then(|| T::read(from))
+    }
+}
+
+impl<T: Compact> Compact for Vec<T> {
+    #[inline]
+    fn write(&self, to: &mut Vec<u8>) {
+        self.len().write(to);
+        T::write_all(self, to);
+    }
+
+    #[inline]
+    fn read(from: &mut &[u8]) -> Self {
+        T::read_all(usize::read(from), from)
+    }
+}
+
+impl<T: Compact, const LENGTH: usize> Compact for [T; LENGTH] {
+    #[inline]
+    fn write(&self, to: &mut Vec<u8>) {
+        T::write_all(self, to);
+    }
+
+    #[inline]
+    fn read(from: &mut &[u8]) -> Self {
+        [(); LENGTH].map(|()| T::read(from))
+    }
+}
+
+macro_rules! tuple {
+    ($($part:ident)*) => {
+        impl<$($part: Compact),*> Compact for ($($part,)*) {
+            #[inline]
+            #[expect(non_snake_case, reason = "a part has the name of its type")]
+            fn write(&self, to: &mut Vec<u8>) {
+                let ($($part,)*) = self;
+                $($part.write(to);)*
+            }
+
+            #[inline]
+            fn read(from: &mut &[u8]) -> Self {
+                ($($part::read(from),)*)
+            }
+        }
+    };
+}
+
+tuple!(A B);
+tuple!(A B C);
+tuple!(A B C D);
+tuple!(A B C D E);
+tuple!(A B C D E F);
+
+/// Makes an enum without fields, or a struct with named ones, [`Compact`].
+#[macro_export]
+macro_rules! compact {
+    (enum $name:ident { $($variant:ident),* $(,)? }) => {
+        impl $crate::protocol::Compact for $name {
+            fn write(&self, to: &mut Vec<u8>) {
+                to.push(*self as u8);
+            }
+
+            fn read(from: &mut &[u8]) -> Self {
+                let number: u8 = $crate::protocol::Compact::read(from);
+                [$(Self::$variant),*][usize::from(number)]
+            }
+        }
+    };
+    (struct $name:ident { $($field:ident),* $(,)? }) => {
+        impl $crate::protocol::Compact for $name {
+            fn write(&self, to: &mut Vec<u8>) {
+                $($crate::protocol::Compact::write(&self.$field, to);)*
+            }
+
+            fn read(from: &mut &[u8]) -> Self {
+                Self { $($field: $crate::protocol::Compact::read(from)),* }
+            }
+        }
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::Mail;
+
+    #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+    enum Light {
+        Off,
+        On,
+    }
+    compact!(
+        enum Light {
+            Off,
+            On,
+        }
+    );
+
+    #[derive(PartialEq, Eq, Debug)]
+    struct Lamp {
+        light: Light,
+        hours: i16,
+    }
+    compact!(struct Lamp { light, hours });
+
+    #[test]
+    fn a_value_comes_back_from_its_bytes() {
+        fn comes_back<T: Compact + PartialEq + std::fmt::Debug>(value: T, length: usize) {
+            let mut bytes = Vec::new();
+            value.write(&mut bytes);
+            let mut left = &bytes[..];
+            assert_eq!((T::read(&mut left), left, bytes.len()), (value, &[][..], length));
+        }
+        comes_back((0x1234_u16, -3_i8, true), 4);
+        comes_back((127_usize, 128_usize, usize::MAX), 13);
+        comes_back((None::<u8>, Some([1_u32, 2]), 7_u64, [Some(false); 3]), 24);
+        comes_back(vec![(vec![1_u8, 2], 3_u128), (vec![], 4)], 1 + 3 + 16 + 1 + 16);
+        comes_back(Lamp { light: Light::On, hours: -700 }, 3);
+        comes_back((Light::Off, 1_u8, 2_u8, 3_u8, 4_u8, 5_u8), 6);
+        let mut mail = Mail::new(2);
+        mail.send((0, 1, 9_u8));
+        comes_back((mail, 0_i32), 1 + 3 + 4 + 4);
+    }
+}
