@@ -6,7 +6,7 @@ use stateright::{Model, Property};
 use tautline_proofs::protocol::{Move, Protocol};
 
 /// A protocol, whose states are counted.
-pub struct Counted<P>(pub P);
+pub(crate) struct Counted<P>(pub(crate) P);
 
 impl<P: Protocol> Model for Counted<P>
 where

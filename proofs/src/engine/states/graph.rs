@@ -47,9 +47,9 @@ impl Graph {
         self.from.bytes() + self.owed.bytes() + self.first_arc.bytes() + self.arcs.bytes()
     }
 
-    /// Whether it has as many nodes or arcs as it can number.
-    pub(super) const fn is_full(&self) -> bool {
-        self.from.len() >= MOST || self.arcs.len() >= MOST
+    /// How many nodes or arcs more it can number.
+    pub(super) fn room(&self) -> usize {
+        MOST.saturating_sub(self.from.len().max(self.arcs.len()))
     }
 
     /// Adds the start with this number.

@@ -1,9 +1,9 @@
 //! The states that are known, each as the numbers of its parts.
 
 use std::hash::{BuildHasher, Hash, Hasher};
+use std::hint::black_box;
 
 use hashbrown::HashTable;
-use hashbrown::hash_table::Entry;
 use rustc_hash::FxBuildHasher;
 
 use super::{Places, System};
@@ -169,8 +169,10 @@ pub(super) struct StateTable<P> {
     /// Parts of a state.
     places: usize,
     codes: Codes,
-    /// The states by their hashes, each with its own beside it: the table grows without a look at the numbers.
-    nodes: HashTable<(u32, HashOfState)>,
+    /// The states by their hashes.
+    nodes: Slots,
+    /// States that are looked up together, so that the memory answers for all of them at once.
+    queue: Queue,
     /// The state that is shown; at first none, and all numbers are 0.
     shown: Code,
     /// The state in the making.
@@ -184,7 +186,8 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
             width: 1,
             places: 0,
             codes: Codes::default(),
-            nodes: HashTable::new(),
+            nodes: Slots::default(),
+            queue: Queue::default(),
             shown: Code::default(),
             made: Code::default(),
         }
@@ -197,8 +200,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
 
     /// The bytes that they take, and will have taken once the next one is there.
     pub(super) fn bytes(&self) -> u64 {
-        let grows = self.nodes.len() == self.nodes.capacity();
-        let table = self.nodes.allocation_size() as u64 * if grows { 3 } else { 1 };
+        let table = self.nodes.bytes_with_the_next();
         let parts = self.parts.parts.capacity() * size_of::<P>() + self.parts.places.allocation_size();
         self.codes.bytes() + table + parts as u64
     }
@@ -225,32 +227,50 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.shown.set_to(&self.made);
     }
 
-    /// The number of `state`, and whether it is new. It has the parts of the state that is shown, but for those that
-    /// are `differing`.
-    pub(super) fn meet<S: System<Part = P>>(
-        &mut self,
-        system: &S,
-        state: &S::State,
-        differing: Places,
-    ) -> (u32, bool) {
+    /// Puts `state` into the queue. It has the parts of the state that is shown, but for those that are `differing`.
+    pub(super) fn queue<S: System<Part = P>>(&mut self, system: &S, state: &S::State, differing: Places) {
         self.take_apart(system, state, differing);
-        let Self { nodes, codes, made, .. } = self;
-        match nodes.entry(spread(made.hash), is_same(made, codes), |&(_, hash)| spread(hash)) {
-            Entry::Occupied(known) => (known.get().0, false),
-            Entry::Vacant(vacant) => {
-                let node = codes.length as u32;
-                vacant.insert((node, made.hash));
-                codes.push(&made.bytes);
-                (node, true)
-            }
+        self.queue.push(&self.made);
+    }
+
+    /// Meets the states of the queue in their order, at most so many: `met` gets the number of each, and whether it is
+    /// new. The queue is empty then.
+    pub(super) fn meet(&mut self, most: usize, mut met: impl FnMut(u32, bool)) {
+        let Self { nodes, codes, queue, .. } = self;
+        // No look waits for the one before it: first into the table, then among the codes.
+        black_box(queue.states.iter().fold(0, |all, state| all ^ nodes.slot(state.hash)));
+        for state in &mut queue.states {
+            state.node = nodes.first(state.hash);
         }
+        let mut first = 0;
+        for state in &mut queue.states {
+            let code = &queue.bytes[first..state.end];
+            first = state.end;
+            state.node = state.node.filter(|&node| codes.entry(node as usize) == code);
+        }
+        let mut first = 0;
+        for state in queue.states.iter().take(most) {
+            let code = &queue.bytes[first..state.end];
+            first = state.end;
+            // One that was new may stand earlier in the queue.
+            let known =
+                state.node.or_else(|| nodes.find(state.hash, |node| codes.entry(node as usize) == code));
+            let node = known.unwrap_or_else(|| {
+                let node = codes.length as u32;
+                nodes.insert(state.hash, node);
+                codes.push(code);
+                node
+            });
+            met(node, known.is_none());
+        }
+        queue.clear();
     }
 
     /// The number of `state`, if it is known.
     pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
         self.take_apart(system, state, Places::MAX);
-        let same = is_same(&self.made, &self.codes);
-        self.nodes.find(spread(self.made.hash), same).map(|&(node, _)| node)
+        let Self { nodes, codes, made, .. } = self;
+        nodes.find(made.hash, |node| codes.entry(node as usize) == made.bytes)
     }
 
     /// Makes `state` the one in the making.
@@ -294,6 +314,10 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         }
         self.codes = codes;
         self.shown.bytes = widened(&self.shown.bytes, self.width).collect();
+        self.queue.bytes = widened(&self.queue.bytes, self.width).collect();
+        for state in &mut self.queue.states {
+            state.end += state.end / self.width;
+        }
         self.width += 1;
     }
 }
@@ -328,14 +352,109 @@ fn hash_of(bytes: &[u8]) -> HashOfState {
     (hasher.finish() >> u32::BITS) as HashOfState
 }
 
-/// Whether a state in the table has this code.
-fn is_same(code: &Code, codes: &Codes) -> impl Fn(&(u32, HashOfState)) -> bool {
-    |&(node, hash)| hash == code.hash && codes.entry(node as usize) == code.bytes
+/// States that wait to be looked up.
+#[derive(Default)]
+struct Queue {
+    /// Their codes, one after the other.
+    bytes: Vec<u8>,
+    states: Vec<Queued>,
 }
 
-/// The bits that a table asks for: it looks at the highest and at the lowest.
-const fn spread(hash: HashOfState) -> u64 {
-    (hash as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+struct Queued {
+    hash: HashOfState,
+    /// Where its code ends.
+    end: usize,
+    /// Its number, if it is known.
+    node: Option<u32>,
+}
+
+impl Queue {
+    fn push(&mut self, code: &Code) {
+        self.bytes.extend_from_slice(&code.bytes);
+        self.states.push(Queued { hash: code.hash, end: self.bytes.len(), node: None });
+    }
+
+    fn clear(&mut self) {
+        self.bytes.clear();
+        self.states.clear();
+    }
+}
+
+/// Nodes by their hashes, each in the first slot that was free from the one on that its hash asks for. A slot has the
+/// hash of its node, too, so that the table grows without a look at the codes, and most looks that fail end here.
+#[derive(Default)]
+struct Slots {
+    slots: Vec<u64>,
+    length: usize,
+}
+
+/// A slot without a node.
+const FREE: u64 = u64::MAX;
+
+impl Slots {
+    /// The bytes that they take, and will have taken once the next one is there.
+    fn bytes_with_the_next(&self) -> u64 {
+        let grown = if self.is_full() { self.grown() } else { 0 };
+        ((self.slots.len() + grown) * size_of::<u64>()) as u64
+    }
+
+    const fn is_full(&self) -> bool {
+        self.length >= self.slots.len() / 4 * 3
+    }
+
+    const fn grown(&self) -> usize {
+        self.slots.len() / 8 * 12 + 64
+    }
+
+    /// The slot that a hash asks for. Larger hashes ask for later ones.
+    const fn place(&self, hash: HashOfState) -> usize {
+        ((hash as u64 * self.slots.len() as u64) >> HashOfState::BITS) as usize
+    }
+
+    /// What stands in the slot that a hash asks for.
+    #[inline]
+    fn slot(&self, hash: HashOfState) -> u64 {
+        self.slots.get(self.place(hash)).copied().unwrap_or(FREE)
+    }
+
+    /// The nodes with this hash.
+    fn with(&self, hash: HashOfState) -> impl Iterator<Item = u32> {
+        let place = self.place(hash);
+        let slots = self.slots[place..].iter().chain(&self.slots[..place]);
+        let taken = slots.take_while(|&&slot| slot != FREE);
+        taken.filter(move |&&slot| (slot >> u32::BITS) as HashOfState == hash).map(|&slot| slot as u32)
+    }
+
+    /// The first node with this hash.
+    fn first(&self, hash: HashOfState) -> Option<u32> {
+        self.with(hash).next()
+    }
+
+    fn find(&self, hash: HashOfState, mut is_it: impl FnMut(u32) -> bool) -> Option<u32> {
+        self.with(hash).find(|&node| is_it(node))
+    }
+
+    /// Adds a node that is not there.
+    fn insert(&mut self, hash: HashOfState, node: u32) {
+        if self.is_full() {
+            let grown = vec![FREE; self.grown()];
+            let before = std::mem::replace(&mut self.slots, grown);
+            before.into_iter().filter(|&slot| slot != FREE).for_each(|slot| self.put(slot));
+        }
+        self.put(u64::from(hash) << u32::BITS | u64::from(node));
+        self.length += 1;
+    }
+
+    fn put(&mut self, slot: u64) {
+        let mut place = self.place((slot >> u32::BITS) as HashOfState);
+        while self.slots[place] != FREE {
+            place += 1;
+            if place == self.slots.len() {
+                place = 0;
+            }
+        }
+        self.slots[place] = slot;
+    }
 }
 
 #[cfg(test)]
@@ -381,6 +500,30 @@ mod tests {
         }
     }
 
+    fn meet(known: &mut StateTable<u32>, state: &[u32; 3], differing: Places) -> (u32, bool) {
+        known.queue(&Triples, state, differing);
+        let mut met = None;
+        known.meet(1, |node, is_new| met = Some((node, is_new)));
+        met.expect("one is queued")
+    }
+
+    /// The second one needs numbers of two bytes.
+    #[test]
+    fn states_that_are_looked_up_together_are_met_in_their_order() {
+        let mut known = StateTable::new();
+        meet(&mut known, &[0, 0, 0], Places::MAX);
+        known.show_last();
+        let states = [[1, 2, 3], [4, 5, 6], [1, 2, 3], [0, 0, 0]];
+        let mut met = Vec::new();
+        (7..260).for_each(|part| drop(known.parts.number(part)));
+        for state in states {
+            known.queue(&Triples, &state, Places::MAX);
+        }
+        known.meet(4, |node, is_new| met.push((node, is_new)));
+        assert_eq!(known.width, 2);
+        assert_eq!(met, [(1, true), (2, true), (1, false), (0, false)]);
+    }
+
     /// More parts than one and two bytes can number; each state shares one part with the one before.
     #[test]
     fn states_stay_apart_and_come_back_when_their_numbers_grow() {
@@ -389,7 +532,7 @@ mod tests {
         let parts = |state: u32| [state, state + 1, 7];
         for state in 0..STATES {
             let differing = if state == 0 { Places::MAX } else { 0b011 };
-            assert_eq!(known.meet(&Triples, &parts(state), differing), (state, true));
+            assert_eq!(meet(&mut known, &parts(state), differing), (state, true));
             known.show_last();
         }
         assert_eq!(known.width, 3);
@@ -397,8 +540,8 @@ mod tests {
         for state in (0..STATES).step_by(97) {
             known.show(&Triples, state as usize, &mut shown);
             assert_eq!(shown, parts(state));
-            assert_eq!(known.meet(&Triples, &parts(state + 1), 0b011), (state + 1, false));
-            assert_eq!(known.meet(&Triples, &[state, 7, 7], 0b010), (known.len() as u32 - 1, true));
+            assert_eq!(meet(&mut known, &parts(state + 1), 0b011), (state + 1, false));
+            assert_eq!(meet(&mut known, &[state, 7, 7], 0b010), (known.len() as u32 - 1, true));
         }
         assert_eq!(known.find(&Triples, &[1, 1, 7]), None);
         // The part that both share is not put.

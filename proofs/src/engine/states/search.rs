@@ -112,9 +112,13 @@ impl<'a, S: System> Search<'a, S> {
 
     fn meet_start(&mut self, start: u32, mut state: S::State) {
         self.system.make_canonical(&mut state);
-        if self.known.meet(self.system, &state, Places::MAX).1 {
-            self.graph.add_start(start);
-        }
+        self.known.queue(self.system, &state, Places::MAX);
+        let graph = &mut self.graph;
+        self.known.meet(1, |_, is_new| {
+            if is_new {
+                graph.add_start(start);
+            }
+        });
         self.known.show_last();
         self.shown = Some(Box::new(state));
     }
@@ -162,31 +166,27 @@ impl<'a, S: System> Search<'a, S> {
         let system = self.system;
         self.looked_at += 1;
         self.graph.go_on(|| system.owed(state));
-        let (mut is_last, mut is_still) = (true, true);
-        let mut numbers = 0..;
+        let (mut made, before) = (Vec::new(), self.steps);
+        let mut is_still = true;
         system.each_step(state, |step| {
             making.next();
             let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
-            if self.steps == most_steps || self.graph.is_full() {
-                return ControlFlow::Break(Stop::Unfinished);
-            }
-            self.steps += 1;
-            is_last = false;
-            self.occurred |= occurs;
             system.make_canonical(&mut to);
-            let (to, is_new) = self.known.meet(system, &to, system.differing(state, &to));
-            if is_new {
-                self.graph.add(node as u32);
+            self.known.queue(system, &to, system.differing(state, &to));
+            is_still &= !is_bound;
+            made.push((occurs, is_bound.then_some(acting)));
+            if breaks.is_empty() {
+                return ControlFlow::Continue(());
             }
-            if is_bound {
-                is_still = false;
-                self.graph.add_arc(Arc { to, acting });
-            }
-            let number = numbers.next().unwrap_or(u32::MAX);
+            // What is broken is noted at once, whatever becomes of the next step.
+            self.meet(node, most_steps, &mut made)?;
+            let number = (self.steps - before - 1) as u32;
             breaks
                 .into_iter()
                 .try_for_each(|demand| self.note(Violation { demand, node, how: How::Step(number) }))
         })?;
+        self.meet(node, most_steps, &mut made)?;
+        let is_last = self.steps == before;
         self.has_ended |= is_last;
         if is_still {
             for demand in system.broken_at_end(state, &[]) {
@@ -194,6 +194,32 @@ impl<'a, S: System> Search<'a, S> {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Meets the states that are queued, to which steps from the node lead: of each step the situations that it is, and
+    /// who acts if it is bound to be made.
+    fn meet(
+        &mut self,
+        node: usize,
+        most_steps: u64,
+        made: &mut Vec<(u64, Option<Bits>)>,
+    ) -> ControlFlow<Stop> {
+        let Self { known, graph, steps, occurred, .. } = self;
+        let most = graph.room().min(usize::try_from(most_steps - *steps).unwrap_or(usize::MAX));
+        let is_cut_off = made.len() > most;
+        let mut made = made.drain(..);
+        known.meet(most, |to, is_new| {
+            let Some((occurs, acting)) = made.next() else { return };
+            *steps += 1;
+            *occurred |= occurs;
+            if is_new {
+                graph.add(node as u32);
+            }
+            if let Some(acting) = acting {
+                graph.add_arc(Arc { to, acting });
+            }
+        });
+        if is_cut_off { ControlFlow::Break(Stop::Unfinished) } else { ControlFlow::Continue(()) }
     }
 
     /// Keeps what is broken for the first time.
