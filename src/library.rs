@@ -48,7 +48,11 @@ impl Library {
         }
         let rules = self.chosen()?;
         let clauses: Vec<&'static Clause> =
-            rules.iter().flat_map(|rule| if self.larger { rule.larger } else { rule.clauses }).collect();
+            if self.larger {
+                rules.iter().flat_map(|rule| rule.larger()).collect()
+            } else {
+                rules.iter().flat_map(|rule| rule.clauses()).collect()
+            };
         if clauses.is_empty() {
             return Err(needless("--larger", "these rules have no larger bound").into());
         }
@@ -76,7 +80,7 @@ fn list() -> String {
     for rule in RULES {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}  {}\n  {}", rule.name, rule.title, rule.source);
-        for clause in rule.clauses {
+        for clause in rule.clauses() {
             let _ = writeln!(text, "  {}  {}", clause.id, clause.sentence);
             for check in clause.checks {
                 let _ = writeln!(text, "    {} {}: {}", check.expected().word(), check.rule(), check.bound());

@@ -38,7 +38,7 @@ fn peak() -> u64 {
 
 /// Searches by one of them, and prints states, milliseconds and kilobytes.
 fn search(who: &str, states: u8) {
-    let (rule, ring) = (Rule::Published, Ring { machines: 8, states });
+    let (rule, ring) = (Rule::Published, Ring(8, states));
     let count = if who == "ours" {
         Keeps::<Machines>(ring, 1).search(&rule, Limits::NONE).expect("there is a ring").states
     } else {

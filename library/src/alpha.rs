@@ -22,16 +22,14 @@ struct Swarm {
     width: i8,
     range: i8,
     alpha: usize,
-    /// Whether all move at once.
-    is_joint: bool,
+    moves: Moves,
 }
 
 impl fmt::Display for Swarm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { robots, width, range, alpha, is_joint } = self;
-        let order = if *is_joint { "all together" } else { "one at a time" };
+        let Self { robots, width, range, alpha, moves } = self;
         write!(f, "{robots} robots, {width}×{width} cells without rim, range {range}, α = {alpha}, ")?;
-        write!(f, "every connected start, {order}")
+        write!(f, "every connected start, {moves}")
     }
 }
 
@@ -74,13 +72,11 @@ impl Robots {
     }
 
     /// The swarm as seen from robot 0.
-    fn seen(&self, robots: Vec<Robot>) -> Vec<Robot> {
+    fn seen(&self, robots: &[Robot]) -> Vec<Robot> {
         let (column, row, ..) = robots[0];
         let from = |at: i8, zero: i8| (at - zero).rem_euclid(self.1.width);
-        robots
-            .into_iter()
-            .map(|robot| (from(robot.0, column), from(robot.1, row), robot.2, robot.3))
-            .collect()
+        let seen = |&(x, y, heading, misses): &Robot| (from(x, column), from(y, row), heading, misses);
+        robots.iter().map(seen).collect()
     }
 }
 
@@ -91,7 +87,7 @@ impl Protocol for Robots {
     const DEMANDS: &'static [Demand<Self>] =
         &[Demand::again_and_again("every robot is connected", |swarm, robots: &Vec<Robot>| {
             let is_lost = |&me: &usize| swarm.near(robots, me) < swarm.1.alpha;
-            (0..robots.len()).filter(is_lost).fold(0, |set, me| set | 1 << me)
+            set((0..robots.len()).filter(is_lost))
         })];
 
     fn new(&rule: &Conditions, bound: &&'static Swarm) -> Result<Self, MethodError> {
@@ -100,25 +96,21 @@ impl Protocol for Robots {
 
     fn starts(&self) -> impl Iterator<Item = Vec<Robot>> {
         let width = self.1.width;
-        let places = (0..width * width)
-            .flat_map(|cell| (0..4).map(move |way| (cell % width, cell / width, way, false)));
-        let any: Vec<Robot> = places.collect();
+        let at = |cell: i8| (0..4).map(move |way| (cell % width, cell / width, way, false));
+        let any: Vec<Robot> = (0..width * width).flat_map(at).collect();
         combinations((0..self.1.robots).map(move |me| any[..if me == 0 { 4 } else { any.len() }].to_vec()))
             .filter(|robots| (0..robots.len()).all(|me| self.near(robots, me) >= self.1.alpha))
     }
 
     fn moves(&self, robots: &Vec<Robot>) -> Vec<Move<Vec<Robot>>> {
-        let all: Vec<usize> = (0..robots.len()).collect();
-        let acting =
-            if self.1.is_joint { vec![all.clone()] } else { all.iter().map(|&me| vec![me]).collect() };
-        let act = |acting: Vec<usize>| {
-            let ways =
-                |me: usize| if acting.contains(&me) { self.ways(robots, me) } else { vec![robots[me]] };
-            let actors = acting.iter().fold(0, |set, me| set | 1 << me);
-            let to = combinations(all.iter().map(|&me| ways(me)));
-            to.map(move |to| Move { actors, words: "go", to: self.seen(to) }).collect::<Vec<_>>()
+        let act = |actors: Bits| {
+            let ways = move |me: usize| {
+                if actors >> me & 1 == 1 { self.ways(robots, me) } else { vec![robots[me]] }
+            };
+            let to = combinations((0..robots.len()).map(ways));
+            to.map(move |to| Move { actors, words: "go", to: self.seen(&to) })
         };
-        acting.into_iter().flat_map(act).collect()
+        self.1.moves.sets(robots.len()).flat_map(act).collect()
     }
 
     fn draw(&self, robots: &Vec<Robot>) -> String {
@@ -131,7 +123,9 @@ impl Protocol for Robots {
     }
 }
 
-const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, is_joint: true };
+const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, moves: Moves::Together };
+const ONE_BY_ONE: Swarm = Swarm { moves: Moves::OneAtATime, ..SWARM };
+const THREE: Swarm = Swarm { robots: 3, ..SWARM };
 const RULE: Conditions = Conditions { goes_on: true, turns_back: true, turns_aside: true };
 const PUBLISHED: NamedRule<Conditions> = NamedRule::new("published", RULE);
 const STANDS: NamedRule<Conditions> =
@@ -143,23 +137,14 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "Alpha",
     source: "Winfield, Liu, Nembrini, Martinoli, *Modelling a Wireless Connected Swarm of Mobile Robots*, Swarm \
              Intelligence 2, 2008; the model is ours, after that of Antuña, Araiza-Illan, Campos, Eder, arXiv 1505.05695, 2015",
-    clauses: &[promise(
+    promises: &[promise(
         "ALPHA-1",
         "Every robot MUST be connected again and again.",
         &[
             &Check::new(PUBLISHED, &Keeps::<Robots>(&SWARM, 0), Holds, &[STANDS]),
-            &Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { is_joint: false, ..SWARM }, 0), Refuted, &[]),
-            &Check::new(
-                PUBLISHED,
-                &Keeps::<Robots>(&Swarm { robots: 3, width: 4, ..SWARM }, 0),
-                Refuted,
-                &[],
-            ),
+            &Check::new(PUBLISHED, &Keeps::<Robots>(&ONE_BY_ONE, 0), Refuted, &[]),
+            &Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { width: 4, ..THREE }, 0), Refuted, &[]),
         ],
-    )],
-    larger: &[promise(
-        "ALPHA-1",
-        "Every robot MUST be connected again and again.",
-        &[&Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { robots: 3, ..SWARM }, 0), Refuted, &[])],
-    )],
+    )
+    .larger(&[&Check::new(PUBLISHED, &Keeps::<Robots>(&THREE, 0), Refuted, &[])])],
 };

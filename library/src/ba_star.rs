@@ -107,7 +107,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "BA*",
     source: "Viet, Dang, Laskar, Chung, *BA\\*: An Online Complete Coverage Algorithm for Cleaning Robots*, Applied \
              Intelligence 39, 2013",
-    clauses: &[
+    promises: &[
         promise(
             "SWEEP-1",
             "Every cell MUST be covered.",
@@ -116,16 +116,12 @@ pub(crate) static ENTRY: Entry = Entry {
                 &Check::new(STUCK, &Keeps::<Sweep>(floors(3, 3), 0), Refuted, &[]),
                 &Check::new(FAR, &Keeps::<Sweep>(floors(3, 3), 0), Holds, &[]),
             ],
-        ),
+        )
+        .larger(&[&Check::new(PUBLISHED, &Keeps::<Sweep>(floors(4, 4), 0), Holds, &[STUCK])]),
         promise(
             "SWEEP-2",
             "No cell MUST be entered twice.",
             &[&Check::new(PUBLISHED, &Keeps::<Sweep>(floors(3, 3), 1), Refuted, &[])],
         ),
     ],
-    larger: &[promise(
-        "SWEEP-1",
-        "Every cell MUST be covered.",
-        &[&Check::new(PUBLISHED, &Keeps::<Sweep>(floors(4, 4), 0), Holds, &[STUCK])],
-    )],
 };

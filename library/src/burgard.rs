@@ -43,7 +43,7 @@ impl Explorers for Burgard {
     }
 }
 
-const CREW: Crew = Crew(Teams { robots: 2, graphs: Graphs::within(Kind::Connected, 3, 3) });
+const CREW: Crew = Crew(Teams::within(Kind::Connected, 3, 3, 2));
 const RULE: Burgard = Burgard { weight: 1, range: 2, is_near: true };
 const PUBLISHED: NamedRule<Burgard> = NamedRule::new("published", RULE);
 const FAR: NamedRule<Burgard> = NamedRule::new("farthest", Burgard { is_near: false, ..RULE });
@@ -56,7 +56,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "coordinated exploration",
     source: "Burgard, Moors, Stachniss, Schneider, *Coordinated Multi-Robot Exploration*, IEEE Transactions on \
              Robotics 21, 2005, Algorithm 1",
-    clauses: &[
+    promises: &[
         promise(
             "ASSIGN-1",
             "Every cell MUST come onto the map.",
@@ -74,5 +74,4 @@ pub(crate) static ENTRY: Entry = Entry {
             ],
         ),
     ],
-    larger: &[],
 };

@@ -16,22 +16,13 @@ pub enum Rule {
     CountsOn,
 }
 
-/// So many machines, and the states of each.
+/// Machines, and the states of each.
 #[derive(Clone, Copy, Debug)]
-pub struct Ring {
-    /// Machines.
-    pub machines: usize,
-    /// States of each.
-    pub states: u8,
-}
+pub struct Ring(pub usize, pub u8);
 
 impl fmt::Display for Ring {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} machines of {} states, all starts, one at a time in any order",
-            self.machines, self.states
-        )
+        write!(f, "{} machines of {} states, all starts, one at a time in any order", self.0, self.1)
     }
 }
 
@@ -63,8 +54,9 @@ impl Protocol for Machines {
         }),
     ];
 
-    fn new(&rule: &Rule, bound: &Ring) -> Result<Self, MethodError> {
-        Ok(Self(rule, bound.machines, bound.states))
+    fn new(&rule: &Rule, &Ring(machines, states): &Ring) -> Result<Self, MethodError> {
+        MethodError::unless(machines > 1 && states > 1, "a ring has at least two machines of two states")?;
+        Ok(Self(rule, machines, states))
     }
 
     fn starts(&self) -> impl Iterator<Item = Vec<u8>> {
@@ -97,10 +89,6 @@ impl Protocol for Machines {
     }
 }
 
-const fn ring(machines: usize, states: u8) -> Ring {
-    Ring { machines, states }
-}
-
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::Published);
 const UNIFORM: NamedRule<Rule> = NamedRule::new("uniform", Rule::Uniform);
 const COUNTS_ON: NamedRule<Rule> = NamedRule::new("all count on", Rule::CountsOn);
@@ -112,26 +100,22 @@ pub(crate) static ENTRY: Entry = Entry {
     source: "Dijkstra, *Self-stabilizing Systems in Spite of Distributed Control*, Communications of the ACM 17, 1974; \
              machines and states: Fokkink, Hoepman, Pang, *A Note on K-State Self-Stabilization in a Ring with K=N*, \
              Nordic Journal of Computing 12, 2005",
-    clauses: &[
+    promises: &[
         promise(
             "KSTATE-1",
             "One privilege MUST stay one.",
-            &[&Check::new(PUBLISHED, &Keeps::<Machines>(ring(5, 5), 0), Holds, &[COUNTS_ON])],
+            &[&Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 5), 0), Holds, &[COUNTS_ON])],
         ),
         promise(
             "KSTATE-2",
             "There MUST be exactly one privilege at some time, whatever the start.",
             &[
-                &Check::new(PUBLISHED, &Keeps::<Machines>(ring(5, 5), 1), Holds, &[UNIFORM]),
-                &Check::new(PUBLISHED, &Keeps::<Machines>(ring(5, 4), 1), Holds, &[UNIFORM]),
-                &Check::new(PUBLISHED, &Keeps::<Machines>(ring(5, 3), 1), Refuted, &[]),
-                &Check::new(PUBLISHED, &Keeps::<Machines>(ring(4, 2), 1), Refuted, &[]),
+                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 5), 1), Holds, &[UNIFORM]),
+                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 4), 1), Holds, &[UNIFORM]),
+                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 3), 1), Refuted, &[]),
+                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(4, 2), 1), Refuted, &[]),
             ],
-        ),
+        )
+        .larger(&[&Check::new(PUBLISHED, &Keeps::<Machines>(Ring(7, 7), 1), Holds, &[UNIFORM])]),
     ],
-    larger: &[promise(
-        "KSTATE-2",
-        "There MUST be exactly one privilege at some time, whatever the start.",
-        &[&Check::new(PUBLISHED, &Keeps::<Machines>(ring(7, 7), 1), Holds, &[UNIFORM])],
-    )],
 };

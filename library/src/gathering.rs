@@ -6,37 +6,27 @@
 use crate::prelude::*;
 
 /// The conditions of the rule.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Conditions {
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Conditions {
     /// A robot in company stays.
-    counts: bool,
+    pub counts: bool,
     /// A robot between two others stays.
-    stays_between: bool,
-}
-
-/// Who acts at once.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Order {
-    OneAtATime,
-    Together,
-    LookThenMove,
+    pub stays_between: bool,
 }
 
 /// Nodes of the ring, robots in a row, and who acts at once.
-struct Row(u8, u8, Order);
+#[derive(Clone, Copy, Debug)]
+pub struct Row(pub u8, pub u8, pub Moves);
 
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let order = match self.2 {
-            Order::OneAtATime => "one at a time",
-            Order::Together => "all together",
-            Order::LookThenMove => "each looks, then moves",
-        };
-        write!(f, "{} robots in a row, a ring of {} nodes, {order}", self.1, self.0)
+        write!(f, "{} robots in a row, a ring of {} nodes, {}", self.1, self.0, self.2)
     }
 }
 
-struct Ring(Conditions, Row);
+/// The robots of a ring.
+#[derive(Debug)]
+pub struct Ring(Conditions, Row);
 
 /// Where robots are, and to where each is about to go.
 type State = Vec<(u8, Option<u8>)>;
@@ -68,9 +58,7 @@ impl Protocol for Ring {
         })];
 
     fn new(&rule: &Conditions, &Row(nodes, robots, order): &Row) -> Result<Self, MethodError> {
-        if robots > nodes {
-            return Err(MethodError::new("the ring has no room for the robots"));
-        }
+        MethodError::unless(robots <= nodes, "the ring has no room for the robots")?;
         Ok(Self(rule, Row(nodes, robots, order)))
     }
 
@@ -79,7 +67,7 @@ impl Protocol for Ring {
     }
 
     fn moves(&self, robots: &State) -> Vec<Move<State>> {
-        if self.1.2 == Order::Together {
+        if self.1.2 == Moves::Together {
             let to = (0..robots.len()).map(|me| (self.wish(robots, me), None)).collect();
             return vec![Move::of_all(robots.len(), "all go", to)];
         }
@@ -90,7 +78,7 @@ impl Protocol for Ring {
                     to[me] = (pending, None);
                     "moves"
                 }
-                None if self.1.2 == Order::LookThenMove && wish != robots[me].0 => {
+                None if self.1.2 == Moves::LookThenMove && wish != robots[me].0 => {
                     to[me].1 = Some(wish);
                     "looks"
                 }
@@ -113,7 +101,8 @@ impl Protocol for Ring {
     }
 }
 
-const RULE: Conditions = Conditions { counts: true, stays_between: true };
+/// The published rule.
+pub const RULE: Conditions = Conditions { counts: true, stays_between: true };
 const PUBLISHED: NamedRule<Conditions> = NamedRule::new("published", RULE);
 const BLIND: NamedRule<Conditions> = NamedRule::new("does not count", Conditions { counts: false, ..RULE });
 const LEAVES: NamedRule<Conditions> =
@@ -125,21 +114,20 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "gathering with local vision",
     source: "Guilbault, Pelc, *Gathering Asynchronous Oblivious Agents with Local Vision in Regular Bipartite Graphs*, \
              Theoretical Computer Science 509, 2013",
-    clauses: &[promise(
+    promises: &[promise(
         "GATHER-1",
         "All robots MUST come into one node, and stay.",
         &[
             &Check::new(
                 PUBLISHED,
-                &Keeps::<Ring>(Row(6, 3, Order::LookThenMove), 0),
+                &Keeps::<Ring>(Row(6, 3, Moves::LookThenMove), 0),
                 Holds,
                 &[BLIND, LEAVES],
             ),
-            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 2, Order::OneAtATime), 0), Holds, &[]),
-            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 2, Order::Together), 0), Refuted, &[]),
-            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 2, Order::LookThenMove), 0), Refuted, &[]),
-            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 4, Order::LookThenMove), 0), Refuted, &[]),
+            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 2, Moves::OneAtATime), 0), Holds, &[]),
+            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 2, Moves::Together), 0), Refuted, &[]),
+            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 2, Moves::LookThenMove), 0), Refuted, &[]),
+            &Check::new(PUBLISHED, &Keeps::<Ring>(Row(6, 4, Moves::LookThenMove), 0), Refuted, &[]),
         ],
     )],
-    larger: &[],
 };

@@ -5,7 +5,7 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use crate::pibt::{PIBT, Plan};
+use crate::inheritance::{PIBT, Plan};
 use crate::planned::{Only, Planned, Planner, Tasks};
 use crate::prelude::*;
 
@@ -73,8 +73,7 @@ fn generated(graph: &Graph, now: &[u8], goals: &[u8], constraint: &[u8]) -> Opti
     can_all_go.then(|| plan.next.into_iter().flatten().collect())
 }
 
-const SOLVABLE: Tasks =
-    Tasks(Teams { robots: 3, graphs: Graphs::within(Kind::Connected, 3, 2) }, Only::Solvable);
+const SOLVABLE: Tasks = Tasks(Teams::within(Kind::Connected, 3, 2, 3), Only::Solvable);
 const LACAM: Lacam = Lacam { has_constraints: true, leaves_out_known: true };
 const PUBLISHED: NamedRule<Lacam> = NamedRule::new("published", LACAM);
 const BARE: NamedRule<Lacam> = NamedRule::new("no constraints", Lacam { has_constraints: false, ..LACAM });
@@ -85,7 +84,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "LaCAM",
     source: "Okumura, *LaCAM: Search-Based Algorithm for Quick Multi-Agent Pathfinding*, AAAI 2023, Algorithm 1 and \
              Theorem 1",
-    clauses: &[
+    promises: &[
         promise(
             "LACAM-1",
             "No two robots MUST come into one cell, or change places.",
@@ -100,5 +99,4 @@ pub(crate) static ENTRY: Entry = Entry {
             ],
         ),
     ],
-    larger: &[],
 };

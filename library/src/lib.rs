@@ -7,14 +7,15 @@ mod ba_star;
 mod burgard;
 pub mod dijkstra;
 mod frontiers;
-mod gathering;
+pub mod gathering;
+mod inheritance;
 mod lacam;
 mod page;
 mod perpetual;
 mod pibt;
 mod planned;
 mod prioritised;
-mod ricart;
+pub mod ricart;
 mod rmf_lane;
 mod rmf_swap;
 mod spanning_tree;
@@ -33,10 +34,11 @@ mod prelude {
     pub(crate) use tautline_proofs::compact;
     pub(crate) use tautline_proofs::decide::MethodError;
     pub(crate) use tautline_proofs::decide::Verdict::{Holds, Refuted};
-    pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations};
-    pub(crate) use tautline_proofs::team::{Graph, Graphs, Kind, Teams};
+    pub(crate) use tautline_proofs::engine::states::Bits;
+    pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations, set};
+    pub(crate) use tautline_proofs::team::{Graph, Graphs, Kind, Moves, Teams};
 
-    pub(crate) use crate::{Entry, conflicts, promise, robots};
+    pub(crate) use crate::{APART, Entry, conflicts, promise, robots};
 }
 
 /// A published rule.
@@ -49,9 +51,26 @@ pub struct Entry {
     /// The source, as Markdown.
     pub source: &'static str,
     /// The promises, with what must come out.
-    pub clauses: &'static [Clause],
-    /// Promises within bounds that take longer.
-    pub larger: &'static [Clause],
+    pub promises: &'static [Promise],
+}
+
+/// A promise with its checks, and with those within bounds that take longer, which may be none.
+#[derive(Debug)]
+pub struct Promise {
+    clause: Clause,
+    larger: Clause,
+}
+
+impl Entry {
+    /// The promises.
+    pub fn clauses(&self) -> impl Iterator<Item = &'static Clause> {
+        self.promises.iter().map(|promise| &promise.clause)
+    }
+
+    /// The promises that have larger bounds, within these.
+    pub fn larger(&self) -> impl Iterator<Item = &'static Clause> {
+        self.promises.iter().map(|promise| &promise.larger).filter(|clause| !clause.checks.is_empty())
+    }
 }
 
 /// All rules.
@@ -74,8 +93,8 @@ pub static RULES: &[&Entry] = &[
 
 /// The promises of all rules, those within larger bounds last.
 pub fn clauses() -> impl Iterator<Item = &'static Clause> {
-    let of = |clauses: fn(&Entry) -> &'static [Clause]| RULES.iter().flat_map(move |&rule| clauses(rule));
-    of(|rule| rule.clauses).chain(of(|rule| rule.larger))
+    let smaller = RULES.iter().flat_map(|rule| rule.clauses());
+    smaller.chain(RULES.iter().flat_map(|rule| rule.larger()))
 }
 
 /// A promise with its checks.
@@ -83,9 +102,20 @@ const fn promise(
     id: &'static str,
     sentence: &'static str,
     checks: &'static [&'static dyn AnyCheck],
-) -> Clause {
-    Clause { id, sentence, checks }
+) -> Promise {
+    Promise { clause: Clause { id, sentence, checks }, larger: Clause { id, sentence, checks: &[] } }
 }
+
+impl Promise {
+    /// The promise with these checks within larger bounds.
+    const fn larger(mut self, checks: &'static [&'static dyn AnyCheck]) -> Self {
+        self.larger.checks = checks;
+        self
+    }
+}
+
+/// The demand that no two robots are in conflict.
+const APART: &str = "no two robots are in one cell, or change places";
 
 /// Whether two robots come into one cell, or change places.
 fn conflicts(before: &[u8], after: &[u8]) -> bool {

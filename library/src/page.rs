@@ -63,7 +63,7 @@ fn table(entry: &Entry, rows: &[Row]) -> String {
 
 /// A rule with its promises, its checks, and its counterexamples.
 fn section(entry: &Entry, rows: &[Row]) -> String {
-    let promises = entry.clauses.iter().map(|clause| format!("- {}: {}\n", clause.id, clause.sentence));
+    let promises = entry.clauses().map(|clause| format!("- {}: {}\n", clause.id, clause.sentence));
     format!(
         "\n## {}\n\n{}: {}.\n\n{}\n| promise | about | verdict | bound | states | mutants killed | counterexample |\n\
          |---|---|---|---|---|---|---|\n{}{}",

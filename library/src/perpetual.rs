@@ -68,15 +68,14 @@ impl Protocol for Ring {
             },
         ),
         Demand::again_and_again("robot 0 visits every node", |ring, robots: &State| {
-            (0..ring.1.0).filter(|&node| robots[0].0 != node).fold(0, |set, node| set | 1 << node)
+            set((0..usize::from(ring.1.0)).filter(|&node| usize::from(robots[0].0) != node))
         }),
     ];
 
     fn new(&rule: &Conditions, &Size(nodes, is_any): &Size) -> Result<Self, MethodError> {
-        if (9..=16).contains(&nodes) {
-            return Ok(Self(rule, Size(nodes, is_any)));
-        }
-        Err(MethodError::new(format_args!("a ring has 9 to 16 nodes, not {nodes}")))
+        let fits = (9..=16).contains(&nodes);
+        MethodError::unless(fits, format_args!("a ring has 9 to 16 nodes, not {nodes}"))?;
+        Ok(Self(rule, Size(nodes, is_any)))
     }
 
     fn starts(&self) -> impl Iterator<Item = State> {
@@ -117,7 +116,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "perpetual exploration of a ring",
     source: "after Blin, Milani, Potop-Butucaru, Tixeuil, *Exclusive Perpetual Ring Exploration without Chirality*, \
              DISC 2010: its legitimate phase, as we model it",
-    clauses: &[
+    promises: &[
         promise(
             "RING-1",
             "No two robots MUST come into one node, or change places.",
@@ -134,5 +133,4 @@ pub(crate) static ENTRY: Entry = Entry {
             ],
         ),
     ],
-    larger: &[],
 };

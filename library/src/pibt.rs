@@ -4,56 +4,8 @@
 //! but not into the cell of the robot that pushes it; if it can go nowhere, the pushing robot tries its next cell. A
 //! robot at its goal gets the lowest priority. Priorities count steps without end; their order is all that matters.
 
+use crate::inheritance::{PIBT, Pibt, Plan};
 use crate::prelude::*;
-
-/// The conditions of the rule.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Pibt {
-    /// A robot tries its next cell if the one that it pushes can go nowhere.
-    pub(crate) backtracks: bool,
-    /// A robot that is pushed does not go to where the pushing one is.
-    pub(crate) has_no_swap: bool,
-    /// Robots at their goals come last.
-    pub(crate) rotates: bool,
-}
-
-pub(crate) const PIBT: Pibt = Pibt { backtracks: true, has_no_swap: true, rotates: true };
-
-/// A step under way: where robots are and go, and to where they wish.
-pub(crate) struct Plan<'a> {
-    pub(crate) rule: Pibt,
-    pub(crate) graph: &'a Graph,
-    pub(crate) now: &'a [u8],
-    pub(crate) goals: &'a [u8],
-    pub(crate) next: Vec<Option<u8>>,
-}
-
-impl Plan<'_> {
-    /// Plans for a robot, and for those that it pushes. Whether it finds a cell.
-    pub(crate) fn plan(&mut self, robot: usize) -> bool {
-        let (here, goal) = (self.now[robot], self.goals[robot]);
-        let mut wishes = [self.graph.beside(here), &[here]].concat();
-        wishes.sort_by_key(|&cell| (self.graph.steps(cell, goal), self.now.contains(&cell), cell));
-        for cell in wishes {
-            let comes = |one: usize| self.now[one] == cell && self.next[one] == Some(here) && one != robot;
-            let is_swap = self.rule.has_no_swap && (0..self.now.len()).any(comes);
-            if self.next.contains(&Some(cell)) || is_swap {
-                continue;
-            }
-            let other = (0..self.now.len()).find(|&one| self.now[one] == cell && one != robot);
-            let pushed = other.filter(|&other| self.next[other].is_none());
-            self.next[robot] = Some(cell);
-            if pushed.is_none_or(|other| self.plan(other)) {
-                return true;
-            }
-            if !self.rule.backtracks {
-                break;
-            }
-        }
-        self.next[robot] = Some(here);
-        false
-    }
-}
 
 /// The rule in all layouts of its bound.
 pub(crate) struct Team(Pibt, Teams, Vec<Graph>);
@@ -66,12 +18,9 @@ impl Protocol for Team {
     type Bound = Teams;
     type State = State;
     const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always(
-            "no two robots are in one cell, or change places",
-            |_, before: &State, after: &State| !conflicts(&before.1, &after.1),
-        ),
+        Demand::always(APART, |_, before: &State, after: &State| !conflicts(&before.1, &after.1)),
         Demand::again_and_again("every robot comes to its goal", |_, (_, now, goals, _): &State| {
-            (0..now.len()).filter(|&robot| now[robot] != goals[robot]).fold(0, |set, robot| set | 1 << robot)
+            set((0..now.len()).filter(|&robot| now[robot] != goals[robot]))
         }),
     ];
 
@@ -107,17 +56,12 @@ impl Protocol for Team {
     }
 }
 
-const fn within(kind: Kind, width: i16, height: i16, robots: usize) -> Teams {
-    Teams { robots, graphs: Graphs::within(kind, width, height) }
-}
-
-const SMALL: Teams = within(Kind::Biconnected, 3, 2, 3);
-const CROWDED: Teams = within(Kind::Biconnected, 3, 2, 5);
+const SMALL: Teams = Teams::within(Kind::Biconnected, 3, 2, 3);
+const CROWDED: Teams = Teams::within(Kind::Biconnected, 3, 2, 5);
+const ANY: Teams = Teams::within(Kind::Connected, 3, 2, 4);
 /// A square with a dead end among them: two robots can always change places there.
-const DEAD_ENDS: Teams =
-    Teams { robots: 2, graphs: Graphs { cells: (5, 6), ..Graphs::within(Kind::Connected, 3, 2) } };
-const FOUR: Teams =
-    Teams { robots: 4, graphs: Graphs { cells: (5, 6), ..Graphs::within(Kind::Biconnected, 3, 3) } };
+const DEAD_ENDS: Teams = Teams::within(Kind::Connected, 3, 2, 2).of_cells(5, 6);
+const FOUR: Teams = Teams::within(Kind::Biconnected, 3, 3, 4).of_cells(5, 6);
 const PUBLISHED: NamedRule<Pibt> = NamedRule::new("published", PIBT);
 const SWAPS: NamedRule<Pibt> = NamedRule::new("pushes back", Pibt { has_no_swap: false, ..PIBT });
 const ONE_TRY: NamedRule<Pibt> = NamedRule::new("no backtracking", Pibt { backtracks: false, ..PIBT });
@@ -129,13 +73,13 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "PIBT",
     source: "Okumura, Machida, Défago, Tamura, *Priority Inheritance with Backtracking for Iterative Multi-agent Path \
              Finding*, IJCAI 2019, Algorithm 1 and Theorem 1; the reservation as in Artificial Intelligence 310, 2022",
-    clauses: &[
+    promises: &[
         promise(
             "PIBT-1",
             "No two robots MUST come into one cell, or change places.",
             &[
                 &Check::new(PUBLISHED, &Keeps::<Team>(SMALL, 0), Holds, &[SWAPS]),
-                &Check::new(PUBLISHED, &Keeps::<Team>(within(Kind::Connected, 3, 2, 4), 0), Holds, &[SWAPS]),
+                &Check::new(PUBLISHED, &Keeps::<Team>(ANY, 0), Holds, &[SWAPS]),
             ],
         ),
         promise(
@@ -147,15 +91,16 @@ pub(crate) static ENTRY: Entry = Entry {
                 &Check::new(ONE_TRY, &Keeps::<Team>(CROWDED, 1), Refuted, &[]),
                 &Check::new(FIXED, &Keeps::<Team>(SMALL, 1), Refuted, &[]),
             ],
-        ),
-    ],
-    larger: &[promise(
-        "PIBT-2",
-        "Every robot MUST come to its goal at some time, again and again.",
-        &[
+        )
+        .larger(&[
             &Check::new(PUBLISHED, &Keeps::<Team>(CROWDED, 1), Holds, &[ONE_TRY]),
-            &Check::new(PUBLISHED, &Keeps::<Team>(within(Kind::Biconnected, 3, 3, 3), 1), Holds, &[FIXED]),
+            &Check::new(
+                PUBLISHED,
+                &Keeps::<Team>(Teams::within(Kind::Biconnected, 3, 3, 3), 1),
+                Holds,
+                &[FIXED],
+            ),
             &Check::new(PUBLISHED, &Keeps::<Team>(FOUR, 1), Holds, &[FIXED]),
-        ],
-    )],
+        ]),
+    ],
 };

@@ -43,10 +43,7 @@ impl<R: Planner> Protocol for Planned<R> {
     type Bound = Tasks;
     type State = State;
     const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always(
-            "no two robots are in one cell, or change places",
-            |_, before: &State, after: &State| !conflicts(&before.1, &after.1),
-        ),
+        Demand::always(APART, |_, before: &State, after: &State| !conflicts(&before.1, &after.1)),
         Demand::at_the_end("every robot is at its goal", |_, (_, now, goals, _): &State| now == goals),
     ];
 

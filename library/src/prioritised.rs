@@ -69,13 +69,10 @@ impl Planner for Prioritised {
 }
 
 const fn tasks(only: Only) -> Tasks {
-    Tasks(Teams { robots: 2, graphs: Graphs::within(Kind::Connected, 3, 3) }, only)
+    Tasks(Teams::within(Kind::Connected, 3, 3, 2), only)
 }
 
-const WIDE: Tasks = Tasks(
-    Teams { robots: 2, graphs: Graphs { cells: (7, 9), ..Graphs::within(Kind::Connected, 4, 3) } },
-    Only::WellFormed,
-);
+const WIDE: Tasks = Tasks(Teams::within(Kind::Connected, 4, 3, 2).of_cells(7, 9), Only::WellFormed);
 const RULE: Prioritised =
     Prioritised { leaves_out_starts: true, can_stay: true, has_no_swap: true, waits: true };
 const REVISED: NamedRule<Prioritised> = NamedRule::new("revised", RULE);
@@ -93,7 +90,7 @@ pub(crate) static ENTRY: Entry = Entry {
     source: "Erdmann, Lozano-Pérez, *On Multiple Moving Objects*, Algorithmica 2, 1987; revised: Čáp, Novák, Kleiner, \
              Selecký, *Prioritized Planning Algorithms for Trajectory Coordination of Multiple Mobile Robots*, IEEE \
              T-ASE 12, 2015",
-    clauses: &[
+    promises: &[
         promise(
             "PRIO-1",
             "No two robots MUST come into one cell, or change places.",
@@ -122,14 +119,10 @@ pub(crate) static ENTRY: Entry = Entry {
                 ),
                 &Check::new(REVISED, &Keeps::<Planned<Prioritised>>(tasks(Only::Solvable), 1), Refuted, &[]),
             ],
-        ),
-    ],
-    larger: &[promise(
-        "PRIO-2",
-        "A plan MUST be found.",
-        &[
+        )
+        .larger(&[
             &Check::new(CLASSIC, &Keeps::<Planned<Prioritised>>(WIDE, 1), Holds, &[]),
             &Check::new(REVISED, &Keeps::<Planned<Prioritised>>(WIDE, 1), Holds, &[]),
-        ],
-    )],
+        ]),
+    ],
 };

@@ -24,14 +24,7 @@ enum Place {
     Midpoint,
     Across,
 }
-compact!(
-    enum Place {
-        Bay,
-        Lane,
-        Midpoint,
-        Across,
-    }
-);
+compact! { Place: Bay, Lane, Midpoint, Across }
 
 /// How many robots there are.
 struct Robots(usize);
@@ -125,7 +118,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "Open-RMF's lane mutex",
     source: "[rmf_ros2 issue 448](https://github.com/open-rmf/rmf_ros2/issues/448), mended by \
              [pull request 490](https://github.com/open-rmf/rmf_ros2/pull/490), 2025, problem 1",
-    clauses: &[
+    promises: &[
         promise(
             "LANE-1",
             "At most one robot MUST be in the lane.",
@@ -140,5 +133,4 @@ pub(crate) static ENTRY: Entry = Entry {
             ],
         ),
     ],
-    larger: &[],
 };

@@ -113,7 +113,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "two robots that swap",
     source: "the situation of [rmf_ros2 issue 503](https://github.com/open-rmf/rmf_ros2/issues/503), 2026; hold and \
              wait: Coffman, Elphick, Shoshani, *System Deadlocks*, ACM Computing Surveys 3, 1971",
-    clauses: &[
+    promises: &[
         promise(
             "SWAP-1",
             "No two robots MUST be in one place.",
@@ -130,5 +130,4 @@ pub(crate) static ENTRY: Entry = Entry {
             ],
         ),
     ],
-    larger: &[],
 };

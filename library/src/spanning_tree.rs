@@ -114,7 +114,7 @@ pub(crate) static ENTRY: Entry = Entry {
     title: "spanning tree coverage",
     source: "Gabriely, Rimon, *Spiral-STC: An On-Line Coverage Algorithm of Grid Environments by a Mobile Robot*, \
              ICRA 2002; blocks that are wholly free",
-    clauses: &[
+    promises: &[
         promise(
             "STC-1",
             "No cell MUST be entered twice.",
@@ -126,5 +126,4 @@ pub(crate) static ENTRY: Entry = Entry {
             &[&Check::new(PUBLISHED, &Keeps::<Coverage>(BLOCKS, 1), Holds, &[CYCLES, STAYS])],
         ),
     ],
-    larger: &[],
 };

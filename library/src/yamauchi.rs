@@ -38,7 +38,7 @@ impl Explorers for Yamauchi {
 }
 
 const fn crew(robots: usize, width: i16, height: i16) -> Crew {
-    Crew(Teams { robots, graphs: Graphs::within(Kind::Connected, width, height) })
+    Crew(Teams::within(Kind::Connected, width, height, robots))
 }
 
 const RULE: Yamauchi = Yamauchi { reserves: false, goes_round: false, is_near: true };
@@ -54,7 +54,7 @@ pub(crate) static ENTRY: Entry = Entry {
     name: "yamauchi",
     title: "frontier-based exploration",
     source: "Yamauchi, *Frontier-Based Exploration Using Multiple Robots*, Agents 1998",
-    clauses: &[
+    promises: &[
         promise(
             "EXPLORE-1",
             "Every cell MUST come onto the map.",
@@ -63,7 +63,11 @@ pub(crate) static ENTRY: Entry = Entry {
                 &Check::new(RESERVES, &Keeps::<Exploration<Yamauchi>>(crew(2, 3, 3), 1), Refuted, &[]),
                 &Check::new(ROUND, &Keeps::<Exploration<Yamauchi>>(crew(2, 3, 3), 1), Holds, &[RESERVES]),
             ],
-        ),
+        )
+        .larger(&[
+            &Check::new(PUBLISHED, &Keeps::<Exploration<Yamauchi>>(crew(3, 4, 3), 1), Holds, &[]),
+            &Check::new(ROUND, &Keeps::<Exploration<Yamauchi>>(crew(3, 4, 3), 1), Holds, &[]),
+        ]),
         promise(
             "EXPLORE-2",
             "No two robots MUST set out for one frontier.",
@@ -73,12 +77,4 @@ pub(crate) static ENTRY: Entry = Entry {
             ],
         ),
     ],
-    larger: &[promise(
-        "EXPLORE-1",
-        "Every cell MUST come onto the map.",
-        &[
-            &Check::new(PUBLISHED, &Keeps::<Exploration<Yamauchi>>(crew(3, 4, 3), 1), Holds, &[]),
-            &Check::new(ROUND, &Keeps::<Exploration<Yamauchi>>(crew(3, 4, 3), 1), Holds, &[]),
-        ],
-    )],
 };

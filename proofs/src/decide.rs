@@ -150,6 +150,16 @@ impl MethodError {
     }
 }
 
+impl MethodError {
+    /// Nothing if this is so.
+    ///
+    /// # Errors
+    /// [`MethodError`] with the reason if it is not.
+    pub fn unless(is_so: bool, reason: impl fmt::Display) -> Result<(), Self> {
+        if is_so { Ok(()) } else { Err(Self::new(reason)) }
+    }
+}
+
 impl fmt::Display for MethodError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)

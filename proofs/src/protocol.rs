@@ -77,6 +77,11 @@ impl<S> Move<S> {
     }
 }
 
+/// The set of these, a bit for each.
+pub fn set(members: impl IntoIterator<Item = usize>) -> Bits {
+    members.into_iter().fold(0, |set, member| set | 1 << member)
+}
+
 /// Every way to take one of each of these, the last one changing first.
 pub fn combinations<T: Clone>(choices: impl IntoIterator<Item = Vec<T>>) -> impl Iterator<Item = Vec<T>> {
     let choices: Vec<Vec<T>> = choices.into_iter().collect();

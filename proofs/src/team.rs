@@ -14,6 +14,8 @@ mod keeps;
 mod rule;
 mod world;
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
@@ -24,6 +26,7 @@ pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep,
 pub use self::world::{Event, Part, TeamWorld};
 use crate::decide::MethodError;
 use crate::engine::Until;
+use crate::engine::states::Bits;
 use crate::engine::tree::{Limits, Tree};
 
 /// Where robots start, or where they are to go.
@@ -68,6 +71,29 @@ pub enum Moves {
     AnySubset,
     /// Any one, which looks and decides in one step and moves in a later one (ASYNC).
     LookThenMove,
+}
+
+impl fmt::Display for Moves {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Together => "all together",
+            Self::OneAtATime => "one at a time",
+            Self::AnySubset => "any of them at a time",
+            Self::LookThenMove => "each looks, then moves",
+        })
+    }
+}
+
+impl Moves {
+    /// The sets of so many robots that may act in a step, a bit for each robot.
+    pub fn sets(self, robots: usize) -> impl Iterator<Item = Bits> {
+        let all: Bits = (0..robots).fold(0, |set, robot| set | 1 << robot);
+        (1..=all).filter(move |set| match self {
+            Self::Together => *set == all,
+            Self::OneAtATime | Self::LookThenMove => set.is_power_of_two(),
+            Self::AnySubset => true,
+        })
+    }
 }
 
 /// The surroundings of a rule, and what is demanded of a team there.

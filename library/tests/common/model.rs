@@ -1,6 +1,6 @@
 //! A protocol as a model of stateright. It shares the moves with the search over states, and nothing of the engine.
 
-use std::fmt::Debug;
+use std::hash::Hash;
 
 use stateright::{Model, Property};
 use tautline_proofs::protocol::{Move, Protocol};
@@ -10,7 +10,7 @@ pub(crate) struct Counted<P>(pub(crate) P);
 
 impl<P: Protocol> Model for Counted<P>
 where
-    P::State: Debug,
+    P::State: Hash,
 {
     type State = P::State;
     type Action = Move<P::State>;

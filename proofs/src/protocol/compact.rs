@@ -164,7 +164,7 @@ tuple!(A B C D E F);
 /// Makes an enum without fields, or a struct with named ones, [`Compact`].
 #[macro_export]
 macro_rules! compact {
-    (enum $name:ident { $($variant:ident),* $(,)? }) => {
+    ($name:ident: $($variant:ident),*) => {
         impl $crate::protocol::Compact for $name {
             fn write(&self, to: &mut Vec<u8>) {
                 to.push(*self as u8);
@@ -176,7 +176,7 @@ macro_rules! compact {
             }
         }
     };
-    (struct $name:ident { $($field:ident),* $(,)? }) => {
+    ($name:ident { $($field:ident),* }) => {
         impl $crate::protocol::Compact for $name {
             fn write(&self, to: &mut Vec<u8>) {
                 $($crate::protocol::Compact::write(&self.$field, to);)*
@@ -199,19 +199,14 @@ mod tests {
         Off,
         On,
     }
-    compact!(
-        enum Light {
-            Off,
-            On,
-        }
-    );
+    compact! { Light: Off, On }
 
     #[derive(PartialEq, Eq, Debug)]
     struct Lamp {
         light: Light,
         hours: i16,
     }
-    compact!(struct Lamp { light, hours });
+    compact! { Lamp { light, hours } }
 
     #[test]
     fn a_value_comes_back_from_its_bytes() {

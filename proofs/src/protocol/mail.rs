@@ -1,6 +1,7 @@
 //! Messages under way between nodes: they arrive in any order, and some may be lost.
 
-use super::Compact;
+use super::{Compact, Move};
+use crate::engine::states::Bits;
 
 /// A message: its sender, its receiver, and what it says.
 pub type Letter<M> = (usize, usize, M);
@@ -24,6 +25,12 @@ impl<M: Clone + Ord> Mail<M> {
         self.under_way.insert(place, letter);
     }
 
+    /// Sends one message to a set of nodes, a bit for each.
+    pub fn send_each(&mut self, from: usize, to: Bits, message: &M) {
+        let receivers = (0..Bits::BITS as usize).filter(|node| to >> node & 1 == 1);
+        receivers.for_each(|to| self.send((from, to, message.clone())));
+    }
+
     /// The messages under way, in one order whatever order they were sent in.
     pub fn under_way(&self) -> &[Letter<M>] {
         &self.under_way
@@ -36,6 +43,25 @@ impl<M: Clone + Ord> Mail<M> {
             left.under_way.remove(place);
             (letter.clone(), left)
         })
+    }
+
+    /// Every arrival as a move of its receiver, to the state that comes of it and of the mail that is left; and every
+    /// loss as a fault.
+    pub fn moves<S>(
+        &self,
+        mut hears: impl FnMut(Letter<M>, Self) -> S,
+        lost: impl FnMut(Self) -> S,
+    ) -> impl Iterator<Item = Move<S>> {
+        let arrivals = self.arrivals().map(move |(letter, left)| {
+            let receiver = letter.1;
+            Move::of(receiver, "hears", hears(letter, left))
+        });
+        arrivals.chain(self.losses().map(lost).map(|to| Move::fault("a message is lost", to)))
+    }
+
+    /// A line for each message under way, with these words for it.
+    pub fn lines(&self, words: impl Fn(&M) -> String) -> impl Iterator<Item = String> {
+        self.under_way.iter().map(move |(from, to, message)| format!("{from}>{to} {}\n", words(message)))
     }
 
     /// The mail after each loss that there may be.

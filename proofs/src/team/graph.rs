@@ -85,6 +85,18 @@ pub struct Teams {
 pub type Instance = (usize, Vec<u8>, Vec<u8>);
 
 impl Teams {
+    /// So many robots in all layouts of a kind within an area.
+    pub const fn within(kind: Kind, width: i16, height: i16, robots: usize) -> Self {
+        Self { robots, graphs: Graphs::within(kind, width, height) }
+    }
+
+    /// These teams in the layouts that have so many cells, at least and at most.
+    #[must_use]
+    pub const fn of_cells(mut self, fewest: usize, most: usize) -> Self {
+        self.graphs.cells = (fewest, most);
+        self
+    }
+
     /// Every start and goal in these layouts, of which those without room for the robots have none.
     pub fn instances<'a>(&self, graphs: &'a [Graph]) -> impl Iterator<Item = Instance> + 'a {
         let robots = self.robots;

@@ -160,12 +160,6 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             Places::Any => Some(format!("any {what}")),
             Places::Distinct => Some(format!("any {what} apart")),
         };
-        let moves = match moves {
-            Moves::Together => None,
-            Moves::OneAtATime => Some("one at a time".to_owned()),
-            Moves::AnySubset => Some("any of them at a time".to_owned()),
-            Moves::LookThenMove => Some("each looks, then moves".to_owned()),
-        };
         let most = |most: u32, what: &str| (most > 0).then(|| format!("at most {}", counted(most, what)));
         let parts = [
             Some(ground.to_string()),
@@ -174,7 +168,7 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             words(&ground.obstacles, "blocked cell"),
             placed(starts, "starts"),
             placed(goals, "goals"),
-            moves,
+            (*moves != Moves::Together).then(|| moves.to_string()),
             most(*losses, "lost message"),
             most(*deaths, "death"),
             (*longest_run != u32::MAX).then(|| format!("runs of at most {longest_run} team moves")),

@@ -3,7 +3,6 @@
 use std::hash::{BuildHasher, Hash, Hasher};
 use std::hint::black_box;
 
-use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
 use super::{Places, System};
@@ -108,22 +107,20 @@ impl Codes {
 
 /// The parts that were met, each once.
 struct Parts<P> {
-    places: HashTable<u32>,
+    slots: Slots,
     parts: Vec<P>,
 }
 
 impl<P: Eq + Hash> Parts<P> {
     fn number(&mut self, part: P) -> u32 {
-        let Self { places, parts } = self;
-        let hash = FxBuildHasher.hash_one(&part);
-        let same = |&place: &u32| parts[place as usize] == part;
-        if let Some(&place) = places.find(hash, same) {
-            return place;
-        }
-        let place = parts.len() as u32;
-        places.insert_unique(hash, place, |&place| FxBuildHasher.hash_one(&parts[place as usize]));
-        parts.push(part);
-        place
+        let Self { slots, parts } = self;
+        let hash = folded(FxBuildHasher.hash_one(&part));
+        slots.find(hash, |number| parts[number as usize] == part).unwrap_or_else(|| {
+            let number = parts.len() as u32;
+            slots.insert(hash, number);
+            parts.push(part);
+            number
+        })
     }
 }
 
@@ -182,7 +179,7 @@ pub(super) struct StateTable<P> {
 impl<P: Clone + Eq + Hash> StateTable<P> {
     pub(super) fn new() -> Self {
         Self {
-            parts: Parts { places: HashTable::new(), parts: Vec::new() },
+            parts: Parts { slots: Slots::default(), parts: Vec::new() },
             width: 1,
             places: 0,
             codes: Codes::default(),
@@ -201,7 +198,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
     /// The bytes that they take, and will have taken once the next one is there.
     pub(super) fn bytes(&self) -> u64 {
         let table = self.nodes.bytes_with_the_next();
-        let parts = self.parts.parts.capacity() * size_of::<P>() + self.parts.places.allocation_size();
+        let parts = self.parts.parts.capacity() * size_of::<P>() + self.parts.slots.bytes();
         self.codes.bytes() + table + parts as u64
     }
 
@@ -349,7 +346,12 @@ const fn hash_at(place: usize, number: u32) -> HashOfState {
 fn hash_of(bytes: &[u8]) -> HashOfState {
     let mut hasher = FxBuildHasher.build_hasher();
     hasher.write(bytes);
-    (hasher.finish() >> u32::BITS) as HashOfState
+    folded(hasher.finish())
+}
+
+/// The bits of a hash that depend on all of it.
+const fn folded(hash: u64) -> HashOfState {
+    (hash.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> u32::BITS) as HashOfState
 }
 
 /// States that wait to be looked up.
@@ -395,7 +397,11 @@ impl Slots {
     /// The bytes that they take, and will have taken once the next one is there.
     fn bytes_with_the_next(&self) -> u64 {
         let grown = if self.is_full() { self.grown() } else { 0 };
-        ((self.slots.len() + grown) * size_of::<u64>()) as u64
+        (self.bytes() + grown * size_of::<u64>()) as u64
+    }
+
+    const fn bytes(&self) -> usize {
+        self.slots.len() * size_of::<u64>()
     }
 
     const fn is_full(&self) -> bool {

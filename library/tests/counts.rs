@@ -1,0 +1,86 @@
+//! The search over states counts the states that other model checkers count: stateright, which shares the moves of a
+//! rule and no engine, and SPIN, whose models in `spin` share nothing.
+
+use std::path::Path;
+use std::process::{Command, Output};
+use std::{env, fs, io, process};
+
+use stateright::{Checker, Model};
+use tautline_library::{dijkstra, gathering, ricart};
+use tautline_proofs::engine::states::Limits;
+use tautline_proofs::protocol::{Keeps, Protocol};
+use tautline_proofs::team::Moves;
+
+use crate::model::Counted;
+
+/// The states of the first demand's search.
+fn ours<P: Protocol>(rule: &P::Rule, bound: P::Bound) -> u64 {
+    let found = Keeps::<P>(bound, 0).search(rule, Limits::NONE).expect("it can be searched");
+    assert!(found.is_whole && found.broken.is_empty());
+    found.states
+}
+
+fn stateright<P: Protocol + Send>(rule: &P::Rule, bound: &P::Bound) -> u64
+where
+    P::State: Send + Sync + std::hash::Hash,
+{
+    let model = Counted(P::new(rule, bound).expect("there is such a bound"));
+    model.checker().spawn_bfs().join().unique_state_count() as u64
+}
+
+#[test]
+fn stateright_counts_the_same_states_of_three_rules() {
+    use dijkstra::{Machines, Ring, Rule};
+    use gathering::Row;
+    use ricart::{Net, Nodes};
+
+    let ring = Ring(5, 5);
+    assert_eq!(
+        [ours::<Machines>(&Rule::Published, ring), stateright::<Machines>(&Rule::Published, &ring)],
+        [3125; 2]
+    );
+    for (losses, states) in [(0, 3300), (1, 10522)] {
+        let net = Net(3, losses);
+        assert_eq!(
+            [ours::<Nodes>(&ricart::RULE, net), stateright::<Nodes>(&ricart::RULE, &net)],
+            [states; 2]
+        );
+    }
+    let row = Row(6, 3, Moves::LookThenMove);
+    let rule = &gathering::RULE;
+    assert_eq!(ours::<gathering::Ring>(rule, row), stateright::<gathering::Ring>(rule, &row));
+}
+
+/// The states that SPIN stores for a model of `spin`; `None` where there is no SPIN or no C compiler.
+fn spin(model: &str, define: &str) -> Option<u64> {
+    let folder = env::temp_dir().join(format!("{model}-{define}-{}", process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/spin").join(model).with_extension("pml");
+    let run = |program: &str, arguments: &[&str]| -> Option<Output> {
+        let run = Command::new(program).args(arguments).current_dir(&folder).output();
+        match run {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            run => Some(run.expect("it runs")),
+        }
+    };
+    let made = run("spin", &[define, "-a", source.to_str()?])
+        .and_then(|_| run("cc", &["-w", "-DSAFETY", "-DNOREDUCE", "-o", "pan", "pan.c"]));
+    let output = made
+        .map(|_| run(folder.join("pan").to_str().expect("a path"), &["-E", "-m100000"]).expect("it runs"));
+    fs::remove_dir_all(&folder).expect("the folder goes");
+    let told = String::from_utf8(output?.stdout).expect("text");
+    let line = told.lines().find_map(|line| line.strip_suffix(" states, stored")).expect("a count");
+    line.trim().parse().ok()
+}
+
+#[test]
+fn spin_counts_the_same_states() {
+    for (losses, define) in [(0, "-DLOSSES=0"), (1, "-DLOSSES=1")] {
+        let Some(stored) = spin("ricart", define) else {
+            eprintln!("skipped: there is no SPIN and C compiler here");
+            return;
+        };
+        let net = ricart::Net(3, losses);
+        assert_eq!(ours::<ricart::Nodes>(&ricart::RULE, net), stored, "{define}");
+    }
+}
