@@ -113,6 +113,15 @@ impl Protocol for Robots {
         self.1.moves.sets(robots.len()).flat_map(act).collect()
     }
 
+    /// The floor in its quarter turns: the rule knows no direction.
+    fn alike(&self, robots: &Vec<Robot>) -> Vec<Vec<Robot>> {
+        let turned = |robots: &Vec<Robot>| {
+            let turn = |&(x, y, heading, misses): &Robot| (-y, x, (heading + 1) % 4, misses);
+            self.seen(&robots.iter().map(turn).collect::<Vec<_>>())
+        };
+        iter::successors(Some(turned(robots)), |before| Some(turned(before))).take(3).collect()
+    }
+
     fn draw(&self, robots: &Vec<Robot>) -> String {
         let sign = |column: i8, row: i8| {
             let here = robots.iter().find(|robot| (robot.0, robot.1) == (column, row));

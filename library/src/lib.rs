@@ -2,6 +2,7 @@
 //! with one thing wrong that its checks must reject. The engines are Tautline's, and no room of Tautline knows the
 //! rules.
 
+mod aggregation;
 mod alpha;
 mod ba_star;
 mod burgard;
@@ -86,6 +87,7 @@ pub static RULES: &[&Entry] = &[
     &ba_star::ENTRY,
     &gathering::ENTRY,
     &perpetual::ENTRY,
+    &aggregation::ENTRY,
     &alpha::ENTRY,
     &dijkstra::ENTRY,
     &ricart::ENTRY,

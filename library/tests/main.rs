@@ -3,6 +3,7 @@
 #[path = "common/model.rs"]
 mod model;
 
+mod bad_input;
 mod counts;
 
 use std::path::Path;

@@ -1,5 +1,6 @@
 //! A check that a protocol keeps a demand within its bound.
 
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use tautline_kernel::choice::Oracle;
@@ -89,6 +90,16 @@ impl<P: Protocol> System for Playing<P> {
         *state = P::State::read(&mut bytes);
     }
 
+    fn make_canonical(&self, state: &mut P::State) {
+        let all = self.protocol.alike(state).into_iter();
+        let least = all.map(|other| (bytes(&other), other)).min_by(|one, other| one.0.cmp(&other.0));
+        if let Some((bytes_of, other)) = least
+            && bytes_of < bytes(state)
+        {
+            *state = other;
+        }
+    }
+
     /// Takes the moves as they are, without a copy of each.
     fn each_step<B>(
         &self,
@@ -139,6 +150,62 @@ impl<P: Protocol> Playing<P> {
         is_broken.then_some(self.demand.words).into_iter().collect()
     }
 
+    fn canonical(&self, mut state: P::State) -> P::State {
+        self.make_canonical(&mut state);
+        state
+    }
+
+    /// All that must be the same of states that are taken for one: what their moves are and lead to, and what is owed.
+    fn outlook(&self, state: &P::State) -> impl Eq + use<P> {
+        let of = |step: Step<Self>| (step.event, step.breaks, bytes(&self.canonical(step.state)));
+        let mut moves: Vec<_> = states::steps(self, state).map(of).collect();
+        moves.sort_unstable();
+        (bytes(&self.canonical(state.clone())), moves, self.owed(state), self.broken_at_end(state, &[]))
+    }
+
+    /// Whether the first few states and those that they are taken for one with are alike.
+    ///
+    /// # Errors
+    /// [`MethodError`] with two that are not.
+    fn is_symmetric(&self) -> Result<(), MethodError> {
+        let mut ahead: VecDeque<P::State> = self.protocol.starts().take(TRIED).collect();
+        for _ in 0..TRIED {
+            let Some(state) = ahead.pop_front() else { break };
+            let mut others = self.protocol.alike(&state).into_iter();
+            if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
+                let reason =
+                    format_args!("the states {state:?} and {other:?} are taken for one, and are not alike");
+                return Err(MethodError::new(reason));
+            }
+            let next = self.moves(&state).into_iter().map(|next| next.to);
+            ahead.extend(next.take(TRIED.saturating_sub(ahead.len())));
+        }
+        Ok(())
+    }
+
+    /// The run from `start` itself that a search has found among states of which each stands for those like it.
+    fn unfolded(&self, start: &P::State, run: states::Run<&'static str>) -> states::Run<&'static str> {
+        let (mut seen, mut state) = (self.canonical(start.clone()), start.clone());
+        let mut follow = |&number: &u32| {
+            let step = states::steps(self, &seen).nth(number as usize)?;
+            seen = self.canonical(step.state);
+            let is_it = |(_, own): &(u32, Step<Self>)| {
+                own.event == step.event
+                    && own.breaks == step.breaks
+                    && self.canonical(own.state.clone()) == seen
+            };
+            let (number, own) = (0..).zip(states::steps(self, &state)).find(is_it)?;
+            state = own.state;
+            Some(number)
+        };
+        let steps = run.steps.iter().map_while(&mut follow).collect();
+        let ending = match run.ending {
+            Ending::Round(round) => Ending::Round(round.iter().map_while(follow).collect()),
+            ending @ (Ending::There | Ending::Still) => ending,
+        };
+        states::Run { steps, ending, ..run }
+    }
+
     /// Whether the first few states come back from their bytes.
     ///
     /// # Errors
@@ -148,11 +215,7 @@ impl<P: Protocol> Playing<P> {
             let next: Vec<P::State> = self.moves(&state).into_iter().map(|next| next.to).collect();
             next.into_iter().chain([state])
         };
-        let differs = |state: &P::State| {
-            let mut bytes = Vec::new();
-            state.write(&mut bytes);
-            P::State::read(&mut &bytes[..]) != *state
-        };
+        let differs = |state: &P::State| P::State::read(&mut &bytes(state)[..]) != *state;
         self.protocol.starts().take(TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
             Err(MethodError::new(format_args!("the state {state:?} does not come back from its bytes")))
         })
@@ -191,7 +254,7 @@ impl<P: Protocol> Keeps<P> {
     ///
     /// # Errors
     /// [`MethodError`] if there is no such demand, if the protocol cannot be within its bound, or if its moves are not a
-    /// function of their state, or its states not of their bytes.
+    /// function of their state, its states not of their bytes, or states that it takes for one not alike.
     pub fn search(&self, rule: &P::Rule, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         self.searched(&self.playing(rule)?, limits)
     }
@@ -203,7 +266,14 @@ impl<P: Protocol> Keeps<P> {
     ) -> Result<Findings<&'static str>, MethodError> {
         states::repeats(playing, playing.protocol.starts()).map_err(MethodError::new)?;
         playing.comes_back()?;
-        Ok(states::search(playing, playing.protocol.starts(), limits))
+        playing.is_symmetric()?;
+        let mut found = states::search(playing, playing.protocol.starts(), limits);
+        for run in &mut found.broken {
+            if let Some(start) = playing.protocol.starts().nth(run.start) {
+                *run = playing.unfolded(&start, run.clone());
+            }
+        }
+        Ok(found)
     }
 }
 
@@ -241,6 +311,12 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
         let seen = playing.story(&start, &run);
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
     }
+}
+
+fn bytes(state: &impl Compact) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    state.write(&mut bytes);
+    bytes
 }
 
 /// Starts whose states are made of their bytes again before a search.

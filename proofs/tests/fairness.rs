@@ -1,0 +1,253 @@
+//! Weak fairness, and promises that must be kept at some time or again and again: on random small systems the search over
+//! states finds what a naive checker finds. The naive one goes on from every state along every walk, and remembers of a
+//! walk who was awake in all of its states and who has acted; it knows no components.
+
+use std::collections::{HashMap, HashSet, VecDeque};
+use std::fmt;
+
+use tautline_kernel::choice::Oracle;
+use tautline_proofs::decide::{Method, MethodError};
+use tautline_proofs::engine::SeededOracle;
+use tautline_proofs::engine::states::{Bits, Ending, Limits, Run};
+use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol};
+
+/// The number of a random system.
+struct Number(u64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "system {}", self.0)
+    }
+}
+
+/// At most eight states, three actors and faults, and of each state which of two things are owed there.
+struct Random {
+    moves: Vec<Vec<Move<u8>>>,
+    owed: Vec<Bits>,
+}
+
+impl Protocol for Random {
+    type Rule = ();
+    type Bound = Number;
+    type State = u8;
+    const DEMANDS: &'static [Demand<Self>] = &[
+        Demand::again_and_again("nothing is owed for ever", |system, &state: &u8| {
+            system.owed[usize::from(state)]
+        }),
+        Demand::eventually("nothing is owed", |system, &state: &u8| system.owed[usize::from(state)] == 0),
+    ];
+
+    fn new((): &(), &Number(number): &Number) -> Result<Self, MethodError> {
+        let mut any = SeededOracle::new(0, number);
+        let states = 2 + any.pick(7);
+        let mut moves_of = |_| {
+            let count = any.pick(4);
+            let mut one = |_| {
+                let actors = [0, 1, 2, 4, 1, 2, 4, 3][any.pick(8) as usize];
+                Move { actors, words: "goes", to: any.pick(states) as u8 }
+            };
+            (0..count).map(&mut one).collect()
+        };
+        let moves = (0..states).map(&mut moves_of).collect();
+        let owed = (0..states).map(|_| [0, 1, 2, 3, 3, 1][any.pick(6) as usize]).collect();
+        Ok(Self { moves, owed })
+    }
+
+    fn starts(&self) -> impl Iterator<Item = u8> {
+        [0].into_iter()
+    }
+
+    fn moves(&self, &state: &u8) -> Vec<Move<u8>> {
+        self.moves[usize::from(state)].clone()
+    }
+
+    fn draw(&self, state: &u8) -> String {
+        state.to_string()
+    }
+}
+
+impl Random {
+    /// The states that a run gets to, each with the fewest steps. Where something must be so at some time, a run is over
+    /// once it is.
+    fn distances(&self, until_met: bool) -> HashMap<u8, usize> {
+        let (mut found, mut ahead) = (HashMap::from([(0, 0)]), VecDeque::from([0]));
+        while let Some(state) = ahead.pop_front() {
+            let is_over = until_met && self.owed[usize::from(state)] == 0;
+            for next in self.moves[usize::from(state)].iter().filter(|_| !is_over) {
+                if !found.contains_key(&next.to) {
+                    found.insert(next.to, found[&state] + 1);
+                    ahead.push_back(next.to);
+                }
+            }
+        }
+        found
+    }
+
+    fn awake(&self, state: u8) -> Bits {
+        self.moves[usize::from(state)].iter().fold(0, |set, next| set | next.actors)
+    }
+
+    /// The fewest steps of a fair walk from a state back to it in which `is_owed` of every state.
+    fn shortest_round(&self, home: u8, is_owed: impl Fn(u8) -> bool) -> Option<usize> {
+        let first = (home, Bits::MAX, 0);
+        let (mut found, mut ahead) = (HashSet::from([first]), VecDeque::from([(first, 0)]));
+        while let Some(((state, awake, acted), steps)) = ahead.pop_front() {
+            if steps > 0 && state == home && awake & !acted == 0 {
+                return Some(steps);
+            }
+            for next in
+                self.moves[usize::from(state)].iter().filter(|next| next.actors != 0 && is_owed(next.to))
+            {
+                let walk = (next.to, awake & self.awake(state), acted | next.actors);
+                if found.insert(walk) {
+                    ahead.push_back((walk, steps + 1));
+                }
+            }
+        }
+        None
+    }
+
+    /// The fewest steps of a round from a state in which the demand is owed throughout.
+    fn round(&self, demand: usize, state: u8) -> Option<usize> {
+        let owes = |things: Bits| move |state: u8| self.owed[usize::from(state)] & things != 0;
+        let of =
+            |things: Bits| owes(things)(state).then(|| self.shortest_round(state, owes(things))).flatten();
+        if demand == 0 { [of(1), of(2)].into_iter().flatten().min() } else { of(3) }
+    }
+
+    /// The fewest steps to a state in which the run may stay, or from which it may go round, and owe something for ever.
+    fn shortest_way(&self, demand: usize) -> Option<usize> {
+        let stays = |state: u8| {
+            self.owed[usize::from(state)] != 0
+                && self.moves[usize::from(state)].iter().all(|next| next.actors == 0)
+        };
+        let all = self.distances(demand == 1).into_iter();
+        all.filter(|&(state, _)| stays(state) || self.round(demand, state).is_some())
+            .map(|(_, steps)| steps)
+            .min()
+    }
+
+    /// The state after the steps of a run, and whether those of its round are fair and lead back to it.
+    fn plays(&self, run: &Run<&'static str>) -> (u8, bool) {
+        let step = |state: u8, &number: &u32| &self.moves[usize::from(state)][number as usize];
+        let home = run.steps.iter().fold(0, |state, number| step(state, number).to);
+        let (mut state, mut awake, mut acted, mut owed, mut has_fault) =
+            (home, Bits::MAX, 0, Bits::MAX, false);
+        for number in run.round() {
+            let next = step(state, number);
+            awake &= self.awake(state);
+            owed &= self.owed[usize::from(state)];
+            acted |= next.actors;
+            has_fault |= next.actors == 0;
+            state = next.to;
+        }
+        (home, state == home && awake & !acted == 0 && owed != 0 && !has_fault)
+    }
+}
+
+#[test]
+fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
+    let (mut stays, mut rounds, mut shortest, mut kept) = (0, 0, 0, 0);
+    for (number, demand) in (0..1000).flat_map(|number| [(number, 0), (number, 1)]) {
+        let system = Random::new(&(), &Number(number)).expect("a system");
+        let found =
+            Keeps::<Random>(Number(number), demand).search(&(), Limits::NONE).expect("it is searched");
+        assert!(found.is_whole && found.states == system.distances(demand == 1).len() as u64, "{number}");
+        let way = found.broken.first().map(|run| run.steps.len());
+        assert_eq!(way, system.shortest_way(demand), "{number}, {demand}");
+        let Some(run) = found.broken.first() else {
+            kept += 1;
+            continue;
+        };
+        match &run.ending {
+            Ending::There => panic!("no step is forbidden"),
+            Ending::Still => stays += 1,
+            Ending::Round(round) => {
+                let (home, is_fair) = system.plays(run);
+                let fewest = system.round(demand, home).expect("there is a round");
+                assert!(is_fair && round.len() >= fewest, "{number}, {demand}");
+                rounds += 1;
+                shortest += usize::from(round.len() == fewest);
+            }
+        }
+    }
+    // A round visits those whom the shortest way back leaves out one after the other, which may take longer.
+    assert_eq!((kept, stays, rounds, shortest), (0, 0, 0, 0));
+}
+
+/// A random system in three colours, which no move and no demand looks at: a move goes on by so many colours. With
+/// `TURNED`, states are taken for one that differ in their colours alone; a mark that a demand looks at spoils that.
+struct Coloured<const TURNED: bool>(Random, Option<u8>);
+
+impl<const TURNED: bool> Protocol for Coloured<TURNED> {
+    type Rule = Option<u8>;
+    type Bound = Number;
+    type State = (u8, u8);
+    const DEMANDS: &'static [Demand<Self>] = &[
+        Demand::again_and_again("nothing is owed for ever", |system, &(state, _): &(u8, u8)| {
+            system.0.owed[usize::from(state)]
+        }),
+        Demand::eventually("nothing is owed", |system, &(state, _): &(u8, u8)| {
+            system.0.owed[usize::from(state)] == 0
+        }),
+        Demand::always("no step leads to 3, nor to the mark", |system, _, &(state, colour): &(u8, u8)| {
+            state != 3 && system.1 != Some(colour)
+        }),
+    ];
+
+    fn new(&mark: &Option<u8>, bound: &Number) -> Result<Self, MethodError> {
+        Ok(Self(Random::new(&(), bound)?, mark))
+    }
+
+    fn starts(&self) -> impl Iterator<Item = (u8, u8)> {
+        [(0, 1)].into_iter()
+    }
+
+    fn moves(&self, &(state, colour): &(u8, u8)) -> Vec<Move<(u8, u8)>> {
+        let coloured = |(next, by): (Move<u8>, u8)| {
+            let Move { actors, words, to } = next;
+            Move { actors, words, to: (to, (colour + by + to) % 3) }
+        };
+        self.0.moves(&state).into_iter().zip(0..).map(coloured).collect()
+    }
+
+    fn alike(&self, &(state, colour): &(u8, u8)) -> Vec<(u8, u8)> {
+        if TURNED { [1, 2].map(|by| (state, (colour + by) % 3)).to_vec() } else { Vec::new() }
+    }
+
+    fn draw(&self, state: &(u8, u8)) -> String {
+        format!("{state:?}")
+    }
+}
+
+#[test]
+fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
+    let (mut all, mut least) = (0, 0);
+    for (number, demand) in (0..200).flat_map(|number| [0, 1, 2].map(|demand| (number, demand))) {
+        let plain =
+            Keeps::<Coloured<false>>(Number(number), demand).search(&None, Limits::NONE).expect("a search");
+        let method = Keeps::<Coloured<true>>(Number(number), demand);
+        let turned = method.search(&None, Limits::NONE).expect("a search");
+        (all, least) = (all + plain.states, least + turned.states);
+        let lengths = |run: &Run<&'static str>| (run.steps.len(), run.round().is_empty());
+        assert_eq!(
+            plain.broken.first().map(lengths),
+            turned.broken.first().map(lengths),
+            "{number}, {demand}"
+        );
+        if let Some(run) = turned.broken.first() {
+            let played = method.replay(&None, &run.choices()).expect("the run can be played");
+            assert_eq!(played.evidence.demand, run.demand);
+        }
+    }
+    assert_eq!((all, least), (0, 0));
+}
+
+#[test]
+fn states_that_are_not_alike_are_not_taken_for_one() {
+    let marked =
+        |mark| Keeps::<Coloured<true>>(Number(1), 2).search(&mark, Limits::NONE).map(|found| found.is_whole);
+    assert_eq!(marked(None), Ok(true));
+    let refused = marked(Some(2)).expect_err("a demand tells them apart").to_string();
+    assert_eq!(refused, "");
+}
