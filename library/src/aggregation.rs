@@ -29,13 +29,9 @@ type Robot = (i8, i8, u8);
 struct Robots(Rule, &'static Arena);
 
 /// The cell so many steps ahead.
-const fn ahead((column, row, heading): Robot, steps: i8) -> (i8, i8) {
-    match heading {
-        0 => (column + steps, row),
-        1 => (column, row + steps),
-        2 => (column - steps, row),
-        _ => (column, row - steps),
-    }
+fn ahead((x, y, heading): Robot, steps: i8) -> (i8, i8) {
+    let (columns, rows) = WAYS[usize::from(heading)];
+    (x + columns * steps, y + rows * steps)
 }
 
 impl Robots {
@@ -121,18 +117,13 @@ impl Protocol for Robots {
 
     /// The arena in its quarter turns.
     fn alike(&self, robots: &Vec<Robot>) -> Vec<Vec<Robot>> {
-        let turn = |&(column, row, heading): &Robot| (self.1.1 - 1 - row, column, (heading + 1) % 4);
-        let turned = |robots: &Vec<Robot>| robots.iter().map(turn).collect::<Vec<_>>();
-        iter::successors(Some(turned(robots)), |before| Some(turned(before))).take(3).collect()
+        let turn = |&(x, y, heading): &Robot| (self.1.1 - 1 - y, x, (heading + 1) % 4);
+        turned(robots, |robots| robots.iter().map(turn).collect())
     }
 
     fn draw(&self, robots: &Vec<Robot>) -> String {
-        let sign = |column: i8, row: i8| {
-            let here = robots.iter().find(|robot| (robot.0, robot.1) == (column, row));
-            here.map_or('.', |robot| ['>', 'v', '<', '^'][usize::from(robot.2)])
-        };
-        let line = |row: i8| (0..self.1.1).map(|column| sign(column, row)).collect::<String>();
-        (0..self.1.1).map(line).collect::<Vec<_>>().join("\n")
+        let at = |x, y| robots.iter().find(|robot| (robot.0, robot.1) == (x, y));
+        arrows(self.1.1, |x, y| at(x, y).map(|robot| robot.2))
     }
 }
 

@@ -65,7 +65,7 @@ impl Robots {
         }
         let go = |turn: &u8| {
             let heading = (heading + turn) % 4;
-            let (columns, rows) = [(1, 0), (0, 1), (-1, 0), (0, -1)][usize::from(heading)];
+            let (columns, rows) = WAYS[usize::from(heading)];
             (column + columns, row + rows, heading, now)
         };
         turns.iter().map(go).collect()
@@ -115,20 +115,13 @@ impl Protocol for Robots {
 
     /// The floor in its quarter turns: the rule knows no direction.
     fn alike(&self, robots: &Vec<Robot>) -> Vec<Vec<Robot>> {
-        let turned = |robots: &Vec<Robot>| {
-            let turn = |&(x, y, heading, misses): &Robot| (-y, x, (heading + 1) % 4, misses);
-            self.seen(&robots.iter().map(turn).collect::<Vec<_>>())
-        };
-        iter::successors(Some(turned(robots)), |before| Some(turned(before))).take(3).collect()
+        let turn = |&(x, y, heading, misses): &Robot| (-y, x, (heading + 1) % 4, misses);
+        turned(robots, |robots| self.seen(&robots.iter().map(turn).collect::<Vec<_>>()))
     }
 
     fn draw(&self, robots: &Vec<Robot>) -> String {
-        let sign = |column: i8, row: i8| {
-            let here = robots.iter().find(|robot| (robot.0, robot.1) == (column, row));
-            here.map_or('.', |robot| ['>', 'v', '<', '^'][usize::from(robot.2)])
-        };
-        let line = |row: i8| (0..self.1.width).map(|column| sign(column, row)).collect::<String>();
-        (0..self.1.width).map(line).collect::<Vec<_>>().join("\n")
+        let at = |x, y| robots.iter().find(|robot| (robot.0, robot.1) == (x, y));
+        arrows(self.1.width, |x, y| at(x, y).map(|robot| robot.2))
     }
 }
 

@@ -22,6 +22,8 @@ mod rmf_swap;
 mod spanning_tree;
 mod yamauchi;
 
+use std::iter;
+
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::team::Graph;
 
@@ -39,7 +41,7 @@ mod prelude {
     pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations, set};
     pub(crate) use tautline_proofs::team::{Graph, Graphs, Kind, Moves, Teams};
 
-    pub(crate) use crate::{APART, Entry, conflicts, promise, robots};
+    pub(crate) use crate::{APART, Entry, WAYS, arrows, conflicts, promise, robots, turned};
 }
 
 /// A published rule.
@@ -126,6 +128,21 @@ fn conflicts(before: &[u8], after: &[u8]) -> bool {
         let is_swap = |other: usize| before[one] == after[other] && after[one] == before[other];
         (0..one).any(|other| after[one] == after[other] || is_swap(other))
     })
+}
+
+/// The steps in columns and rows of a robot that heads so, in quarter turns.
+const WAYS: [(i8, i8); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
+
+/// A state whose floor is turned by one, two and three quarters.
+fn turned<S>(state: &S, quarter: impl Fn(&S) -> S) -> Vec<S> {
+    iter::successors(Some(quarter(state)), |before| Some(quarter(before))).take(3).collect()
+}
+
+/// A floor of so many cells a side, with an arrow where a robot heads so.
+fn arrows(side: i8, heading: impl Fn(i8, i8) -> Option<u8>) -> String {
+    let sign = |heading: u8| ['>', 'v', '<', '^'][usize::from(heading)];
+    let line = |row| (0..side).map(|column| heading(column, row).map_or('.', sign)).collect::<String>();
+    (0..side).map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Robots by number, each cell with the letter of the robot whose goal it is.
