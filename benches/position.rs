@@ -15,7 +15,8 @@ use nalgebra_of_levenberg_marquardt::{Matrix3x2, Owned, U2, U3, Vector2, Vector3
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
-    Parameters, Particle, Point, Range, Residual, Signal, Swarm, closed_form, linear, locate, locate_from,
+    Belief, Gate, Odometry, Parameters, Particle, Point, Range, Residual, Signal, Swarm, SymmetricMatrix,
+    closed_form, linear, locate, locate_from,
 };
 use tautline_proofs::engine::SeededOracle;
 
@@ -174,6 +175,32 @@ fn main() {
         rows.push((name, ours, "levenberg-marquardt", theirs.micros));
         rows.push((alone, one, "levenberg-marquardt", theirs.micros));
     }
+
+    // A robot's step: a turn, a drive, a fix of known covariance; and the same with the position computed of ranges.
+    let near = SymmetricMatrix { xx: 0.04, xy: 0.01, yy: 0.09 };
+    let mut beliefs = group(&mut criterion, "belief");
+    let mut step = |name: &str, fix: &dyn Fn(&mut Belief, &[Range; 3])| {
+        measure(&mut beliefs, BenchmarkId::from_parameter(name), || {
+            let mut belief = Belief::known(Point::new(10.0, 10.0), 0.0);
+            for ranges in &robots {
+                belief.turned(black_box(0.3), &Odometry::USUAL);
+                belief.driven(black_box(1.0), &Odometry::USUAL);
+                fix(&mut belief, ranges);
+            }
+            black_box(belief);
+            FixWork
+        })
+        .micros
+    };
+    let fused = step("turn, drive, fix", &|belief, _| {
+        let at = belief.at();
+        black_box(belief.corrected(Point::new(at.x_m + 0.1, at.y_m - 0.1), near, Gate::Closed));
+    });
+    let heard = step("turn, drive, ranges", &|belief, ranges| {
+        black_box(belief.located(ranges, &signal, Gate::Open).expect("ranges"));
+    });
+    beliefs.finish();
+
     criterion.final_summary();
 
     println!("\nMicroseconds for a position, the fastest of the samples");
@@ -184,4 +211,5 @@ fn main() {
             theirs / micros
         );
     }
+    println!("  a step of a belief: turn, drive and fix {fused:.2}, with the position of three ranges {heard:.2}");
 }

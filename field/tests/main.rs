@@ -1,5 +1,6 @@
 //! Radio fields, tried as a whole.
 
+mod belief;
 mod maps;
 mod position;
 mod tan;

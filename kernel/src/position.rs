@@ -1,5 +1,5 @@
 //! Where a robot is, by the strength of the signals of anchors (Rajesh et al. 2024, 4, “Self-Localization” and “Localization Error
-//! Optimization with PSO”; clauses POSITION-1 to POSITION-6).
+//! Optimization with PSO”; clauses POSITION-1 to POSITION-8).
 //!
 //! Each anchor gives a [`Range`]: its place, and a distance that a [`Signal`] makes of the strength with which it is
 //! heard. From ranges come positions in five ways:
@@ -11,10 +11,12 @@
 //!   particles look for, and says how far it can be trusted: [`Fix`], [`Estimate`], [`Precision`]; [`locate_from`] for a robot that
 //!   knows about where it is.
 //!
-//! [`bound`] is the Cramér–Rao bound. Everything is a pure function of numbers of 64 bits in metres and decibels, with `+ − ×
-//! ÷ √` and the logarithm and power of libm, so that results are the same bits on every machine. A `Range` takes 24 bytes, a
-//! [`Particle`] 56 and a `Fix` at most 200; nothing else is kept from one call to the next.
+//! A [`Belief`] fuses fixes with a robot's wheels; [`bound`] is the Cramér–Rao bound. Everything is a pure function of numbers of
+//! 64 bits in metres and decibels, with `+ − × ÷ √` and libm's logarithms, powers and angles, so that results are the same bits on
+//! every machine. A `Range` takes 24 bytes, a [`Particle`] 56, a `Belief` 72 and a `Fix` at most 200; nothing else is kept from one
+//! call to the next.
 
+mod belief;
 mod bound;
 mod closed;
 mod descent;
@@ -26,7 +28,8 @@ mod range;
 mod signal;
 mod swarm;
 
-pub use bound::{Precision, bound};
+pub use belief::{Belief, Correction, Gate, Odometry};
+pub use bound::{Precision, best_three, bound};
 pub use closed::closed_form;
 pub use linear::{Layout, linear};
 pub use locate::{Estimate, Fix, Flags, Residual, locate, locate_from};

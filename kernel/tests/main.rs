@@ -1,6 +1,7 @@
 //! The kernel, tried as a whole.
 
 mod backtracks;
+mod beliefs;
 mod chain;
 mod choice;
 mod corridors;

@@ -8,14 +8,14 @@ use tautline_kernel::frontier::{self, TinyMap};
 use tautline_kernel::ground::{CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
 use tautline_kernel::kit::{Kit, Talk};
 use tautline_kernel::mrc::{Relay, Robot, Wfr};
-use tautline_kernel::position::Particle;
+use tautline_kernel::position::{Belief, Particle};
 use tautline_kernel::tan::Homing;
 use tautline_kernel::{bricks, notice};
 
 /// A container of states, its type, and the bytes of it.
 type Row = (&'static str, &'static str, usize);
 
-const STATES: [Row; 15] = [
+const STATES: [Row; 16] = [
     ("a chain of 4 robots, 7×7 cells", "chain::Chain<TinyGrid, 4>", size_of::<Chain<TinyGrid, 4>>()),
     ("a chain of 6 robots, 11×11 cells", "chain::Chain<CompactGrid, 6>", size_of::<Chain<CompactGrid, 6>>()),
     ("a chain of 8 robots, 15×15 cells", "chain::Chain<SmallGrid, 8>", size_of::<Chain<SmallGrid, 8>>()),
@@ -31,6 +31,7 @@ const STATES: [Row; 15] = [
     ("a robot of it that talks", "kit::Talk", size_of::<Talk>()),
     ("a robot at frontier cells", "frontier::Robot<TinyMap>", size_of::<frontier::Robot<TinyMap>>()),
     ("a particle of a swarm that locates a robot", "position::Particle", size_of::<Particle>()),
+    ("where a robot takes itself to be, by wheels and fixes", "position::Belief", size_of::<Belief>()),
 ];
 
 #[test]

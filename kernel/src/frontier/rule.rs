@@ -2,6 +2,8 @@
 
 use super::place::{Occupancy, Threshold};
 use crate::conditions;
+use crate::ground::Cell;
+use crate::position::{Belief, Gate, Odometry, Point};
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for. As published there is none but [`Condition::Record`],
@@ -36,6 +38,13 @@ conditions! {
         /// Preference: of pairs as near, the one comes first whose cell has the fewest unexplored neighbours, and of
         /// these the one whose cell is nearest to the rim of the area: nobody has to come back for it.
         Corner,
+        /// Repair: wheels and fixes are fused, each by its covariance. Without it a fix is believed as it is.
+        Fuse,
+        /// Repair: a fix that the robot's belief makes so unlikely as one in a thousand is left out.
+        Gate,
+        /// Repair: a robot moves only if by its belief it arrives within the next cell, with four standard deviations to
+        /// spare along each axis. Otherwise it stands and takes another fix.
+        Sure,
     }
 }
 
@@ -90,7 +99,33 @@ pub struct Rule {
     pub ties: Ties,
 }
 
+/// The standard deviations along each axis that a robot keeps between where it arrives and the rim of the cell.
+pub const SURE_DEVIATIONS: f64 = 4.0;
+
+/// The midpoint of a cell, in sides of a cell.
+pub fn midpoint(cell: Cell) -> Point {
+    Point::new(cell.x.into(), cell.y.into())
+}
+
 impl Rule {
+    /// Whether a robot with this belief, in sides of a cell, may go to the midpoint of `to`; else it stands and takes another
+    /// fix ([`Condition::Sure`]).
+    pub fn may_go(&self, belief: &Belief, to: Cell, odometry: &Odometry) -> bool {
+        if !self.has(Condition::Sure) {
+            return true;
+        }
+        let mut arrived = *belief;
+        let (turn, way) = arrived.towards(midpoint(to));
+        arrived.turned(turn, odometry);
+        arrived.driven(way, odometry);
+        SURE_DEVIATIONS * arrived.deviation_m() < 0.5
+    }
+
+    /// Whether fixes are compared with the belief.
+    pub const fn gate(&self) -> Gate {
+        if self.has(Condition::Gate) { Gate::Closed } else { Gate::Open }
+    }
+
     /// The rule as the paper publishes it, where unclear by the readings in its favour; a robot without a candidate
     /// stops.
     pub const PUBLISHED: Self = Self {

@@ -36,6 +36,27 @@ pub fn bound(anchors: impl Iterator<Item = Point> + Clone, at: Point, signal: &S
     Precision { covariance, dilution: dilution(anchors, at)? }.told()
 }
 
+/// The three of `anchors` by which a robot at `at` is told best: those with the least bound, since errors grow with distances. The
+/// dilution of precision alone counts all distances alike. `None` if no three tell both directions.
+///
+/// Rajesh et al. 2024, 4, “selects the best three anchors”; the measure is ours. All triples are compared.
+pub fn best_three(anchors: &[Point], at: Point) -> Option<[Point; 3]> {
+    let mut best: Option<(f64, [Point; 3])> = None;
+    for (third, &c) in anchors.iter().enumerate() {
+        for (second, &b) in anchors.iter().enumerate().take(third) {
+            for &a in anchors.iter().take(second) {
+                let three = [a, b, c];
+                let information = information(three.into_iter(), at, |squared_m| 1.0 / squared_m);
+                let Some(covariance) = information.inverse() else { continue };
+                if best.is_none_or(|(least, _)| covariance.trace() < least) {
+                    best = Some((covariance.trace(), three));
+                }
+            }
+        }
+    }
+    best.map(|(_, three)| three)
+}
+
 fn dilution(anchors: impl Iterator<Item = Point>, at: Point) -> Option<f64> {
     Some(libm::sqrt(information(anchors, at, |_| 1.0).inverse()?.trace()))
 }

@@ -1,0 +1,113 @@
+//! A belief of wheels and fixes (POSITION-7, POSITION-8): its bits, its size, and the numbers that it does not take.
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::{Condition, Rule, midpoint};
+use tautline_kernel::ground::Cell;
+use tautline_kernel::position::{Belief, Correction, Gate, Odometry, Point, SymmetricMatrix, best_three};
+
+use crate::numbers::Congruence;
+
+const FIX: SymmetricMatrix = SymmetricMatrix { xx: 0.04, xy: 0.01, yy: 0.09 };
+
+/// A robot that has driven a metre, turned by a quarter and driven two.
+fn driven() -> Belief {
+    let mut belief = Belief::known(Point::new(1.0, 2.0), 0.0);
+    belief.driven(1.0, &Odometry::USUAL);
+    belief.turned(core::f64::consts::FRAC_PI_2, &Odometry::USUAL);
+    belief.driven(2.0, &Odometry::USUAL);
+    belief
+}
+
+#[test]
+fn results_are_the_same_bits_at_every_optimisation_level_by_wheels_and_fixes() {
+    // FNV-1a, as of positions.
+    let mut digest = 0xCBF2_9CE4_8422_2325_u64;
+    let mut drawn = Congruence(2);
+    let mut belief = Belief::known(Point::new(0.0, 0.0), 0.0);
+    for _ in 0..2000 {
+        let mut part = || f64::from(drawn.pick(1 << 20)) / f64::from(1 << 20) - 0.5;
+        belief.turned(6.0 * part(), &Odometry::USUAL);
+        belief.driven(1.0 + part(), &Odometry::USUAL);
+        let fix = Point::new(belief.at().x_m + 0.4 * part(), belief.at().y_m + 0.4 * part());
+        belief.corrected(fix, FIX, Gate::Closed);
+        let SymmetricMatrix { xx, xy, yy } = belief.covariance();
+        let place = [belief.at().x_m, belief.at().y_m, belief.heading_rad(), xx, xy, yy];
+        for number in place.into_iter().chain(belief.heading_covariance()) {
+            for byte in number.to_bits().to_le_bytes() {
+                digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+            }
+        }
+    }
+    assert_eq!(digest, 12_604_042_663_184_282_830);
+}
+
+#[test]
+fn wheels_that_err_by_less_than_nothing_or_by_no_number_are_refused() {
+    assert_eq!(Odometry::new(0.0, 0.0), Some(Odometry::EXACT));
+    assert_eq!(Odometry::new(0.02, 1.0), Some(Odometry::USUAL));
+    for (share, degrees) in
+        [(-0.01, 1.0), (0.02, -1.0), (f64::NAN, 1.0), (0.02, f64::NAN), (1.1, 1.0), (0.02, 91.0)]
+    {
+        assert_eq!(Odometry::new(share, degrees), None, "{share}, {degrees}");
+    }
+}
+
+#[test]
+fn an_outlier_changes_nothing_unless_the_gate_is_open() {
+    let far = Point::new(9.0, 9.0);
+    let mut belief = driven();
+    assert_eq!(belief.corrected(far, FIX, Gate::Closed), Correction::Outlier);
+    assert_eq!(belief, driven());
+    assert_eq!(belief.corrected(far, FIX, Gate::Open), Correction::Taken);
+    assert_ne!(belief.at(), driven().at());
+}
+
+#[test]
+fn what_says_nothing_changes_nothing() {
+    let certain = SymmetricMatrix::default();
+    let nowhere = Point::new(f64::NAN, 0.0);
+    let endless = SymmetricMatrix { xx: f64::INFINITY, ..FIX };
+    for (fix, covariance) in [(nowhere, FIX), (driven().at(), endless)] {
+        let mut belief = driven();
+        assert_eq!(belief.corrected(fix, covariance, Gate::Open), Correction::Nothing);
+        assert_eq!(belief, driven());
+    }
+    let mut known = Belief::known(Point::new(0.0, 0.0), 0.0);
+    assert_eq!(known.corrected(Point::new(1.0, 0.0), certain, Gate::Open), Correction::Nothing);
+}
+
+#[test]
+fn the_way_to_a_place_is_a_turn_and_a_drive() {
+    let mut belief = driven();
+    let to = Point::new(-3.0, 2.5);
+    let (turn, way_m) = belief.towards(to);
+    belief.turned(turn, &Odometry::EXACT);
+    belief.driven(way_m, &Odometry::EXACT);
+    assert!(belief.at().distance_m(to) < 1e-12);
+    assert_eq!(belief.towards(belief.at()), (0.0, 0.0));
+}
+
+#[test]
+fn a_robot_moves_only_if_it_will_be_within_the_next_cell_with_four_deviations_to_spare() {
+    let mut belief = Belief::known(Point::new(0.0, 0.0), 0.0);
+    let one_by_one = Odometry::new(0.05, 0.0).expect("errors");
+    // After n moves and one more the deviation is 0.05 √(n + 1): below an eighth for at most five.
+    for moves in 0..8_i16 {
+        let to = Cell::new(moves + 1, 0);
+        assert_eq!(Rule::REPAIRED.may_go(&belief, to, &one_by_one), moves < 6 - 1, "{moves} moves");
+        assert!(Rule::REPAIRED.without(Condition::Sure).may_go(&belief, to, &one_by_one));
+        belief.driven(1.0, &one_by_one);
+        assert!(belief.at().distance_m(midpoint(to)) < 1e-12);
+    }
+}
+
+#[test]
+fn the_best_three_anchors_are_near_and_all_around() {
+    let anchors = [(0, 0), (20, 0), (0, 20), (20, 20), (9, 8), (12, 9), (10, 13)];
+    let anchors = anchors.map(|(x, y)| Point::new(f64::from(x), f64::from(y)));
+    let at = Point::new(10.3, 10.1);
+    assert_eq!(best_three(&anchors, at), Some([anchors[4], anchors[5], anchors[6]]));
+    let line = [0.0, 1.0, 2.0].map(|x_m| Point::new(x_m, 0.0));
+    assert_eq!(best_three(&line, Point::new(5.0, 0.0)), None);
+    assert_eq!(best_three(&anchors[..2], at), None);
+}
