@@ -1,5 +1,5 @@
 //! Where a robot is, by the strength of the signals of anchors (Rajesh et al. 2024, 4, “Self-Localization” and “Localization Error
-//! Optimization with PSO”; clauses POSITION-1 to POSITION-8).
+//! Optimization with PSO”; clauses POSITION-1 to POSITION-7).
 //!
 //! Each anchor gives a [`Range`]: its place, and a distance that a [`Signal`] makes of the strength with which it is
 //! heard. From ranges come positions in five ways:

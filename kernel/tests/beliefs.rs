@@ -1,4 +1,4 @@
-//! A belief of wheels and fixes (POSITION-7, POSITION-8): its bits, its size, and the numbers that it does not take.
+//! A belief of wheels and fixes (POSITION-7): its bits, its size, and the numbers that it does not take.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, Rule, midpoint};
@@ -91,10 +91,10 @@ fn the_way_to_a_place_is_a_turn_and_a_drive() {
 fn a_robot_moves_only_if_it_will_be_within_the_next_cell_with_four_deviations_to_spare() {
     let mut belief = Belief::known(Point::new(0.0, 0.0), 0.0);
     let one_by_one = Odometry::new(0.05, 0.0).expect("errors");
-    // After n moves and one more the deviation is 0.05 √(n + 1): below an eighth for at most five.
+    // After n moves and one more the deviation is 0.05 √(n + 1): below an eighth for n up to five.
     for moves in 0..8_i16 {
         let to = Cell::new(moves + 1, 0);
-        assert_eq!(Rule::REPAIRED.may_go(&belief, to, &one_by_one), moves < 6 - 1, "{moves} moves");
+        assert_eq!(Rule::REPAIRED.may_go(&belief, to, &one_by_one), moves < 6, "{moves} moves");
         assert!(Rule::REPAIRED.without(Condition::Sure).may_go(&belief, to, &one_by_one));
         belief.driven(1.0, &one_by_one);
         assert!(belief.at().distance_m(midpoint(to)) < 1e-12);

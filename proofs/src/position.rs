@@ -1,5 +1,6 @@
 //! Positions by signal strength (POSITION): what is promised of the ways from distances to a position.
 
+mod belief;
 mod broken;
 pub mod clauses;
 mod lattice;

@@ -1,5 +1,5 @@
 //! Where a robot takes itself to be: place and heading with their covariance, by an extended Kalman filter of its wheels and of
-//! fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7, POSITION-8).
+//! fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7).
 
 use super::range::is_told;
 use super::{Point, Range, Refusal, Residual, Signal, SymmetricMatrix, bound, locate_from};

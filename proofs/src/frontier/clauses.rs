@@ -1,12 +1,13 @@
 //! The clauses of frontier cells, in the order of `SPEC.md`.
 
 use tautline_kernel::frontier::Condition::{
-    self, Claim, Corner, Look, Nearer, Record, Route, Share, Tell, Track, Turn,
+    self, Claim, Corner, Fuse, Gate, Look, Nearer, Record, Route, Share, Sure, Tell, Track, Turn,
 };
 use tautline_kernel::frontier::{Basis, Occupancy, Otherwise, Rule};
 
 use super::areas::{Areas, Size};
 use super::drift::{self, Drift, PARTS};
+use super::fused::{self, FusedBudget, Standing};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
@@ -157,6 +158,9 @@ const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
         Nearer => "others do not count",
         Claim => "claims do not count",
         Corner => "unexplored neighbours do not count",
+        Fuse => "fixes are believed without covariance",
+        Gate => "no gate",
+        Sure => "unsure robots move",
     };
     NamedRule::new(name, rule.without(condition))
 }
@@ -278,7 +282,7 @@ const OCCUPANCIES: [Reading<Occupancy>; 2] = readings(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 9] = [
+pub static CLAUSES: [Clause; 11] = [
     Clause {
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
@@ -426,6 +430,41 @@ pub static CLAUSES: [Clause; 9] = [
             &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
             Verdict::Holds,
             &[repaired(Nearer), repaired(Claim), repaired(Corner)],
+        )],
+    },
+    Clause {
+        id: "FRONTIER-10",
+        sentence: "A robot whose fixes err by at most E and whose moves by at most D, and which corrects its place by at least the share K of what a fix says, MUST be in the cell that it has counted if E + D/K < L/2.",
+        checks: &[&Check::new(
+            NamedRule::new("repaired", FusedBudget::FUSED),
+            &EveryAnswer {
+                body: fused::stays,
+                range: fused::errors,
+                covers: &["a fix that is believed", "a fix that is weighed"],
+            },
+            Verdict::Holds,
+            &[
+                NamedRule::new("E + D/K = L/2 is borne", FusedBudget::AT_MOST),
+                NamedRule::new("the share does not count", FusedBudget::WITHOUT_GAIN),
+                NamedRule::new("wheels alone", FusedBudget::WHEELS_ALONE),
+            ],
+        )],
+    },
+    Clause {
+        id: "FRONTIER-11",
+        sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, and fixes MUST make it sure after finitely many.",
+        checks: &[&Check::new(
+            NamedRule::new("repaired", Standing::REPAIRED),
+            &EveryAnswer {
+                body: fused::is_sure_again,
+                range: fused::stops,
+                covers: &["it moves on", "it stands"],
+            },
+            Verdict::Holds,
+            &[
+                NamedRule::new(repaired(Sure).name, Standing::UNSURE),
+                NamedRule::new("wheels alone", Standing::WHEELS_ALONE),
+            ],
         )],
     },
 ];

@@ -1,5 +1,6 @@
 //! The clauses of POSITION, in the order of `SPEC.md`.
 
+use super::belief::{self, Takes};
 use super::broken;
 use super::lattice;
 use super::minima;
@@ -77,7 +78,7 @@ const INSIDE: EveryAnswer<Way> = EveryAnswer {
 };
 
 /// The clauses.
-pub static CLAUSES: [Clause; 6] = [
+pub static CLAUSES: [Clause; 7] = [
     Clause {
         id: "POSITION-1",
         sentence: "From distances without error a way MUST return where the robot is, wherever anchors are that are not on one \
@@ -188,5 +189,24 @@ pub static CLAUSES: [Clause; 6] = [
                 &[NamedRule::new("the rectangle is forgotten", broken::any_level)],
             ),
         ],
+    },
+    Clause {
+        id: "POSITION-7",
+        sentence: "A belief MUST be the mean of what wheels and a fix say, each weighed by its covariance, and MUST leave out a fix \
+                   that is as unlikely as one in a thousand.",
+        checks: &[&Check::new(
+            NamedRule::new("repaired", belief::fused as Takes),
+            &EveryAnswer {
+                body: belief::is_mean,
+                range: belief::drives,
+                covers: &["a fix that counts", "an outlier"],
+            },
+            Verdict::Holds,
+            &[
+                NamedRule::new("fixes are believed without covariance", belief::believed),
+                NamedRule::new("wheels alone", belief::by_wheels_alone),
+                NamedRule::new("no gate", belief::ungated),
+            ],
+        )],
     },
 ];
