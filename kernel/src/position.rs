@@ -28,7 +28,7 @@ mod range;
 mod signal;
 mod swarm;
 
-pub use belief::{Belief, Correction, Gate, Odometry};
+pub use belief::{Belief, Correction, Gate, Odometry, SightError, Sighting};
 pub use bound::{Precision, best_three, bound};
 pub use closed::closed_form;
 pub use linear::{Layout, linear};

@@ -3,7 +3,9 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, Rule, midpoint};
 use tautline_kernel::ground::Cell;
-use tautline_kernel::position::{Belief, Correction, Gate, Odometry, Point, SymmetricMatrix, best_three};
+use tautline_kernel::position::{
+    Belief, Correction, Gate, Odometry, Point, SightError, SymmetricMatrix, best_three,
+};
 
 use crate::numbers::Congruence;
 
@@ -110,4 +112,19 @@ fn the_best_three_anchors_are_near_and_all_around() {
     let line = [0.0, 1.0, 2.0].map(|x_m| Point::new(x_m, 0.0));
     assert_eq!(best_three(&line, Point::new(5.0, 0.0)), None);
     assert_eq!(best_three(&anchors[..2], at), None);
+}
+
+#[test]
+fn an_object_is_where_the_paper_has_it_and_two_sights_are_better_than_one() {
+    let exact = SightError { bearing_rad: 0.0, distance_m: 0.0 };
+    let (bearing, far) = (0.7, 2.0);
+    let seen = Belief::known(Point::new(0.0, 0.0), 0.0).sees(bearing, far, &exact);
+    assert!(seen.at.distance_m(Point::new(far * bearing.cos(), -far * bearing.sin())) < 1e-12);
+    assert_eq!(seen.covariance.trace().to_bits(), 0.0_f64.to_bits());
+    let sight = SightError { bearing_rad: 0.02, distance_m: 0.05 };
+    let [one, other] = [0.3, -0.4].map(|bearing| driven().sees(bearing, far, &sight));
+    let both = one.merged(other);
+    assert!(both.covariance.trace() < one.covariance.trace().min(other.covariance.trace()));
+    let between = one.at.distance_m(other.at);
+    assert!(both.at.distance_m(one.at) < between && both.at.distance_m(other.at) < between);
 }

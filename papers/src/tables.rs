@@ -17,6 +17,7 @@ pub mod frontier_fig7;
 pub mod journeys;
 pub mod kit;
 pub mod locate_convergence;
+pub mod locate_explore;
 pub mod locate_fig8;
 pub mod margins;
 pub mod notice_fig5;
@@ -74,6 +75,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &frontier_fig7::FrontierFig7,
     &locate_fig8::LocateFig8,
     &locate_convergence::LocateConvergence,
+    &locate_explore::LocateExplore,
 ];
 
 /// A table or a figure that can be measured. Its results depend on its settings alone, and not on who measures which of

@@ -6,6 +6,7 @@
 //! arrive together. A slot is a team move. What is left to chance is drawn from `ChaCha8`, seeded with the seed of the
 //! run as layouts are, with the tag `frontier`.
 
+mod allowance;
 mod assigned;
 mod chart;
 mod field;
@@ -13,6 +14,7 @@ mod radio;
 mod team;
 mod waves;
 
+pub use allowance::Allowance;
 pub use assigned::{Assigned, Assignment};
 pub use chart::Chart;
 pub use team::Explorers;

@@ -2,10 +2,13 @@
 //! stored run has it, and a row: how it is typed, what it means, and which values make no run.
 
 use std::fmt::{self, Display};
+use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::frontier::Threshold;
+use tautline_kernel::net::Propagation;
+use tautline_kernel::position::{Odometry, Signal};
 
 use crate::failures::{Appearing, Failure, Going};
 use crate::layout::Layout;
@@ -27,6 +30,15 @@ pub struct Options {
     pub loss: Probability,
     /// The standard deviation of the noise with which a robot hears each anchor, in dB.
     pub noise_db: f64,
+    /// How many beacons of each anchor a robot averages at each stop; without it 100.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub readings: Option<u16>,
+    /// How many anchors there are, of which a robot takes the best three; without it 3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchors: Option<u8>,
+    /// How far the wheels of robots err; without it, where positions have noise, 2 % of the way and 1° a turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub odometry: Option<Wheels>,
     /// The threshold T of the occupancy probability, from 0 to 1.
     pub threshold: f64,
     /// How fast robots that keep in touch drive, in metres a second; without it 0.3.
@@ -53,6 +65,9 @@ impl Options {
         sight_cells: None,
         loss: Probability::NEVER,
         noise_db: 0.0,
+        readings: None,
+        anchors: None,
+        odometry: None,
         threshold: 0.5,
         speed_mps: None,
         spread: None,
@@ -60,6 +75,29 @@ impl Options {
         wall: None,
         going: Going::AtOnce,
     };
+
+    /// How many beacons of each anchor a robot averages at each stop.
+    pub fn readings(&self) -> u16 {
+        self.readings.unwrap_or(100)
+    }
+
+    /// How many anchors there are.
+    pub fn anchors(&self) -> u8 {
+        self.anchors.unwrap_or(3)
+    }
+
+    /// How far wheels err: exact where nothing is said and positions have no noise.
+    pub fn odometry(&self) -> Odometry {
+        let usual = if self.noise_db > 0.0 { Odometry::USUAL } else { Odometry::EXACT };
+        let told = self.odometry.and_then(|wheels| Odometry::new(wheels.share, wheels.turn_degrees));
+        told.unwrap_or(usual)
+    }
+
+    /// The signal of one beacon, and of the mean of those that are averaged; `None` if there is no noise.
+    pub fn signals(&self) -> Option<[Signal; 2]> {
+        let of = |noise_db| Signal::new(Propagation::FREE_SPACE, noise_db).filter(|_| self.noise_db > 0.0);
+        Some([of(self.noise_db)?, of(self.noise_db / f64::from(self.readings().max(1)).sqrt())?])
+    }
 
     /// The threshold; ½ if it is none.
     pub fn threshold(&self) -> Threshold {
@@ -70,6 +108,31 @@ impl Options {
 impl Default for Options {
     fn default() -> Self {
         Self::USUAL
+    }
+}
+
+/// How far wheels err, as standard deviations: `0.02:1` is 2 % of the way and 1° a turn.
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wheels {
+    /// The error of a drive, as a share of its way from 0 to 1.
+    pub share: f64,
+    /// The error of a turn, in degrees from 0 to 90.
+    pub turn_degrees: f64,
+}
+
+impl FromStr for Wheels {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once(':').ok_or("write a share of the way and degrees, such as 0.02:1")?;
+        Ok(Self { share: real(parts.0)?, turn_degrees: real(parts.1)? })
+    }
+}
+
+impl Display for Wheels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.share, self.turn_degrees)
     }
 }
 
@@ -168,8 +231,60 @@ impl Extra {
             let remedy = "give `noise-db` a number of decibels from 0 to 100";
             unless(is_right, "a standard deviation of noise is from 0 to 100 dB", remedy)
         },
-        assumed: Some("positions that are off by less than half a cell (FRONTIER-6, FRONTIER-7)"),
+        assumed: Some(
+            "positions that are off by less than half a cell (FRONTIER-6, FRONTIER-7, FRONTIER-10)",
+        ),
         ..Self::new("noise-db")
+    };
+
+    /// How many beacons are averaged.
+    pub const READINGS: &'static Self = &Self {
+        takes: Takes::Word("BEACONS"),
+        about: "How many beacons of each anchor a robot averages at each stop; with 0 it goes by its wheels alone. Without \
+                it 100",
+        read: |text, options| put(whole(text).map(Some), &mut options.readings),
+        typed: |options| words(options.readings),
+        ..Self::new("readings")
+    };
+
+    /// How many anchors there are.
+    pub const ANCHORS: &'static Self = &Self {
+        takes: Takes::Word("ANCHORS"),
+        about: "How many anchors stand around the area, from 3 to 8: in its corners, then in the middle of its sides. A \
+                robot takes the best three. Without it 3",
+        read: |text, options| put(whole(text).map(Some), &mut options.anchors),
+        typed: |options| words(options.anchors),
+        wrong: |options, _, _| {
+            let is_right = (3..=8).contains(&options.anchors());
+            unless(
+                is_right,
+                "a position takes three anchors, and there is room for 8",
+                "give `anchors` 3 to 8",
+            )
+        },
+        ..Self::new("anchors")
+    };
+
+    /// How far wheels err.
+    pub const ODOMETRY: &'static Self = &Self {
+        takes: Takes::Word("SHARE:DEGREES"),
+        about: "By which share of the way each drive errs, and by how many degrees each turn, as standard deviations. \
+                Without it 0.02:1 where positions have noise, else 0:0",
+        read: |text, options| put(text.parse().map(Some), &mut options.odometry),
+        typed: |options| words(options.odometry),
+        wrong: |options, _, _| {
+            let wheels = options.odometry?;
+            let is_right = Odometry::new(wheels.share, wheels.turn_degrees).is_some();
+            let what = format_args!(
+                "wheels do not err by {} of the way and {}° a turn",
+                wheels.share, wheels.turn_degrees
+            );
+            let remedy =
+                "give `odometry` a share of the way from 0 to 1 and degrees from 0 to 90, such as 0.02:1";
+            unless(is_right, what, remedy)
+        },
+        assumed: Some("moves that are off by less than half a cell (FRONTIER-6, FRONTIER-7, FRONTIER-10)"),
+        ..Self::new("odometry")
     };
 
     /// The threshold of the occupancy probability.
@@ -270,11 +385,14 @@ impl Extra {
     };
 
     /// All of them.
-    pub const ALL: [&'static Self; 10] = [
+    pub const ALL: [&'static Self; 13] = [
         Self::RANGE,
         Self::SIGHT,
         Self::LOSS,
         Self::NOISE,
+        Self::READINGS,
+        Self::ANCHORS,
+        Self::ODOMETRY,
         Self::THRESHOLD,
         Self::SPEED,
         Self::SPREAD,

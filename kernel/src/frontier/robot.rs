@@ -123,6 +123,14 @@ impl<M: Map> Robot<M> {
         self.at
     }
 
+    /// The cell that it is entering by its count, or that it is in.
+    pub const fn entering(&self) -> Cell {
+        match self.stance {
+            Stance::Enters(side) => self.at.beyond(side),
+            Stance::Stands | Stance::Tries(_) => self.at,
+        }
+    }
+
     /// Whether the robot stands, moves or has stopped.
     pub const fn stance(&self) -> Stance {
         self.stance

@@ -135,6 +135,23 @@ impl Belief {
         self.heading = [of_x - y * variance, of_y + x * variance, variance];
     }
 
+    /// The place of an object that the robot sees at `distance_m`, and so far to its left: `bearing_rad` is from its heading towards −y.
+    /// A robot that is known to be at the origin with heading 0 has it at (d cos θ, −d sin θ) (Rajesh et al. 2024, 4.5).
+    pub fn sees(&self, bearing_rad: f64, distance_m: f64, sight: &SightError) -> Sighting {
+        let angle = self.heading_rad - bearing_rad;
+        let (cosine, sine) = (libm::cos(angle), libm::sin(angle));
+        let (x, y) = (distance_m * cosine, distance_m * sine);
+        let [of_x, of_y, variance] = self.heading;
+        let turned = variance + sight.bearing_rad * sight.bearing_rad;
+        let deep = sight.distance_m * sight.distance_m;
+        let covariance = SymmetricMatrix {
+            xx: self.place.xx - 2.0 * y * of_x + y * y * turned + deep * cosine * cosine,
+            xy: self.place.xy + x * of_x - y * of_y - x * y * turned + deep * cosine * sine,
+            yy: self.place.yy + 2.0 * x * of_y + x * x * turned + deep * sine * sine,
+        };
+        Sighting { at: Point::new(self.at.x_m + x, self.at.y_m + y), covariance }
+    }
+
     /// The squared Mahalanobis distance of a fix with this covariance: χ² with two degrees of freedom if the belief is right.
     pub fn surprise(&self, fix: Point, covariance: SymmetricMatrix) -> Option<f64> {
         let (x, y) = (fix.x_m - self.at.x_m, fix.y_m - self.at.y_m);
@@ -196,6 +213,37 @@ impl Belief {
         };
         self.heading = heading;
         Correction::Taken
+    }
+}
+
+/// How far a sight of an object errs, as standard deviations.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SightError {
+    /// Of the bearing, in radians.
+    pub bearing_rad: f64,
+    /// Of the distance, in metres.
+    pub distance_m: f64,
+}
+
+/// Where an object is, with the covariance of its place: the error ellipse.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Sighting {
+    /// Where.
+    pub at: Point,
+    /// The covariance of the place, in m².
+    pub covariance: SymmetricMatrix,
+}
+
+impl Sighting {
+    /// This sighting and another one of the same object, each weighed by its covariance. Their errors are taken to be independent:
+    /// those of different robots are, but for the anchors that they share.
+    #[must_use]
+    pub fn merged(self, other: Self) -> Self {
+        let mut belief = Belief { at: self.at, heading_rad: 0.0, place: self.covariance, heading: [0.0; 3] };
+        belief.corrected(other.at, other.covariance, Gate::Open);
+        Self { at: belief.at, covariance: belief.place }
     }
 }
 

@@ -7,7 +7,7 @@ mod shown;
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::frontier::Rule as Frontier;
+use tautline_kernel::frontier::{Condition, Rule as Frontier};
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
@@ -19,7 +19,7 @@ use super::run::{End, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
-use crate::frontier::{Assigned, Assignment, Ended, Explorers};
+use crate::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
 use crate::layout::Layout;
 use crate::options::{Extra, Options};
 
@@ -84,10 +84,19 @@ pub static FRONTIER: Profile = Profile {
     ],
     robots: 1..=MAX_ROBOTS,
     starts: Starts::Alone,
-    extras: &[Extra::RANGE, Extra::LOSS, Extra::NOISE, Extra::THRESHOLD],
+    extras: &[
+        Extra::RANGE,
+        Extra::LOSS,
+        Extra::NOISE,
+        Extra::READINGS,
+        Extra::ANCHORS,
+        Extra::ODOMETRY,
+        Extra::THRESHOLD,
+    ],
     drawn: &[
         Drawn { what: "which messages are lost", by: By::Told(Extra::LOSS) },
         Drawn { what: "how far off each position is", by: By::Told(Extra::NOISE) },
+        Drawn { what: "how far off each move is", by: By::Told(Extra::ODOMETRY) },
         Drawn { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
         Drawn { what: "where a robot wanders", by: By::Rule(WANDERS) },
     ],
@@ -124,6 +133,7 @@ fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     if !setup.choices.is_empty() {
         return scripted::start(setup, rule);
     }
+    allowed(setup, &rule)?;
     let robots = Explorers::new(rule, &setup.layout, &setup.starts(), setup.options, setup.seed);
     Ok(team(setup, Who::Robots(Box::new(robots))))
 }
@@ -148,6 +158,29 @@ fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
     let left = due.iter().copied().filter(|cell| !starts.contains(cell)).collect();
     Box::new(FrontierTeam { who, due, left, ended: None })
 }
+
+/// Refuses a floor on which a robot would stand too long, before the run.
+fn allowed(setup: &Setup, rule: &Frontier) -> Result<(), Diagnostic> {
+    let allowance = Allowance::new(&setup.options, setup.layout.size().area());
+    match allowance.filter(|_| rule.has(Condition::Fuse) && rule.has(Condition::Sure)) {
+        None | Some(Allowance::Stops(0..=MOST_STOPS)) => Ok(()),
+        Some(Allowance::Stops(stops)) => {
+            let what = format!(
+                "this floor is larger than its noise allows: in its worst cell a robot stands for {stops} team moves before each move"
+            );
+            let remedy = "take a smaller floor, less `noise-db`, or more `readings` or `anchors`";
+            Err(Diagnostic::usage(what, format!("{remedy}; at most {MOST_STOPS} team moves are borne")))
+        }
+        Some(Allowance::Never) => {
+            let what =
+                "with wheels that err so much no fix makes a robot sure that it stays inside the next cell";
+            Err(Diagnostic::of_field("odometry", what, "give `odometry` smaller errors, such as 0.02:1"))
+        }
+    }
+}
+
+/// The most team moves that a robot may have to stand in its worst cell.
+const MOST_STOPS: u32 = 100;
 
 /// Refuses walls between cells: an obstacle fills a cell.
 fn check(setup: &Setup) -> Result<(), Diagnostic> {
@@ -233,7 +266,7 @@ impl Team for FrontierTeam {
 }
 
 /// Whether two robots are in one cell.
-fn has_double(cells: &[Cell]) -> bool {
+pub fn has_double(cells: &[Cell]) -> bool {
     let mut cells = cells.to_vec();
     cells.sort_unstable();
     cells.windows(2).any(|pair| pair[0] == pair[1])

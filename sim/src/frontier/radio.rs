@@ -3,23 +3,56 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Place, SIDE};
+use tautline_kernel::frontier::{Condition, Place, Rule, SIDE, clamped, midpoint};
 use tautline_kernel::ground::{Area, Cell};
-use tautline_kernel::net::Propagation;
-use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
+use tautline_kernel::position::{
+    self, Belief, Gate, Odometry, Point, Range, Residual, SightError, Sighting, Signal, SymmetricMatrix,
+    best_three, locate,
+};
 
 use crate::layout::generate;
 use crate::noise::deviation_db;
 use crate::options::Options;
+
+/// Where a robot is and where it heads, and where it takes itself to be, in sides of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pose {
+    pub(super) at: Point,
+    heading_rad: f64,
+    pub(super) belief: Belief,
+}
+
+impl Pose {
+    /// A robot that is known to be in the middle of `cell`, and heads east.
+    pub(super) fn start(cell: Cell) -> Self {
+        let at = midpoint(cell);
+        Self { at, heading_rad: 0.0, belief: Belief::known(at, 0.0) }
+    }
+
+    /// Where it takes itself to be.
+    pub(super) fn fix(&self) -> Place {
+        place_of(self.belief.at())
+    }
+}
+
+/// A place in whole units.
+pub(super) fn place_of(at: Point) -> Place {
+    let units = |sides: f64| libm::round(sides * f64::from(SIDE)) as i32;
+    Place::new(units(at.x_m), units(at.y_m))
+}
 
 /// The radio of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Radio {
     options: Options,
     pub(super) dice: Dice,
-    anchors: [Point; 3],
+    anchors: Vec<Point>,
     rim: Option<position::Area>,
+    /// Of one beacon; none if distances are exact.
     signal: Option<Signal>,
+    /// Of the mean of all that are heard at a stop; none if none is heard.
+    averaged: Option<Signal>,
+    odometry: Odometry,
 }
 
 /// A seeded oracle.
@@ -33,16 +66,16 @@ impl Oracle for Dice {
 }
 
 impl Radio {
-    /// A radio with anchors in three corners of the area. A cell counts as one metre wide: errors are in proportion to
-    /// distances, so that the width of a cell does not matter.
+    /// A radio with anchors in the corners of the area and in the middle of its sides. A cell counts as one metre wide: errors
+    /// are in proportion to distances, so that the width of a cell does not matter.
     pub(super) fn new(options: Options, area: Area, seed: u64) -> Self {
-        let (west, north) = (f64::from(area.first().x) - 0.5, f64::from(area.first().y) - 0.5);
-        let (east, south) = (f64::from(area.last().x) + 0.5, f64::from(area.last().y) + 0.5);
-        let anchors = [Point::new(west, north), Point::new(east, north), Point::new(west, south)];
-        let rim = position::Area::new(Point::new(west, north), Point::new(east, south));
-        let signal =
-            Signal::new(Propagation::FREE_SPACE, options.noise_db).filter(|_| options.noise_db > 0.0);
-        Self { options, dice: Dice(generate::source(seed, *b"frontier")), anchors, rim, signal }
+        let [least, greatest] = corners(area);
+        let rim = position::Area::new(least, greatest);
+        let (signal, averaged) =
+            options.signals().map_or((None, None), |[one, mean]| (Some(one), Some(mean)));
+        let averaged = averaged.filter(|_| options.readings() > 0);
+        let (dice, odometry) = (Dice(generate::source(seed, *b"frontier")), options.odometry());
+        Self { options, dice, anchors: anchors(area, options.anchors()), rim, signal, averaged, odometry }
     }
 
     /// How far messages are heard, if not everywhere.
@@ -56,8 +89,13 @@ impl Radio {
     }
 
     /// Whether positions have an error.
-    pub(super) const fn is_noisy(&self) -> bool {
-        self.signal.is_some()
+    pub(super) fn is_noisy(&self) -> bool {
+        self.signal.is_some() || self.odometry != Odometry::EXACT
+    }
+
+    /// How far wheels err.
+    pub(super) const fn odometry(&self) -> &Odometry {
+        &self.odometry
     }
 
     /// Whether a robot in one cell hears what one in another says now.
@@ -69,18 +107,84 @@ impl Radio {
         is_near && (self.options.loss.is_never() || !self.options.loss.happens(&mut self.dice.0))
     }
 
-    /// Where a robot takes itself to be that is at `place`.
-    pub(super) fn fix(&mut self, place: Place) -> Place {
-        let Some(signal) = self.signal else { return place };
-        let units = f64::from(SIDE);
-        let at = Point::new(f64::from(place.x) / units, f64::from(place.y) / units);
-        let dice = &mut self.dice;
-        let ranges = self.anchors.map(|anchor| {
-            let level_db = signal.level_db(at.distance_m(anchor)) + deviation_db(signal.noise_db(), dice);
-            Range::new(anchor, signal.distance_m(level_db))
-        });
-        let fixed = locate(&ranges, Residual::Decibels, &signal, self.rim);
-        let units_of = |metres: f64| libm::round(metres * units) as i32;
-        fixed.map_or(place, |fix| Place::new(units_of(fix.best().at.x_m), units_of(fix.best().at.y_m)))
+    /// The pose of a robot after it has turned to where it takes the midpoint of `to` to be, and after it has gone there.
+    pub(super) fn driven(&mut self, pose: &Pose, to: Cell) -> [Pose; 2] {
+        let (turn, way) = pose.belief.towards(midpoint(to));
+        let (mut turned, dice) = (*pose, &mut self.dice);
+        turned.belief.turned(turn, &self.odometry);
+        if turn != 0.0 {
+            turned.heading_rad += turn + deviation_db(self.odometry.turn_rad(), dice);
+        }
+        let mut arrived = turned;
+        arrived.belief.driven(way, &self.odometry);
+        let way = way * (1.0 + deviation_db(self.odometry.share(), dice));
+        let (x, y) = (libm::cos(arrived.heading_rad), libm::sin(arrived.heading_rad));
+        arrived.at = Point::new(pose.at.x_m + way * x, pose.at.y_m + way * y);
+        [turned, arrived]
     }
+
+    /// The place where a robot takes an object to be that is at `object`: it sees the bearing and the distance.
+    pub(super) fn sees(&mut self, pose: &Pose, object: Point) -> Sighting {
+        let (x, y) = (object.x_m - pose.at.x_m, object.y_m - pose.at.y_m);
+        let bearing = pose.heading_rad - libm::atan2(y, x) + deviation_db(SIGHT.bearing_rad, &mut self.dice);
+        let far = pose.at.distance_m(object) + deviation_db(SIGHT.distance_m, &mut self.dice);
+        pose.belief.sees(bearing, far, &SIGHT)
+    }
+
+    /// A robot that counts itself to be in `counted` stands and takes a fix.
+    pub(super) fn takes_fix(&mut self, rule: &Rule, pose: &mut Pose, counted: Cell) {
+        let near = pose.belief.at();
+        let (Some(one), Some(mean)) = (self.signal, self.averaged) else {
+            // Distances without noise, of which the wheels leave a robot uncertain.
+            if self.signal.is_none() && self.options.readings() > 0 {
+                let exact = SymmetricMatrix { xx: EXACT, xy: 0.0, yy: EXACT };
+                pose.belief.corrected(pose.at, exact, Gate::Open);
+            }
+            return;
+        };
+        let anchors = match &self.anchors[..] {
+            &[a, b, c] => [a, b, c],
+            all => match best_three(all, near) {
+                Some(three) => three,
+                None => return,
+            },
+        };
+        let (dice, readings) = (&mut self.dice, self.options.readings());
+        let ranges = anchors.map(|anchor| {
+            let sum: f64 = (0..readings).map(|_| deviation_db(one.noise_db(), dice)).sum();
+            let level_db = one.level_db(pose.at.distance_m(anchor)) + sum / f64::from(readings);
+            Range::new(anchor, one.distance_m(level_db))
+        });
+        if rule.has(Condition::Fuse) {
+            // Distances that make no position leave the belief as it is.
+            let _ = pose.belief.located(&ranges, &mean, rule.gate());
+        } else if let Ok(fix) = locate(&ranges, Residual::Decibels, &mean, self.rim) {
+            let fix = place_of(fix.best().at);
+            let fix = if rule.has(Condition::Track) { clamped(counted, fix) } else { fix };
+            let sides = |units: i32| f64::from(units) / f64::from(SIDE);
+            pose.belief = Belief::known(Point::new(sides(fix.x), sides(fix.y)), pose.belief.heading_rad());
+        }
+    }
+}
+
+/// How far robots see objects wrong: by 2° and by 2 % of a cell's side. These values are ours.
+const SIGHT: SightError = SightError { bearing_rad: core::f64::consts::PI / 90.0, distance_m: 0.02 };
+
+/// The variance of a fix without noise, so small that it counts for nothing.
+const EXACT: f64 = 1e-18;
+
+/// The corners of an area, in sides of a cell: north-west and south-east.
+fn corners(area: Area) -> [Point; 2] {
+    let (first, last) = (midpoint(area.first()), midpoint(area.last()));
+    [Point::new(first.x_m - 0.5, first.y_m - 0.5), Point::new(last.x_m + 0.5, last.y_m + 0.5)]
+}
+
+/// So many anchors, from 3 to 8: in the corners of the area, and then in the middle of its sides.
+pub(super) fn anchors(area: Area, count: u8) -> Vec<Point> {
+    let [Point { x_m: west, y_m: north }, Point { x_m: east, y_m: south }] = corners(area);
+    let (column, row) = (f64::midpoint(west, east), f64::midpoint(north, south));
+    let corners = [(west, north), (east, north), (west, south), (east, south)];
+    let sides = [(column, north), (column, south), (west, row), (east, row)];
+    let all = corners.into_iter().chain(sides).map(|(x_m, y_m)| Point::new(x_m, y_m));
+    all.take(count.into()).collect()
 }

@@ -2,13 +2,14 @@
 
 use tautline_kernel::frontier::{
     Condition, HALF, Map, Next, Other, Place, Robot, Rule, SIDE, Seeker, Sight, Slot, Status, Ties, View,
-    clamped, taken_for,
+    taken_for,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
+use tautline_kernel::position::{Belief, Point, Sighting};
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
-use super::radio::Radio;
+use super::radio::{Pose, Radio, place_of};
 use super::waves::{Knowledge, Waves};
 use super::{Ended, Moves, PATIENCE};
 use crate::layout::Layout;
@@ -23,9 +24,7 @@ pub struct Explorers {
     robots: Vec<Robot<Chart>>,
     /// Where the robots really are.
     cells: Vec<Cell>,
-    places: Vec<Place>,
-    /// Where they take themselves to be.
-    fixes: Vec<Place>,
+    poses: Vec<Pose>,
     /// By robot: what the others have told it, itself among them.
     told: Vec<Vec<Other>>,
     /// By robot: how much of each other one's repository it has heard.
@@ -36,6 +35,10 @@ pub struct Explorers {
     slot: usize,
     /// Team moves since the last news.
     idle: usize,
+    /// How often a robot has stood to take another fix.
+    stands: usize,
+    /// Objects, and where the robots that were in their cells take them to be, together.
+    objects: Vec<(Point, Option<Sighting>)>,
     /// The cells that a robot was in.
     entered: Chart,
     /// Whether a robot has noted in the last team move what is not so.
@@ -55,7 +58,6 @@ impl Explorers {
         let rule = Rule { threshold: options.threshold(), ..rule };
         let robot = |&start: &Cell| Robot::new(Chart::new(area), start, starts);
         let robots: Vec<Robot<Chart>> = starts.iter().map(robot).collect();
-        let places: Vec<Place> = starts.iter().map(|&start| Place::midpoint(start)).collect();
         let others = starts.iter().map(|&cell| Other { cell, place: Place::midpoint(cell), aim: None });
         let others: Vec<Other> = others.collect();
         let mut entered = Chart::new(area);
@@ -70,8 +72,7 @@ impl Explorers {
             layout: layout.clone(),
             area,
             cells: starts.to_vec(),
-            fixes: places.clone(),
-            places,
+            poses: starts.iter().copied().map(Pose::start).collect(),
             told: vec![others; starts.len()],
             heard: vec![heard; starts.len()],
             radio,
@@ -80,6 +81,8 @@ impl Explorers {
             robots,
             slot: 0,
             idle: 0,
+            stands: 0,
+            objects: Vec::new(),
             entered,
             is_wrong: false,
             has_begun: false,
@@ -96,6 +99,28 @@ impl Explorers {
     /// Whether a robot has noted in the last team move what is not so.
     pub const fn is_wrong(&self) -> bool {
         self.is_wrong
+    }
+
+    /// Where robots take themselves to be, in sides of a cell.
+    pub fn beliefs(&self) -> impl Iterator<Item = &Belief> {
+        self.poses.iter().map(|pose| &pose.belief)
+    }
+
+    /// This team among objects at these places, in sides of a cell: a robot sees those in the cell that it has entered.
+    #[must_use]
+    pub fn among(mut self, objects: impl IntoIterator<Item = Point>) -> Self {
+        self.objects = objects.into_iter().map(|object| (object, None)).collect();
+        self
+    }
+
+    /// Objects, and where the robots that have seen them take them to be, together.
+    pub fn objects(&self) -> &[(Point, Option<Sighting>)] {
+        &self.objects
+    }
+
+    /// How often a robot has stood for a team move, to take another fix.
+    pub const fn stands(&self) -> usize {
+        self.stands
     }
 
     /// How far messages are heard, if not everywhere.
@@ -140,12 +165,20 @@ impl Explorers {
         self.has_begun = true;
         let before: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
         let (mut does_any, mut know_all) = (false, true);
-        let mut entering: Vec<Option<(Cell, Place)>> = vec![None; robots];
+        let mut entering: Vec<Option<(Cell, Pose)>> = vec![None; robots];
+        let mut stands = vec![false; robots];
         for robot in 0..robots {
             let next = next(self, robot);
             know_all &= next == Next::Done;
             does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
             let Next::Tries { side, aim } = next else { continue };
+            let to = self.robots[robot].at().beyond(side);
+            if self.radio.is_noisy()
+                && !self.rule.may_go(&self.poses[robot].belief, to, self.radio.odometry())
+            {
+                stands[robot] = true;
+                continue;
+            }
             self.robots[robot].tries(side, aim);
             if self.rule.has(Condition::Claim) {
                 self.tell(robot);
@@ -158,6 +191,7 @@ impl Explorers {
                     entering[robot] = Some(to);
                 }
                 Sight::Obstacle | Sight::Robot => {
+                    self.poses[robot] = to.1;
                     if sight == Sight::Obstacle {
                         moves.bumps(robot, side);
                     }
@@ -170,15 +204,28 @@ impl Explorers {
             return Err(if know_all { Ended::Known } else { Ended::Still });
         }
         for (robot, to) in entering.into_iter().enumerate() {
-            let Some((cell, place)) = to else { continue };
-            (self.cells[robot], self.places[robot]) = (cell, place);
+            if stands[robot] {
+                let at = self.robots[robot].at();
+                self.radio.takes_fix(&self.rule, &mut self.poses[robot], at);
+            }
+            let Some((cell, pose)) = to else { continue };
+            (self.cells[robot], self.poses[robot]) = (cell, pose);
             self.entered.explore(cell);
-            let fix = self.radio.fix(place);
+            if self.radio.is_noisy() {
+                let counted = self.robots[robot].entering();
+                self.radio.takes_fix(&self.rule, &mut self.poses[robot], counted);
+            }
+            for (object, known) in &mut self.objects {
+                if cell_of(place_of(*object)) == cell {
+                    let seen = self.radio.sees(&self.poses[robot], *object);
+                    *known = Some(known.map_or(seen, |known| known.merged(seen)));
+                }
+            }
+            let fix = self.poses[robot].fix();
             self.robots[robot].arrived(&self.rule, taken_for(self.area, fix));
-            let at = self.robots[robot].at();
-            self.fixes[robot] = if self.rule.has(Condition::Track) { clamped(at, fix) } else { fix };
-            self.note(robot, at);
+            self.note(robot, self.robots[robot].at());
         }
+        self.stands += stands.iter().filter(|&&stands| stands).count();
         for robot in 0..robots {
             self.tell(robot);
         }
@@ -226,22 +273,29 @@ impl Explorers {
     }
 
     /// The sight that `robot` has as it goes through `side`, and where it gets to.
-    fn look(&self, robot: usize, side: Side, entering: &[Option<(Cell, Place)>]) -> (Sight, (Cell, Place)) {
-        let aim = Place::midpoint(self.robots[robot].at().beyond(side));
-        let place = self.places[robot].moved(self.fixes[robot], aim);
-        let cell = if self.radio.is_noisy() { cell_of(place) } else { self.cells[robot].beyond(side) };
+    fn look(&mut self, robot: usize, side: Side, entering: &[Option<(Cell, Pose)>]) -> (Sight, (Cell, Pose)) {
+        let to = self.robots[robot].at().beyond(side);
+        let from = self.poses[robot];
+        let (cell, [turned, pose]) = if self.radio.is_noisy() {
+            let poses = self.radio.driven(&from, to);
+            (cell_of(place_of(poses[1].at)), poses)
+        } else {
+            (to, [from, Pose::start(to)])
+        };
         let is_there = |other: usize| {
             other != robot
                 && (self.cells[other] == cell || entering[other].is_some_and(|(entered, _)| entered == cell))
         };
-        let sight = if !self.is_clear(self.places[robot], place) {
+        let sight = if !self.is_clear(place_of(from.at), place_of(pose.at)) {
             Sight::Obstacle
         } else if self.rule.has(Condition::Look) && (0..self.robots.len()).any(is_there) {
             Sight::Robot
         } else {
             Sight::Open
         };
-        (sight, (cell, place))
+        // It looks before it drives.
+        let goes = if sight == Sight::Open { pose } else { turned };
+        (sight, (cell, goes))
     }
 
     /// Whether nothing is in the way from one place to another.
@@ -269,9 +323,9 @@ impl Explorers {
 
     /// `from` tells what it knows, where it is and what it has claimed.
     fn tell(&mut self, from: usize) {
-        let Self { rule, robots, cells, told, heard, radio, fixes, told_now, .. } = self;
+        let Self { rule, robots, cells, told, heard, radio, poses, told_now, .. } = self;
         let mut deaf = Vec::new();
-        let says = Other { cell: robots[from].at(), place: fixes[from], aim: robots[from].aim() };
+        let says = Other { cell: robots[from].at(), place: poses[from].fix(), aim: robots[from].aim() };
         let knows = robots[from].map().len();
         for to in (0..robots.len()).filter(|&to| to != from) {
             let is_heard = radio.is_heard(cells[from], cells[to]);

@@ -1,0 +1,341 @@
+//! Rajesh, Nagaraja and Suja 2024 as one system: robots that localise themselves, choose frontier cells, go there, avoid obstacles
+//! and each other, and map what they find, with the noise of signals and of wheels. A run is clean if nothing is noted that is not
+//! so, no two robots are in one cell, and every cell within reach is explored. Mutants stand beside the rule.
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::{Condition, Rule, midpoint};
+use tautline_kernel::ground::{Area, Cell};
+use tautline_kernel::position;
+use tautline_proofs::engine::SeededOracle;
+
+use super::prelude::*;
+use tautline_sim::explore::frontier::{FRONTIER, has_double};
+use tautline_sim::explore::{RuleId, Setup};
+use tautline_sim::frontier::{Allowance, Ended, Explorers};
+use tautline_sim::options::{Options, Wheels};
+
+/// The whole paper under noise.
+#[derive(Clone, Copy, Debug)]
+pub struct LocateExplore;
+
+settings! {
+    /// How much is measured.
+    pub struct Settings {
+        /// Random layouts of each size
+        pub layouts: u32 = 1000, one("runs", "COUNT", from_to(1..=100_000));
+        /// The seed of the first layout and its runs; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// Noise of each beacon, in decibels
+        pub noise_db: Vec<f64> = vec![0.0, 0.5, 1.0, 2.0], list("noise-db", real);
+        /// Shares of blocked cells, in percent
+        pub blocked: Vec<u8> = vec![10], list("blocked", from_to(0..=40));
+        /// Beacons of each anchor that a robot averages at each stop
+        pub readings: u16 = 100, one("readings", "BEACONS", from_to(1..=10_000));
+        /// Anchors around the area, of which a robot takes the best three
+        pub anchors: u8 = 3, one("anchors", "ANCHORS", from_to(3..=8));
+    }
+}
+
+/// Columns and rows of the areas: that of Fig. 3 on its side, and one of four times as many cells.
+const SIZES: [(u64, u64); 2] = [(7, 6), (12, 14)];
+
+/// Robots of the teams.
+const TEAMS: [u16; 2] = [4, 8];
+
+/// The rules: their names, what they are, and how many beacons they hear, if not as many as is said.
+const RULES: [(&str, Rule, Option<u16>); 5] = [
+    ("repaired", Rule::REPAIRED, None),
+    ("fixes without covariance", Rule::REPAIRED.without(Condition::Fuse).without(Condition::Sure), None),
+    ("unsure robots move", Rule::REPAIRED.without(Condition::Sure), None),
+    ("wheels alone", Rule::REPAIRED.without(Condition::Sure), Some(0)),
+    ("published, wanders", Rule::WANDERS, None),
+];
+
+/// The rule of the clauses.
+const REPAIRED: usize = 0;
+
+/// Team moves after which a run is left.
+const MOST_MOVES: u32 = 5000;
+
+/// Objects in each run.
+const OBJECTS: u32 = 8;
+
+/// The outcome of a run.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Team moves until every cell is explored, if that is so and nothing was broken.
+    moves: Option<u32>,
+    /// How often a robot stood to take another fix.
+    stands: u32,
+    /// How far off the objects were that robots saw, in thousandths of a cell's side, and how far off their ellipses say.
+    objects: Vec<[u32; 2]>,
+}
+
+/// The whole table.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Summary {
+    #[serde(flatten)]
+    settings: Settings,
+    /// Share of blocked cells by share, size by size, team by team, rule by rule.
+    pub lines: Vec<Line>,
+    /// How large a floor may be.
+    pub floors: Vec<Floor>,
+}
+
+/// A team of a rule in areas of one size.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Line {
+    /// Columns and rows.
+    pub size: (u64, u64),
+    /// Blocked cells, in percent.
+    pub blocked: u8,
+    /// Robots.
+    pub robots: u16,
+    /// The rule.
+    pub rule: &'static str,
+    /// Noise by noise.
+    pub figures: Vec<Figure>,
+}
+
+/// The runs of a team with one noise.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Figure {
+    /// Noise, in decibels.
+    pub noise_db: f64,
+    /// Runs in which nothing is broken and every cell within reach is explored.
+    pub clean: Option<Estimate>,
+    /// Team moves of clean runs.
+    pub moves: Option<Estimate>,
+    /// Team moves of clean runs over those of the repaired rule without noise, on the same layouts.
+    pub ratio: Option<Estimate>,
+    /// How often robots stand in a run.
+    pub stands: Option<Estimate>,
+    /// Errors of objects: the median and the 95th percentile, in sides of a cell.
+    pub objects: Option<[f64; 2]>,
+    /// The root mean square error of objects over that of their ellipses.
+    pub objects_ratio: Option<f64>,
+}
+
+/// The floors that a noise allows.
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Floor {
+    /// Noise, in decibels.
+    pub noise_db: f64,
+    /// Cells across the largest square in which a robot that has a fix need not stand for another one.
+    pub without_stops: u32,
+    /// Cells across the largest square in which it stands for at most ten team moves.
+    pub with_stops: u32,
+}
+
+impl Settings {
+    fn options(&self, noise_db: f64, readings: Option<u16>) -> Options {
+        let readings = Some(readings.unwrap_or(self.readings));
+        let odometry = (noise_db > 0.0).then_some(Wheels { share: 0.02, turn_degrees: 1.0 });
+        Options { noise_db, readings, anchors: Some(self.anchors), odometry, ..Options::USUAL }
+    }
+
+    fn points(&self) -> impl Iterator<Item = Point> {
+        let blocked = self.blocked.clone();
+        let sizes = blocked.into_iter().flat_map(|blocked| SIZES.map(move |size| (blocked, size)));
+        sizes.flat_map(|(blocked, size)| TEAMS.map(move |robots| (blocked, size, robots)))
+    }
+
+    /// The largest square for which this is so, in cells across.
+    fn largest(&self, noise_db: f64, stops: u32) -> u32 {
+        let is_small = |across: &i16| {
+            let area = Area::new(Cell::new(0, 0), Cell::new(across - 1, across - 1));
+            let allowance = area.and_then(|area| Allowance::new(&self.options(noise_db, None), area));
+            matches!(allowance, Some(Allowance::Stops(needed)) if needed <= stops)
+        };
+        (1..500).take_while(is_small).count() as u32
+    }
+}
+
+/// Blocked cells in percent, columns and rows, robots.
+type Point = (u8, (u64, u64), u16);
+
+impl Table for LocateExplore {
+    type Settings = Settings;
+    type Job = Run<Point>;
+    type Sample = Vec<Outcome>;
+    type Summary = Summary;
+
+    fn about(&self) -> Description {
+        Description {
+            id: "locate-explore",
+            shows: "robots that localise themselves and explore frontier cells: how many runs are clean, by the noise of signals",
+            help: "How many runs are clean of robots that localise themselves and explore, by the noise of signals",
+            more: "Wheels err by 2 % of the way and 1° a turn. Anchors stand in three corners. Of the mutants, robots without Sure \
+                   never stand to take another fix.",
+            examples: &[
+                "locate-explore --runs 100",
+                "locate-explore --noise-db 2 --blocked 10,20,30 --format json",
+            ],
+            doing: "exploring",
+            ..Description::NOTHING
+        }
+    }
+
+    fn jobs(&self, settings: &Settings) -> Result<Vec<Self::Job>, Halt> {
+        if let Some(wrong) = settings.noise_db.iter().find(|noise_db| !(0.0..=100.0).contains(*noise_db)) {
+            let what = format!("a standard deviation of noise is not {wrong} dB");
+            return Err(Diagnostic::usage(what, "give `noise-db` numbers of decibels from 0 to 100").into());
+        }
+        Ok(runs(settings.points(), |_| settings.layouts))
+    }
+
+    fn measure(&self, settings: &Settings, run: &Self::Job, _: &dyn Observer) -> Result<Vec<Outcome>, Halt> {
+        let (blocked, (width, height), robots) = run.at;
+        let seed = run.seed(settings.seed);
+        let layout = generated(&format!("cells:{width}x{height}:{}", f64::from(blocked) / 100.0), seed)?;
+        let mut layout = layout;
+        let base = Setup::choose_base(&mut layout, None)?;
+        let starts = FRONTIER.default_starts(RuleId::REPAIRED, &layout, base, robots);
+        let starts = starts.unwrap_or_else(|| vec![base]);
+        let due = layout.reachable(&starts);
+        let mut oracle = SeededOracle::new(seed, 0);
+        let objects: Vec<position::Point> = (0..OBJECTS)
+            .map(|_| {
+                let cell = midpoint(due[oracle.pick(due.len() as u32) as usize]);
+                let mut off = || f64::from(oracle.pick(1 << 16)) / f64::from(1 << 16) - 0.5;
+                position::Point::new(cell.x_m + off(), cell.y_m + off())
+            })
+            .collect();
+        let cases =
+            RULES.iter().flat_map(|rule| settings.noise_db.iter().map(move |&noise_db| (rule, noise_db)));
+        let outcome = |(&(_, rule, readings), noise_db): (&(&str, Rule, Option<u16>), f64)| {
+            let options = settings.options(noise_db, readings);
+            let team = Explorers::new(rule, &layout, &starts, options, seed).among(objects.iter().copied());
+            follow(team, due.len() - starts.len(), &starts)
+        };
+        Ok(cases.map(outcome).collect())
+    }
+
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
+        let noises = settings.noise_db.len();
+        let line = |(blocked, size, robots): Point, number: usize| {
+            let here = at(&results, (blocked, size, robots));
+            let of = |rule: usize, noise: usize| -> Vec<&Outcome> {
+                here.iter().map(|outcomes| &outcomes[rule * noises + noise]).collect()
+            };
+            let plain = settings.noise_db.iter().position(|&noise_db| noise_db == 0.0);
+            let plain = plain.map(|noise| of(REPAIRED, noise));
+            let figure = |(noise, &noise_db): (usize, &f64)| {
+                Figure::of(noise_db, &of(number, noise), plain.as_deref().unwrap_or_default())
+            };
+            let figures = settings.noise_db.iter().enumerate().map(figure).collect();
+            Line { size, blocked, robots, rule: RULES[number].0, figures }
+        };
+        let lines = settings.points().flat_map(|point| (0..RULES.len()).map(move |rule| (point, rule)));
+        let lines = lines.map(|(point, rule)| line(point, rule)).collect();
+        let noisy = settings.noise_db.iter().copied().filter(|&noise_db| noise_db > 0.0);
+        let floor = |noise_db| Floor {
+            noise_db,
+            without_stops: settings.largest(noise_db, 0),
+            with_stops: settings.largest(noise_db, 10),
+        };
+        Ok(Summary { settings: settings.clone(), lines, floors: noisy.map(floor).collect() })
+    }
+
+    fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
+        type Part = (&'static str, fn(&Figure) -> String);
+        let parts: [Part; 4] = [
+            ("clean runs, %", |figure| percent(figure.clean, 1)),
+            ("team moves", |figure| text(figure.moves, 1)),
+            ("times the repaired rule without noise", |figure| text(figure.ratio, 2)),
+            ("a robot stands, times a run", |figure| text(figure.stands, 1)),
+        ];
+        let mut told = format!(
+            "{} runs for each, {} anchors, {} beacons of each at a stop, wheels 2 % of the way and 1° a turn, seed {}\n",
+            settings.layouts, settings.anchors, settings.readings, settings.seed
+        );
+        for lines in merged.lines.chunks(RULES.len()) {
+            let Line { size: (width, height), blocked, robots, .. } = &lines[0];
+            told += &format!("\n{width}×{height} cells, {blocked} % blocked, {robots} robots\n");
+            for (title, of) in parts {
+                let mut columns = Columns::of(lines).left(title, 40, |line| line.rule);
+                for (noise, noise_db) in settings.noise_db.iter().enumerate() {
+                    columns =
+                        columns.right(format!("{noise_db} dB"), 17, move |line| of(&line.figures[noise]));
+                }
+                told += &columns.text();
+            }
+            for Figure { noise_db, objects, objects_ratio, .. } in &lines[REPAIRED].figures {
+                if let (Some([median, most]), Some(ratio)) = (objects, objects_ratio) {
+                    told += &format!(
+                        "objects at {noise_db} dB: off by {median:.3} of a cell's side (median) and {most:.3} (95th percentile), \
+                         {ratio:.2} times what their ellipses say\n"
+                    );
+                }
+            }
+        }
+        told += "\nThe largest square floor, in cells across, by the Cramér–Rao bound of a stop\n";
+        let floors = Columns::of(&merged.floors)
+            .right("noise, dB", Fit, |floor| floor.noise_db)
+            .right("one fix is enough", Fit, |floor| floor.without_stops)
+            .right("at most ten more are", Fit, |floor| floor.with_stops);
+        Ok(told + &floors.text() + "±: the 95 % interval\n")
+    }
+}
+
+/// Follows a team to the end of its run.
+fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
+    let mut seen: Vec<Cell> = starts.to_vec();
+    let (mut moves, mut whole, mut is_clean) = (0, None, true);
+    let ended = loop {
+        match team.advance() {
+            Ok(_) => {}
+            Err(ended) => break Some(ended),
+        }
+        moves += 1;
+        is_clean &= !team.is_wrong() && !has_double(team.cells());
+        for &cell in team.cells() {
+            if !seen.contains(&cell) {
+                seen.push(cell);
+            }
+        }
+        if whole.is_none() && seen.len() - starts.len() == due {
+            whole = Some(moves);
+        }
+        if !is_clean || moves == MOST_MOVES {
+            break None;
+        }
+    };
+    // Robots that wander never end; they are done when every cell is explored.
+    let is_over = matches!(ended, Some(Ended::Known | Ended::Still | Ended::Endless)) || whole.is_some();
+    let off = team.objects().iter().filter_map(|(object, known)| {
+        let known = known.as_ref()?;
+        let thousandths = |sides: f64| (1000.0 * sides) as u32;
+        Some([thousandths(known.at.distance_m(*object)), thousandths(known.covariance.trace().sqrt())])
+    });
+    let objects = off.collect();
+    let stands = team.stands() as u32;
+    Outcome { moves: whole.filter(|_| is_clean && is_over), stands, objects }
+}
+
+impl Figure {
+    fn of(noise_db: f64, outcomes: &[&Outcome], plain: &[&Outcome]) -> Self {
+        let both = outcomes.iter().zip(plain).filter_map(|(outcome, plain)| {
+            Some((f64::from(outcome.moves?), f64::from(plain.moves.filter(|&moves| moves > 0)?)))
+        });
+        let clean = || outcomes.iter().filter(|outcome| outcome.moves.is_some());
+        let mut errors: Vec<u32> =
+            clean().flat_map(|outcome| outcome.objects.iter().map(|[off, _]| *off)).collect();
+        errors.sort_unstable();
+        let at = |part: usize| errors.get(errors.len() * part / 100).map(|&off| f64::from(off) / 1000.0);
+        let squares = |of: usize| -> f64 {
+            clean()
+                .flat_map(|outcome| outcome.objects.iter().map(move |all| f64::from(all[of]).powi(2)))
+                .sum()
+        };
+        Self {
+            noise_db,
+            clean: share(outcomes.iter(), |outcome| outcome.moves.is_some()),
+            moves: mean(clean().filter_map(|outcome| outcome.moves.map(f64::from))),
+            ratio: ratio(both),
+            stands: mean(clean().map(|outcome| f64::from(outcome.stands))),
+            objects: at(50).zip(at(95)).map(|(median, most)| [median, most]),
+            objects_ratio: (squares(1) > 0.0).then(|| (squares(0) / squares(1)).sqrt()),
+        }
+    }
+}
