@@ -211,5 +211,7 @@ fn main() {
             theirs / micros
         );
     }
-    println!("  a step of a belief: turn, drive and fix {fused:.2}, with the position of three ranges {heard:.2}");
+    println!(
+        "  a step of a belief: turn, drive and fix {fused:.2}, with the position of three ranges {heard:.2}"
+    );
 }

@@ -2,15 +2,16 @@
 
 use crate::common::Unwatched;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::Rule;
+use tautline_kernel::frontier::{Condition, Rule};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::frontier::FRONTIER;
+use tautline_sim::explore::frontier::has_double;
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::{RuleId, Setup, Stopped, explore};
-use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers};
+use tautline_sim::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
 use tautline_sim::layout::{Generator, Layout, Size};
-use tautline_sim::options::Options;
+use tautline_sim::options::{Options, Wheels};
 
 fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Asked<'static> {
     Asked {
@@ -90,6 +91,63 @@ fn a_repaired_team_explores_an_open_area_and_knows_it() {
     }
 }
 
+/// Of so many runs in 12×14 cells with noise of 2 dB, how many are clean: nothing is noted that is not so, no two robots are in one
+/// cell, and the team ends and knows it.
+fn clean_runs(rule: Rule, options: Options, runs: u64) -> usize {
+    let is_clean = |seed: &u64| {
+        let generator: Generator = "cells:12x14:0.1".parse().expect("a generator");
+        let mut layout = generator.generate(*seed).expect("a layout");
+        let base = Setup::choose_base(&mut layout, None).expect("a base");
+        let starts = FRONTIER.default_starts(RuleId::REPAIRED, &layout, base, 4).expect("starts");
+        let mut team = Explorers::new(rule, &layout, &starts, options, *seed);
+        loop {
+            match team.advance() {
+                Err(ended) => return ended == Ended::Known,
+                Ok(_) if team.is_wrong() || has_double(team.cells()) => return false,
+                Ok(_) => {}
+            }
+        }
+    };
+    (0..runs).filter(is_clean).count()
+}
+
+#[test]
+fn with_noise_of_two_decibels_a_repaired_team_breaks_nothing_and_its_mutants_do() {
+    let noisy = Options { noise_db: 2.0, ..Options::default() };
+    assert!(clean_runs(Rule::REPAIRED, noisy, 20) >= 19);
+    let fixes_alone = Rule::REPAIRED.without(Condition::Fuse).without(Condition::Sure);
+    assert!(clean_runs(fixes_alone, noisy, 20) < 10);
+    let unsure = Rule::REPAIRED.without(Condition::Sure);
+    assert!(clean_runs(unsure, noisy, 20) < 19);
+    assert!(clean_runs(unsure, Options { readings: Some(0), ..noisy }, 20) < 10);
+}
+
+#[test]
+fn wheels_that_err_need_fixes_and_fixes_without_noise_are_enough() {
+    let wheels = Options { odometry: Some(Wheels { share: 0.02, turn_degrees: 1.0 }), ..Options::default() };
+    assert_eq!(clean_runs(Rule::REPAIRED, wheels, 5), 5);
+    // With eight anchors the best three are near, and few beacons do.
+    let near = Options { noise_db: 1.0, anchors: Some(8), readings: Some(25), ..Options::default() };
+    assert_eq!(clean_runs(Rule::REPAIRED, near, 5), 5);
+}
+
+#[test]
+fn a_floor_may_be_the_larger_the_less_noise_there_is() {
+    let stops = |noise_db, side: i16| {
+        let area = tautline_kernel::ground::Area::new(Cell::new(0, 0), Cell::new(side - 1, side - 1));
+        Allowance::new(&Options { noise_db, ..Options::default() }, area.expect("an area"))
+    };
+    assert_eq!(stops(0.0, 100), None);
+    let Some(Allowance::Stops(few)) = stops(1.0, 20) else { panic!("it is allowed") };
+    let Some(Allowance::Stops(many)) = stops(2.0, 20) else { panic!("it is allowed") };
+    // Twice the noise takes four times the fixes, and so does twice the floor.
+    assert!((4 * few..=4 * few + 4).contains(&many), "{few}, {many}");
+    let unsteady =
+        Options { odometry: Some(Wheels { share: 0.02, turn_degrees: 5.0 }), ..Options::default() };
+    let area = tautline_kernel::ground::Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("an area");
+    assert_eq!(Allowance::new(&Options { noise_db: 1.0, ..unsteady }, area), Some(Allowance::Never));
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let wrong =
@@ -105,6 +163,13 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(with(Options { threshold: f64::NAN, ..usual }), no_threshold);
     let no_noise = refused("noise-db", "a standard deviation of noise is from 0 to 100 dB");
     assert_eq!(with(Options { noise_db: -1.0, ..usual }), no_noise);
+    let no_wheels = |share, turn_degrees| {
+        with(Options { odometry: Some(Wheels { share, turn_degrees }), ..usual }).expect_err("wheels").0
+    };
+    assert_eq!(no_wheels(-0.1, 1.0), Some("odometry"));
+    assert_eq!(no_wheels(0.02, f64::NAN), Some("odometry"));
+    let no_anchors = refused("anchors", "a position takes three anchors, and there is room for 8");
+    assert_eq!(with(Options { anchors: Some(2), ..usual }), no_anchors);
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
     assert_eq!(wrong(together), refused("starts", "two robots start in the cell 0,0"));

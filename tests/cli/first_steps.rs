@@ -86,8 +86,8 @@ fn a_run_says_how_far_the_team_comes() {
 #[test]
 fn a_clause_that_noise_breaks_is_said_to_be_no_refutation() {
     let folder = folder();
-    let run = ["explore", "cells:7x6:0.1", "--scheme", "frontier", "--robots", "4", "--noise-db", "2"];
-    let told = ran(folder.path(), &run);
+    let run = "explore cells:7x6:0.1 --scheme frontier --rule published --robots 4 --noise-db 2 --readings 1";
+    let told = ran(folder.path(), &run.split(' ').collect::<Vec<_>>());
     let told = String::from_utf8(told.stdout).expect("text");
     let excuse = "with --noise-db this is no refutation of the rule: the clauses assume positions";
     assert!(told.contains(" is broken in team move ") && told.contains(excuse), "{told}");

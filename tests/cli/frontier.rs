@@ -6,11 +6,18 @@ use super::{folder, names, refused};
 fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
     let folder = folder();
     let folder = folder.path();
-    let wrong: [(&[&str], &str); 11] = [
+    let wrong: [(&[&str], &str); 18] = [
         (&["explore", "cells:3x3:0", "--threshold", "1.5"], "--threshold a number from 0 to 1"),
         (&["explore", "cells:3x3:0", "--threshold", "nan"], "--threshold a number from 0 to 1"),
         (&["explore", "cells:3x3:0", "--robots", "10"], "--robots a number up to 9"),
         (&["explore", "cells:3x3:0", "--noise-db", "-1"], "decibels from 0 to 100"),
+        (&["explore", "cells:3x3:0", "--odometry", "-0.1:1"], "--odometry a share of the way from 0 to 1"),
+        (&["explore", "cells:3x3:0", "--odometry", "0.02:nan"], "--odometry a share of the way from 0 to 1"),
+        (&["explore", "cells:3x3:0", "--odometry", "0.02"], "such as 0.02:1"),
+        (&["explore", "cells:3x3:0", "--anchors", "2"], "--anchors 3 to 8"),
+        (&["explore", "cells:3x3:0", "--readings", "-1"], "whole number"),
+        (&["explore", "open:60x60", "--noise-db", "4"], "a smaller floor, less --noise-db"),
+        (&["explore", "open:6x6", "--noise-db", "1", "--odometry", "0.02:5"], "--odometry smaller errors"),
         (&["explore", "cells:3x3:0", "--loss", "2"], "from 0 to 1"),
         (&["explore", "cells:3x3:0", "--range", "x"], "whole number"),
         (&["hunt", "--robots", "7", "--size", "3x2"], "--robots a number from 1 to 3"),

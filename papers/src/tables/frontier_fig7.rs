@@ -104,6 +104,14 @@ pub struct Judgement {
     pub outcome: String,
 }
 
+impl Judgement {
+    /// A line for people.
+    pub(super) fn text(&self) -> String {
+        let Self { sentence, outcome } = self;
+        format!("“{sentence}”: {outcome}.\n")
+    }
+}
+
 impl Table for FrontierFig7 {
     type Settings = Settings;
     type Job = Job;
@@ -181,8 +189,7 @@ impl Table for FrontierFig7 {
             }
             columns.text()
         };
-        let said = |Judgement { sentence, outcome }: &Judgement| format!("“{sentence}”: {outcome}.\n");
-        Ok(parts.map(part).concat() + &merged.judged.iter().map(said).collect::<String>())
+        Ok(parts.map(part).concat() + &merged.judged.iter().map(Judgement::text).collect::<String>())
     }
 
     /// Team moves over robots, a line for each rule.

@@ -452,7 +452,7 @@ pub static CLAUSES: [Clause; 11] = [
     },
     Clause {
         id: "FRONTIER-11",
-        sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, and fixes MUST make it sure after finitely many.",
+        sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, and fixes MUST make one that knows its heading sure after finitely many.",
         checks: &[&Check::new(
             NamedRule::new("repaired", Standing::REPAIRED),
             &EveryAnswer {

@@ -106,6 +106,11 @@ impl Explorers {
         self.poses.iter().map(|pose| &pose.belief)
     }
 
+    /// How far robots are from where they take themselves to be, in sides of a cell.
+    pub fn errors(&self) -> impl Iterator<Item = f64> {
+        self.poses.iter().map(|pose| pose.at.distance_m(pose.belief.at()))
+    }
+
     /// This team among objects at these places, in sides of a cell: a robot sees those in the cell that it has entered.
     #[must_use]
     pub fn among(mut self, objects: impl IntoIterator<Item = Point>) -> Self {
