@@ -1,9 +1,11 @@
-//! Positions of any ranges: refused, or told in numbers, and the same when everything is turned or mirrored.
+//! Positions of any ranges: refused, or told in numbers, and the same when everything is turned or mirrored;
+//! and a belief that they correct.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
-    Parameters, Particle, Point, Range, Residual, Signal, Swarm, closed_form, linear, locate,
+    Belief, Gate, Odometry, Parameters, Particle, Point, Range, Residual, Signal, Swarm, closed_form, linear,
+    locate,
 };
 use tautline_proofs::engine::Tape;
 
@@ -60,5 +62,16 @@ pub fn position(bytes: &[u8]) {
             let best = fix.best();
             assert!(best.at.is_finite() && best.cost >= 0.0, "{ranges:?}: {best:?}");
         }
+    }
+    let mut belief = Belief::known(Point::default(), 0.0);
+    for _ in 0..4 {
+        belief.turned(f64::from(bytes.pick(256)) / 32.0, &Odometry::USUAL);
+        belief.driven(f64::from(bytes.pick(256)) / 64.0, &Odometry::USUAL);
+        let gate = if bytes.pick(2) == 0 { Gate::Closed } else { Gate::Open };
+        // Ranges that make no position are refused, and leave it as it is.
+        let _ = belief.located(&ranges, &signal, gate);
+        let place = belief.covariance();
+        let variances = [place.xx, place.yy, belief.heading_covariance()[2]];
+        assert!(belief.at().is_finite() && variances.iter().all(|&one| one >= 0.0), "{ranges:?}: {belief:?}");
     }
 }

@@ -17,7 +17,7 @@ const QUARTERS: u32 = 4;
 /// Which errors a robot bears that corrects its place by a share K of what a fix says.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FusedBudget {
-    /// How often the error of the odometry counts, for a gain of so many quarters: in quarters.
+    /// How often the error of the odometry counts, times the quarters of the gain.
     odometry: fn(u32) -> u32,
     /// The limit that the sum has to be below, in parts of a cell's side.
     below: u32,
@@ -27,12 +27,11 @@ pub(super) struct FusedBudget {
 
 impl FusedBudget {
     /// E + D/K < L/2.
-    pub(super) const FUSED: Self =
-        Self { odometry: |gain| QUARTERS * QUARTERS / gain, below: PARTS / 2, takes_fixes: true };
+    pub(super) const FUSED: Self = Self { odometry: |_| QUARTERS, below: PARTS / 2, takes_fixes: true };
     /// E + D/K ≤ L/2.
     pub(super) const AT_MOST: Self = Self { below: PARTS / 2 + 1, ..Self::FUSED };
     /// E + D < L/2, as where each fix is believed.
-    pub(super) const WITHOUT_GAIN: Self = Self { odometry: |_| QUARTERS, ..Self::FUSED };
+    pub(super) const WITHOUT_GAIN: Self = Self { odometry: |gain| gain, ..Self::FUSED };
     /// Wheels alone.
     pub(super) const WHEELS_ALONE: Self = Self { takes_fixes: false, ..Self::FUSED };
 }
@@ -56,7 +55,7 @@ fn within(oracle: &mut dyn Oracle, most: u32) -> f64 {
 pub(super) fn stays(bears: &FusedBudget, oracle: &mut dyn Oracle) -> Outcome {
     let gain = 1 + oracle.pick(QUARTERS);
     let (fix, wheels) = (oracle.pick(PARTS / 2 + 1), oracle.pick(PARTS / 2 + 1));
-    assume(QUARTERS * fix + (bears.odometry)(gain) * wheels < QUARTERS * bears.below)?;
+    assume(gain * fix + (bears.odometry)(gain) * wheels < gain * bears.below)?;
     // E + D (1 − K)/K, which no fix leaves behind more than.
     let most = f64::from(fix) + f64::from(wheels) * f64::from(QUARTERS - gain) / f64::from(gain);
     let off = match oracle.pick(2 * most as u32 + 3) {

@@ -37,6 +37,8 @@ pub struct Explorers {
     idle: usize,
     /// How often a robot has stood to take another fix.
     stands: usize,
+    /// Who has stood for it in the last team move.
+    unsure: Vec<usize>,
     /// Objects, and where the robots that were in their cells take them to be, together.
     objects: Vec<(Point, Option<Sighting>)>,
     /// The cells that a robot was in.
@@ -82,6 +84,7 @@ impl Explorers {
             slot: 0,
             idle: 0,
             stands: 0,
+            unsure: Vec::new(),
             objects: Vec::new(),
             entered,
             is_wrong: false,
@@ -104,6 +107,16 @@ impl Explorers {
     /// Where robots take themselves to be, in sides of a cell.
     pub fn beliefs(&self) -> impl Iterator<Item = &Belief> {
         self.poses.iter().map(|pose| &pose.belief)
+    }
+
+    /// Whether positions have an error.
+    pub fn is_noisy(&self) -> bool {
+        self.radio.is_noisy()
+    }
+
+    /// The cells of the robots that have stood in the last team move, to take another fix.
+    pub fn unsure(&self) -> impl Iterator<Item = Cell> {
+        self.unsure.iter().map(|&robot| self.cells[robot])
     }
 
     /// How far robots are from where they take themselves to be, in sides of a cell.
@@ -230,7 +243,8 @@ impl Explorers {
             self.robots[robot].arrived(&self.rule, taken_for(self.area, fix));
             self.note(robot, self.robots[robot].at());
         }
-        self.stands += stands.iter().filter(|&&stands| stands).count();
+        self.unsure = (0..robots).filter(|&robot| stands[robot]).collect();
+        self.stands += self.unsure.len();
         for robot in 0..robots {
             self.tell(robot);
         }

@@ -1,6 +1,6 @@
 //! The layers of a page of robots that explore cells: each robot's repository, the cells that they have claimed, how
-//! far they are heard, and who misses what they say; of rivals the obstacles that all know, and who is assigned to
-//! which cell.
+//! far they are heard, who misses what they say, and who stands to take another fix; of rivals the obstacles that all
+//! know, and who is assigned to which cell.
 
 use tautline_kernel::frontier::Status;
 
@@ -16,6 +16,8 @@ const KINDS: &[Kind] = &[Kind::heard("tells what it knows"), Kind::lost("is not 
 
 const EXPLORED: u8 = 1;
 const OBSTACLE: u8 = 2;
+
+const UNSURE: &[Value] = &[Value { name: "takes another fix", ink: Ink::Goal }];
 
 const CLAIM: &[Value] = &[Value { name: "claimed", ink: Ink::Aim }];
 
@@ -71,6 +73,10 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
             shape: Shape::Circle(u32::from(range_cells) * 1000),
         });
     }
+    if robots.is_noisy() {
+        let about = "robots that stand in this team move to take another fix, since they are not sure to stay in the next cell";
+        layers.push(layer("unsure", about, Shape::Cells(UNSURE)));
+    }
     layers
 }
 
@@ -89,6 +95,11 @@ pub(super) fn show(robots: &Explorers, scene: &mut Scene) {
     scene.note(Change::Clear { layer: CLAIMS });
     for cell in robots.claims() {
         scene.put(CLAIMS, Place::Cell(cell), 1);
+    }
+    if robots.is_noisy() {
+        let unsure = if robots.range_cells().is_some() { MESSAGES + 2 } else { MESSAGES + 1 };
+        scene.note(Change::Clear { layer: unsure });
+        robots.unsure().for_each(|cell| scene.put(unsure, Place::Cell(cell), 1));
     }
     for (from, deaf) in robots.told() {
         scene.say(MESSAGES, 0, from, Hearers::All);
