@@ -16,7 +16,9 @@ const capital = text => text[0].toUpperCase() + text.slice(1);
 
 /** Calls the engine of a module: a request goes in and an answer comes out, four bytes at a time. */
 function engineOf(instance) {
-  const { page_room: room, page_put: put, page_call: call, page_get: get, memory } = instance.exports;
+  const { page_begin: begin, page_room: room, page_put: put, page_call: call, page_get: get, memory } = instance.exports;
+  // A page of a rule of one's own puts it among the schemes.
+  begin?.();
   const ask = request => {
     const bytes = new TextEncoder().encode(JSON.stringify(request));
     room(bytes.length);
@@ -813,11 +815,20 @@ function layers() {
   }));
 }
 
+/** The first layout of a rule of one's own. */
+function firstLayout({ size: [width, height], starts }) {
+  blank(width, height);
+  settings.starts = starts;
+  settings.base = starts[0] ?? null;
+  settings.robots = starts.length || settings.robots;
+}
+
 /** Takes another scheme, on the ground that is drawn. */
 function choose(name) {
   const now = schemeOf(name), robots = Math.min(Math.max(settings.robots, now.robots[0]), now.robots[1]);
   const own = now.rules.find(({ name }) => name === settings.rule) ?? now.rules[0];
   settings = { scheme: name, rule: own.name, on: null, robots, seed: settings.seed, base: settings.base, starts: now.starts === "base" ? [] : settings.starts, options: {}, world: now.by_hand === "only" };
+  if (now.opens) firstLayout(now.opens);
   isByHand = isByHand && now.by_hand !== "none" || now.by_hand === "only";
   settings.world ||= isByHand && now.by_hand === "world";
   form();
@@ -1163,7 +1174,9 @@ async function begin() {
   }
   ({ schemes } = ask({ do: "schemes" }));
   blank(7, 7);
-  settings = { scheme: schemes[0].name, rule: "repaired", on: null, robots: 4, seed: 0, base: [3, 3], starts: [], options: {} };
+  const first = schemes[0], own = first.rules.find(({ name }) => name === "repaired") ?? first.rules[0];
+  settings = { scheme: first.name, rule: own.name, on: null, robots: 4, seed: 0, base: [3, 3], starts: [], options: {} };
+  if (first.opens) firstLayout(first.opens);
   listen();
   if (!fromLink()) { form(); open(); }
   document.body.dataset.ready = "yes";

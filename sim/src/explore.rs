@@ -17,6 +17,7 @@ pub mod hunt;
 mod hunt_states;
 pub mod kit;
 mod own;
+mod own_rule;
 pub mod pack;
 mod rule;
 mod run;
@@ -30,10 +31,11 @@ pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme
 pub use self::clause::{Clause, ClauseId, Judge};
 pub use self::course::{Course, Made};
 pub use self::own::Own;
+pub use self::own_rule::OwnRule;
 pub use self::rule::{Rule, RuleId, RuleName, Start, Switches};
 pub use self::run::{
-    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Survey, Team, TeamMove, Violation, Watcher,
-    run,
+    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Surroundings, Survey, Team, TeamMove,
+    Violation, Watcher, run,
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Refusal, Scene, Shape, Value, Zone};
 pub use self::setup::{Asked, Play, Setup, explore, team};

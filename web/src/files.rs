@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 use tautline_sim::diagnostic::{Diagnostic, Halt, Place};
-use tautline_sim::explore::Catalogue;
 use tautline_sim::layout::{Layout, Misread, movingai, text};
 use tautline_sim::trace::{self, StoredRun};
 
+use crate::own;
 use crate::play::json as written;
 use crate::settings::{Settings, ground};
 
@@ -42,7 +42,7 @@ pub(crate) fn read(name: &str, content: String) -> Result<Value, Diagnostic> {
 }
 
 fn run(name: &str, content: String) -> Result<Value, Diagnostic> {
-    match trace::open_text(name, content, Catalogue::OWN).map_err(|fault| spot(&fault))? {
+    match trace::open_text(name, content, own::catalogue()).map_err(|fault| spot(&fault))? {
         StoredRun::Known(trace) => {
             let (setup, clause) = (trace.setup.clone(), trace.clause);
             let report = trace.replay(&mut |_| Ok(())).map_err(|halt| match halt {

@@ -12,6 +12,7 @@ pub mod exports;
 mod files;
 mod game;
 mod hunt;
+pub mod own;
 mod play;
 mod run;
 mod schemes;

@@ -1,11 +1,13 @@
 //! A run of the simulator on a layout, as a page plays it: its team asks about sides that were not tried before, and
 //! the layout answers unless somebody else does.
 
+use std::collections::BTreeMap;
+
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step as Move};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
 use tautline_sim::explore::{
-    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Senses, Setup, Team,
+    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Senses, Setup, Surroundings, Team,
 };
 use tautline_sim::layout::Layout;
 
@@ -19,6 +21,8 @@ pub(crate) struct Run {
     setup: Setup,
     team: Box<dyn Team>,
     course: Course,
+    /// The sides that were asked about, and whether they are open.
+    asked: BTreeMap<Edge, bool>,
 }
 
 impl Run {
@@ -27,7 +31,7 @@ impl Run {
         let setup = settings.setup()?;
         let team = settings.team(&setup)?;
         let course = Course::new(&*team, &setup.layout);
-        Ok(Self { setup, team, course })
+        Ok(Self { setup, team, course, asked: BTreeMap::new() })
     }
 
     /// The area of the board: that of the whole layout.
@@ -138,6 +142,40 @@ impl Delta {
     }
 }
 
+/// Asks whoever decides about sides, each once, and about what no layout knows.
+struct Asking<'a> {
+    layout: &'a Layout,
+    world: &'a mut Answers,
+    asked: &'a mut BTreeMap<Edge, bool>,
+    /// The walls that answers make or take away.
+    walls: Vec<(Edge, bool)>,
+}
+
+impl Surroundings for Asking<'_> {
+    fn is_open(&mut self, edge: Edge) -> bool {
+        let Self { layout, world, asked, walls } = self;
+        let cells = [edge.cell(), edge.cell().beyond(edge.side())];
+        if cells.iter().any(|&cell| !layout.is_free(cell)) {
+            return false;
+        }
+        *asked.entry(edge).or_insert_with(|| {
+            let usual = u32::from(layout.has_wall(edge));
+            let answer = world.ask(usual, || question(layout, edge, usual)).min(1);
+            if answer != usual {
+                walls.push((edge, answer == 1));
+            }
+            answer == 0
+        })
+    }
+
+    fn choose(&mut self, words: &str, options: &[String], usual: u32) -> u32 {
+        let robots = Vec::new();
+        let question =
+            || Question { words: words.to_owned(), options: options.to_vec(), usual, side: None, robots };
+        self.world.ask(usual, question)
+    }
+}
+
 /// The question whether a side is open.
 fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
     let (cell, beyond) = (edge.cell(), edge.cell().beyond(edge.side()));
@@ -150,11 +188,12 @@ fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
     }
 }
 
-/// The question which of these sensors is missed.
-fn missed(sensors: &[(usize, Cell)]) -> Question {
+/// The question which of these sensors is missed, after `others` or as the first one.
+fn missed(others: bool, sensors: &[(usize, Cell)]) -> Question {
     let one = |(agent, cell): &(usize, Cell)| format!("agent {} misses the sensor of {cell}", agent + 1);
+    let which = if others { "Which one besides" } else { "Which sensor" };
     Question {
-        words: "Which sensor is missed in this team move?".to_owned(),
+        words: format!("{which} is missed in this team move?"),
         options: std::iter::once("none".to_owned()).chain(sensors.iter().map(one)).collect(),
         usual: 0,
         side: None,
@@ -165,7 +204,7 @@ fn missed(sensors: &[(usize, Cell)]) -> Question {
 impl Play for Run {
     fn board(&self) -> Board {
         let area = self.area();
-        let Self { setup, team, course } = self;
+        let Self { setup, team, course, .. } = self;
         let cells = team.cells();
         let own = team.area(&setup.layout);
         let number = |cell| place(area, cell);
@@ -191,29 +230,18 @@ impl Play for Run {
     }
 
     fn step(&mut self, world: &mut Answers) -> Step {
-        let area = self.area();
-        let Self { setup, team, course } = self;
-        let layout = &setup.layout;
-        if setup.scheme.senses == Senses::Floor {
-            let answer = world.ask(0, || missed(&team.sensors()));
-            if let Some(sensor) = answer.checked_sub(1) {
-                team.miss(sensor as usize);
-            }
+        let Self { setup, team, course, asked } = self;
+        // Sensors are missed in the order in which they are asked about, until nobody misses another one.
+        let mut next = 0;
+        while setup.scheme.senses == Senses::Floor {
+            let answer = world.ask(0, || missed(next > 0, team.sensors().get(next..).unwrap_or_default()));
+            let Some(sensor) = answer.checked_sub(1) else { break };
+            team.miss(next + sensor as usize);
+            next += answer as usize;
         }
-        let mut walls = Vec::new();
-        let made = course.step(&mut **team, layout, setup.limits, &mut |edge| {
-            let is_between =
-                [edge.cell(), edge.cell().beyond(edge.side())].iter().all(|&cell| layout.is_free(cell));
-            if !is_between {
-                return false;
-            }
-            let usual = u32::from(layout.has_wall(edge));
-            let answer = world.ask(usual, || question(layout, edge, usual)).min(1);
-            if answer != usual {
-                walls.push((edge, answer == 1));
-            }
-            answer == 0
-        });
+        let mut asking = Asking { layout: &setup.layout, world, asked, walls: Vec::new() };
+        let made = course.step(&mut **team, &setup.layout, setup.limits, &mut asking);
+        let walls = asking.walls;
         for &(edge, is_wall) in &walls {
             if is_wall {
                 setup.layout.build_wall(edge);
@@ -231,7 +259,7 @@ impl Play for Run {
         let broken = at_end.flat_map(|(clause, (what, cells))| {
             let mut broken = broken_of([clause]);
             for one in &mut broken {
-                one.cells = cells.iter().filter_map(|&cell| place(area, cell)).collect();
+                one.cells = cells.iter().filter_map(|&cell| place(self.area(), cell)).collect();
                 let listed: Vec<String> = cells.iter().take(20).map(|cell| format!("({cell})")).collect();
                 let more = cells.len().saturating_sub(20);
                 let more = if more > 0 { format!(" and {more} more") } else { String::new() };

@@ -3,14 +3,15 @@
 use serde_json::{Value, json};
 use tautline_kernel::conditions::Conditional;
 use tautline_sim::explore::hunt::{Bound, Hunt};
-use tautline_sim::explore::{Catalogue, Rule, Scheme, Senses, Starts};
+use tautline_sim::explore::{Rule, Scheme, Senses, Starts};
 use tautline_sim::options::{Extra, Takes};
 
 use crate::by_hand::WORLDS;
+use crate::own::{self, OwnPage};
 
 /// All schemes.
 pub(crate) fn list() -> Value {
-    let own = Catalogue::OWN.schemes().map(scheme);
+    let own = own::catalogue().schemes().map(scheme);
     let worlds = WORLDS.iter().filter_map(|world| Some(world.row?()));
     let schemes: Vec<Value> = own.chain(worlds).collect();
     json!({ "version": env!("CARGO_PKG_VERSION"), "schemes": schemes })
@@ -30,6 +31,7 @@ fn scheme(scheme: Scheme) -> Value {
     };
     json!({
         "name": scheme.name,
+        "opens": own::page().filter(|page| page.scheme.name == scheme.name).map(OwnPage::opens),
         "about": scheme.about,
         "team": scheme.team,
         "robot": scheme.look.robot(),

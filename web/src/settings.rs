@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::explore::{Asked, Catalogue, Limits, Rule, Scheme, Setup, Starts, Team};
+use tautline_sim::explore::{Asked, Limits, Rule, Scheme, Setup, Starts, Team};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Layout, Size};
 use tautline_sim::options::{Extra, Options};
+
+use crate::own;
 
 /// The settings of a game.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -88,7 +90,7 @@ impl Settings {
 
     /// The scheme.
     pub(crate) fn scheme(&self) -> Result<Scheme, Diagnostic> {
-        Catalogue::OWN.scheme(&self.scheme).ok_or_else(|| {
+        own::catalogue().scheme(&self.scheme).ok_or_else(|| {
             let what = format!("this page does not know the scheme {:?}", self.scheme);
             Diagnostic::of_field("scheme", what, "take a scheme of the list")
         })
@@ -150,7 +152,7 @@ impl Settings {
             miss: Some(miss).filter(|miss| !miss.is_never()),
             options,
             limits: match &self.stop {
-                Some(clause) => Limits::stopping_at(Some(Catalogue::OWN.clause(clause)?)),
+                Some(clause) => Limits::stopping_at(Some(own::catalogue().clause(clause)?)),
                 None => Limits::default(),
             },
             ..Asked::new(scheme, self.rule()?.name)

@@ -1,10 +1,10 @@
 //! A run as whoever makes it team move by team move needs it.
 
-use tautline_kernel::ground::{Cell, Edge};
+use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::run::{End, Limits, Report, Stopped, Team, TeamMove, Violation, limit};
+use super::run::{End, Limits, Report, Stopped, Surroundings, Team, TeamMove, Violation, limit};
 use crate::layout::Layout;
 
 /// A run that is made one team move at a time.
@@ -33,14 +33,14 @@ impl Course {
         Self { report: Report::new(team, layout), entered: vec![0; team.cells().len()] }
     }
 
-    /// Makes the next team move of the `team`, for which `is_open` answers; `None` if the run is over, and then the
-    /// report says why.
+    /// Makes the next team move of the `team`, for which `world` answers; `None` if the run is over, and then the report
+    /// says why.
     pub fn step(
         &mut self,
         team: &mut dyn Team,
         layout: &Layout,
         limits: Limits,
-        is_open: &mut dyn FnMut(Edge) -> bool,
+        world: &mut dyn Surroundings,
     ) -> Option<Made> {
         let report = &mut self.report;
         if let Some(stopped) = limit(limits, report, &self.entered) {
@@ -48,7 +48,7 @@ impl Course {
             return None;
         }
         let before = team.cells().to_vec();
-        let frame = match team.advance(is_open) {
+        let frame = match team.advance_in(world) {
             Ok(frame) => frame,
             Err(end) => {
                 let stopped = match end {

@@ -1,6 +1,6 @@
 //! A rule of one's own ([`tautline_proofs::team`]), as a run plays it: in one layout, with what it breaks.
 
-use std::collections::HashSet;
+use std::collections::{HashSet, VecDeque};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use tautline_kernel::choice::Oracle;
@@ -9,18 +9,21 @@ use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::tree::Game;
 use tautline_proofs::engine::world::World;
 use tautline_proofs::run::Frame;
-use tautline_proofs::team::{Rule, Scene, TeamStep, TeamWorld};
+use tautline_proofs::team::{self, Rule, TeamStep, TeamWorld};
 
 use super::clause::ClauseId;
-use super::run::{End, Survey, Team};
+use super::run::{End, Surroundings, Survey, Team};
+use super::scene::{Change, Scene};
 use crate::layout::Layout;
 
 /// A team that follows a rule of one's own in one layout.
 pub struct Own<'a, R: Rule> {
     playing: TeamWorld<'a, R>,
-    before: Scene<R>,
-    scene: Scene<R>,
+    before: team::Scene<R>,
+    scene: team::Scene<R>,
     cells: Vec<Cell>,
+    /// The answers of a search that has found the run; by lot is answered what they leave open.
+    script: VecDeque<u32>,
     dice: SeededOracle,
     /// The scenes in which it was since the last draw, by 128 bits of each.
     been: HashSet<[u64; 2]>,
@@ -35,27 +38,71 @@ fn digest(scene: &impl Hash) -> [u64; 2] {
     })
 }
 
-/// Answers as a layout does, and by lot what no layout knows.
+/// Answers as a layout does, and what no layout knows as a search did, or by lot, unless somebody else decides.
 struct InLayout<'a> {
-    is_open: &'a mut dyn FnMut(Edge) -> bool,
+    world: &'a mut dyn Surroundings,
+    script: &'a mut VecDeque<u32>,
     dice: &'a mut SeededOracle,
+    /// The robots that have something left to do.
+    awake: Vec<usize>,
+    /// Whether one of them is about to fail.
+    fails: bool,
     /// Whether anything was asked that no layout knows.
     has_drawn: bool,
 }
 
-impl Oracle for InLayout<'_> {
-    fn pick(&mut self, below: u32) -> u32 {
+impl InLayout<'_> {
+    fn chooses(&mut self, words: &str, options: &[String]) -> u32 {
+        let below = options.len() as u32;
         self.has_drawn = true;
-        self.dice.pick(below)
+        let usual = self.script.pop_front().unwrap_or_else(|| self.dice.pick(below)).min(below - 1);
+        self.world.choose(words, options, usual).min(below - 1)
+    }
+
+    /// Whether it is so, which is against the robots.
+    fn is_so(&mut self, words: &str) -> bool {
+        self.chooses(words, &["no".to_owned(), "yes".to_owned()]) == 1
+    }
+}
+
+impl Oracle for InLayout<'_> {
+    /// Which robot fails, or which act.
+    fn pick(&mut self, below: u32) -> u32 {
+        let names = |robots: &[usize]| {
+            let names: Vec<String> = robots.iter().map(|robot| format!("robot {}", robot + 1)).collect();
+            names.join(" and ")
+        };
+        let set = |bits: u32| -> Vec<usize> {
+            let chosen = self.awake.iter().enumerate().filter(|(bit, _)| bits >> bit & 1 == 1);
+            chosen.map(|(_, &robot)| robot).collect()
+        };
+        let is_one = below as usize == self.awake.len();
+        let options: Vec<String> = (0..below)
+            .map(|number| match self.awake.get(number as usize) {
+                Some(&robot) if is_one => names(&[robot]),
+                _ => names(&set(number + 1)),
+            })
+            .collect();
+        let words = if std::mem::take(&mut self.fails) { "Which robot fails?" } else { "Who acts next?" };
+        self.chooses(words, &options)
+    }
+
+    fn mishap(&mut self) -> bool {
+        self.fails = self.is_so("Does a robot fail now?");
+        self.fails
     }
 
     fn is_open(&mut self, edge: Edge) -> bool {
-        (self.is_open)(edge)
+        self.world.is_open(edge)
     }
 
     /// Whoever crosses an open edge finds the cell behind it free.
     fn is_free(&mut self, _: Cell) -> bool {
         true
+    }
+
+    fn arrives(&mut self, from: usize, to: usize) -> bool {
+        !self.is_so(&format!("Is the message of robot {} to robot {} lost?", from + 1, to + 1))
     }
 }
 
@@ -64,7 +111,14 @@ impl<'a, R: Rule> Own<'a, R> {
     pub fn new(playing: TeamWorld<'a, R>, seed: u64) -> Self {
         let scene = playing.start();
         let (cells, dice) = (scene.cells().collect(), SeededOracle::new(seed, 0));
-        Self { playing, before: scene.clone(), scene, cells, dice, been: HashSet::new() }
+        let (script, been) = (VecDeque::new(), HashSet::new());
+        Self { playing, before: scene.clone(), scene, cells, script, dice, been }
+    }
+
+    /// This team, of which a search has found these answers to what no layout knows.
+    #[must_use]
+    pub fn choosing(self, choices: &[u32]) -> Self {
+        Self { script: choices.iter().copied().collect(), ..self }
     }
 
     fn clauses(&self, broken: Vec<<TeamWorld<'a, R> as World>::Demand>) -> Vec<ClauseId> {
@@ -78,18 +132,34 @@ impl<R: Rule> Team for Own<'_, R> {
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        self.advance_in(&mut |edge: Edge| is_open(edge))
+    }
+
+    fn advance_in(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         self.before.clone_from(&self.scene);
         let Some(plan) = self.playing.plan(&mut self.scene, &[]) else { return Err(End::Exhausted) };
-        if !self.been.insert(digest(&self.before)) {
+        // A search that goes round says so by the end of its answers.
+        let is_scripted = !self.script.is_empty();
+        if !self.been.insert(digest(&self.before)) && !is_scripted {
             return Err(End::Endless);
         }
-        let mut world = InLayout { is_open, dice: &mut self.dice, has_drawn: false };
+        let awake = (0..self.cells.len()).filter(|robot| plan >> robot & 1 == 1).collect();
+        let Self { script, dice, .. } = self;
+        let mut world = InLayout { world, script, dice, awake, fails: false, has_drawn: false };
         let event = self.playing.settle(&mut self.scene, &plan, &mut Vec::new(), &mut world);
-        if world.has_drawn {
+        if world.has_drawn && !is_scripted {
             self.been.clear();
         }
         self.cells = self.scene.cells().collect();
         Ok(event.frame(&self.scene))
+    }
+
+    fn show(&self, _: &[Cell], scene: &mut Scene) {
+        for robot in (0..self.cells.len()).filter(|&robot| self.scene.is_dead(robot)) {
+            if !self.before.is_dead(robot) {
+                scene.note(Change::Fail { robot });
+            }
+        }
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {

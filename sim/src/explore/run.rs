@@ -32,6 +32,14 @@ pub trait Team {
     /// [`End`] if the run is over.
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
 
+    /// Makes one team move, and asks `world` also what no layout knows, if the team asks such things.
+    ///
+    /// # Errors
+    /// [`End`] if the run is over.
+    fn advance_in(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
+        self.advance(&mut |edge| world.is_open(edge))
+    }
+
     /// The cells of `layout` among which the team is to explore: all of them, unless it says otherwise.
     fn area(&self, layout: &Layout) -> Area {
         layout.size().area()
@@ -122,6 +130,25 @@ pub trait Team {
     /// `before`.
     fn show(&self, before: &[Cell], scene: &mut Scene) {
         let _ = (before, scene);
+    }
+}
+
+/// The answers to a team's questions. A function that knows which edges are open answers everything else as usual.
+pub trait Surroundings {
+    /// Whether robots can cross `edge`.
+    fn is_open(&mut self, edge: Edge) -> bool;
+
+    /// The place of the option that is chosen; `usual` is the one of the seed, or of the search that has found the run.
+    fn choose(&mut self, words: &str, options: &[String], usual: u32) -> u32;
+}
+
+impl<F: FnMut(Edge) -> bool> Surroundings for F {
+    fn is_open(&mut self, edge: Edge) -> bool {
+        self(edge)
+    }
+
+    fn choose(&mut self, _: &str, _: &[String], usual: u32) -> u32 {
+        usual
     }
 }
 
@@ -407,7 +434,7 @@ pub fn run(
     watch: &mut Watcher<'_>,
 ) -> Result<Report, Halt> {
     let mut course = Course::new(team, layout);
-    while let Some(made) = course.step(team, layout, limits, &mut |edge| layout.is_open(edge)) {
+    while let Some(made) = course.step(team, layout, limits, &mut |edge: Edge| layout.is_open(edge)) {
         watch(&course.team_move(&made, team))?;
     }
     Ok(course.report)

@@ -1,0 +1,124 @@
+//! A rule on a page to draw on. Copy this folder, and change the rule, its surroundings, and its promises.
+//! `web/build --rule FOLDER` makes one HTML file of it: there the rule is run, decided by hand, and hunted.
+//!
+//! Two robots go east, one behind the other, in any order. The second one waits while the first one is in the cell
+//! before it.
+
+use tautline_kernel::ground::{Cell, Side};
+use tautline_proofs::team::{Act, Demand, Ground, Moves, Places, Rule, Scene, Senses, Setting, View, Which};
+use tautline_sim::explore::{self, Clause, OwnRule, Profile, RuleId};
+use tautline_web::own::OwnPage;
+
+/// The rule. Each fault that it could have is a field, so that a mutant is another value.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct East {
+    /// Whether the second robot looks where the first one is.
+    looks: bool,
+}
+
+impl Rule for East {
+    /// Whatever a robot remembers.
+    type Memory = ();
+    type Message = ();
+
+    fn start(&self, _: usize, _: &[Cell]) {}
+
+    fn act(&self, view: &mut View<'_, Self>, (): &mut ()) -> Act {
+        let first = view.sees(0).filter(|_| view.me() == 1 && self.looks);
+        match first.and_then(|cell| view.side_to(cell)) {
+            Some(_) => Act::Wait,
+            None => Act::Go(Side::East),
+        }
+    }
+
+    fn is_done(&self, _: usize, team: &Scene<Self>) -> bool {
+        team.was_blocked(0)
+    }
+}
+
+const STARTS: [Cell; 2] = [Cell::new(1, 0), Cell::new(0, 0)];
+
+/// The surroundings of the rule: every layout of 4×2 cells with at most two walls on the way.
+static SETTING: Setting<'_, East> = Setting {
+    senses: Senses::TEAM,
+    moves: Moves::OneAtATime,
+    longest_run: 20,
+    demands: &[Demand::always("EAST-1", "the robots are in different cells", &|moved| {
+        moved.after.cells_differ()
+    })],
+    ..Setting::new("east", Ground::open(4, 2).walls(Which::Met(2)), 2, Places::At(|_| STARTS.to_vec()))
+};
+
+const OURS: OwnRule<East> = OwnRule { setting: &SETTING, rule: East { looks: true } };
+const BLIND: OwnRule<East> = OwnRule { setting: &SETTING, rule: East { looks: false } };
+
+/// The row of the scheme on the page.
+static SCHEME: Profile = Profile {
+    about: "Two robots go east, one behind the other",
+    rules: &[
+        explore::Rule::new(RuleId::new("ours"), "The second robot waits for the first", |setup| {
+            OURS.start(setup)
+        })
+        .hunted(&OURS),
+        explore::Rule::new(RuleId::new("blind"), "The second robot does not look", |setup| {
+            BLIND.start(setup)
+        })
+        .hunted(&BLIND),
+    ],
+    robots: 2..=2,
+    clauses: &[Clause::new("EAST-1")],
+    ..Profile::named("east")
+};
+
+tautline_web::page!(OwnPage {
+    scheme: &SCHEME,
+    sentences: &[("EAST-1", "The robots MUST never share a cell.")],
+    size: SETTING.ground.size,
+    starts: &STARTS,
+});
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+    use tautline_web::Page;
+
+    /// The answer of the page.
+    fn ask(page: &mut Page, request: &Value) -> Value {
+        super::page_begin();
+        let answer: Value = serde_json::from_str(&page.answer(&request.to_string())).expect("JSON");
+        assert!(answer["error"].is_null(), "{request}: {answer}");
+        answer
+    }
+
+    /// The findings of the hunt of a rule.
+    fn found(rule: &str) -> Value {
+        let mut page = Page::default();
+        let settings = json!({ "scheme": "east", "rule": rule, "robots": 2, "ground": ["4a", "4a"] });
+        ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": {} }));
+        while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
+        ask(&mut page, &json!({ "do": "found" }))
+    }
+
+    #[test]
+    fn the_rule_is_hunted_and_what_breaks_it_is_played() {
+        assert_eq!(found("ours")["found"], json!([]));
+        let blind = found("blind");
+        let one = &blind["found"][0];
+        assert_eq!((&one["clause"], &blind["complete"]), (&json!("EAST-1"), &json!(true)));
+        assert_eq!(one["sentence"], "The robots MUST never share a cell.");
+        let open = json!({ "do": "open", "settings": one["settings"], "steps": 100 });
+        let opened = ask(&mut Page::default(), &open);
+        let made = opened["made"].as_array().expect("a list");
+        assert!(made.iter().any(|step| step["made"]["broken"][0]["clause"] == "EAST-1"), "{opened}");
+    }
+
+    #[test]
+    fn who_acts_is_decided_by_hand() {
+        let mut page = Page::default();
+        let settings = json!({ "scheme": "east", "rule": "blind", "robots": 2, "ground": ["4a", "4a"] });
+        ask(&mut page, &json!({ "do": "open", "settings": settings }));
+        let step = ask(&mut page, &json!({ "do": "step", "by_hand": true }));
+        assert_eq!(step["question"]["options"], json!(["robot 1", "robot 2"]));
+        assert_eq!(step["question"]["words"], "Who acts next?");
+    }
+}
