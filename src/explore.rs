@@ -286,7 +286,7 @@ impl Explore {
         match self.draw {
             Some(Draw::Order) => out.text(format_args!("\n{}", draw::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
-                draw_moves(setup, report, &(1..=report.steps), draw::Pose::Before, out)?;
+                draw_moves(setup, report, Wanted::All(1..=report.steps), draw::Pose::Before, out)?;
             }
             None if report.chart.area().width() <= SMALL_COLUMNS => {
                 out.text(format_args!("\n{}", draw::outcome(setup, &report.chart, &report.team)))?;
@@ -297,30 +297,50 @@ impl Explore {
     }
 }
 
-/// Draws the team moves in `moves`, a row at a time.
+/// Lines that the drawings of team moves take up where nobody says which moves.
+const MOST_LINES: usize = 500;
+
+/// The team moves that are drawn.
+pub(super) enum Wanted {
+    /// These, however many lines they take.
+    All(RangeInclusive<u32>),
+    /// Of these the last ones, as many as fit.
+    Last(RangeInclusive<u32>),
+}
+
+/// Draws the team moves that are `wanted`, a row at a time; which ones are drawn.
 pub(super) fn draw_moves(
     run: &dyn Play,
     report: &Report,
-    moves: &RangeInclusive<u32>,
+    wanted: Wanted,
     pose: draw::Pose,
     out: &mut Output,
-) -> Result<(), Halt> {
+) -> Result<RangeInclusive<u32>, Halt> {
     let drawn = draw::TeamMoves::new(run, &report.chart);
+    let (Wanted::All(moves) | Wanted::Last(moves)) = &wanted;
     let mut columns = None;
     run.among(moves, &mut |made| {
         columns = columns.max(Some(drawn.columns(made, pose)));
         Ok(())
     })?;
-    let Some(columns) = columns else { return Ok(()) };
+    let Some(columns) = columns else { return Ok(moves.clone()) };
+    let moves = match &wanted {
+        Wanted::All(moves) => moves.clone(),
+        Wanted::Last(moves) => {
+            let most = drawn.fitting(columns, MOST_LINES);
+            *moves.start().max(&(moves.end() + 1).saturating_sub(most))..=*moves.end()
+        }
+    };
     out.text(format_args!("\n{}\n\n", draw::legend(run.setup().scheme.look)))?;
     let mut rows = draw::Rows::new(columns);
-    run.among(moves, &mut |made| {
+    run.among(&moves, &mut |made| {
         if out.is_gone() {
             return Ok(());
         }
         Ok(out.text(rows.add(drawn.draw(made, pose)))?)
     })?;
-    Ok(out.text(rows.rest())?)
+    out.text(rows.rest())?;
+    Ok(moves)
 }
 
 /// The outcome of a run, in a few lines.

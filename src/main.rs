@@ -15,6 +15,7 @@ mod locate;
 mod manual;
 mod minimise;
 mod output;
+mod page;
 mod progress;
 mod prove;
 mod replay;
@@ -42,6 +43,7 @@ use std::time::Instant;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use tautline_kernel::ground::Cell;
+use terminal_size::{Width, terminal_size};
 
 use crate::report::{Colour, render};
 use output::Output;
@@ -49,6 +51,7 @@ use output::Output;
 use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::draw;
 #[cfg(not(feature = "papers"))]
 use tautline_sim::explore::Catalogue;
 use tautline_sim::explore::ClauseId;
@@ -154,6 +157,7 @@ enum Command {
     Rescue(rescue::Rescue),
     Locate(locate::Locate),
     Replay(replay::Replay),
+    Page(page::Page),
     Show(show::Show),
     #[cfg(feature = "papers")]
     Reproduce(reproduce::Reproduce),
@@ -193,7 +197,7 @@ fn needless(option: &str, why: &str) -> Diagnostic {
 }
 
 /// The choice about files that stand where others are to be stored.
-#[derive(Debug, Args)]
+#[derive(Clone, Copy, Debug, Args)]
 struct ForceArgs {
     /// Also replace files that tautline did not write. A file that the command reads is never replaced.
     #[arg(long)]
@@ -332,6 +336,9 @@ fn command(cli: &Cli, name: &str) -> Exit {
     }
     threads::start();
     let mut out = Output::stdout();
+    if let Some((Width(columns), _)) = io::stdout().is_terminal().then(terminal_size).flatten() {
+        draw::fit_into(columns.into());
+    }
     let result = match &cli.command {
         Some(command) => command.run(cli.verbose > 0, &mut out),
         None => out.text(FIRST_STEPS).map(|()| Exit::Expected).map_err(Halt::from),
@@ -374,6 +381,7 @@ impl Command {
             Self::Rescue(rescue) => rescue.run(out),
             Self::Locate(locate) => locate.run(out),
             Self::Replay(replay) => replay.run(out),
+            Self::Page(page) => page.run(out),
             Self::Show(show) => show.run(out),
             #[cfg(feature = "papers")]
             Self::Reproduce(reproduce) => reproduce.run(out),

@@ -8,13 +8,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::plural::counted;
 
+use super::explore::Wanted;
 use super::output::Output;
 use super::replay::draw;
-use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
+use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, evidence, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
+use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
-use tautline_sim::trace::{Trace, store};
+use tautline_sim::trace::{Trace, lines, store};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,12 +26,13 @@ Examples:
 
 /// Shrink a run that breaks a clause until nothing of it can go, and store what is left.
 ///
-/// Of the minimal run no robot, column, row, blocked cell or wall can go: taken alone, without any one of them the
-/// clause is not broken. It ends with the team move that breaks it.
+/// Of the minimal run no robot, column, row, blocked cell, wall or missed sensor can go: taken alone, without any one of
+/// them the clause is not broken. It ends with the team move that breaks it. Where a search has chosen what happens in
+/// which order, every smaller team and layout is searched.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Minimise {
-    /// A file that `explore --trace` or `hunt` wrote.
+    /// A file that `explore --trace`, `hunt` or `prove --out` wrote.
     file: PathBuf,
     /// The clause that is to stay broken. Without it, the one that the file is a counterexample to, or else the first
     /// that the run breaks.
@@ -51,8 +54,10 @@ pub(super) struct MinimiseJson {
     clause: ClauseId,
     before: Extent,
     after: Extent,
-    /// Runs that were made to find it.
+    /// Runs that were made to find it, or hunts, where a search has chosen what happens.
     runs: u32,
+    #[serde(skip)]
+    is_searched: bool,
     /// Where it is stored, unless it was left out.
     file: Option<String>,
 }
@@ -60,14 +65,19 @@ pub(super) struct MinimiseJson {
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         hunt::make_folder(&self.out)?;
-        let trace = Trace::open(&self.file, CATALOGUE)?;
-        let (setup, clause) = (trace.setup.clone(), self.clause.or(trace.clause));
-        trace.replay(&mut |_| Ok(()))?;
+        let (setup, clause) = if lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
+            (evidence::stored(&self.file)?, self.clause)
+        } else {
+            let trace = Trace::open(&self.file, CATALOGUE)?;
+            let run = (trace.setup.clone(), self.clause.or(trace.clause));
+            trace.replay(&mut |_| Ok(()))?;
+            run
+        };
         let bar = progress::spinner("minimising");
         let mut shown = None;
         let minimal = minimise(&setup, clause, &mut |progress| {
             if shown.replace(progress.runs) != Some(progress.runs) {
-                let Extent { robots, columns, rows, walls, blocked, steps: _ } = progress.smallest;
+                let Extent { robots, columns, rows, walls, blocked, .. } = progress.smallest;
                 bar.set_message(format!(
                     "run {}; robots {robots}, cells {columns}x{rows}, walls {walls}, blocked cells {blocked}",
                     progress.runs
@@ -86,7 +96,7 @@ impl Minimise {
             Format::Json => out.json(&minimised)?,
             Format::Text => {
                 out.text(tell(&self.file.display().to_string(), &minimised))?;
-                draw(&minimal.setup, &report, &(1..=report.steps), out)?;
+                draw(&minimal.setup, &report, Wanted::Last(1..=report.steps), out)?;
                 if let Some(file) = &minimised.file {
                     out.text(format_args!("\n{}", hunt::again(file, &minimal.setup)))?;
                 }
@@ -106,6 +116,7 @@ impl Minimise {
             before: *before,
             after: *after,
             runs: *runs,
+            is_searched: !setup.choices.is_empty(),
             file: hunt::keep(aside, out),
         };
         Ok((minimised, report))
@@ -113,7 +124,7 @@ impl Minimise {
 }
 
 fn tell(name: &str, minimised: &MinimiseJson) -> String {
-    let MinimiseJson { scheme, rule, clause, before, after, runs, file: _ } = minimised;
+    let MinimiseJson { scheme, rule, clause, before, after, runs, .. } = minimised;
     let mut text = format!("{} ({rule}), {clause}: {name}\n\n               before   after\n", scheme.name);
     let rows = [
         ("robots", before.robots.to_string(), after.robots.to_string()),
@@ -121,17 +132,28 @@ fn tell(name: &str, minimised: &MinimiseJson) -> String {
         ("rows", before.rows.to_string(), after.rows.to_string()),
         ("blocked cells", before.blocked.to_string(), after.blocked.to_string()),
         ("walls", before.walls.to_string(), after.walls.to_string()),
+        ("missed", before.missed.to_string(), after.missed.to_string()),
         ("team moves", before.steps.to_string(), after.steps.to_string()),
     ];
+    let rows = rows.into_iter().filter(|(what, ..)| *what != "missed" || before.missed > 0);
     for (what, before, after) in rows {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{what:13}{before:>8}{after:>8}");
     }
-    let _ = writeln!(
-        text,
-        "\nNo robot, column, row, blocked cell or wall can go: without any one of them {clause} is not broken ({} \
-         tried).",
-        counted(*runs, "run")
-    );
+    let parts = "No robot, column, row, blocked cell or wall";
+    let _ = if minimised.is_searched {
+        writeln!(
+            text,
+            "\n{parts} can go: no smaller team and layout breaks {clause}, whatever happens in which order ({}).",
+            counted(*runs, "hunt")
+        )
+    } else {
+        let sensor = if before.missed > 0 { ", and no missed sensor" } else { "" };
+        writeln!(
+            text,
+            "\n{parts}{sensor} can go: without any one of them {clause} is not broken ({} tried).",
+            counted(*runs, "run")
+        )
+    };
     text
 }

@@ -18,7 +18,7 @@ use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
 
 use super::evidence::{self, EvidenceJson, setup, shown, story};
-use super::explore::{draw_moves, summary};
+use super::explore::{Wanted, draw_moves, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
@@ -36,6 +36,7 @@ const EXAMPLES: &str = "\
 Examples:
   tautline replay chain-1-published-n4.jsonl
   tautline replay run.jsonl --moves 10..20
+  tautline replay run.jsonl --all
   tautline replay run.jsonl --html run.html
   tautline replay rescue.jsonl --svg map.svg";
 
@@ -45,9 +46,13 @@ Examples:
 pub(super) struct Replay {
     /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise` or `prove --out` wrote.
     file: PathBuf,
-    /// The team moves to show, the first and the last. Without it all are shown, or the last 100.
+    /// The team moves to show, the first and the last. Without it the last 100 are shown, or as many as fit into 500
+    /// lines.
     #[arg(long, value_name = "A..B")]
     moves: Option<Moves>,
+    /// Show all team moves.
+    #[arg(long, conflicts_with = "moves")]
+    all: bool,
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
@@ -143,6 +148,21 @@ pub(super) struct RefutationJson {
 }
 
 impl Replay {
+    /// The replay that stores a page.
+    pub(super) fn as_page(file: PathBuf, html: PathBuf, force: ForceArgs) -> Self {
+        let format = FormatArgs { format: Format::Text };
+        Self {
+            file,
+            moves: None,
+            all: false,
+            html: Some(html),
+            svg: None,
+            viewers: ViewerArgs::default(),
+            force,
+            format,
+        }
+    }
+
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let [itf, mcap] = self.viewers.paths();
         let files = [&self.html, &self.svg, itf, mcap];
@@ -294,7 +314,19 @@ impl Replay {
                     out.text(format_args!("{said}\n"))?;
                 }
                 if is_drawn {
-                    draw(run, report, &moves, out)?;
+                    let is_said = self.all || self.moves.is_some();
+                    let wanted = if is_said { Wanted::All(moves) } else { Wanted::Last(moves) };
+                    let first = *draw(run, report, wanted, out)?.start();
+                    if !is_said && first > 1 {
+                        let left = if first == 2 {
+                            "Team move 1 is".to_owned()
+                        } else {
+                            format!("Team moves 1 to {} are", first - 1)
+                        };
+                        out.text(format_args!(
+                            "\n{left} not shown: --moves A..B shows some, --all every one.\n"
+                        ))?;
+                    }
                 }
             }
         }
@@ -302,9 +334,11 @@ impl Replay {
     }
 
     fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
-        if self.moves.is_some() {
+        if self.moves.is_some() || self.all {
             let what = "a rescue has no team moves";
-            return Err(Diagnostic::usage(what, "leave out --moves, or name a run of a team").into());
+            let option = if self.all { "--all" } else { "--moves" };
+            let remedy = format!("leave out {option}, or name a run of a team");
+            return Err(Diagnostic::usage(what, remedy).into());
         }
         let (setting, seed, report) = rescue::trace::replay(&self.file)?;
         tell(out, self.format.format, (&setting, seed, &report), files)
@@ -394,6 +428,7 @@ impl Replay {
     fn moves(&self, report: &Report) -> RangeInclusive<u32> {
         match &self.moves {
             Some(Moves(moves)) => moves.clone(),
+            None if self.all => 1..=report.steps,
             None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
         }
     }
@@ -415,16 +450,16 @@ fn said(clause: &str, is_judged: bool) -> String {
     }
 }
 
-/// Draws the team moves, and tells the story of every violation among them.
+/// Draws the team moves, and tells the story of every violation among them; which ones are drawn.
 pub(super) fn draw(
     run: &dyn Play,
     report: &Report,
-    moves: &RangeInclusive<u32>,
+    wanted: Wanted,
     out: &mut Output,
-) -> Result<(), Halt> {
-    draw_moves(run, report, moves, draw::Pose::After, out)?;
+) -> Result<RangeInclusive<u32>, Halt> {
+    let moves = draw_moves(run, report, wanted, draw::Pose::After, out)?;
     if report.violations.iter().any(|violation| moves.contains(&violation.step)) {
-        run.among(moves, &mut |made| {
+        run.among(&moves, &mut |made| {
             if made.broken.is_empty() || out.is_gone() {
                 return Ok(());
             }
@@ -435,5 +470,5 @@ pub(super) fn draw(
     if moves.contains(&report.steps) && !end.is_empty() {
         out.text(format_args!("\n{end}"))?;
     }
-    Ok(())
+    Ok(moves)
 }

@@ -14,7 +14,7 @@ use tautline_viewers::{itf, mcap};
 use super::output::Output;
 
 /// The files that a run of a team is stored in besides.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(super) struct ViewerArgs {
     #[cfg_attr(not(feature = "viewers"), arg(skip))]
     #[cfg_attr(feature = "viewers", arg(long, value_name = "FILE"))]

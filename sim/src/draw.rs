@@ -8,6 +8,7 @@ pub mod svg;
 
 use std::fmt::Write;
 use std::mem;
+use std::sync::OnceLock;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
@@ -17,8 +18,21 @@ use tautline_proofs::floor_trace::{Scene, Turn};
 use crate::explore::{Look, Play, Setup, Survey, TeamMove};
 use crate::layout::Layout;
 
-/// Drawings beside each other take up at most so many columns.
+/// Drawings beside each other take up at most so many columns where no program says otherwise.
 const PAGE_COLUMNS: usize = 100;
+
+/// The columns that a program has, once it has said so.
+static COLUMNS: OnceLock<usize> = OnceLock::new();
+
+/// Makes drawings beside each other take up at most so many columns, from now on. The first word counts.
+pub fn fit_into(columns: usize) {
+    COLUMNS.get_or_init(|| columns.min(PAGE_COLUMNS));
+}
+
+/// How many blocks of so many columns stand beside each other.
+fn across(width: usize) -> usize {
+    ((COLUMNS.get().unwrap_or(&PAGE_COLUMNS) + 3) / (width + 3)).max(1)
+}
 
 /// The meaning of the signs in a drawing of team moves.
 pub const fn legend(look: Look) -> &'static str {
@@ -83,8 +97,7 @@ impl Rows {
     /// Adds a block: the row that it fills, or nothing.
     pub fn add(&mut self, block: Block) -> String {
         self.row.push(block);
-        let across = ((PAGE_COLUMNS + 3) / (self.width + 3)).max(1);
-        if self.row.len() < across { String::new() } else { self.rest() }
+        if self.row.len() < across(self.width) { String::new() } else { self.rest() }
     }
 
     /// The blocks in the row that is not full.
@@ -214,6 +227,13 @@ impl<'a> TeamMoves<'a> {
             width * (self.labels(made, pose).width() + 1) + 1
         };
         columns.max(title(made).chars().count())
+    }
+
+    /// How many team moves of at most so many columns fit into so many lines: at least one.
+    pub fn fitting(&self, columns: usize, lines: usize) -> u32 {
+        let height = self.chart.area().height();
+        let block = if self.is_bare { height + 2 } else { 2 * height + 1 };
+        ((lines / (block + 2)).max(1) * across(columns)) as u32
     }
 
     /// A team move.

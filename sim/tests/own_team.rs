@@ -192,7 +192,7 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
         let met = Some(Obstacles { area: report.chart.area(), edges });
         Ok((report.stopped == Stopped::Violation).then_some(Broken { steps: report.steps, met }))
     };
-    let case = Case { robots: 2, layout, base };
+    let case = Case { robots: 2, layout, base, starts: Vec::new(), missed: Vec::new() };
     let steps = breaks(&case).expect("a run").expect("it breaks the clause").steps;
     let shrunk = shrink(case.clone(), steps, 2, &mut |case, _| breaks(case)).expect("nobody ends the work");
     assert_snapshot!(shrunk.case.layout, @"

@@ -12,6 +12,12 @@
 //! - *A row*: likewise, south for east and north for west.
 //! - *A blocked cell*: it is free then. Walls beside it stay.
 //! - *A wall* inside the rim.
+//! - *A missed sensor*, of those that are named by their numbers.
+//!
+//! A start of a robot's own goes with the column or row in which it is, as the base does, and with its robot.
+//!
+//! A run that a search has made by its choices is not shrunk, since choices fit one layout: smaller teams and layouts are
+//! searched instead, the smallest first.
 //!
 //! Whatever a run never met goes all at once, before anything else and after everything that goes: the cells out of the
 //! team's reach, and the walls and blocked cells that no robot bumped into. Where robots see what they do not bump
@@ -19,6 +25,8 @@
 //! the clause. Then the robots are tried, the smallest team first, and columns, rows, blocked cells and walls in this
 //! order: all, then in chunks half as large each time (Zeller and Hildebrandt 2002, *Simplifying and Isolating
 //! Failure-Inducing Input*), then single ones; all this until nothing goes any more. There is no chance in it.
+
+mod chosen;
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -29,9 +37,7 @@ use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::{
-    ClauseId, Limits, OnViolation, Report, Scheme, Senses, Setup, TeamMove, Violation, explore, run, team,
-};
+use crate::explore::{ClauseId, Limits, OnViolation, Report, Setup, TeamMove, Violation, explore, run, team};
 use crate::layout::Layout;
 
 /// A run in which nothing can go.
@@ -63,8 +69,18 @@ pub struct Extent {
     pub walls: usize,
     /// Blocked cells.
     pub blocked: usize,
+    /// Missed sensors, of those that are named.
+    #[serde(skip_serializing_if = "is_none")]
+    #[serde(default)]
+    pub missed: usize,
     /// Team moves up to the one that breaks the clause.
     pub steps: u32,
+}
+
+/// Whether there are none, as in all runs of robots without sensors.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes what it writes so")]
+const fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Extent {
@@ -76,6 +92,7 @@ impl Extent {
             rows: layout.height(),
             walls: layout.walls().count(),
             blocked: layout.size().cells() - layout.free_cells(),
+            missed: case.missed.len(),
             steps,
         }
     }
@@ -95,9 +112,7 @@ pub struct Progress {
 pub enum Refusal {
     /// The run breaks no clause.
     Unbroken,
-    /// The run is one of agents: what they never met, their sensors may still have seen.
-    OfAgents(Scheme),
-    /// The run is made by the choices of a search, which looks for the smallest itself.
+    /// The run is made by the choices of a search, and its rule is not hunted.
     Chosen,
     /// The run breaks other clauses than the one asked for.
     Otherwise {
@@ -115,7 +130,6 @@ impl Refusal {
             Self::Unbroken => "name a counterexample of `tautline hunt`, or a trace of a run that ended \
                                `tautline explore` with exit code 1"
                 .to_owned(),
-            Self::OfAgents(scheme) => format!("name a run of the scheme {}", scheme.sensing(Senses::Bumps)),
             Self::Chosen => "draw it with `tautline replay`".to_owned(),
             Self::Otherwise { broken, .. } => {
                 let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
@@ -129,8 +143,9 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
-            Self::OfAgents(_) => f.write_str("this is a run of agents: they are not minimised"),
-            Self::Chosen => f.write_str("a search has found this run: none in fewer cells breaks the clause"),
+            Self::Chosen => {
+                f.write_str("a search has found this run, and nothing searches for a smaller one")
+            }
             Self::Otherwise { asked, .. } => {
                 write!(f, "this run does not break {asked}: there is nothing to minimise")
             }
@@ -170,6 +185,10 @@ pub struct Case {
     pub layout: Layout,
     /// Where the robots start.
     pub base: Cell,
+    /// Where each robot starts, if that is said of each.
+    pub starts: Vec<Cell>,
+    /// The sensors that are missed, by their numbers among all that are asked about.
+    pub missed: Vec<u32>,
 }
 
 /// A run that breaks the clause.
@@ -238,14 +257,20 @@ pub fn minimise(
     asked: Option<ClauseId>,
     watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
 ) -> Result<Minimal, Failure> {
-    match setup.scheme.senses {
-        Senses::Bumps => {}
-        Senses::Floor => return Err(Refusal::OfAgents(setup.scheme).into()),
-    }
     if !setup.choices.is_empty() {
-        return Err(Refusal::Chosen.into());
+        return chosen::minimise(setup, asked, watch);
     }
-    let case = Case { robots: setup.robots, layout: setup.layout.clone(), base: setup.base };
+    // Starts that nobody has given are those of the smaller case.
+    let starts =
+        |robots, layout: &Layout, base| setup.scheme.default_starts(setup.rule, layout, base, robots);
+    let is_default = setup.starts == starts(setup.robots, &setup.layout, setup.base);
+    let case = Case {
+        robots: setup.robots,
+        layout: setup.layout.clone(),
+        base: setup.base,
+        starts: setup.starts.clone().filter(|_| !is_default).unwrap_or_default(),
+        missed: setup.missed.clone(),
+    };
     let mut before = Extent::new(&case, 0);
     let violation = match (setup.limits.violation, asked) {
         (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),
@@ -257,13 +282,9 @@ pub fn minimise(
     let Violation { clause, step } = first_violation(&report, asked)?;
     before.steps = step;
     let limits = Limits::stopping_at(Some(clause));
-    // Starts that nobody has given are those of the smaller case; others stay where they are.
-    let starts =
-        |robots, layout: &Layout, base| setup.scheme.default_starts(setup.rule, layout, base, robots);
-    let is_default = setup.starts == starts(setup.robots, &setup.layout, setup.base);
-    let made = |Case { robots, layout, base }: Case| {
-        let starts = if is_default { starts(robots, &layout, base) } else { first.starts.clone() };
-        Setup { robots, layout, base, starts, limits, ..first.clone() }
+    let made = |Case { robots, layout, base, starts: own, missed }: Case| {
+        let starts = if is_default { starts(robots, &layout, base) } else { Some(own) };
+        Setup { robots, layout, base, starts, missed, limits, ..first.clone() }
     };
     let least = *setup.scheme.robots.start() as u16;
     let shrunk = shrink(case, step, least, &mut |case, progress| {
@@ -276,7 +297,7 @@ pub fn minimise(
             watch(progress)
         })?;
         let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
-        let met = is_default.then(|| Obstacles { area: report.chart.area(), edges });
+        let met = Some(Obstacles { area: report.chart.area(), edges });
         Ok(is_broken.then_some(Broken { steps: report.steps, met }))
     })?;
     let Shrinkage { case, extent: after, runs } = shrunk;
@@ -304,10 +325,11 @@ enum Part {
     Rows,
     Blocked,
     Walls,
+    Missed,
 }
 
 impl Part {
-    const ALL: [Self; 4] = [Self::Columns, Self::Rows, Self::Blocked, Self::Walls];
+    const ALL: [Self; 5] = [Self::Columns, Self::Rows, Self::Blocked, Self::Walls, Self::Missed];
 
     /// How many there are.
     fn count(self, extent: &Extent) -> usize {
@@ -316,6 +338,7 @@ impl Part {
             Self::Rows => extent.rows as usize,
             Self::Blocked => extent.blocked,
             Self::Walls => extent.walls,
+            Self::Missed => extent.missed,
         }
     }
 
@@ -338,8 +361,13 @@ impl Part {
                 let walls = whole.walls().skip(range.start).take(range.len());
                 walls.for_each(|wall| layout.remove_wall(wall));
             }
+            Self::Missed => {
+                let mut missed = case.missed.clone();
+                missed.drain(range.start..range.end.min(case.missed.len()));
+                return Ok(vec![Case { missed, ..case.clone() }]);
+            }
         }
-        Ok(vec![Case { layout, ..*case }])
+        Ok(vec![Case { layout, ..case.clone() }])
     }
 }
 
@@ -371,6 +399,9 @@ fn with_lines(case: &Case, columns: &[i16], rows: &[i16]) -> Result<Vec<Case>, D
             }
         }
     }
+    let start =
+        |&start: &Cell| Some(Cell::new(places(columns, start.x).next()?, places(rows, start.y).next()?));
+    let starts: Vec<Cell> = case.starts.iter().filter_map(start).collect();
     let mut cases = Vec::new();
     for y in places(rows, case.base.y) {
         for x in places(columns, case.base.x) {
@@ -378,7 +409,7 @@ fn with_lines(case: &Case, columns: &[i16], rows: &[i16]) -> Result<Vec<Case>, D
             if layout.is_free(base) {
                 let mut layout = layout.clone();
                 layout.place_base(base)?;
-                cases.push(Case { layout, base, ..*case });
+                cases.push(Case { layout, base, starts: starts.clone(), ..case.clone() });
             }
         }
     }
@@ -413,7 +444,8 @@ fn cut_down(case: &Case, Obstacles { area, edges }: &Obstacles) -> Result<Case, 
     }
     let base = shifted(case.base);
     layout.place_base(base)?;
-    Ok(Case { layout, base, ..*case })
+    let starts = case.starts.iter().copied().map(shifted).collect();
+    Ok(Case { layout, base, starts, ..case.clone() })
 }
 
 /// The work under way.
@@ -425,12 +457,27 @@ struct Shrinker<'a, 'b> {
 }
 
 impl Shrinker<'_, '_> {
-    /// Makes the smallest team that breaks the clause in this layout the team.
+    /// Makes the smallest team that breaks the clause in this layout the team; robots with starts of their own go one by
+    /// one.
     fn dismiss_robots(&mut self, least: u16) -> Result<(), Halt> {
-        for robots in least..self.smallest.robots {
-            if self.attempt(&Case { robots, ..self.smallest.clone() })? {
-                break;
+        if self.smallest.starts.is_empty() {
+            for robots in least..self.smallest.robots {
+                if self.attempt(&Case { robots, ..self.smallest.clone() })? {
+                    break;
+                }
             }
+            return Ok(());
+        }
+        let mut robot = self.smallest.starts.len();
+        while robot > 0 && self.smallest.robots > least {
+            robot -= 1;
+            let mut starts = self.smallest.starts.clone();
+            starts.remove(robot);
+            let base = starts.first().copied().unwrap_or(self.smallest.base);
+            let mut layout = self.smallest.layout.clone();
+            layout.place_base(base)?;
+            let robots = self.smallest.robots - 1;
+            self.attempt(&Case { robots, layout, base, starts, ..self.smallest.clone() })?;
         }
         Ok(())
     }

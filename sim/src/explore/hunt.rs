@@ -41,6 +41,12 @@ pub trait Hunt: fmt::Debug + Sync {
     /// A [`Diagnostic`] if it cannot be searched so.
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
+    /// What is `asked`, with the bounds within which the choices of the run of `setup` were found.
+    fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
+        let _ = setup;
+        asked
+    }
+
     /// The hunt as one that is dealt out among shards, if that is possible.
     fn deals(&self) -> Option<&dyn Deals> {
         None

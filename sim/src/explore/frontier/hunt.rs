@@ -54,6 +54,12 @@ impl Hunt for Searched {
         &[Bound::Walls, Bound::Losses, Bound::Error]
     }
 
+    /// The first two choices say how many messages are lost and how many fixes are wrong at most.
+    fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
+        let Some(&[losses, wrong]) = setup.choices.first_chunk() else { return asked };
+        Asked { max_losses: Some(losses as u8), error_cells: Some(f64::from(wrong)), ..asked }
+    }
+
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked, MOST_ROBOTS)?;
         let max_wrong = match error(asked)? {

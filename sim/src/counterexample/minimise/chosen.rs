@@ -1,0 +1,82 @@
+//! The smallest run of those that a search makes by its choices: what happens in which order is open again, and every
+//! smaller team and layout is searched, the smallest first.
+
+use std::ops::ControlFlow;
+
+use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
+use crate::diagnostic::{Diagnostic, Halt};
+use crate::explore::hunt::{Asked, Bound, Far, Hunter, Shown};
+use crate::explore::{ClauseId, Setup, explore};
+use crate::layout::Size;
+
+/// Passes on how far the work is.
+struct Watcher<'a> {
+    watch: &'a mut dyn FnMut(Progress) -> Result<(), Halt>,
+    progress: Progress,
+    ended: Option<Halt>,
+}
+
+impl Hunter for Watcher<'_> {
+    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
+        match (self.watch)(self.progress) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(halt) => {
+                self.ended = Some(halt);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    fn is_left_out(&mut self, _: &Diagnostic) {}
+}
+
+/// As of [`minimise`](super::minimise), of a run that has choices.
+pub(super) fn minimise(
+    setup: &Setup,
+    asked: Option<ClauseId>,
+    watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
+) -> Result<Minimal, Failure> {
+    let extent = |setup: &Setup, steps| {
+        let Setup { robots, layout, base, .. } = setup.clone();
+        Extent::new(&Case { robots, layout, base, starts: Vec::new(), missed: Vec::new() }, steps)
+    };
+    let report = explore(setup, &mut |_| Ok(()))?;
+    let violation = first_violation(&report, asked)?;
+    let before = extent(setup, violation.step);
+    let hunt = setup.scheme.find_rule(setup.rule).map_err(Halt::from)?.hunt.ok_or(Refusal::Chosen)?;
+    let mut sizes: Vec<(i16, i16)> =
+        (1..=before.rows).flat_map(|rows| (1..=before.columns).map(move |columns| (columns, rows))).collect();
+    sizes.sort_by_key(|&(columns, rows)| (columns * rows, rows));
+    let max_walls = hunt.takes().contains(&Bound::Walls).then_some((before.walls + before.blocked) as u32);
+    let mut watcher = Watcher { watch, progress: Progress { runs: 0, smallest: before }, ended: None };
+    let least = *setup.scheme.robots.start() as u16;
+    for robots in least..=setup.robots {
+        for &(columns, rows) in &sizes {
+            let size = Some(
+                Size::new(columns as u64, rows as u64)
+                    .map_err(|problem| Halt::from(Diagnostic::from(problem)))?,
+            );
+            let asked = Asked {
+                robots: Some(robots.into()),
+                size,
+                max_walls,
+                ..Asked::new(setup.scheme, setup.rule)
+            };
+            // A size without room for the robots is none to search.
+            let Ok(hunted) = hunt.hunt(&hunt.again(setup, asked), &mut watcher) else { continue };
+            if let Some(halt) = watcher.ended {
+                return Err(halt.into());
+            }
+            watcher.progress.runs += 1;
+            let is_wanted = |shown: &Shown| matches!(shown, Shown::Run(clause) | Shown::Story(clause, _) if *clause == violation.clause);
+            let Some(found) = hunted.found.into_iter().find(|found| is_wanted(&found.shown)) else {
+                continue;
+            };
+            let report = explore(&found.setup, &mut |_| Ok(()))?;
+            let after = extent(&found.setup, report.steps);
+            let runs = watcher.progress.runs;
+            return Ok(Minimal { setup: found.setup, clause: violation.clause, before, after, runs });
+        }
+    }
+    Err(Refusal::Chosen.into())
+}
