@@ -9,7 +9,7 @@ use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Depiction, Evidence};
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::plural::counted;
-use tautline_proofs::run::Run;
+use tautline_proofs::run::{Run, Scripted};
 
 use super::CATALOGUE;
 use tautline_sim::counterexample::refutation::{self, Refutation};
@@ -47,6 +47,27 @@ pub(super) enum EvidenceJson {
     },
 }
 
+/// The run of a refutation, if the program can make it again.
+pub(super) fn run(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<Option<Setup>, Halt> {
+    match &evidence.seen {
+        Depiction::Robots(run) => setup(check, run),
+        Depiction::Story(_) => scripted(clause, check, evidence),
+        Depiction::Choices | Depiction::Agents(_) | Depiction::Messages { .. } => Ok(None),
+    }
+}
+
+/// The run that a search has made by its choices, if a rule of the catalogue makes it again and breaks the clause.
+fn scripted(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<Option<Setup>, Halt> {
+    let Some(Scripted { run, choices }) = check.scripted(&evidence.choices) else { return Ok(None) };
+    let Some(scheme) = CATALOGUE.scheme(run.scheme) else { return Ok(None) };
+    let Some(rule) = scheme.rules.iter().find(|rule| rule.name.as_str() == check.rule()) else {
+        return Ok(None);
+    };
+    let setup = Setup { choices, ..hunt::setup(scheme, rule.name, &run)? };
+    let report = setup.play(&mut |_| Ok(()))?;
+    Ok(report.violations.iter().any(|broken| broken.clause.as_str() == clause.id).then_some(setup))
+}
+
 /// The run of robots that a search has found, if the program can make it again.
 pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Halt> {
     let (Some(rule), Some(scheme)) = (RuleName::of(check.rule()), CATALOGUE.scheme(run.scheme)) else {
@@ -57,13 +78,9 @@ pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Ha
 
 /// The setup of the run in a refutation that `prove` or `library` has stored.
 pub(super) fn stored(file: &Path) -> Result<Setup, Halt> {
-    let Refutation { check, evidence, .. } =
+    let Refutation { clause, check, evidence } =
         refutation::replay(file, &tautline_library::clauses().collect::<Vec<_>>())?;
-    let setup = match &evidence.seen {
-        Depiction::Robots(run) => setup(check, run)?,
-        Depiction::Choices | Depiction::Story(_) | Depiction::Agents(_) | Depiction::Messages { .. } => None,
-    };
-    setup.ok_or_else(|| {
+    run(clause, check, &evidence)?.ok_or_else(|| {
         let what = "this refutation is no run of a team in a layout";
         Diagnostic::in_file(file, what, "draw it with `tautline replay`").into()
     })
@@ -138,9 +155,7 @@ pub(super) fn page(
     evidence: &Evidence,
     sink: &mut impl page::Sink,
 ) -> Result<(), Halt> {
-    if let Depiction::Robots(run) = &evidence.seen
-        && let Some(setup) = setup(check, run)?
-    {
+    if let Some(setup) = run(clause, check, evidence)? {
         let report = setup.play(&mut |_| Ok(()))?;
         if report.violations.iter().any(|broken| broken.clause.as_str() == clause.id) {
             return page::write(sink, &setup, &report, &(1..=report.steps));

@@ -12,6 +12,7 @@ use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Watch;
 use crate::engine::{Choices, ScriptError, Until};
 use crate::judge::AnyCase;
+use crate::run::Scripted;
 
 /// A rule with the name that the ledger prints: "published", "repaired", "robust", or what is wrong with it.
 #[derive(Clone, Copy, Debug)]
@@ -302,6 +303,9 @@ pub trait AnyCheck: Sync {
     /// The counterexample that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>>;
 
+    /// The counterexample that these choices make, as a run of its scheme: see [`Method::scripted`].
+    fn scripted(&self, choices: &Choices) -> Option<Scripted>;
+
     /// The size of the counterexample that these choices make: see [`Method::size`].
     fn size(&self, choices: &Choices) -> Option<Size>;
 
@@ -381,6 +385,10 @@ impl<R: Sync> AnyCheck for Check<R> {
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         let rule = &self.about.rule;
         self.case.map_or_else(|| self.method.case(rule, choices), |case| case(rule, choices))
+    }
+
+    fn scripted(&self, choices: &Choices) -> Option<Scripted> {
+        self.method.scripted(&self.about.rule, choices)
     }
 
     fn size(&self, choices: &Choices) -> Option<Size> {

@@ -13,7 +13,7 @@ use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, T
 use crate::floor_trace::Course;
 use crate::judge::AnyCase;
 use crate::plural::counted;
-use crate::run::Run;
+use crate::run::{Run, Scripted};
 
 /// A check's verdict.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -254,6 +254,11 @@ pub trait Method<R>: Sync {
 
     /// The counterexample to `rule` that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, _: &R, _: &Choices) -> Option<Box<dyn AnyCase>> {
+        None
+    }
+
+    /// The counterexample to `rule` that these choices make, as a run of its scheme; `None` if it is none.
+    fn scripted(&self, _: &R, _: &Choices) -> Option<Scripted> {
         None
     }
 

@@ -49,6 +49,16 @@ pub struct Run {
     pub ending: Ending,
 }
 
+/// A run that a search has made by its choices: the layout that it met, without frames, and the choices that make it again
+/// there, as the runs of its scheme read them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Scripted {
+    /// Where it takes place, and what it breaks.
+    pub run: Run,
+    /// The choices.
+    pub choices: Vec<u32>,
+}
+
 /// How a run breaks a clause.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Ending {

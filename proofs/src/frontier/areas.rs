@@ -11,6 +11,7 @@ use crate::engine::states::{Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::counted;
+use crate::run::{self, Ending, Scripted};
 
 /// Columns and rows.
 pub type Size = (i16, i16);
@@ -98,6 +99,31 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         });
         let numbers = numbers.collect::<Option<Vec<u32>>>()?;
         Some((setting, numbers))
+    }
+
+    /// The choices that make the run in an area that has the obstacles that it met: the first two say how many messages are
+    /// lost and how many fixes are wrong at most.
+    pub fn scripted(&self) -> Option<Scripted> {
+        let (start, ..) = self.steps()?;
+        let (setting, steps) = self.given()?;
+        let obstacles = setting.given?;
+        let obstacles =
+            setting.area.cells().filter(|&cell| obstacles.status(cell) == Status::Obstacle).collect();
+        let bounds = [setting.max_losses, setting.max_wrong].map(u32::from);
+        let ending = if self.run.round().is_empty() { Ending::Move } else { Ending::Endless };
+        let (starts, breaks) = (start.cells().to_vec(), Some(self.run.demand.clause()));
+        let (walls, frames) = (Vec::new(), Vec::new());
+        let run = run::Run {
+            scheme: "frontier",
+            area: setting.area,
+            starts,
+            walls,
+            obstacles,
+            frames,
+            breaks,
+            ending,
+        };
+        Some(Scripted { run, choices: [&bounds[..], &steps].concat() })
     }
 
     /// The run by a rule without repairs, written down for the judge.
@@ -292,6 +318,10 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
 
     fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         self.found(rule, choices).ok()?.1.case()
+    }
+
+    fn scripted(&self, rule: &Rule, choices: &Choices) -> Option<Scripted> {
+        self.found(rule, choices).ok()?.1.scripted()
     }
 
     fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {

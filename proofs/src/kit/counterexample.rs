@@ -7,6 +7,12 @@ use tautline_kernel::kit::{Next, Rule, Sight};
 use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
 use crate::judge::{AnyCase, Lattice, kit as judge};
+use crate::run::{self, Ending, Scripted};
+
+/// The first choice of runs at any speeds, and of those at equal ones.
+pub const ANY_SPEEDS: u32 = 0;
+/// As [`ANY_SPEEDS`].
+pub const EQUAL_SPEEDS: u32 = 1;
 
 /// A run that breaks a demand, and where.
 #[derive(Clone, Debug)]
@@ -66,6 +72,25 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         });
         let numbers = numbers.collect::<Option<Vec<u32>>>()?;
         Some((walls.collect(), numbers))
+    }
+
+    /// The choices that make the run on a lattice that has the walls that it met: the first one says whether robots drive at
+    /// equal speeds. `None` if a search of such runs is none of robots that drive side by side.
+    pub fn scripted(&self) -> Option<Scripted> {
+        let Self { setting, run } = self;
+        let (speeds, clause) = match (setting.speeds, run.demand) {
+            (Speeds::Any, demand) => (ANY_SPEEDS, demand.clause(ROBOTS)),
+            (Speeds::Equal, Demand::Contact) => (EQUAL_SPEEDS, "KIT-2"),
+            (Speeds::Equal, demand) => (EQUAL_SPEEDS, demand.clause(ROBOTS)),
+            (Speeds::OneByOne, _) => return None,
+        };
+        let (walls, steps) = self.given()?;
+        let starts = self.starts()?.to_vec();
+        let ending = if run.round().is_empty() { Ending::Move } else { Ending::Endless };
+        let (frames, obstacles, breaks) = (Vec::new(), Vec::new(), Some(clause));
+        let run =
+            run::Run { scheme: "kit", area: setting.area, starts, walls, obstacles, frames, breaks, ending };
+        Some(Scripted { run, choices: [&[speeds], &steps[..]].concat() })
     }
 
     /// Drives from the start on, those of a round once.

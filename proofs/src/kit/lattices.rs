@@ -11,6 +11,7 @@ use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{END, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::AnyCase;
+use crate::run::Scripted;
 
 /// Columns, rows, and the most walls that one run meets.
 pub(super) type Size = (i16, i16, u8);
@@ -194,6 +195,10 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             _ => Ok(Lattices::<3>::of(self).shortest(rule, class)),
         };
         Ok(Some(smallest(&most, of)?.drawn_by_cells(|story| story)))
+    }
+
+    fn scripted(&self, rule: &Rule, choices: &Choices) -> Option<Scripted> {
+        self.found(rule, choices).ok()?.1.scripted()
     }
 }
 

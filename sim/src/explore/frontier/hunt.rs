@@ -3,17 +3,20 @@
 
 mod rivals;
 
-use tautline_kernel::frontier::{Map, Rule as Frontier, Status, TinyMap};
+use tautline_kernel::frontier::Rule as Frontier;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::states::Limits as Most;
 use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
 use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::plural::counted;
+use tautline_proofs::run::Scripted;
 
 pub(super) use self::rivals::Simulated;
 use crate::diagnostic::Diagnostic;
-use crate::explore::hunt::{Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown};
+use crate::explore::hunt::{
+    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
+};
 use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::layout::{Layout, Size};
@@ -192,20 +195,17 @@ fn quarry<const ROBOTS: usize>(
     found: &Counterexample<ROBOTS>,
 ) -> Result<Finding, Diagnostic> {
     let area = found.setting.area;
-    let layout = Layout::open(area.width() as u64, area.height() as u64)?;
-    let (cells, moves, blocked, choices) = match (found.steps(), found.given()) {
-        (Some((start, steps, _)), Some((given, choices))) => {
-            let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
-            let bounds = [given.max_losses, given.max_wrong].map(u32::from);
-            (start.cells(), moves, given.given, [&bounds[..], &choices].concat())
-        }
-        _ => ([Cell::new(0, 0); ROBOTS], 0, None, Vec::new()),
-    };
-    let is_blocked = |cell| blocked.is_some_and(|map: TinyMap| map.status(cell) == Status::Obstacle);
-    let layout = layout.with_blocked(area.cells().filter(|&cell| is_blocked(cell)));
-    let walls = layout.size().cells() - layout.free_cells();
+    let open = Layout::open(area.width() as u64, area.height() as u64)?;
+    let steps = found.steps().map_or_else(Vec::new, |(_, steps, _)| steps);
+    let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
     let clause = ClauseId::new(demand.clause());
-    let setup = Setup { choices, ..asked.setup(layout, cells.to_vec(), Some(clause))? };
+    let (setup, walls) = match found.scripted() {
+        Some(Scripted { run, choices }) => {
+            let (layout, starts) = layout(&run)?;
+            (Setup { choices, ..asked.setup(layout, starts, Some(clause))? }, run.obstacles.len())
+        }
+        None => (asked.setup(open, vec![Cell::new(0, 0); ROBOTS], Some(clause))?, 0),
+    };
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
     let story = found.story();
     let (columns, rows) = (area.width(), area.height());

@@ -2,20 +2,22 @@
 //! lattices. Of two robots one image of each state is searched; what is broken there is searched again as it is, with
 //! as few walls as can be.
 
-use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule as Kit;
 use tautline_proofs::engine::states::{Findings, Limits as Most};
 use tautline_proofs::kit::counterexample::{Counterexample, fewest};
 use tautline_proofs::kit::symmetry::SymmetricLattice;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::plural::counted;
+use tautline_proofs::run::Scripted;
 
 use super::EQUAL;
 use crate::diagnostic::Diagnostic;
-use crate::explore::hunt::{Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown};
+use crate::explore::hunt::{
+    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
+};
 use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
-use crate::layout::{Layout, Size};
+use crate::layout::Size;
 
 /// The most robots of which all states are searched together.
 const MOST_ROBOTS: u64 = 3;
@@ -200,13 +202,16 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
-    let (walls, choices) = found.given().unwrap_or_default();
-    let layout = Layout::open(columns as u64, rows as u64)?.with_walls(walls.iter().copied());
-    let starts = found.starts().unwrap_or([Cell::new(0, 0); ROBOTS]).to_vec();
+    let Some(Scripted { run, choices }) = found.scripted() else {
+        return Err(Diagnostic::usage(
+            "a run was found that cannot be made again",
+            "report it: this is a bug of tautline",
+        ));
+    };
+    let (layout, starts) = layout(&run)?;
     let setup = asked.setup(layout, starts, Some(*clause))?;
-    let choices = super::scripted::choices(found.setting.speeds, &choices);
     let story = found.story();
-    let (drives, walls) = (found.drives(), walls.len());
+    let (drives, walls) = (found.drives(), run.walls.len());
     Ok(Finding {
         clause: clause.as_str(),
         facts: RunSize::Area { columns, rows, walls, steps: drives },

@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::judge::AnyCase;
-use tautline_proofs::kit::counterexample;
+use tautline_proofs::kit::counterexample::{self, ANY_SPEEDS, EQUAL_SPEEDS};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
@@ -19,19 +19,6 @@ use crate::explore::setup::{Setup, of_choices};
 use crate::explore::{ClauseId, RuleId};
 use crate::kit::paths;
 use crate::layout::Layout;
-
-/// The first choice of runs at any speeds, and of those at equal ones.
-const ANY: u32 = 0;
-const EQUALLY: u32 = 1;
-
-/// The choices of a run at such speeds whose steps have these numbers.
-pub(super) fn choices(speeds: Speeds, steps: &[u32]) -> Vec<u32> {
-    let first = match speeds {
-        Speeds::Any | Speeds::OneByOne => ANY,
-        Speeds::Equal => EQUALLY,
-    };
-    [&[first], steps].concat()
-}
 
 /// The team of `setup`, which has choices.
 pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
@@ -80,8 +67,8 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Script<Settin
         given.put_edge(EdgeMark::Wall, edge);
     }
     let (speeds, choices) = match setup.choices.split_first() {
-        Some((&ANY, choices)) => (Speeds::Any, choices),
-        Some((&EQUALLY, choices)) => (Speeds::Equal, choices),
+        Some((&ANY_SPEEDS, choices)) => (Speeds::Any, choices),
+        Some((&EQUAL_SPEEDS, choices)) => (Speeds::Equal, choices),
         Some(_) | None => return Err(of_choices("the choices do not say how fast robots drive")),
     };
     let setting = Setting { given: Some(given), speeds, ..setting };
