@@ -11,6 +11,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::conditions::Conditional;
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
+use tautline_proofs::engine::states::{self, Limits, System};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
@@ -27,8 +28,61 @@ pub(crate) struct ByHand {
     pub(crate) name: &'static str,
     /// Its world with these settings, at its start.
     start: Start,
-    /// The row that a page shows, if no catalogue has one.
-    pub(crate) row: Option<fn() -> Value>,
+    /// The row that a page shows, and how it is hunted, if no catalogue has one.
+    pub(crate) row: Option<(fn() -> Value, Search)>,
+}
+
+/// Searches every order of what may happen in the world of these settings, for at most so many steps.
+pub(crate) type Search = fn(&Settings, u64) -> Result<Hunted, Diagnostic>;
+
+/// The findings of such a search.
+pub(crate) struct Hunted {
+    pub(crate) states: u64,
+    pub(crate) is_complete: bool,
+    pub(crate) found: Vec<Order>,
+}
+
+/// An order that breaks a clause.
+pub(crate) struct Order {
+    pub(crate) clause: &'static str,
+    /// The answers that make it, and how many steps it has.
+    pub(crate) answers: Vec<i32>,
+    pub(crate) steps: usize,
+}
+
+/// Searches every order of what may happen in `world` from `state` on; of demands with one clause the first is told.
+fn search<W: System>(
+    world: &W,
+    state: &W::State,
+    most_steps: u64,
+    clause: impl Fn(W::Demand) -> &'static str,
+) -> Hunted {
+    let limits = Limits { most_steps, ..Limits::NONE };
+    let findings = states::search(world, [state.clone()], limits);
+    let mut found: Vec<Order> = Vec::new();
+    for run in &findings.broken {
+        let clause = clause(run.demand);
+        if found.iter().any(|order| order.clause == clause) {
+            continue;
+        }
+        let (mut state, mut order) = (state.clone(), Order { clause, answers: Vec::new(), steps: 0 });
+        for &number in run.steps.iter().chain(run.round()) {
+            let mut next: Vec<W::State> = states::steps(world, &state).map(|step| step.state).collect();
+            // What alone can happen is no question.
+            order.answers.extend((next.len() > 1).then_some(number as i32));
+            order.steps += 1;
+            state = next.swap_remove(number as usize);
+        }
+        found.push(order);
+    }
+    found.sort_by_key(|order| order.clause);
+    Hunted { states: findings.states, is_complete: findings.is_whole, found }
+}
+
+/// How the world of these settings is hunted, if no catalogue has it.
+pub(crate) fn hunt(settings: &Settings) -> Option<Search> {
+    let world = WORLDS.iter().find(|world| world.name == settings.scheme)?;
+    world.row.map(|(_, search)| search)
 }
 
 /// The worlds.
@@ -47,12 +101,15 @@ pub(crate) fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
 /// A world with these settings, at its start.
 type Start = fn(&Settings) -> Result<Box<dyn Play>, Diagnostic>;
 
-/// The world of one, two or three robots, as the settings say.
-fn small_team(settings: &Settings, of: [Start; 3]) -> Result<Box<dyn Play>, Diagnostic> {
+/// The world of so many robots as the settings say, of which `of` has one for each number from one on.
+fn small_team<const MOST: usize>(
+    settings: &Settings,
+    of: [Start; MOST],
+) -> Result<Box<dyn Play>, Diagnostic> {
     let start = usize::from(settings.robots).checked_sub(1).and_then(|place| of.get(place));
     let start = start.ok_or_else(|| {
         let what = format!("{} robots are too many to play every order of theirs by hand", settings.robots);
-        Diagnostic::of_field("robots", what, "take 1, 2 or 3")
+        Diagnostic::of_field("robots", what, format!("take 1 to {MOST}"))
     })?;
     start(settings)
 }

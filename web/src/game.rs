@@ -8,6 +8,7 @@ use crate::ask::Answers;
 use crate::by_hand;
 use crate::play::{Play, Step, json as written};
 use crate::run::Run;
+use crate::schemes;
 use crate::settings::Settings;
 
 /// A game on its way.
@@ -83,8 +84,65 @@ impl Game {
         Ok(json!({ "question": question, "would": would, "answers": given }))
     }
 
-    /// The steps that robots cannot take next, and what refuses them.
-    pub(crate) fn refusals(&self) -> Value {
-        written(&self.play.refusals())
+    /// The steps that robots cannot take next, and what refuses them. Where a team cannot say that, what each condition
+    /// changes is seen without it: what would happen next then or, where it would have been another run before, from
+    /// which step on.
+    pub(crate) fn refusals(&self) -> Result<Value, Diagnostic> {
+        let refused = self.play.refusals();
+        if !refused.is_empty() {
+            return Ok(json!({ "refused": refused }));
+        }
+        let Some((names, own)) = schemes::conditions(&self.settings) else {
+            return Ok(json!({ "without": [] }));
+        };
+        let in_force = self.settings.on.unwrap_or(own);
+        let own = self.next(&self.settings)?;
+        let mut without = Vec::new();
+        for (bit, name) in (0..).zip(&names).filter(|(bit, _)| in_force >> bit & 1 == 1) {
+            let other = Settings { on: Some(in_force & !(1_u16 << bit)), ..self.settings.clone() };
+            let Ok(other) = self.next(&other) else { continue };
+            let since = own.0.iter().zip(&other.0).position(|(own, other)| own != other);
+            let since =
+                since.or_else(|| (own.0.len() != other.0.len()).then(|| own.0.len().min(other.0.len())));
+            let next: Vec<&String> = other.1.iter().filter(|words| !own.1.contains(words)).collect();
+            if since.is_some() || !next.is_empty() {
+                without.push(json!({ "by": name, "since": since.map(|step| step + 1), "next": next }));
+            }
+        }
+        Ok(json!({ "without": without }))
+    }
+
+    /// The game so far with these settings, a value for each step, and what can happen next.
+    fn next(&self, settings: &Settings) -> Result<(Vec<Value>, Vec<String>), Diagnostic> {
+        let answers = self.answers.taken().to_vec();
+        let (mut game, opened) = Self::open(settings.clone(), answers, self.steps)?;
+        let made = opened["made"].as_array().cloned().unwrap_or_default();
+        let seen = made
+            .iter()
+            .map(|step| json!([step["made"]["cells"], step["made"]["tried"], step["made"]["words"]]));
+        if settings.world {
+            let asked = game.step(true, &[], 1)?;
+            let options = asked["question"]["options"].as_array().cloned().unwrap_or_default();
+            let one = asked["made"][0]["made"]["words"].as_str().into_iter();
+            let options = options.iter().filter_map(Value::as_str).chain(one).map(str::to_owned);
+            return Ok((seen.collect(), options.collect()));
+        }
+        let next = game.make(1).pop().unwrap_or_default();
+        let tried = next["made"]["tried"].as_str().unwrap_or_default();
+        let moves = (1..).zip(tried.chars()).map(|(robot, letter)| format!("{robot} {}", way(letter)));
+        let moves =
+            if next["over"].is_object() { vec!["the run is over".to_owned()] } else { moves.collect() };
+        Ok((seen.collect(), moves))
+    }
+}
+
+/// A step in words.
+const fn way(letter: char) -> &'static str {
+    match letter.to_ascii_uppercase() {
+        'E' => "goes east",
+        'S' => "goes south",
+        'W' => "goes west",
+        'N' => "goes north",
+        _ => "stays",
     }
 }

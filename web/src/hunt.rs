@@ -6,11 +6,13 @@ use std::ops::ControlFlow;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use tautline_proofs::plural::counted;
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::Scheme;
 use tautline_sim::explore::hunt::{Asked, Begun, Far, Finding, Hunt, HuntReport, Hunter, Shown};
 use tautline_sim::layout::Size;
 
+use crate::by_hand::{self, Hunted, Order, Search};
 use crate::clauses::sentence;
 use crate::play::json as written;
 use crate::settings::Settings;
@@ -42,8 +44,89 @@ const MANY: u64 = 1 << 22;
 /// A hunt of more expected team moves is one for a terminal: minutes of a browser's one thread.
 const MOST_MOVES: f64 = 4e8;
 
-/// A hunt on its way.
-pub(crate) struct Hunting {
+/// A hunt on its way: of a row of the catalogue, or through every order of a world.
+pub(crate) enum Hunting {
+    Row(Box<RowHunt>),
+    World(WorldHunt),
+}
+
+impl Hunting {
+    /// The hunt of the rule of these settings, at its start, with the command that hunts so in a terminal.
+    pub(crate) fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
+        if let Some(search) = by_hand::hunt(settings) {
+            let hunting = WorldHunt { settings: settings.clone(), search, budget: FIRST, last: None };
+            return Ok((Self::World(hunting), json!({ "command": null })));
+        }
+        let (hunting, begun) = RowHunt::begin(settings, quarry)?;
+        Ok((Self::Row(Box::new(hunting)), begun))
+    }
+
+    /// Hunts a little further.
+    pub(crate) fn slice(&mut self) -> Result<Value, Diagnostic> {
+        match self {
+            Self::Row(hunt) => hunt.slice(),
+            Self::World(hunt) => hunt.slice(),
+        }
+    }
+
+    /// The findings so far.
+    pub(crate) fn found(&self) -> Result<Value, Diagnostic> {
+        match self {
+            Self::Row(hunt) => hunt.found(),
+            Self::World(hunt) => Ok(hunt.found()),
+        }
+    }
+}
+
+/// A hunt through every order of what may happen in a world, made again with four times the budget until it is whole.
+pub(crate) struct WorldHunt {
+    settings: Settings,
+    search: Search,
+    budget: u64,
+    last: Option<Hunted>,
+}
+
+impl WorldHunt {
+    fn slice(&mut self) -> Result<Value, Diagnostic> {
+        let hunted = (self.search)(&self.settings, self.budget)?;
+        let (made, more) = (self.budget, !hunted.is_complete);
+        self.budget = self.budget.saturating_mul(4);
+        let far = format!("searching, states {}", hunted.states);
+        self.last = Some(hunted);
+        let words = (more && made >= MANY).then(|| too_many(made));
+        Ok(json!({ "more": more, "moves": made, "far": far, "large": words.is_some(), "words": words }))
+    }
+
+    fn found(&self) -> Value {
+        let Some(Hunted { states, is_complete, found }) = &self.last else { return json!({ "found": [] }) };
+        let outcome = match (found.is_empty(), is_complete) {
+            (true, true) => "No clause is broken, whatever happens in which order.",
+            (true, false) => "No clause is broken so far.",
+            (false, _) => "The shortest order of events that breaks each clause:",
+        };
+        let order = |order: &Order| {
+            let steps = counted(order.steps, "step");
+            json!({
+                "clause": order.clause, "sentence": sentence(order.clause), "title": steps,
+                "settings": written(&self.settings), "answers": order.answers, "steps": order.steps,
+            })
+        };
+        json!({
+            "title": format!("{} ({}), every order: {}", self.settings.scheme, self.settings.rule, counted(*states, "state")),
+            "outcome": outcome,
+            "complete": is_complete,
+            "found": found.iter().map(order).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// The words about a hunt that is one for a terminal.
+fn too_many(made: u64) -> String {
+    format!("This hunt takes more than {} million steps, and as many states.", made >> 20)
+}
+
+/// A hunt of a row of the catalogue.
+pub(crate) struct RowHunt {
     scheme: Scheme,
     settings: Settings,
     quarry: Quarry,
@@ -74,9 +157,8 @@ impl Hunter for Listener<'_> {
     fn is_left_out(&mut self, _: &Diagnostic) {}
 }
 
-impl Hunting {
-    /// The hunt of the rule of these settings, at its start, with the command that hunts so in a terminal.
-    pub(crate) fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
+impl RowHunt {
+    fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
         let (scheme, rule) = (settings.scheme()?, settings.rule()?);
         let nothing =
             || Diagnostic::usage(format!("nothing is hunted of {}", scheme.name), "hunt another scheme");
@@ -134,7 +216,7 @@ impl Hunting {
     }
 
     /// Hunts a little further.
-    pub(crate) fn slice(&mut self) -> Result<Value, Diagnostic> {
+    fn slice(&mut self) -> Result<Value, Diagnostic> {
         let asked = self.asked()?;
         match &mut self.how {
             How::Begun(begun) => {
@@ -161,9 +243,7 @@ impl Hunting {
                 let more = !report.is_complete;
                 let made = *budget;
                 (*budget, *last) = (budget.saturating_mul(4), Some(report));
-                let words = (more && made >= MANY).then(|| {
-                    format!("This hunt takes more than {} million steps, and as many states.", made >> 20)
-                });
+                let words = (more && made >= MANY).then(|| too_many(made));
                 Ok(json!({
                     "more": more, "moves": made, "far": self.far, "large": words.is_some(), "words": words,
                 }))
@@ -172,7 +252,7 @@ impl Hunting {
     }
 
     /// The findings so far.
-    pub(crate) fn found(&self) -> Result<Value, Diagnostic> {
+    fn found(&self) -> Result<Value, Diagnostic> {
         let report = match &self.how {
             How::Begun(begun) => begun.report(&self.asked()?)?,
             How::Again(_, Some(report)) => report.clone(),

@@ -100,7 +100,7 @@ impl Page {
             Request::Step { by_hand, answers, steps } => {
                 self.game.as_mut().ok_or_else(no_game)?.step(by_hand, &answers, steps)
             }
-            Request::Refusals => Ok(self.game.as_ref().ok_or_else(no_game)?.refusals()),
+            Request::Refusals => self.game.as_ref().ok_or_else(no_game)?.refusals(),
             Request::Hunt { settings, quarry } => {
                 let (hunting, begun) = Hunting::begin(&settings, quarry)?;
                 self.hunting = Some(hunting);

@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use tautline_kernel::ground::{Area, Cell, Edge, Side, Step as Move};
+use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
 use tautline_sim::explore::{
-    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Senses, Setup, Surroundings, Team,
+    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Surroundings, Team,
 };
 use tautline_sim::layout::Layout;
 
@@ -168,11 +168,9 @@ impl Surroundings for Asking<'_> {
         })
     }
 
-    fn choose(&mut self, words: &str, options: &[String], usual: u32) -> u32 {
-        let robots = Vec::new();
-        let question =
-            || Question { words: words.to_owned(), options: options.to_vec(), usual, side: None, robots };
-        self.world.ask(usual, question)
+    fn choose(&mut self, words: &str, options: &mut dyn FnMut() -> Vec<String>, usual: u32) -> u32 {
+        let (words, robots) = (words.to_owned(), Vec::new());
+        self.world.ask(usual, || Question { words, options: options(), usual, side: None, robots })
     }
 }
 
@@ -184,19 +182,6 @@ fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
         options: vec!["open".to_owned(), "a wall".to_owned()],
         usual,
         side: side(layout.size().area(), edge),
-        robots: Vec::new(),
-    }
-}
-
-/// The question which of these sensors is missed, after `others` or as the first one.
-fn missed(others: bool, sensors: &[(usize, Cell)]) -> Question {
-    let one = |(agent, cell): &(usize, Cell)| format!("agent {} misses the sensor of {cell}", agent + 1);
-    let which = if others { "Which one besides" } else { "Which sensor" };
-    Question {
-        words: format!("{which} is missed in this team move?"),
-        options: std::iter::once("none".to_owned()).chain(sensors.iter().map(one)).collect(),
-        usual: 0,
-        side: None,
         robots: Vec::new(),
     }
 }
@@ -231,14 +216,6 @@ impl Play for Run {
 
     fn step(&mut self, world: &mut Answers) -> Step {
         let Self { setup, team, course, asked } = self;
-        // Sensors are missed in the order in which they are asked about, until nobody misses another one.
-        let mut next = 0;
-        while setup.scheme.senses == Senses::Floor {
-            let answer = world.ask(0, || missed(next > 0, team.sensors().get(next..).unwrap_or_default()));
-            let Some(sensor) = answer.checked_sub(1) else { break };
-            team.miss(next + sensor as usize);
-            next += answer as usize;
-        }
         let mut asking = Asking { layout: &setup.layout, world, asked, walls: Vec::new() };
         let made = course.step(&mut **team, &setup.layout, setup.limits, &mut asking);
         let walls = asking.walls;

@@ -8,11 +8,12 @@ use tautline_sim::options::{Extra, Takes};
 
 use crate::by_hand::WORLDS;
 use crate::own::{self, OwnPage};
+use crate::settings::Settings;
 
 /// All schemes.
 pub(crate) fn list() -> Value {
     let own = own::catalogue().schemes().map(scheme);
-    let worlds = WORLDS.iter().filter_map(|world| Some(world.row?()));
+    let worlds = WORLDS.iter().filter_map(|world| Some(world.row?.0()));
     let schemes: Vec<Value> = own.chain(worlds).collect();
     json!({ "version": env!("CARGO_PKG_VERSION"), "schemes": schemes })
 }
@@ -26,6 +27,7 @@ fn scheme(scheme: Scheme) -> Value {
     };
     let by_hand = match scheme.senses {
         _ if WORLDS.iter().any(|world| world.name == scheme.name) => "world",
+        Senses::Bumps if own::page().is_some_and(|page| page.scheme.name == scheme.name) => "choices",
         Senses::Bumps => "sides",
         Senses::Floor => "sensors",
     };
@@ -46,10 +48,21 @@ fn scheme(scheme: Scheme) -> Value {
     })
 }
 
-/// The row of a rule that is not hunted.
-pub(crate) fn unhunted<R: Conditional>(name: &str, about: &str, rule: &R) -> Value {
+/// The row of a rule of a world, of which every order is hunted through.
+pub(crate) fn of_world<R: Conditional>(name: &str, about: &str, rule: &R) -> Value {
     let conditions = switched(R::CONDITIONS, rule.in_force());
-    json!({ "name": name, "about": about, "conditions": conditions, "hunt": null })
+    json!({ "name": name, "about": about, "conditions": conditions, "hunt": [] })
+}
+
+/// The names of the conditions of the rule of these settings, and those that are its own, a bit for each.
+pub(crate) fn conditions(settings: &Settings) -> Option<(Vec<String>, u16)> {
+    let list = list();
+    let named = |all: &Value, name: &str| all.as_array()?.iter().find(|one| one["name"] == name).cloned();
+    let rule = named(&named(&list["schemes"], &settings.scheme)?["rules"], &settings.rule)?;
+    let all = rule["conditions"].as_array()?;
+    let in_force =
+        (0..).zip(all).filter(|(_, one)| one["on"] == true).fold(0, |bits, (bit, _)| bits | 1 << bit);
+    Some((all.iter().filter_map(|one| Some(one["name"].as_str()?.to_owned())).collect(), in_force))
 }
 
 /// The conditions of a rule, each by its name, its sentence, and whether it is in force.

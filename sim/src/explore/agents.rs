@@ -6,6 +6,8 @@
 //! probability is 0 nothing is drawn. A counterexample has the sensors that are missed written down: by their numbers
 //! among all that are asked about.
 
+use std::collections::VecDeque;
+
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
@@ -17,7 +19,7 @@ use tautline_proofs::run::Frame;
 use super::catalogue::{By, Drawn, Look, Profile, Senses};
 use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, is_visited};
-use super::run::{End, Survey, Team};
+use super::run::{End, Surroundings, Survey, Team};
 use super::scan_time;
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -151,13 +153,55 @@ impl<S: Scheme> Agents<S> {
         self.is_premature
     }
 
-    /// Makes one team move.
+    /// Makes one team move: agents act in the order of their ids.
     pub fn advance(&mut self) {
+        self.advance_in(&mut |_: Edge| true);
+    }
+
+    /// Makes one team move, in which `world` says who acts next and which sensors are missed; whether it has said anything
+    /// else than usual.
+    fn advance_in(&mut self, world: &mut dyn Surroundings) -> bool {
         self.floor.forget_changes();
         self.unseen.clear();
         self.is_premature = false;
-        for number in 0..self.bodies.len() {
-            self.steps[number] = if self.bodies[number].is_done { Step::Stay } else { self.act(number) };
+        self.steps.fill(Step::Stay);
+        let mut left: VecDeque<usize> =
+            (0..self.bodies.len()).filter(|&number| !self.bodies[number].is_done).collect();
+        let mut is_decided = false;
+        while !left.is_empty() {
+            let place = if left.len() > 1 {
+                let name = |number: &usize| format!("agent {}", number + 1);
+                world.choose("Which agent acts next?", &mut || left.iter().map(name).collect(), 0) as usize
+            } else {
+                0
+            };
+            let Some(number) = left.remove(place.min(left.len() - 1)) else { break };
+            is_decided |= place > 0 || self.loses_sight(number, world);
+            self.steps[number] = self.act(number);
+        }
+        is_decided
+    }
+
+    /// Asks which sensors an agent misses next, one after the other; whether it misses any.
+    fn loses_sight(&mut self, number: usize, world: &mut dyn Surroundings) -> bool {
+        let (asked, mut next) = (self.misses.asked, 0);
+        let words = format!("Which sensor does agent {} miss?", number + 1);
+        loop {
+            let mut options = || {
+                let sensors = self.sensors(number).into_iter().skip(next as usize);
+                let missed = sensors.map(|cell| format!("that of {cell}"));
+                let none = if next == 0 { "none" } else { "no other one" };
+                std::iter::once(none.to_owned()).chain(missed).collect()
+            };
+            let sensor = world.choose(&words, &mut options, 0);
+            if sensor == 0 {
+                return next > 0;
+            }
+            next += sensor;
+            let written = &mut self.misses.written;
+            if let Err(place) = written.binary_search(&(asked + next)) {
+                written.insert(place, asked + next);
+            }
         }
     }
 
@@ -178,23 +222,18 @@ impl<S: Scheme> Agents<S> {
         step
     }
 
-    /// The sensors that agents ask about in the next team move, in order: which agent, and in which cell.
-    fn sensors(&self) -> Vec<(usize, Cell)> {
-        let (mut team, mut sensors) = (self.clone(), Vec::new());
-        for number in (0..self.bodies.len()).filter(|&number| !self.bodies[number].is_done) {
-            let cell = team.cells[number];
-            let look = |written: Vec<u32>| {
-                let generator = team.misses.generator.clone();
-                let mut misses = Misses { chance: Probability::NEVER, generator, written, asked: 0 };
-                let view = S::Sensor::look(&team.floor, cell, &mut misses);
-                let missed: Vec<Cell> = unseen(&team.floor, &view, cell).collect();
-                (misses.asked, missed.first().copied())
-            };
-            let (asked, _) = look(Vec::new());
-            sensors.extend((1..=asked).map(|question| (number, look(vec![question]).1.unwrap_or(cell))));
-            team.act(number);
-        }
-        sensors
+    /// The cells of the sensors that an agent asks about next, in order.
+    fn sensors(&self, number: usize) -> Vec<Cell> {
+        let cell = self.cells[number];
+        let look = |written: Vec<u32>| {
+            let generator = self.misses.generator.clone();
+            let mut misses = Misses { chance: Probability::NEVER, generator, written, asked: 0 };
+            let view = S::Sensor::look(&self.floor, cell, &mut misses);
+            let missed = unseen(&self.floor, &view, cell).next();
+            (misses.asked, missed)
+        };
+        let (asked, _) = look(Vec::new());
+        (1..=asked).map(|question| look(vec![question]).1.unwrap_or(cell)).collect()
     }
 
     /// How long the slowest agent has scanned and gone.
@@ -257,7 +296,11 @@ impl<S: Scheme> Team for Patrol<S> {
         self.team.cells()
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        self.advance_in(&mut |edge: Edge| is_open(edge))
+    }
+
+    fn advance_in(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         if self.team.is_over() {
             let is_explored = self.team.explored() == self.team.due();
             return Err(if is_explored { End::Explored } else { End::Exhausted });
@@ -265,7 +308,10 @@ impl<S: Scheme> Team for Patrol<S> {
         if self.watch.as_mut().is_some_and(|watch| watch.has_come_round(&self.team)) {
             return Err(End::Endless);
         }
-        self.team.advance();
+        // A team that somebody decides about may come back to where it was and go on in another way.
+        if self.team.advance_in(world) {
+            self.watch = None;
+        }
         let (steps, cells) = (self.team.steps.clone(), self.team.cells.clone());
         Ok(Frame { kind: Kind::Advance, blocked: vec![false; steps.len()], steps, cells })
     }
@@ -302,18 +348,6 @@ impl<S: Scheme> Team for Patrol<S> {
 
     fn milliseconds(&self) -> Option<u64> {
         Some(self.team.milliseconds())
-    }
-
-    fn sensors(&self) -> Vec<(usize, Cell)> {
-        self.team.sensors()
-    }
-
-    fn miss(&mut self, sensor: usize) {
-        let Misses { written, asked, .. } = &mut self.team.misses;
-        let question = *asked + sensor as u32 + 1;
-        if let Err(place) = written.binary_search(&question) {
-            written.insert(place, question);
-        }
     }
 
     fn layers(&self) -> Vec<Layer> {

@@ -52,8 +52,7 @@ struct InLayout<'a> {
 }
 
 impl InLayout<'_> {
-    fn chooses(&mut self, words: &str, options: &[String]) -> u32 {
-        let below = options.len() as u32;
+    fn chooses(&mut self, words: &str, below: u32, options: &mut dyn FnMut() -> Vec<String>) -> u32 {
         self.has_drawn = true;
         let usual = self.script.pop_front().unwrap_or_else(|| self.dice.pick(below)).min(below - 1);
         self.world.choose(words, options, usual).min(below - 1)
@@ -61,30 +60,27 @@ impl InLayout<'_> {
 
     /// Whether it is so, which is against the robots.
     fn is_so(&mut self, words: &str) -> bool {
-        self.chooses(words, &["no".to_owned(), "yes".to_owned()]) == 1
+        self.chooses(words, 2, &mut || vec!["no".to_owned(), "yes".to_owned()]) == 1
     }
 }
 
 impl Oracle for InLayout<'_> {
     /// Which robot fails, or which act.
     fn pick(&mut self, below: u32) -> u32 {
-        let names = |robots: &[usize]| {
-            let names: Vec<String> = robots.iter().map(|robot| format!("robot {}", robot + 1)).collect();
-            names.join(" and ")
+        let awake = self.awake.clone();
+        let mut options = || -> Vec<String> {
+            let is_one = below as usize == awake.len();
+            let acts = |number: u32, bit: usize| {
+                if is_one { number as usize == bit } else { (number + 1) >> bit & 1 == 1 }
+            };
+            let names = |number: u32| {
+                let acting = awake.iter().enumerate().filter(|&(bit, _)| acts(number, bit));
+                acting.map(|(_, robot)| format!("robot {}", robot + 1)).collect::<Vec<_>>().join(" and ")
+            };
+            (0..below).map(names).collect()
         };
-        let set = |bits: u32| -> Vec<usize> {
-            let chosen = self.awake.iter().enumerate().filter(|(bit, _)| bits >> bit & 1 == 1);
-            chosen.map(|(_, &robot)| robot).collect()
-        };
-        let is_one = below as usize == self.awake.len();
-        let options: Vec<String> = (0..below)
-            .map(|number| match self.awake.get(number as usize) {
-                Some(&robot) if is_one => names(&[robot]),
-                _ => names(&set(number + 1)),
-            })
-            .collect();
         let words = if std::mem::take(&mut self.fails) { "Which robot fails?" } else { "Who acts next?" };
-        self.chooses(words, &options)
+        self.chooses(words, below, &mut options)
     }
 
     fn mishap(&mut self) -> bool {

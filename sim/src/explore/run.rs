@@ -106,16 +106,6 @@ pub trait Team {
         Vec::new()
     }
 
-    /// The sensors that agents ask about in the next team move, in order: which agent, and in which cell.
-    fn sensors(&self) -> Vec<(usize, Cell)> {
-        Vec::new()
-    }
-
-    /// Makes agents miss the sensor with this place among those.
-    fn miss(&mut self, sensor: usize) {
-        let _ = sensor;
-    }
-
     /// The failures so far, in a run in which something is to fail.
     fn faults(&self) -> Option<Failures> {
         None
@@ -139,7 +129,7 @@ pub trait Surroundings {
     fn is_open(&mut self, edge: Edge) -> bool;
 
     /// The place of the option that is chosen; `usual` is the one of the seed, or of the search that has found the run.
-    fn choose(&mut self, words: &str, options: &[String], usual: u32) -> u32;
+    fn choose(&mut self, words: &str, options: &mut dyn FnMut() -> Vec<String>, usual: u32) -> u32;
 }
 
 impl<F: FnMut(Edge) -> bool> Surroundings for F {
@@ -147,7 +137,7 @@ impl<F: FnMut(Edge) -> bool> Surroundings for F {
         self(edge)
     }
 
-    fn choose(&mut self, _: &str, _: &[String], usual: u32) -> u32 {
+    fn choose(&mut self, _: &str, _: &mut dyn FnMut() -> Vec<String>, usual: u32) -> u32 {
         usual
     }
 }

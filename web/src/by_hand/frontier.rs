@@ -27,7 +27,7 @@ const RULES: [(&str, Rule); 6] = [
 ];
 
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
-    small_team(settings, [begin::<1>, begin::<2>, begin::<3>])
+    small_team(settings, [begin::<1>, begin::<2>, begin::<3>, begin::<4>, begin::<5>])
 }
 
 fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {

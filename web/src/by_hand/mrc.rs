@@ -11,12 +11,12 @@ use tautline_proofs::mrc::{
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, Picture, Played, Scene, Shown, number};
+use super::{ByHand, Hunted, Picture, Played, Scene, Shown, number, search};
 use crate::play::Play;
-use crate::schemes::unhunted;
+use crate::schemes::of_world;
 use crate::settings::Settings;
 
-pub(super) const MRC: ByHand = ByHand { name: "mrc", start, row: Some(row) };
+pub(super) const MRC: ByHand = ByHand { name: "mrc", start, row: Some((row, hunt)) };
 
 const STAGES: &[Value] = &[
     Value { name: "a robot asks", ink: Ink::Closing },
@@ -40,20 +40,31 @@ fn row() -> Json {
             option("faults", "How many messages may be lost or come twice, and timers, robots and nodes fail. Without it 2"),
         ],
         "rules": [
-            unhunted("repaired", "With the repairs of its refuted claims", &Rule::REPAIRED),
-            unhunted("published", "As the paper publishes it", &Rule::PUBLISHED),
+            of_world("repaired", "With the repairs of its refuted claims", &Rule::REPAIRED),
+            of_world("published", "As the paper publishes it", &Rule::PUBLISHED),
         ],
     })
 }
 
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
+    let setting = setting(settings)?;
+    Ok(Played::boxed(Space { setting, until: Until::Exhausted }, setting.start(0), settings.seed))
+}
+
+fn hunt(settings: &Settings, most_steps: u64) -> Result<Hunted, Diagnostic> {
+    let setting = setting(settings)?;
+    let space = Space { setting, until: Until::Exhausted };
+    Ok(search(&space, &setting.start(0), most_steps, Demand::clause))
+}
+
+fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
     let robots = usize::from(settings.robots);
     if !(1..=ROBOTS).contains(&robots) {
         let what = format!("{robots} robots are not played by hand");
         return Err(Diagnostic::of_field("robots", what, format_args!("take 1 to {ROBOTS}")));
     }
     let rule = if settings.rule == "published" { Rule::PUBLISHED } else { Rule::REPAIRED };
-    let setting = Setting {
+    Ok(Setting {
         rule: settings.on.map_or(rule, |on| rule.with_in_force(on)),
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),
@@ -62,9 +73,7 @@ fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
         faults: Faults::any(number(settings, "faults", 2, 9)?),
         lossy: LossKind::All,
         leases: Leases::UntilCalled,
-    };
-    let state = setting.start(0);
-    Ok(Played::boxed(Space { setting, until: Until::Exhausted }, state, settings.seed))
+    })
 }
 
 /// Where an actor is drawn: those that wait above, robots below.

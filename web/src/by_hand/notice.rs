@@ -13,12 +13,12 @@ use tautline_proofs::notice::spread::{Demand, Event, Spread};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, Picture, Played, Scene, Shown, number, starts};
+use super::{ByHand, Hunted, Picture, Played, Scene, Shown, number, search, starts};
 use crate::play::Play;
-use crate::schemes::unhunted;
+use crate::schemes::of_world;
 use crate::settings::Settings;
 
-pub(super) const NOTICE: ByHand = ByHand { name: "notice", start, row: Some(row) };
+pub(super) const NOTICE: ByHand = ByHand { name: "notice", start, row: Some((row, hunt)) };
 
 const STAGES: &[Value] = &[
     Value { name: "waits", ink: Ink::Aim },
@@ -43,8 +43,8 @@ fn row() -> Json {
         "options": [{ "field": "k", "takes": "COUNT",
             "about": "How many senders besides the first keep a node from forwarding; 0 is any number. Without it 1" }],
         "rules": [
-            unhunted("repaired", "With the repairs of its refuted claims", &rule(Conditions::REPAIRED, 1)),
-            unhunted("published", "As the paper publishes it", &rule(Conditions::PUBLISHED, 1)),
+            of_world("repaired", "With the repairs of its refuted claims", &rule(Conditions::REPAIRED, 1)),
+            of_world("published", "As the paper publishes it", &rule(Conditions::PUBLISHED, 1)),
         ],
     })
 }
@@ -58,6 +58,17 @@ struct Network {
 }
 
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
+    let network = network(settings)?;
+    let state = network.case.start();
+    Ok(Played::boxed(network, state, settings.seed))
+}
+
+fn hunt(settings: &Settings, most_steps: u64) -> Result<Hunted, Diagnostic> {
+    let Network { case, .. } = network(settings)?;
+    Ok(search(&case, &case.start(), most_steps, |(demand, _)| clause(demand)))
+}
+
+fn network(settings: &Settings) -> Result<Network, Diagnostic> {
     let layout = settings.layout()?;
     let count = usize::from(settings.robots);
     if !(2..=SMALL).contains(&count) {
@@ -77,9 +88,17 @@ fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
     let own = if settings.rule == "published" { Conditions::PUBLISHED } else { Conditions::REPAIRED };
     let rule = rule(own, number(settings, "k", 1, Count::MOST)?);
     let rule = settings.on.map_or(rule, |on| rule.with_in_force(on));
-    let network = Network { case: Case::new(pairs.iter().copied(), rule), area, cells, pairs };
-    let state = network.case.start();
-    Ok(Played::boxed(network, state, settings.seed))
+    Ok(Network { case: Case::new(pairs.iter().copied(), rule), area, cells, pairs })
+}
+
+const fn clause(demand: Demand) -> &'static str {
+    match demand {
+        Demand::Tree => "NOTICE-1",
+        Demand::Once => "NOTICE-2",
+        Demand::Floods => "NOTICE-3",
+        Demand::Reaches => "NOTICE-5",
+        Demand::NearestParent => "NOTICE-6",
+    }
 }
 
 impl World for Network {
@@ -170,13 +189,6 @@ impl Shown for Network {
     }
 
     fn clause(&self, (demand, words): Self::Demand) -> (&'static str, String) {
-        let clause = match demand {
-            Demand::Tree => "NOTICE-1",
-            Demand::Once => "NOTICE-2",
-            Demand::Floods => "NOTICE-3",
-            Demand::Reaches => "NOTICE-5",
-            Demand::NearestParent => "NOTICE-6",
-        };
-        (clause, format!("It is not so that {words}."))
+        (clause(demand), format!("It is not so that {words}."))
     }
 }
