@@ -67,6 +67,8 @@ struct Request {
 struct ListItem {
     id: &'static str,
     shows: &'static str,
+    /// How long it takes by its own settings on two cores, roughly.
+    takes: &'static str,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -92,12 +94,12 @@ impl Reproduce {
     fn list(&self, out: &mut Output) -> Result<Exit, Halt> {
         let about = TABLES.iter().map(|table| table.about());
         let reproductions: Vec<ListItem> =
-            about.map(|about| ListItem { id: about.id, shows: about.shows }).collect();
+            about.map(|about| ListItem { id: about.id, shows: about.shows, takes: about.takes }).collect();
         match self.format.format {
             Format::Json => out.json(&List { reproductions })?,
             Format::Text => {
-                for ListItem { id, shows } in reproductions {
-                    out.text(format_args!("{id}: {shows}\n"))?;
+                for ListItem { id, shows, takes } in reproductions {
+                    out.text(format_args!("{id} ({takes}): {shows}\n"))?;
                 }
             }
         }
@@ -245,9 +247,10 @@ fn subcommand(table: &'static dyn Entry) -> Command {
     ]);
     command = ForceArgs::augment_args(command);
     // What is said of the table comes last: options that are flattened in say something, too.
-    let Description { help, more, examples, .. } = table.about();
+    let Description { help, more, examples, takes, .. } = table.about();
     let examples = examples.iter().map(|example| format!("\n  tautline reproduce {example}"));
     let examples = "Examples:".to_owned() + &examples.collect::<String>();
+    let examples = format!("{examples}\n\nBy its own settings, on two cores, it takes about {takes}.");
     let command = FormatArgs::augment_args(command).about(help).after_help(examples);
     if more.is_empty() { command } else { command.long_about(format!("{help}.\n\n{more}")) }
 }

@@ -189,6 +189,8 @@ const sideName = side => `the side between ${cellName(side >> 1)} and ${cellName
 
 let board = null, frames = [], at = 0, answers = [], over = null, question = null, would = [], fault = null, refused = null;
 let explored, known, values, undo = [], timer = 0;
+/** Whether a step by hand was made of which nothing was asked. */
+let isSilent = false;
 
 /** Begins the game anew, with so many steps and these answers. */
 function open(steps = 0, given = []) {
@@ -265,6 +267,7 @@ function go(to) {
   }
   refused = null;
   render();
+  isSilent = false;
 }
 
 /** The answers that were given until the step that is shown. */
@@ -305,6 +308,7 @@ function step(more = [], count = 1) {
   question = made.question ?? null;
   would = made.would ?? [];
   if (question) { render(); return false; }
+  isSilent = isByHand && !more.length && !made.made[0]?.over;
   take(made.made);
   go(frames.length - 1);
   if (frames.at(-1).broken?.length) pause();
@@ -488,7 +492,7 @@ function drawing(isAlone = false) {
     }
   });
   if (question?.side !== undefined && question) inside += path("asked", sidePath(question.side));
-  for (const { robot, to } of refused ?? []) {
+  for (const { robot, to } of refused?.refused ?? []) {
     const [x, y] = centre(cells[robot]), [tx, ty] = centre(to), mx = (x + 2 * tx) / 3, my = (y + 2 * ty) / 3;
     if (cells[robot] !== to) inside += `<path class="refused" d="M${mx - 3} ${my - 3}l6 6m0 -6l-6 6"/>`;
   }
@@ -533,6 +537,7 @@ function sentence() {
     if (frame.words) parts.push(frame.words);
     const moves = [...frame.tried].map((letter, robot) => letter === "." ? "" : `${robot + 1} ${letter === letter.toLowerCase() ? "meets a wall in the" : "goes"} ${WAYS[letter.toUpperCase()]}`).filter(move => move);
     if (moves.length && moves.length <= 6) parts.push(moves.join(", "));
+    if (isSilent) parts.push("nothing was asked: the robots know or see all that this step depends on, as it is drawn");
   }
   let count = 0;
   for (const is of explored) count += is;
@@ -545,13 +550,18 @@ function sentence() {
 function reasons() {
   if (fault) return [make("p", {}, make("b", { textContent: `${capital(fault.error)}. ` }), fault.remedy ? `${capital(fault.remedy)}.` : "")];
   const all = brokenHere().map(({ clause, sentence, told }) => make("p", {}, make("b", { textContent: `${clause} is broken` }), `: ${sentence} ${told.join(" ")}`));
-  if (refused) {
+  if (refused?.without) {
+    // What each condition changes is seen without it.
+    const would = ({ by, since, next }) => make("p", {}, make("b", { textContent: by }), since ? ` is needed: without it the run would be another one from ${board.unit} ${since} on.` : ` refuses what would happen next without it: ${next.slice(0, 12).map(words => settings.world ? words : `${board.robot} ${words}`).join("; ")}${next.length > 12 ? " …" : ""}.`);
+    all.push(...refused.without.map(would));
+    if (!refused.without.length) all.push(make("p", { textContent: rule().conditions ? "No condition changes what happens next." : "This rule has no conditions that could be switched." }));
+  }
+  if (refused?.refused) {
     const by = new Map();
-    for (const { robot, to, by: names } of refused) {
+    for (const { robot, to, by: names } of refused.refused) {
       const name = names.join(" and ") || "a known wall";
       by.set(name, [...by.get(name) ?? [], `${board.robot} ${robot + 1} to ${cellName(to)}`]);
     }
-    if (!by.size) all.push(make("p", { textContent: "No condition refuses a step next." }));
     for (const [name, steps] of by) all.push(make("p", {}, make("b", { textContent: name }), ` refuses, as the others plan: ${steps.slice(0, 12).join("; ")}${steps.length > 12 ? " …" : ""}`));
   }
   return all;
@@ -866,6 +876,11 @@ function quarry() {
     find("quarry").replaceChildren(make("p", { className: "small", textContent: "No hunt searches this rule: draw its layouts by hand." }));
     return;
   }
+  if (scheme().by_hand === "only" || scheme().opens) {
+    const words = scheme().opens ? "All layouts and orders within the bounds of the rule's own setting." : "Every order of what can happen from the start above, the shortest first.";
+    find("quarry").replaceChildren(make("p", { className: "small", textContent: words }));
+    return;
+  }
   // Bounds that were typed stay while the scheme does.
   const typed = find("quarry").dataset.scheme === scheme().name ? Object.fromEntries([...find("quarry").querySelectorAll("[data-quarry]")].map(input => [input.dataset.quarry, input.value])) : {};
   find("quarry").dataset.scheme = scheme().name;
@@ -982,7 +997,7 @@ function show(found, isDone, isStopped = false) {
 /** Puts a counterexample on the board, at its last step. */
 function put(one) {
   const list = [...find("found").children], { textContent, className } = find("far");
-  restore({ settings: one.settings, steps: 100000 });
+  restore({ settings: one.settings, answers: one.answers, steps: one.steps ?? 100000 });
   find("found").replaceChildren(...list);
   Object.assign(find("far"), { textContent, className });
   if (one.story && !board) find("say").textContent = one.story;
@@ -1116,7 +1131,7 @@ function listen() {
     else {
       if (at < frames.length - 1) cut();
       const all = asked({ do: "refusals" });
-      refused = all.error ? [] : all;
+      refused = all.error ? { without: [] } : all;
     }
     render();
   };
@@ -1138,8 +1153,8 @@ function listen() {
     if (drawn.error) complain(drawn); else save("layout.txt", "text/plain", drawn.text);
   };
   find("store").onclick = () => {
-    // Walls that were decided by hand are in the ground; missed sensors are not.
-    if (scheme().by_hand === "sensors" && answers.some(answer => answer > 0)) return complain({ error: "a stored run does not hold which sensors were missed by hand", remedy: "keep the link instead: it does" });
+    // Walls that were decided by hand are in the ground; other answers are not.
+    if (["sensors", "choices"].includes(scheme().by_hand) && answers.some(answer => answer > 0)) return complain({ error: "a stored run does not hold who acted first by hand, and what was missed or lost", remedy: "keep the link instead: it does" });
     const stored = asked({ do: "store", settings: full() });
     if (stored.error) complain(stored); else save(`${settings.scheme}-${settings.rule}.jsonl`, "application/x-ndjson", stored.text);
   };

@@ -30,6 +30,7 @@ pub mod repair_cost;
 pub mod rescue_fig8;
 pub mod rivals;
 mod runs;
+pub mod sentences;
 
 use std::fmt;
 
@@ -41,6 +42,7 @@ use tautline_proofs::engine::tree::Progress;
 
 pub use self::entry::{Entry, Experiment, Report};
 use self::parameter::{Parameter, Settings};
+use self::sentences::Judgement;
 use tautline_field::radio::Problem;
 use tautline_kernel::ground::Cell;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
@@ -137,6 +139,12 @@ pub trait Table: fmt::Debug + Sync + 'static {
     /// [`Halt`] if what is drawn in it cannot be found again.
     fn text(&self, settings: &Self::Settings, merged: &Self::Summary) -> Result<String, Halt>;
 
+    /// The sentences of a paper that are compared with it, each with its verdict; they follow the text and, as
+    /// `sentences`, the members of the JSON. Where there is none, [`Description::why_none`] says why.
+    fn sentences(&self, _merged: &Self::Summary) -> Vec<Judgement> {
+        Vec::new()
+    }
+
     /// The picture with this place among those that [`Description`] names, as SVG.
     ///
     /// # Errors
@@ -171,14 +179,27 @@ pub struct Description {
     pub examples: &'static [&'static str],
     /// The work in progress while it is measured.
     pub doing: &'static str,
+    /// How long it takes by its own settings on two cores, roughly.
+    pub takes: &'static str,
+    /// Why no sentence of a paper is compared with it, if none is.
+    pub why_none: &'static str,
     /// The names of its pictures, and what they show, as a help text has it.
     pub pictures: &'static [(&'static str, &'static str)],
 }
 
 impl Description {
     /// Nothing, which a table fills in.
-    const NOTHING: Self =
-        Self { id: "", shows: "", help: "", more: "", examples: &[], doing: "", pictures: &[] };
+    const NOTHING: Self = Self {
+        id: "",
+        shows: "",
+        help: "",
+        more: "",
+        examples: &[],
+        doing: "",
+        takes: "",
+        why_none: "the table is ours, and no paper has it",
+        pictures: &[],
+    };
 }
 
 /// Jobs of a table with their results, in their order.

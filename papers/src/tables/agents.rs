@@ -18,6 +18,7 @@ use tautline_kernel::{ants, bricks};
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
 use tautline_proofs::floor::crew::Scheme;
 
+use super::paper;
 use super::prelude::*;
 use tautline_sim::explore::agents as explore;
 use tautline_sim::explore::ants::ANTS;
@@ -122,27 +123,36 @@ const AGENTS: u16 = 20;
 pub const BRICKS_FIG11: Agents = Agents::of(
     Figure::Agents,
     "bricks-fig11",
-    "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
+    [
+        "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
      visited, by the number of agents",
-    "What agents explore by their number, with missed sensors",
+        "What agents explore by their number, with missed sensors",
+        "an hour",
+    ],
 );
 
 /// Figure 12.
 pub const BRICKS_FIG12: Agents = Agents::of(
     Figure::Area,
     "bricks-fig12",
-    "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
+    [
+        "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
      as visited, by the area",
-    "What agents explore by the area, with missed sensors",
+        "What agents explore by the area, with missed sensors",
+        "an hour",
+    ],
 );
 
 /// The work of agents where no sensor is missed.
 pub const BRICKS_IDEAL: Agents = Agents::of(
     Figure::Ideal,
     "bricks-ideal",
-    "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
+    [
+        "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
      until all agents know it, by the number of agents",
-    "How long agents take, with none missed",
+        "How long agents take, with none missed",
+        "an hour",
+    ],
 );
 
 /// Agents on the floors of offices.
@@ -153,7 +163,7 @@ pub struct Agents {
 }
 
 impl Agents {
-    const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
+    const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
         let examples = &["bricks-fig11 --svg fig11.svg", "bricks-ideal --runs 20 --format json"];
         let pictures = &[("svg", "Store a chart")];
         Self {
@@ -164,6 +174,7 @@ impl Agents {
                 help,
                 examples,
                 doing: "exploring",
+                takes,
                 pictures,
                 ..Description::NOTHING
             },
@@ -346,6 +357,10 @@ impl Table for Agents {
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(printed::text(self.figure, merged))
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        paper::judged(&merged.paper)
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {

@@ -166,7 +166,10 @@ impl Table for AntennaFig4 {
                 "antenna-fig4 --distance 5 --noise-db 0,3,6 --format json",
             ],
             doing: "scanning",
+            takes: "a second",
+            why_none: "the paper draws the strengths of two sensors and prints no number of them",
             pictures: &[("svg", "Store the pattern as a picture")],
+            ..Description::NOTHING
         }
     }
 

@@ -110,10 +110,12 @@ impl Table for ChainFig4 {
                    The team waits for its last robot; the radio's time is not counted (see chain-radio).",
             examples: &["chain-fig4", "chain-fig4 --svg-open open.svg --svg-obstacles obstacles.svg"],
             doing: "driving",
+            takes: "a second",
             pictures: &[
                 ("svg-open", "Store the trajectories without obstacles as a picture"),
                 ("svg-obstacles", "Store the trajectories with obstacles as a picture"),
             ],
+            ..Description::NOTHING
         }
     }
 
@@ -184,24 +186,33 @@ impl Table for ChainFig4 {
             .right("walls", Fit, |run| run.walls)
             .right("robots passed", Fit, |run| run.passed)
             .text();
-        text += "\nThe paper prints no figure of these runs. What it says of them:\n";
-        for run in merged.runs.iter().filter(|run| run.rule == RuleName::Published) {
-            let Run { on_squares, places, passed, .. } = run;
-            let said = match run.place {
-                Place::Open => format!(
-                    "“a regular pattern with concentric squares”: {}, {on_squares} of {places} places of R_i are i-1 cells off the \
-                     base from team move {} on\n",
-                    if on_squares == places { "holds" } else { "holds in part" },
-                    ROBOTS - 1
-                ),
-                Place::Obstacles => format!(
-                    "“clearly the two contact points”: open, our obstacles are not the paper's; {}\n",
-                    counted(*passed, "contact")
-                ),
-            };
-            text.push_str(&said);
-        }
         Ok(text)
+    }
+
+    /// The paper prints no figure of these runs.
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        let published = merged.runs.iter().filter(|run| run.rule == RuleName::Published);
+        let judged = |run: &Run| {
+            let Run { on_squares, places, passed, .. } = run;
+            match run.place {
+                Place::Open => Judgement::new(
+                    "“a regular pattern with concentric squares”",
+                    run.place.words(),
+                    format!(
+                        "{on_squares} of {places} places of R_i are i-1 cells off the base from team move {} on",
+                        ROBOTS - 1
+                    ),
+                    Verdict::of(on_squares == places),
+                ),
+                Place::Obstacles => Judgement::new(
+                    "“clearly the two contact points”",
+                    run.place.words(),
+                    format!("our obstacles are not the paper's; {}", counted(*passed, "contact")),
+                    Verdict::Open,
+                ),
+            }
+        };
+        published.map(judged).collect()
     }
 
     fn draw(&self, number: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {

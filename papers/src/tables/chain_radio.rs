@@ -95,6 +95,7 @@ impl Table for ChainRadio {
                    team move are the least that bridges need.",
             examples: &["chain-radio", "chain-radio --hop-ms 5 --format json"],
             doing: "sending",
+            takes: "a second",
             ..Description::NOTHING
         }
     }
@@ -158,27 +159,28 @@ impl Table for ChainRadio {
             .estimate("switching %", Fit, 0, |line| line.switching)
             .text();
         text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and waiting, the share in which a \
-                 bridge switches\n\nWhat the paper says\n\n";
+                 bridge switches\n";
+        Ok(text)
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
         let cut: u32 = merged.lines.iter().map(|line| line.cut).sum();
         let most =
             merged.lines.iter().filter_map(|line| line.switching).map(|share| share.mean).fold(0.0, f64::max);
-        let judged = [
-            (
+        vec![
+            Judgement::new(
                 "“ensures that every node … is reachable continuously”",
-                cut == 0,
+                "two radios",
                 format!("{cut} team moves cut"),
+                Verdict::of(cut == 0),
             ),
-            (
+            Judgement::new(
                 "“in almost any moment there is an unconnected part”",
-                most >= 90.0,
+                "bridges",
                 format!("at most {most:.0} % of the time"),
+                Verdict::of(most >= 90.0),
             ),
-        ];
-        let judged = Columns::of(&judged)
-            .left("", Fit, |(_, holds, _)| if *holds { "holds" } else { "fails" })
-            .left("", Fit, |(sentence, ..)| sentence)
-            .left("", Fit, |(.., measured)| measured);
-        Ok(text + &judged.text())
+        ]
     }
 }
 

@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 
 use super::csv::csv;
 use super::parameter::TableOption;
+use super::sentences::{self, Judgement};
 use super::{Description, Observer, Table, measure};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::schema;
@@ -163,6 +164,8 @@ struct Document<'a, M> {
     id: &'static str,
     #[serde(flatten)]
     merged: &'a M,
+    /// What the paper says, and what is so.
+    sentences: Vec<Judgement>,
 }
 
 fn written(value: &impl Serialize) -> Result<String, Diagnostic> {
@@ -207,12 +210,15 @@ impl<T: Table> Experiment for TableExperiment<'_, T> {
 
 impl<T: Table> Report for TableReport<'_, T> {
     fn text(&self) -> Result<String, Halt> {
-        self.asked.table.text(&self.asked.settings, &self.merged)
+        let TableExperiment { table, settings } = self.asked;
+        let text = table.text(settings, &self.merged)?;
+        Ok(text + &sentences::text(&table.sentences(&self.merged), Table::about(*table).why_none))
     }
 
     fn json(&self, schema_version: u32) -> Result<String, Diagnostic> {
-        let id = Table::about(self.asked.table).id;
-        written(&Document { schema_version, id, merged: &self.merged })
+        let table = self.asked.table;
+        let (id, sentences) = (Table::about(table).id, table.sentences(&self.merged));
+        written(&Document { schema_version, id, merged: &self.merged, sentences })
     }
 
     fn picture(&self, name: &str) -> Result<String, Halt> {

@@ -71,8 +71,6 @@ pub struct Summary {
     settings: Settings,
     /// Rule by rule, each for all teams.
     pub lines: Vec<Line>,
-    /// The paper's sentences, and what comes out.
-    pub judged: Vec<Judgement>,
 }
 
 /// A team of a rule.
@@ -95,23 +93,6 @@ pub struct Line {
     pub double: Option<Estimate>,
 }
 
-/// A sentence of the paper.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-pub struct Judgement {
-    /// The paper's sentence.
-    pub sentence: &'static str,
-    /// The measured outcome.
-    pub outcome: String,
-}
-
-impl Judgement {
-    /// A line for people.
-    pub(super) fn text(&self) -> String {
-        let Self { sentence, outcome } = self;
-        format!("“{sentence}”: {outcome}.\n")
-    }
-}
-
 impl Table for FrontierFig7 {
     type Settings = Settings;
     type Job = Job;
@@ -128,6 +109,7 @@ impl Table for FrontierFig7 {
                 "frontier-fig7 --blocked 12 --runs 100 --format json",
             ],
             doing: "exploring",
+            takes: "minutes",
             pictures: &[("svg", "Store a chart of the team moves")],
             ..Description::NOTHING
         }
@@ -161,9 +143,7 @@ impl Table for FrontierFig7 {
         let line = |(rule, robots)| {
             Line::of(rule, robots, &outcomes((rule, robots)), &outcomes((RuleId::REPAIRED, robots)))
         };
-        let lines: Vec<Line> = teams().map(line).collect();
-        let judged = judged(&lines);
-        Ok(Summary { settings: *settings, lines, judged })
+        Ok(Summary { settings: *settings, lines: teams().map(line).collect() })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -189,7 +169,11 @@ impl Table for FrontierFig7 {
             }
             columns.text()
         };
-        Ok(parts.map(part).concat() + &merged.judged.iter().map(Judgement::text).collect::<String>())
+        Ok(parts.map(part).concat())
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        judged(&merged.lines)
     }
 
     /// Team moves over robots, a line for each rule.
@@ -282,34 +266,47 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     let moves = |rule: &str, robots| text(of(rule, robots).and_then(|line| line.moves), 1);
     let percent =
         |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| text(of(rule, robots).and_then(part), 1);
+    let estimate = |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| of(rule, robots).and_then(part);
+    let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
+    let is_whole = estimate(|line| line.explored, "published", 1).map(|explored| explored.mean >= 100.0);
+    let is_alone = estimate(|line| line.double, "published", 8).map(|double| double.mean <= 0.0);
+    let sooner = match [6, 8].map(|robots| ends(estimate(|line| line.moves, "wanders", robots))) {
+        [Some([low6, high6]), Some([low8, high8])] => Verdict::decided(high8 < low6, high6 < low8),
+        _ => Verdict::Open,
+    };
     vec![
-        Judgement {
-            sentence: "performs better when team of robots has 8 members",
-            outcome: format!(
-                "8 is the largest team that is compared. Robots that wander take {} team moves with 6 and {} with 8, repaired \
-                 ones {} and {}",
+        Judgement::new(
+            "“performs better when team of robots has 8 members”",
+            "robots that wander",
+            format!(
+                "{} team moves with 6 and {} with 8, repaired {} and {}; 8 is the largest team that is compared",
                 moves("wanders", 6),
                 moves("wanders", 8),
                 moves("repaired", 6),
                 moves("repaired", 8)
             ),
-        },
-        Judgement {
-            sentence: "avoiding … missing out sectors",
-            outcome: format!(
-                "refuted: one published robot explores {} % of the cells, and all of them in {} % of the runs; repaired {} %",
+            sooner,
+        ),
+        Judgement::new(
+            "“avoiding … missing out sectors”",
+            "one published robot",
+            format!(
+                "{} % of the cells, and all of them in {} % of the runs; repaired {} %",
                 percent(|line| line.explored, "published", 1),
                 percent(|line| line.whole, "published", 1),
                 percent(|line| line.whole, "repaired", 1)
             ),
-        },
-        Judgement {
-            sentence: "avoiding overlapping",
-            outcome: format!(
-                "refuted: of the runs of 8 published robots {} % have two in one cell; repaired {} %",
+            is_whole.map_or(Verdict::Open, Verdict::of),
+        ),
+        Judgement::new(
+            "“avoiding overlapping”",
+            "8 published robots",
+            format!(
+                "in {} % of the runs two are in one cell; repaired {} %",
                 percent(|line| line.double, "published", 8),
                 percent(|line| line.double, "repaired", 8)
             ),
-        },
+            is_alone.map_or(Verdict::Open, Verdict::of),
+        ),
     ]
 }

@@ -27,33 +27,45 @@ use tautline_sim::value_parser::Metres;
 pub const RESCUE_FIG6: Journeys = Journeys::of(
     Figure::Trajectories,
     "rescue-fig6",
-    "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture",
-    "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
+    [
+        "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture",
+        "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
+        "a second",
+    ],
 );
 
 /// Figure 7.
 pub const RESCUE_FIG7: Journeys = Journeys::of(
     Figure::Ratios,
     "rescue-fig7",
-    "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's schemes, \
+    [
+        "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's schemes, \
      by the number of nodes, and what becomes of the paper's words about it",
-    "How far a robot walks by TAN and its rivals, by the number of nodes",
+        "How far a robot walks by TAN and its rivals, by the number of nodes",
+        "some seconds",
+    ],
 );
 
 /// Figure 9.
 pub const RESCUE_FIG9: Journeys = Journeys::of(
     Figure::OneObstacle,
     "rescue-fig9",
-    "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
-    "How far a robot walks round a large obstacle",
+    [
+        "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
+        "How far a robot walks round a large obstacle",
+        "a second",
+    ],
 );
 
 /// Figure 10.
 pub const RESCUE_FIG10: Journeys = Journeys::of(
     Figure::FourObstacles,
     "rescue-fig10",
-    "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
-    "How far a robot walks round four large obstacles",
+    [
+        "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
+        "How far a robot walks round four large obstacles",
+        "a second",
+    ],
 );
 
 /// Journeys of a robot to the node that waits for rescue.
@@ -184,7 +196,7 @@ pub struct Summary {
 }
 
 impl Journeys {
-    const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
+    const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
         let examples = &[
             "rescue-fig7 --svg ratios.svg",
             "rescue-fig7 --nodes 700 --k 8 --format json",
@@ -203,6 +215,7 @@ impl Journeys {
                 help,
                 examples,
                 doing: "walking",
+                takes,
                 pictures,
                 ..Description::NOTHING
             },
@@ -257,6 +270,18 @@ impl Table for Journeys {
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(text::figures(&self.whole(settings), &merged.densities))
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        let judged = |place: usize, claim: Claim| {
+            let of = move |density: &Density| {
+                let Decision { difference, verdict, .. } = density.claims[place];
+                let measured = format!("TAN less {} {}", claim.rival().word(), text(difference, 2));
+                Judgement::new(claim.words(), counted(density.nodes as u32, "node"), measured, verdict)
+            };
+            merged.densities.iter().map(of)
+        };
+        Claim::ALL.into_iter().enumerate().flat_map(|(place, claim)| judged(place, claim)).collect()
     }
 
     fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {

@@ -19,6 +19,7 @@ use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 
 use self::lattice::{FAMILIES, Family};
+use super::paper;
 use super::prelude::*;
 use tautline_sim::kit::{self, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::Layout;
@@ -71,16 +72,22 @@ const PATIENCE: usize = 1000 * PATHS;
 pub const KIT_FIG9: Kit = Kit::of(
     Figure::Time,
     "kit-fig9",
-    "KIT: how long one robot and two take to find the nodes of random lattices",
-    "How long robots that keep in touch take to find the nodes",
+    [
+        "KIT: how long one robot and two take to find the nodes of random lattices",
+        "How long robots that keep in touch take to find the nodes",
+        "half a minute",
+    ],
 );
 
 /// Figure 14: how much both robots drive.
 pub const KIT_FIG14: Kit = Kit::of(
     Figure::Overlap,
     "kit-fig14",
-    "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and how long all take",
-    "How much robots that keep in touch overlap",
+    [
+        "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and how long all take",
+        "How much robots that keep in touch overlap",
+        "minutes",
+    ],
 );
 
 /// Robots that keep in touch on random lattices.
@@ -91,7 +98,7 @@ pub struct Kit {
 }
 
 impl Kit {
-    const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
+    const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
         let examples = &["kit-fig14 --svg overlap.svg", "kit-fig9 --runs 100 --format json"];
         let pictures = &[("svg", "Store a chart")];
         Self {
@@ -102,6 +109,7 @@ impl Kit {
                 help,
                 examples,
                 doing: "driving",
+                takes,
                 pictures,
                 ..Description::NOTHING
             },
@@ -248,6 +256,10 @@ impl Table for Kit {
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         Ok(printed::text(self.figure, settings, merged))
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        paper::judged(&merged.paper)
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {

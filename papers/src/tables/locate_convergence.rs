@@ -127,7 +127,9 @@ impl Table for LocateConvergence {
                 "locate-convergence --noise-db 4 --runs 1000 --format json",
             ],
             doing: "locating",
+            takes: "a minute",
             pictures: &[("svg", "Store the medians as a picture")],
+            ..Description::NOTHING
         }
     }
 
@@ -180,6 +182,22 @@ impl Table for LocateConvergence {
         Ok(figures.with_notes(&format!("{}\n±, […]: the 95 % interval", compared(merged))))
     }
 
+    /// The paper's bounds on errors.
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        let judged = |(what, paper_m, ours_m): (String, f64, f64)| {
+            let verdict = Verdict::of(ours_m < paper_m);
+            Judgement::new(
+                format!("an error below {paper_m} m"),
+                what,
+                format!("{ours_m:.4} m, the median"),
+                verdict,
+            )
+        };
+        let mut judged: Vec<Judgement> = numbers(merged).into_iter().map(judged).collect();
+        judged.sort_by(|one, other| one.sentence.cmp(&other.sentence));
+        judged
+    }
+
     /// The medians of each reading.
     fn draw(&self, _: usize, settings: &Field, merged: &Summary) -> Result<String, Halt> {
         let point = |after: &CoursePoint| chart::Point {
@@ -195,8 +213,8 @@ impl Table for LocateConvergence {
     }
 }
 
-/// The paper's numbers beside ours.
-fn compared(merged: &Summary) -> String {
+/// The paper's numbers and ours: of what, and how many metres.
+fn numbers(merged: &Summary) -> Vec<(String, f64, f64)> {
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);
@@ -209,7 +227,12 @@ fn compared(merged: &Summary) -> String {
             (format!("{reading}: to the robot, 20 iterations"), PAPER_M, error_m),
         ]
     };
-    let numbers: Vec<(String, f64, f64)> = merged.variants.iter().flat_map(numbers).collect();
+    merged.variants.iter().flat_map(numbers).collect()
+}
+
+/// The paper's numbers beside ours.
+fn compared(merged: &Summary) -> String {
+    let numbers = numbers(merged);
     Columns::of(&numbers)
         .left("metres", Fit, |(what, ..)| what)
         .right("paper", Fit, |(_, paper_m, _)| format!("< {paper_m}"))

@@ -48,7 +48,8 @@ pub struct Summary {
     /// Team by team.
     pub sizes: Vec<Size>,
     /// The paper's sentences about it.
-    pub sentences: Vec<Sentence>,
+    #[serde(skip)]
+    sentences: Vec<Judgement>,
 }
 
 /// The errors of teams of one size.
@@ -69,17 +70,6 @@ pub struct Errors {
     pub mean_m: Estimate,
     /// The greatest of a team's errors, in metres.
     pub worst_m: Estimate,
-}
-
-/// A sentence of the paper.
-#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Sentence {
-    /// The paper's sentence.
-    pub paper: &'static str,
-    /// The measured difference, in metres: after, less before.
-    pub difference_m: Estimate,
-    /// Whether the difference has the sign that is said, beyond its 95 % interval.
-    pub is_so: bool,
 }
 
 /// An estimate of a solver's errors.
@@ -116,7 +106,9 @@ impl Table for LocateFig8 {
             more: "Anchors stand at 0,0, at 20,0 and at 0,20 metres, robots at random places between 0,0 and 20,20.",
             examples: &["locate-fig8 --svg fig8.svg", "locate-fig8 --noise-db 2 --format json"],
             doing: "locating",
+            takes: "half a minute",
             pictures: &[("svg", "Store the figure as a picture")],
+            ..Description::NOTHING
         }
     }
 
@@ -149,16 +141,22 @@ impl Table for LocateFig8 {
         };
         let (without, with) = ((MOST, 0), (MOST, 1));
         let one: (usize, usize) = (1, 1);
-        let sentence = |paper: &'static str, of: Metric, [before, after]: [(usize, usize); 2], sign: f64| {
-            let difference_m =
-                estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
-            let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
-            Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
-        };
+        // The paper's words, of what, by which number, from which team to which, and whether it falls or grows.
+        let judged =
+            |words: &str, what: &str, of: Metric, [before, after]: [(usize, usize); 2], sign: f64| {
+                let difference =
+                    estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
+                let has = |sign: f64| {
+                    difference.interval.is_some_and(|ends| ends.iter().all(|end| sign * end > 0.0))
+                };
+                let verdict = Verdict::decided(has(sign), has(-sign));
+                Judgement::new(words, what, format!("difference {} m", difference.text(3)), verdict)
+            };
+        let (falls, grows) = ("the error falls with the swarm", "the error grows from 1 robot to 8");
         let sentences = vec![
-            sentence("the error falls with the swarm (8 robots, mean)", mean_of, [without, with], -1.0),
-            sentence("the error grows from 1 robot to 8 (pso, mean)", mean_of, [one, with], 1.0),
-            sentence("the same of the worst robot of the team", worst_of, [one, with], 1.0),
+            judged(falls, "8 robots, mean of the team", mean_of, [without, with], -1.0),
+            judged(grows, "pso, mean of the team", mean_of, [one, with], 1.0),
+            judged(grows, "pso, worst robot of the team", worst_of, [one, with], 1.0),
         ];
         Ok(Summary { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
     }
@@ -180,15 +178,13 @@ impl Table for LocateFig8 {
                 figures.row(solver.word(), |size| of(&size.solvers[number]).text(2));
             }
         }
-        let sentences = Columns::of(&merged.sentences)
-            .left("paper", Fit, |sentence| sentence.paper)
-            .left("ours: difference, m", Fit, |sentence| sentence.difference_m.text(3))
-            .left("so?", Fit, |sentence| if sentence.is_so { "yes" } else { "no" });
-        let notes = format!(
-            "{}\n±, […]: the 95 % interval; the text of the paper that we have prints no number of its figure",
-            sentences.text()
-        );
-        Ok(figures.with_notes(&notes))
+        let notes =
+            "±, […]: the 95 % interval; the text of the paper that we have prints no number of its figure";
+        Ok(figures.with_notes(notes))
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        merged.sentences.clone()
     }
 
     fn draw(&self, _: usize, settings: &Field, merged: &Summary) -> Result<String, Halt> {

@@ -152,6 +152,7 @@ impl Table for Margins {
                    papers.",
             examples: &["margins", "margins --range 12 --cell 3.9 --format json"],
             doing: "measuring",
+            takes: "a second",
             ..Description::NOTHING
         }
     }

@@ -27,6 +27,9 @@ pub const RANGE_M: f64 = 25.0;
 /// only.
 const PAPER: (Count, f64) = (Count::ONE, 1.0);
 
+/// The share that is “near 100 %”. The paper gives no number.
+const NEAR: f64 = 0.95;
+
 /// Figure 5.
 #[derive(Clone, Copy, Debug)]
 pub struct NoticeFig5;
@@ -199,10 +202,12 @@ impl Table for NoticeFig5 {
                 "notice-fig5 --channel shared",
             ],
             doing: "broadcasting",
+            takes: "some seconds",
             pictures: &[
                 ("svg-reach", "Store the reach as a picture"),
                 ("svg-rebroadcasts", "Store the rebroadcasts as a picture"),
             ],
+            ..Description::NOTHING
         }
     }
 
@@ -264,6 +269,28 @@ impl Table for NoticeFig5 {
             "connected: % of the networks in which links connect all nodes · component: % of the nodes that they connect \
              to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” at every density; all else it draws only",
         ))
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        let judged = |density: &Density, line: &Line| {
+            line.paper?;
+            let [low, high] = line.reach.interval.unwrap_or([line.reach.mean; 2]);
+            let (of, measured) =
+                (counted(density.nodes as u32, "node"), format!("{} %", percent(line.reach, 2)));
+            let verdict = Verdict::decided(low >= NEAR, high < NEAR);
+            Some(Judgement::new(
+                format!("k-FNF reaches “near 100 %”: {:.0} % or more", 100.0 * NEAR),
+                of,
+                measured,
+                verdict,
+            ))
+        };
+        let lines = |density| move |line| judged(density, line);
+        merged
+            .densities
+            .iter()
+            .flat_map(|density| density.schemes.iter().filter_map(lines(density)))
+            .collect()
     }
 
     /// A part of the figure by the number of nodes: (a) the reach of all nodes, (b) the rebroadcasts.

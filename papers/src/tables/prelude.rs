@@ -12,6 +12,7 @@ pub(super) use super::parameter::{
     word,
 };
 pub(super) use super::runs::{Run, at, of_teams, pairs, runs};
+pub(super) use super::sentences::Judgement;
 pub(super) use super::{Description, Observer, Results, Table, Threads, based, generated, usage};
 pub(super) use crate::chart::{Axis, LineChart, Point, Series};
 pub(super) use tautline_field::stats::{Estimate, decimals, hundredths, rounded};

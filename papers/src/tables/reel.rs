@@ -138,6 +138,7 @@ impl Table for Reel {
             help: "How many team moves the reel saves, and what holding contact costs",
             examples: &["reel", "reel --runs 1000 --format json"],
             doing: "comparing",
+            takes: "some seconds",
             ..Description::NOTHING
         }
     }

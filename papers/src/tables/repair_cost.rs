@@ -141,6 +141,7 @@ impl Table for RepairCost {
             help: "What the chain's repairs cost in team moves, and what they prevent",
             examples: &["repair-cost", "repair-cost --runs 10000 --format json"],
             doing: "comparing",
+            takes: "some seconds",
             ..Description::NOTHING
         }
     }

@@ -178,10 +178,12 @@ impl Table for RescueFig8 {
                 "rescue-fig8 --robots 2 --wfr 4",
             ],
             doing: "rescuing",
+            takes: "some seconds",
             pictures: &[(
                 "svg",
                 "Store the ways of the first topology in which each WFR has a robot of its own as a picture",
             )],
+            ..Description::NOTHING
         }
     }
 
@@ -230,6 +232,26 @@ impl Table for RescueFig8 {
              off the WFRs that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · \
              the best assignment: % of these in which it is\nthat one · ±, […]: the 95 % interval",
         ))
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        let judged = |line: &Line, what: &str, share: Comparison| {
+            let [_, high] = share.ours.interval.unwrap_or([share.ours.mean; 2]);
+            let verdict = Verdict::decided(share.ours.mean >= share.paper, high < share.paper);
+            let measured = format!("{} % of the topologies", percent(share.ours, 2));
+            Judgement::new(
+                "“for all simulated scenarios”",
+                format!("{}, {what}", line.rule),
+                measured,
+                verdict,
+            )
+        };
+        let lines = merged.rules.iter();
+        lines
+            .flat_map(|line| {
+                [judged(line, "all served", line.served), judged(line, "a robot each", line.own)]
+            })
+            .collect()
     }
 
     fn draw(&self, _: usize, settings: &Settings, _: &Summary) -> Result<String, Halt> {

@@ -47,10 +47,10 @@ impl Claim {
     /// In words, with the section.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::CloseToVerma => "very close (4.3)",
-            Self::ShorterThanVerma => "shorter (4.4)",
-            Self::SmallerThanReich => "smaller (4.3)",
-            Self::LikeReich => "about as long (4.4)",
+            Self::CloseToVerma => "RD “very close to position-based Verma's scheme” (4.3)",
+            Self::ShorterThanVerma => "“shorter moving distance … than Verma's scheme” (4.4)",
+            Self::SmallerThanReich => "RD “smaller … than positionless Reich's scheme for some cases” (4.3)",
+            Self::LikeReich => "“about the same moving distance … as Reich's scheme” (4.4)",
         }
     }
 

@@ -1,7 +1,7 @@
 //! The figures of journeys as text.
 
 use super::super::prelude::*;
-use super::claims::{CLOSE, Claim};
+use super::claims::CLOSE;
 use super::density::Density;
 use super::{Settings, Way};
 
@@ -42,16 +42,6 @@ pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
     table.title("TAN");
     table.row("hops", |density| text(density.hops, 2));
     table.row("shorter, %", |density| percent(density.shorter_than_reich, 1));
-    table.title("RD of TAN, in the paper's words, and the difference");
-    let mut rival = None;
-    for (place, claim) in Claim::ALL.into_iter().enumerate() {
-        if rival.replace(claim.rival()) != Some(claim.rival()) {
-            table.row(format!("TAN less {}", claim.rival().word()), |density| {
-                text(density.claims[place].difference, 2)
-            });
-        }
-        table.row(format!("  {}", claim.words()), |density| density.claims[place].verdict.word().to_owned());
-    }
     table.with_notes(&format!(
         "linked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
          robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · hops: for \

@@ -1,19 +1,6 @@
 //! The paper's claims about the chain and its rivals, and what is so.
 
 use super::super::prelude::*;
-use tautline_sim::text_table::{Column, TextTable, Width};
-
-/// A sentence of the paper, and what is so.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub(super) struct Judgement {
-    /// Its words, shortened, and where they stand.
-    pub(super) sentence: &'static str,
-    /// For which density or area, and by which links.
-    pub(super) of: String,
-    /// The measured numbers.
-    pub(super) measured: String,
-    pub(super) verdict: Verdict,
-}
 
 /// How far from a figure “about” is: a quarter of it. The paper gives no number.
 const ABOUT: f64 = 0.25;
@@ -66,21 +53,6 @@ impl Race {
     pub(super) fn text(self) -> String {
         format!("sooner {}, even {}, later {}", self.sooner, self.even, self.later)
     }
-}
-
-/// The sentences for people, each named once.
-pub(super) fn text(judged: &[Judgement]) -> String {
-    let widths = [Width::Fit, Width::Fit, Width::Fit].map(Column::left);
-    let mut columns = TextTable::new(widths);
-    let mut last = "";
-    for Judgement { sentence, of, measured, verdict } in judged {
-        if *sentence != last {
-            columns.title(*sentence);
-            last = sentence;
-        }
-        columns.row([verdict.word().to_owned(), of.clone(), measured.clone()]);
-    }
-    columns.text()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::super::prelude::*;
 use super::asked::RivalSettings;
-use super::claims::{self, Judgement, Race, alike};
+use super::claims::{Race, alike};
 use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times};
 use crate::rivals::Links;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
@@ -35,7 +35,6 @@ type Job = Run<usize>;
 pub struct Summary {
     settings: Settings,
     areas: Vec<Area>,
-    sentences: Vec<Judgement>,
 }
 
 /// All teams in the layouts of one density, or in one building.
@@ -72,10 +71,12 @@ impl Table for ChainFig3 {
             more: "Where not all runs get there, the median counts the others as later than any; the chart draws medians.",
             examples: &["chain-fig3", "chain-fig3 --runs 20 --svg-50 fig3a.svg"],
             doing: "comparing",
+            takes: "minutes",
             pictures: &[
                 ("svg-50", "Store team moves to 50 % as a chart"),
                 ("svg-75", "Store team moves to 75 % as a chart"),
             ],
+            ..Description::NOTHING
         }
     }
 
@@ -117,8 +118,7 @@ impl Table for ChainFig3 {
             }
         };
         let areas: Vec<Area> = areas().enumerate().map(area).collect();
-        let sentences = judged(&areas, settings.told.pool);
-        Ok(Summary { settings: *settings, areas, sentences })
+        Ok(Summary { settings: *settings, areas })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -139,9 +139,12 @@ impl Table for ChainFig3 {
             }
             text += &columns.text();
         }
-        text += "\nWhat the paper says of the chain as published; on the same layouts it is sooner, even or later, and who never \
-                 gets there is later than any\n";
-        Ok(text + &claims::text(&merged.sentences))
+        text += "\nsooner, even, later: the chain as published on the same layouts; who never gets there is later than any\n";
+        Ok(text)
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        judged(&merged.areas, merged.settings.told.pool)
     }
 
     /// The medians by density.
@@ -230,7 +233,7 @@ fn judged(areas: &[Area], pool: u32) -> Vec<Judgement> {
                     race.text()
                 );
                 let of = format!("{area}, {}", links.symbol());
-                judged.push(Judgement { sentence, of, measured, verdict });
+                judged.push(Judgement::new(sentence, of, measured, verdict));
             }
         }
     }

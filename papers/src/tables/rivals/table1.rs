@@ -3,7 +3,7 @@
 
 use super::super::prelude::*;
 use super::asked::RivalSettings;
-use super::claims::{self, Judgement, about, alike};
+use super::claims::{about, alike};
 use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
 use crate::rivals::{Cells, Links, Search};
 use tautline_sim::explore::{Limits, Milestone, RuleName};
@@ -45,7 +45,6 @@ pub struct Summary {
     /// The explored shares of buildings.
     rooms: Vec<Share>,
     paper: Vec<PrintedFigure>,
-    sentences: Vec<Judgement>,
 }
 
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -93,6 +92,7 @@ impl Table for ChainTable1 {
                    all runs get there, the median counts the others as later than any.",
             examples: &["chain-table1", "chain-table1 --runs 200 --pool 200 --format json"],
             doing: "comparing",
+            takes: "minutes",
             ..Description::NOTHING
         }
     }
@@ -133,8 +133,8 @@ impl Table for ChainTable1 {
             }
         };
         let rooms: Vec<Share> = pairs(0..ROOMS.len(), Contender::all(pool)).map(share).collect();
-        let (paper, sentences) = (printed(&open, &rooms, pool), judged(&open, &rooms, pool));
-        Ok(Summary { settings: *settings, open, rooms, paper, sentences })
+        let paper = printed(&open, &rooms, pool);
+        Ok(Summary { settings: *settings, open, rooms, paper })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -168,8 +168,11 @@ impl Table for ChainTable1 {
             .left("team", Fit, |share| share.who.name())
             .estimate("explored %", Fit, 1, |share| share.explored)
             .right("all explored", Fit, |share| format!("{}/{}", share.whole, share.runs));
-        let said = claims::text(&merged.sentences);
-        Ok([&heading, &paper.text(), &open.text(), &rooms.text(), "\nWhat the paper says\n", &said].concat())
+        Ok([&heading, &paper.text(), &open.text(), &rooms.text()].map(String::as_str).concat())
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        judged(&merged.open, &merged.rooms, merged.settings.told.pool)
     }
 }
 
@@ -231,12 +234,12 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
     let chain = whole(open, Contender::Chain(RuleName::Published)).and_then(|times| times.middle());
     let said = chain.map_or_else(|| "-".to_owned(), |chain| format!("{chain:.0}"));
     let verdict = Verdict::of(chain.is_some_and(|chain| (chain - 62.0).abs() < 0.5));
-    judged.push(Judgement {
-        sentence: "“62 time units … the minimal theoretical value of 9(N−1)−1”",
-        of: "chain".to_owned(),
-        measured: said,
+    judged.push(Judgement::new(
+        "“62 time units … the minimal theoretical value of 9(N−1)−1”",
+        "chain".to_owned(),
+        said,
         verdict,
-    });
+    ));
     for (sentence, factor, search) in [
         ("“about half of that of the Full search method”", 2.0, Search::Full),
         ("“one sixth of that of the reference method”", 6.0, Search::Pool(pool)),
@@ -250,7 +253,7 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
                 (None, _) => "-".to_owned(),
             };
             let of = format!("links by {}", links.symbol());
-            judged.push(Judgement { sentence, of, measured, verdict: about(factor, ratio) });
+            judged.push(Judgement::new(sentence, of, measured, about(factor, ratio)));
         }
     }
     let explored = |room: &str, who: Contender| {
@@ -262,12 +265,12 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
         let shares = || rooms.iter().filter(said);
         let (all, runs): (u32, u32) =
             (shares().map(|share| share.whole).sum(), shares().map(|share| share.runs).sum());
-        judged.push(Judgement {
-            sentence: "“all three algorithms stopped before the 100 % exploration success”",
-            of: room.to_owned(),
-            measured: format!("{all} of {runs} runs explore all"),
-            verdict: Verdict::of(all == 0),
-        });
+        judged.push(Judgement::new(
+            "“all three algorithms stopped before the 100 % exploration success”",
+            room.to_owned(),
+            format!("{all} of {runs} runs explore all"),
+            Verdict::of(all == 0),
+        ));
     }
     for room in ROOMS {
         for links in [Links::Safe, Links::Covered] {
@@ -275,18 +278,18 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
             let [full, pool] =
                 [Contender::full(links), Contender::pool(pool, links)].map(|who| explored(room, who));
             let of = format!("{room}, links by {}", links.symbol());
-            judged.push(Judgement {
-                sentence: "“the proposed and the Full search algorithms have similar success rates”",
-                of: of.clone(),
-                measured: format!("chain {ours:.0} %, Full search {full:.0} %"),
-                verdict: alike(Some(ours), Some(full)),
-            });
-            judged.push(Judgement {
-                sentence: "“much better … than the reference algorithm having only 25% and 43%”",
+            judged.push(Judgement::new(
+                "“the proposed and the Full search algorithms have similar success rates”",
+                of.clone(),
+                format!("chain {ours:.0} %, Full search {full:.0} %"),
+                alike(Some(ours), Some(full)),
+            ));
+            judged.push(Judgement::new(
+                "“much better … than the reference algorithm having only 25% and 43%”",
                 of,
-                measured: format!("chain {ours:.0} %, Full search {full:.0} %, pool {pool:.0} %"),
-                verdict: Verdict::of(ours > 1.5 * pool && full > 1.5 * pool),
-            });
+                format!("chain {ours:.0} %, Full search {full:.0} %, pool {pool:.0} %"),
+                Verdict::of(ours > 1.5 * pool && full > 1.5 * pool),
+            ));
         }
     }
     judged.sort_by_key(|judged| judged.sentence.starts_with("“much"));

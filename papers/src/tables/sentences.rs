@@ -1,0 +1,61 @@
+//! The sentences of papers beside a table, each with its verdict: one shape and one printer for every table.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use tautline_field::stats::Estimate;
+use tautline_sim::text_table::{Column, TextTable, Width};
+
+use super::paper::Verdict;
+
+/// A sentence of a paper, and what is so.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Judgement {
+    /// Its words, shortened, and where they stand.
+    pub sentence: String,
+    /// Of what it is measured, such as a density, an area, a rule.
+    pub of: String,
+    /// The measured numbers.
+    pub measured: String,
+    /// Whether it is so.
+    pub verdict: Verdict,
+}
+
+impl Judgement {
+    /// The verdict on a sentence.
+    pub(super) fn new(
+        sentence: impl Into<String>,
+        of: impl Into<String>,
+        measured: impl Into<String>,
+        verdict: Verdict,
+    ) -> Self {
+        Self { sentence: sentence.into(), of: of.into(), measured: measured.into(), verdict }
+    }
+}
+
+/// How far from a figure of a paper ours may be to be the same: a tenth of it. No paper gives a number.
+const SAME: f64 = 0.1;
+
+/// Whether `ours` is the figure `paper`, by its whole 95 % interval.
+pub(super) fn same(paper: f64, ours: Estimate) -> Verdict {
+    let [low, high] = ours.interval.unwrap_or([ours.mean, ours.mean]);
+    let [least, most] = [paper - SAME * paper.abs(), paper + SAME * paper.abs()];
+    Verdict::decided(least <= low && high <= most, high < least || most < low)
+}
+
+/// The sentences for people, each named once; or why there is none.
+pub(super) fn text(judged: &[Judgement], why_none: &str) -> String {
+    if judged.is_empty() {
+        return format!("\nNo sentence of a paper is compared here: {why_none}.\n");
+    }
+    let widths = [Width::Fit, Width::Fit, Width::Fit].map(Column::left);
+    let mut columns = TextTable::new(widths);
+    let mut last = "";
+    for Judgement { sentence, of, measured, verdict } in judged {
+        if sentence != last {
+            columns.title(sentence);
+            last = sentence;
+        }
+        columns.row([verdict.word().to_owned(), of.clone(), measured.clone()]);
+    }
+    format!("\nWhat the paper says\n{}", columns.text())
+}
