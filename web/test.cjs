@@ -1,6 +1,7 @@
 "use strict";
-// Drives the page in a browser as a person would, and says what it has seen. Usage: node test.cjs PAGE BROWSER; pictures
-// of what it looks at go to the folder that TAUTLINE_SHOTS names, if it names one.
+// Drives the page in a browser as a person would, and says what it has seen. Usage: node test.cjs PAGE BROWSER [OWN], where
+// OWN is the page of the rule in templates/page; pictures of what it looks at go to the folder that TAUTLINE_SHOTS names, if
+// it names one.
 
 const assert = require("node:assert/strict");
 const { readFileSync, writeFileSync, mkdtempSync } = require("node:fs");
@@ -8,7 +9,7 @@ const { tmpdir } = require("node:os");
 const { join } = require("node:path");
 const { chromium } = require("playwright-core");
 
-const [page_file, browser_file] = process.argv.slice(2);
+const [page_file, browser_file, own_file] = process.argv.slice(2);
 const url = `file://${page_file}`;
 const shots = process.env.TAUTLINE_SHOTS;
 const flags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
@@ -125,6 +126,113 @@ const tests = {
     await page.click("#refusals");
     assert.match(await page.textContent("#why"), /(UnsureAhead|SafeAhead|CoveredBehind|Distinct).* refuses/);
     await shoot(page, "refused");
+  },
+
+  async "what each condition changes is seen for every scheme that has conditions"(page) {
+    const seen = [];
+    const names = await page.evaluate(() => schemes.filter(({ rules }) => rules.some(({ conditions }) => conditions)).map(({ name }) => name));
+    for (const name of names) {
+      await page.selectOption("#scheme", name);
+      if (await page.isVisible("#more") && await page.$("[data-option=sight]")) {
+        await page.evaluate(() => { settings.options = { sight: "1" }; open(); });
+      }
+      for (let i = 0; i < 4; i++) {
+        await page.click("#step");
+        if (await page.isVisible("#ask")) await page.locator("#ask button").first().click();
+      }
+      await page.click("#refusals");
+      const why = await page.textContent("#why");
+      assert.match(why, /refuses|is needed|No condition changes/, name);
+      if (!/^No condition/.test(why)) seen.push(name);
+      await page.click("#refusals");
+    }
+    assert(["chain", "bricks", "kit", "frontier", "notice", "mrc"].every(name => names.includes(name)), `${names}`);
+    assert(seen.length >= 5, `${seen}`);
+    say(`conditions that change something after four steps: ${seen.join(", ")} of ${names.join(", ")}`);
+  },
+
+  async "networks and rescues are hunted through every order, and what is found is played"(page) {
+    for (const name of ["notice", "mrc"]) {
+      await page.selectOption("#scheme", name);
+      await page.selectOption("#rule", "published");
+      await page.evaluate(() => { settings.options = settings.scheme === "mrc" ? { wfrs: "1", events: "1", faults: "1" } : {}; settings.robots = settings.scheme === "mrc" ? 1 : 4; open(); });
+      await page.click("#find");
+      await page.waitForSelector("#found button");
+      await page.waitForSelector("#find:not([hidden])");
+      assert.match(await page.textContent("#far"), /every order: \d+ states/, name);
+      assert.match(await page.textContent("#why"), name === "mrc" ? /MRC-\d+ is broken/ : /NOTICE-\d+ is broken/, name);
+      say(`${name}: ${await page.textContent("#far")} ${await page.$$eval("#found b", all => all.map(one => one.textContent).join(", "))}`);
+    }
+  },
+
+  async "who acts first, and several sensors that are missed at once, are decided by hand"(page) {
+    await page.selectOption("#scheme", "bricks");
+    await page.fill("#robots", "2");
+    await page.keyboard.press("Tab");
+    await page.check("#hand");
+    const answer = async number => { await page.locator("#ask button").nth(number).click(); };
+    await page.click("#step");
+    assert.match(await page.textContent("#ask p"), /Which agent acts next/);
+    await answer(1);
+    while (await page.isVisible("#ask")) await answer(0);
+    // Later both have sensors to miss; the second one acts first again, and misses what it can.
+    let missed = 0;
+    for (let i = 0; i < 5 && missed < 2; i++) {
+      await page.click("#step");
+      await answer(1);
+      while (await page.isVisible("#ask")) {
+        assert.match(await page.textContent("#ask p"), /Which sensor does agent [12] miss/);
+        await answer(1);
+      }
+      missed = await page.evaluate(() => frames[at].unseen?.length ?? 0);
+    }
+    assert(missed >= 2, `${missed} sensors were missed in a team move`);
+    say(`${missed} sensors missed in team move ${await page.evaluate(() => at)}`);
+    const before = await page.evaluate(() => picture()), hash = await page.evaluate(() => linkOf(held()));
+    await page.goto("about:blank");
+    await open(page, hash);
+    assert.equal(await page.evaluate(() => picture()), before);
+  },
+
+  async "a pack, of which nothing is asked, says why"(page) {
+    await page.selectOption("#scheme", "pack");
+    await page.evaluate(() => { settings.options = { sight: "1" }; open(); });
+    await page.check("#hand");
+    await page.click("#step");
+    assert.match(await page.textContent("#say"), /nothing was asked: the robots know or see all/);
+  },
+
+  ...own_file && {
+    async "a rule of one's own is drawn, stepped, decided by hand, hunted and shared on its own page"(page) {
+      await page.goto(`file://${own_file}`);
+      await page.waitForSelector("body[data-ready]");
+      assert.equal(await page.inputValue("#scheme"), "east");
+      assert.match(await page.textContent("#say"), /The start: 2 robots/);
+      await clickSide(page, 2, 0, "e");
+      await page.click("#step");
+      assert.match(await page.textContent("#say"), /Team move 1/);
+      await page.selectOption("#rule", "blind");
+      await page.click("#find");
+      await page.waitForSelector("#found button");
+      await page.waitForSelector("#find:not([hidden])");
+      assert.match(await page.textContent("#why"), /EAST-1 is broken: The robots MUST never share a cell/);
+      say(`an own rule: ${await page.textContent("#far")} ${await page.textContent("#found")}`);
+      await shoot(page, "own");
+      const before = await page.evaluate(() => picture()), hash = await page.evaluate(() => linkOf(held()));
+      await page.goto("about:blank");
+      await page.goto(`file://${own_file}${hash}`);
+      await page.waitForSelector("body[data-ready]");
+      assert.equal(await page.evaluate(() => picture()), before);
+      await page.selectOption("#rule", "ours");
+      await page.click("#find");
+      await page.waitForSelector("#find:not([hidden])");
+      assert.match(await page.textContent("#far"), /No clause is broken in any layout/);
+      await page.check("#hand");
+      await page.click("#step");
+      assert.match(await page.textContent("#ask p"), /Who acts next/);
+      while (await page.isVisible("#ask")) await page.locator("#ask button").last().click();
+      assert.equal(await page.evaluate(() => at), 1);
+    },
   },
 
   async "keys alone draw, step and say"(page) {

@@ -147,3 +147,62 @@ fn the_page_of_all_verdicts_has_them_and_their_counterexamples() {
     let again = refused(folder, &["prove", "LATTICE-1", "--html", "report.html/x"]);
     assert!(again.contains("report.html/x"), "{again}");
 }
+
+#[test]
+fn a_stored_run_has_a_page_by_a_command_of_its_own() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["hunt", "--rule", "published", "--max-walls", "2", "--out", "found"], 1);
+    let told = printed(folder, &["page", "found/chain-13-published-n4.jsonl"], 0);
+    assert!(told.ends_with("the page that plays it: chain-13-published-n4.html\n"), "{told}");
+    printed(folder, &["page", "found/chain-13-published-n4.jsonl", "--html", "other.html"], 0);
+    printed(folder, &["replay", "found/chain-13-published-n4.jsonl", "--html", "replayed.html"], 1);
+    let [page, other, replayed] = ["chain-13-published-n4.html", "other.html", "replayed.html"]
+        .map(|name| fs::read_to_string(folder.join(name)).expect("a page"));
+    assert!(page == other && page == replayed);
+    fs::write(folder.join("none.jsonl"), "hello\n").expect("a file");
+    assert!(refused(folder, &["page", "none.jsonl"]).contains("none.jsonl"));
+}
+
+/// Agents have sensors that can be missed; runs of KIT and of frontier cells are made by the choices of a search.
+#[test]
+fn agents_and_runs_of_a_search_are_minimised_too() {
+    let folder = folder();
+    let folder = folder.path();
+    let explore =
+        ["explore", "cells:8x8:0.1", "--scheme", "bricks", "--robots", "3", "--miss", "0.2", "--seed", "3"];
+    printed(folder, &[&explore[..], &["--trace", "agents.jsonl"]].concat(), 1);
+    let agents = json(folder, &["minimise", "agents.jsonl"], 0);
+    assert_eq!((&agents["before"]["robots"], &agents["after"]["robots"]), (&3.into(), &1.into()));
+    printed(folder, &["hunt", "--scheme", "kit", "--rule", "published", "--size", "5x1", "--out", "kit"], 1);
+    let kit = printed(folder, &["minimise", "kit/kit-1-published-n2.jsonl"], 0);
+    assert!(
+        kit.contains("no smaller team and layout breaks KIT-1, whatever happens in which order"),
+        "{kit}"
+    );
+    assert!(kit.ends_with("replay it with: tautline replay kit-1-published-n2.jsonl\n"), "{kit}");
+    printed(folder, &["prove", "FRONTIER-2", "--out", "proved", "--html", "report.html"], 0);
+    let page = ["page", "proved/frontier-2-published-states.jsonl", "--html", "frontier.html"];
+    assert!(printed(folder, &page, 0).contains("FRONTIER-2"));
+    let played = fs::read_to_string(folder.join("frontier.html")).expect("a page");
+    assert!(played.contains("Breaks FRONTIER-2") || played.contains("\"setup\""), "it plays the run");
+    let frontier = json(folder, &["minimise", "proved/frontier-2-published-states.jsonl"], 0);
+    assert_eq!((&frontier["after"]["columns"], &frontier["after"]["steps"]), (&3.into(), &2.into()));
+}
+
+#[test]
+fn a_long_run_is_replayed_in_part_unless_all_of_it_is_asked_for() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["explore", "cells:30x30:0.1", "--robots", "6", "--trace", "run.jsonl"], 0);
+    let part = printed(folder, &["replay", "run.jsonl"], 0);
+    assert!(part.lines().count() < 520, "{}", part.lines().count());
+    assert!(part.ends_with("are not shown: --moves A..B shows some, --all every one.\n"), "{part}");
+    let all = printed(folder, &["replay", "run.jsonl", "--all"], 0);
+    assert!(
+        all.lines().count() > part.lines().count() && all.contains("\nmove 1 ") && !all.contains("not shown")
+    );
+    assert!(
+        refused(folder, &["replay", "run.jsonl", "--all", "--moves", "1..2"]).contains("cannot be used with")
+    );
+}

@@ -11,7 +11,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::conditions::Conditional;
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
-use tautline_proofs::engine::states::{self, Limits, System};
+use tautline_proofs::engine::states::{self, Ending, Limits, System};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
@@ -48,6 +48,10 @@ pub(crate) struct Order {
     /// The answers that make it, and how many steps it has.
     pub(crate) answers: Vec<i32>,
     pub(crate) steps: usize,
+    /// How many of them, the last ones, come over and over.
+    pub(crate) round: usize,
+    /// Whether it is broken by the end of the run.
+    pub(crate) is_still: bool,
 }
 
 /// Searches every order of what may happen in `world` from `state` on; of demands with one clause the first is told.
@@ -55,17 +59,21 @@ fn search<W: System>(
     world: &W,
     state: &W::State,
     most_steps: u64,
-    clause: impl Fn(W::Demand) -> &'static str,
+    clause: impl Fn(W::Demand) -> Option<&'static str>,
 ) -> Hunted {
     let limits = Limits { most_steps, ..Limits::NONE };
     let findings = states::search(world, [state.clone()], limits);
     let mut found: Vec<Order> = Vec::new();
     for run in &findings.broken {
-        let clause = clause(run.demand);
-        if found.iter().any(|order| order.clause == clause) {
+        let Some(clause) = clause(run.demand).filter(|&clause| found.iter().all(|one| one.clause != clause))
+        else {
             continue;
-        }
-        let (mut state, mut order) = (state.clone(), Order { clause, answers: Vec::new(), steps: 0 });
+        };
+        // That nothing happens any more is seen by one step more.
+        let is_still = run.ending == Ending::Still;
+        let round = run.round().len();
+        let (mut state, mut order) =
+            (state.clone(), Order { clause, answers: Vec::new(), steps: 0, round, is_still });
         for &number in run.steps.iter().chain(run.round()) {
             let mut next: Vec<W::State> = states::steps(world, &state).map(|step| step.state).collect();
             // What alone can happen is no question.

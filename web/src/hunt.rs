@@ -105,10 +105,14 @@ impl WorldHunt {
             (false, _) => "The shortest order of events that breaks each clause:",
         };
         let order = |order: &Order| {
-            let steps = counted(order.steps, "step");
+            let round = match order.round {
+                0 => String::new(),
+                steps => format!(", of which the last {steps} come over and over"),
+            };
+            let steps = counted(order.steps, "step") + &round;
             json!({
                 "clause": order.clause, "sentence": sentence(order.clause), "title": steps,
-                "settings": written(&self.settings), "answers": order.answers, "steps": order.steps,
+                "settings": written(&self.settings), "answers": order.answers, "steps": order.steps + usize::from(order.is_still),
             })
         };
         json!({

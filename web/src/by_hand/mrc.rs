@@ -54,7 +54,7 @@ fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
 fn hunt(settings: &Settings, most_steps: u64) -> Result<Hunted, Diagnostic> {
     let setting = setting(settings)?;
     let space = Space { setting, until: Until::Exhausted };
-    Ok(search(&space, &setting.start(0), most_steps, Demand::clause))
+    Ok(search(&space, &setting.start(0), most_steps, |demand: Demand| Some(demand.clause())))
 }
 
 fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
