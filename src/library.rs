@@ -47,12 +47,11 @@ impl Library {
             return Ok(Exit::Expected);
         }
         let rules = self.chosen()?;
-        let clauses: Vec<&'static Clause> =
-            if self.larger {
-                rules.iter().flat_map(|rule| rule.larger()).collect()
-            } else {
-                rules.iter().flat_map(|rule| rule.clauses()).collect()
-            };
+        let clauses: Vec<&'static Clause> = if self.larger {
+            rules.iter().flat_map(|rule| rule.larger()).collect()
+        } else {
+            rules.iter().flat_map(|rule| rule.clauses()).collect()
+        };
         if clauses.is_empty() {
             return Err(needless("--larger", "these rules have no larger bound").into());
         }

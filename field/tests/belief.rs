@@ -5,9 +5,7 @@ use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 use proptest::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
-use tautline_kernel::position::{
-    Belief, Correction, Gate, Odometry, Point, Range, Signal, SymmetricMatrix,
-};
+use tautline_kernel::position::{Belief, Correction, Gate, Odometry, Point, Range, Signal, SymmetricMatrix};
 use tautline_proofs::engine::SeededOracle;
 
 /// A belief in matrices.

@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::position;
 use tautline_proofs::engine::SeededOracle;
 
-use super::frontier_fig7::Judgement;
+use super::paper::Verdict;
 use super::prelude::*;
 use tautline_sim::explore::frontier::{FRONTIER, has_double};
 use tautline_sim::explore::{RuleId, Setup};
@@ -82,8 +82,6 @@ pub struct Summary {
     pub lines: Vec<Line>,
     /// How large a floor may be.
     pub floors: Vec<Floor>,
-    /// The paper's sentences, and what comes out.
-    pub judged: Vec<Judgement>,
 }
 
 /// A team of a rule in areas of one size.
@@ -177,6 +175,7 @@ impl Table for LocateExplore {
                 "locate-explore --noise-db 2 --blocked 10,20,30 --format json",
             ],
             doing: "exploring",
+            takes: "TODO",
             ..Description::NOTHING
         }
     }
@@ -240,8 +239,7 @@ impl Table for LocateExplore {
             with_stops: settings.largest(noise_db, 10),
         };
         let floors = noisy.map(floor).collect();
-        let judged = judged(settings, &lines);
-        Ok(Summary { settings: settings.clone(), lines, floors, judged })
+        Ok(Summary { settings: settings.clone(), lines, floors })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -282,8 +280,11 @@ impl Table for LocateExplore {
             .right("noise, dB", Fit, |floor| floor.noise_db)
             .right("one fix is enough", Fit, |floor| floor.without_stops)
             .right("at most ten more are", Fit, |floor| floor.with_stops);
-        let said = merged.judged.iter().map(|judgement| judgement.text()).collect::<String>();
-        Ok(told + &floors.text() + "\n" + &said + "\n±: the 95 % interval\n")
+        Ok(told + &floors.text() + "\n±: the 95 % interval\n")
+    }
+
+    fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        judged(&merged.settings, &merged.lines)
     }
 }
 
@@ -355,46 +356,74 @@ impl Figure {
     }
 }
 
-/// The paper's sentences, judged by what is measured with the most noise: each number is of the repaired rule unless another is
-/// named.
+/// The paper's sentences, judged by what is measured with the most noise, floor by floor.
 fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
-    let last = settings.noise_db.len().saturating_sub(1);
-    let noise_db = settings.noise_db.last().copied().unwrap_or_default();
-    let of = |rule: usize| lines.iter().skip(rule).step_by(RULES.len());
-    let told = |rule: usize, of_figure: &dyn Fn(&Figure) -> String| {
-        let each = of(rule).filter_map(|line| {
-            let Line { size: (width, height), blocked, robots, .. } = line;
-            let figure = of_figure(line.figures.get(last)?);
-            Some(format!("{width}×{height}, {blocked} %, {}: {figure}", counted(*robots, "robot")))
-        });
-        each.collect::<Vec<_>>().join("; ")
+    let (Some(last), Some(fewest), Some(most)) =
+        (settings.noise_db.len().checked_sub(1), settings.robots.iter().min(), settings.robots.iter().max())
+    else {
+        return Vec::new();
     };
-    let moves = told(REPAIRED, &|figure| text(figure.moves, 1));
-    let off = told(REPAIRED, &|figure| text(figure.off, 3));
-    let clean = |rule| told(rule, &|figure| percent(figure.clean, 1));
-    let with = format!("with noise of {noise_db} dB");
-    vec![
-        Judgement {
-            sentence: "performs better when team of robots has 8 members",
-            outcome: format!("team moves {with}: {moves}"),
-        },
-        Judgement {
-            sentence: "reduce the localization error to a threshold level of 0.02cm or below",
-            outcome: format!(
-                "root mean square errors {with}, in sides of a cell; with cells of 1 m 0.02 cm were 0.0002: {off}"
+    let noise_db = settings.noise_db[last];
+    let mut judged = [(); 4].map(|()| Vec::new());
+    for (blocked, (width, height)) in pairs(settings.blocked.iter().copied(), SIZES) {
+        let of = |rule: usize, robots: u16| {
+            let is_it = |line: &&Line| {
+                (line.blocked, line.size, line.robots, line.rule)
+                    == (blocked, (width, height), robots, RULES[rule].0)
+            };
+            Some(&lines.iter().find(is_it)?.figures[last])
+        };
+        let floor = format!("{width}×{height} cells, {blocked} % blocked, {noise_db} dB");
+        let teams = [*fewest, *most].map(|robots| (robots, of(REPAIRED, robots)));
+        // Whether the figure is higher with the larger team; lower is the opposite.
+        let rises = |part: fn(&Figure) -> Option<Estimate>| {
+            let [few, many] = teams.map(|(_, figure)| figure.and_then(part).and_then(|one| one.interval));
+            let (Some(few), Some(many)) = (few, many) else { return (false, false) };
+            (few[1] < many[0], many[1] < few[0])
+        };
+        let measured = |part: fn(&Figure) -> Option<Estimate>, digits| {
+            let of = |(robots, figure): (u16, Option<&Figure>)| {
+                format!("{} with {}", text(figure.and_then(part), digits), counted(robots, "robot"))
+            };
+            teams.map(of).join(", ")
+        };
+        let (moves, off): (fn(&Figure) -> _, fn(&Figure) -> _) = (|one| one.moves, |one| one.off);
+        let (is_later, is_sooner) = rises(moves);
+        judged[0].push(Judgement::new(
+            "“performs better when team of robots has 8 members”",
+            &floor,
+            format!("team moves of the repaired rule: {}", measured(moves, 1)),
+            if *most == 8 { Verdict::decided(is_sooner, is_later) } else { Verdict::Open },
+        ));
+        judged[1].push(Judgement::new(
+            "“reduce the localization error to a threshold level of 0.02cm or below”",
+            &floor,
+            format!(
+                "root mean square errors in cells, where 0.02 cm are 0.0002 of 1 m: {}",
+                measured(off, 3)
             ),
-        },
-        Judgement {
-            sentence: "gradual increase in localization error related to the number of robots",
-            outcome: "each robot errs for itself: compare teams on one floor in the line before".to_owned(),
-        },
-        Judgement {
-            sentence: "avoiding overlapping or missing out sectors",
-            outcome: format!(
-                "clean runs {with}, in %: published {}; repaired {}",
-                clean(RULES.len() - 1),
-                clean(REPAIRED)
+            teams[0].1.and_then(off).map_or(Verdict::Open, |off| Verdict::of(off.mean <= 0.0002)),
+        ));
+        let (grows, falls) = rises(off);
+        judged[2].push(Judgement::new(
+            "“gradual increase in localization error related to the number of robots”",
+            &floor,
+            format!("root mean square errors in cells: {}", measured(off, 3)),
+            Verdict::decided(grows, falls),
+        ));
+        let published = of(RULES.len() - 1, *most).and_then(|figure| figure.clean);
+        let repaired = of(REPAIRED, *most).and_then(|figure| figure.clean);
+        judged[3].push(Judgement::new(
+            "“avoiding overlapping or missing out sectors”",
+            &floor,
+            format!(
+                "clean runs of {}: published {} %, repaired {} %",
+                counted(*most, "robot"),
+                percent(published, 1),
+                percent(repaired, 1)
             ),
-        },
-    ]
+            published.map_or(Verdict::Open, |clean| Verdict::of(clean.mean >= 1.0)),
+        ));
+    }
+    judged.concat()
 }
