@@ -7,7 +7,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
 use super::Subject;
-use super::shapes::{SMALL, shapes};
+pub use super::shapes::SMALL;
+use super::shapes::shapes;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
 use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
 use crate::engine::smallest::{Certificate, Searched};
@@ -21,7 +22,8 @@ use crate::plural::counted;
 /// A network, the rule of its nodes, and what is demanded of them.
 pub struct Case {
     links: Links<SMALL>,
-    rule: Rule,
+    /// The rule of its nodes.
+    pub rule: Rule,
     demands: &'static [Demand],
 }
 

@@ -3,7 +3,7 @@
 use super::spread::Links;
 
 /// The largest network of which every state is looked at.
-pub(super) const SMALL: usize = 5;
+pub const SMALL: usize = 5;
 
 /// Every connected network of at most [`SMALL`] nodes, one of each shape as seen from the source, the smallest first.
 pub(super) fn shapes() -> Vec<Links<SMALL>> {
