@@ -24,7 +24,7 @@ mod world;
 pub use event::{Event, LogEntry, Millimetres, Ordinal};
 pub use judge::Violation;
 pub use problem::Problem;
-pub use report::{Fate, Fix, Journey, Report, Spread};
+pub use report::{Fate, Fix, Journey, Packets, Report, Spread};
 pub use setting::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
 pub use summary::seconds;
 pub use summary::{Assignments, ClauseViolation, RobotFailures, Summary};

@@ -28,6 +28,7 @@ mod prelude;
 pub mod reel;
 pub mod repair_cost;
 pub mod rescue_fig8;
+pub mod rescue_table2;
 pub mod rivals;
 mod runs;
 pub mod sentences;
@@ -71,6 +72,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &rescue_fig8::RescueFig8,
     &journeys::RESCUE_FIG9,
     &journeys::RESCUE_FIG10,
+    &rescue_table2::RescueTable2,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,
     &margins::Margins,

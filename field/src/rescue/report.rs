@@ -62,6 +62,17 @@ pub struct Fix {
     pub at: Point,
 }
 
+/// Packets sent, by their use; one that goes several hops counts at each.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Packets {
+    /// NOTICE.
+    pub notices: u32,
+    /// MOVE, RESB, the answers to them, and receipts of these: MRC's control packets.
+    pub control: u32,
+    /// Requests and signals of TAN.
+    pub guiding: u32,
+}
+
 /// The outcome of a rescue.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Report {
@@ -83,4 +94,6 @@ pub struct Report {
     pub wfrs: Vec<Point>,
     /// The traffic on the air.
     pub air: Air,
+    /// The packets of it by their use.
+    pub packets: Packets,
 }

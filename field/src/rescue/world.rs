@@ -20,7 +20,9 @@ use super::pace;
 use super::rover::Rover;
 use super::scenario::Scenario;
 use super::timers::Timers;
-use super::{Event, Journey, LogEntry, MAX_ROBOTS, MAX_WFRS, Ordinal, Problem, Report, Setting, Spread};
+use super::{
+    Event, Journey, LogEntry, MAX_ROBOTS, MAX_WFRS, Ordinal, Packets, Problem, Report, Setting, Spread,
+};
 use crate::radio::{Broadcast, Link, Protocol, run};
 use crate::tan::Signal;
 
@@ -130,6 +132,7 @@ struct World<'a> {
     journeys: Vec<Journey>,
     judge: Judge,
     log: Vec<LogEntry>,
+    packets: Packets,
 }
 
 impl<'a> World<'a> {
@@ -157,6 +160,7 @@ impl<'a> World<'a> {
             journeys: Vec::new(),
             judge: Judge::new(scenario.robots.len(), scenario.wfrs.len()),
             log: Vec::new(),
+            packets: Packets::default(),
         }
     }
 
@@ -333,7 +337,13 @@ impl Protocol for World<'_> {
         while let Some(duty) = self.agendas[at.0 as usize].take(now_ns) {
             self.perform(at, duty, now_ns, chance);
         }
-        self.agendas[at.0 as usize].post()
+        let message = self.agendas[at.0 as usize].post()?;
+        *match message {
+            Message::Notice(_) => &mut self.packets.notices,
+            Message::Letter(_) | Message::Receipt { .. } => &mut self.packets.control,
+            Message::ReqNav(_) | Message::Nav(_) => &mut self.packets.guiding,
+        } += 1;
+        Some(message)
     }
 
     fn again(&mut self, at: NodeId, now_ns: u64) -> Option<u64> {

@@ -81,6 +81,10 @@ pub struct Line {
     pub best: Option<Estimate>,
     /// Seconds until the last WFR was served, where all were.
     pub last_s: Option<Estimate>,
+    /// NOTICE packets of a topology.
+    pub notices: Option<Estimate>,
+    /// MRC's control packets of a topology: MOVE, RESB, the answers to them and receipts, hop by hop.
+    pub control: Option<Estimate>,
 }
 
 /// A share beside the paper's.
@@ -110,6 +114,8 @@ pub struct Sample {
     /// The shortest distances of the assignment and of the best one, if each WFR has a robot of its own.
     assigned_m: Option<(f64, f64)>,
     last_s: Option<f64>,
+    /// NOTICE and control packets.
+    packets: (u32, u32),
 }
 
 impl Settings {
@@ -225,12 +231,14 @@ impl Table for RescueFig8 {
         table.row("over the best assignment", |line| text(line.over_best, 3));
         table.row("the best assignment, %", |line| percent(line.best, 2));
         table.row("seconds to the last", |line| text(line.last_s, 1));
+        table.row("NOTICE packets", |line| text(line.notices, 1));
+        table.row("control packets", |line| text(line.control, 1));
         Ok(table.with_notes(
             "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one \
              to each ·\npaper: a picture of one topology in which it is so, and “for all simulated scenarios” · RD: metres \
              walked for each metre\nof the shortest ways · over the best assignment: how many times as far the robots are \
              off the WFRs that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · \
-             the best assignment: % of these in which it is\nthat one · ±, […]: the 95 % interval",
+             the best assignment: % of these in which it is\nthat one · control packets: MOVE, RESB, the answers to them and receipts, at each hop · ±, […]: the 95 % interval",
         ))
     }
 
@@ -289,6 +297,7 @@ impl Sample {
             way_m: ways.fold((0.0, 0.0), |sums, way| (sums.0 + way.0, sums.1 + way.1)),
             assigned_m: assigned_m.flatten(),
             last_s: last_ns.filter(|_| is_served).map(tautline_field::rescue::seconds),
+            packets: (report.packets.notices, report.packets.control),
         }
     }
 }
@@ -320,6 +329,8 @@ impl Line {
             over_best: ratio(own.iter().copied()),
             best: best.map(|share| rounded(share, 1e4)),
             last_s: mean(samples.iter().filter_map(|sample| sample.last_s)).map(|last| rounded(last, 1e2)),
+            notices: mean(samples.iter().map(|sample| f64::from(sample.packets.0))),
+            control: mean(samples.iter().map(|sample| f64::from(sample.packets.1))),
         }
     }
 }

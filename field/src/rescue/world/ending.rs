@@ -40,6 +40,7 @@ impl World<'_> {
                 .map(|wfr| self.scenario.field.nodes()[wfr.node.0 as usize])
                 .collect(),
             air,
+            packets: self.packets,
         }
     }
 
