@@ -192,6 +192,8 @@ pub struct Line {
     pub lost: Option<Estimate>,
     /// Seconds until each node is found, over the runs that find all.
     pub nodes: Vec<Estimate>,
+    /// Directions explored at nodes by then, two for each path that is driven.
+    pub directions: Option<Estimate>,
     /// The efficiency when so many paths are explored, from 1 on.
     pub efficiencies: Vec<Estimate>,
 }
@@ -255,11 +257,15 @@ impl Table for Kit {
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
-        Ok(printed::text(self.figure, settings, merged))
+        Ok(printed::told(self.figure, settings, merged))
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        paper::judged(&merged.paper)
+        let mut judged = paper::judged(&merged.paper);
+        if self.figure == Figure::Time {
+            judged.extend(printed::directions(&merged.lines));
+        }
+        judged
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -322,6 +328,12 @@ impl Outcome {
         self.nodes.get(nodes.checked_sub(1)?).copied()
     }
 
+    /// The directions that are explored at nodes when all of so many nodes are found, two for each path.
+    fn directions(&self, nodes: usize) -> Option<f64> {
+        let end = self.found(nodes)?;
+        Some(2.0 * f64::from(self.paths.iter().filter(|&&driven| driven <= end).count() as u32))
+    }
+
     /// Of so many explored paths, those driven by one robot alone, in percent.
     fn efficiency(&self, explored: usize) -> Option<f64> {
         let shared = f64::from(*self.overlaps.get(explored.checked_sub(1)?)?);
@@ -358,6 +370,7 @@ impl Line {
             ended: in_percent(outcomes, |outcome| !outcome.is_whole()),
             lost: in_percent(outcomes, |outcome| outcome.found(family.nodes()).is_none()),
             nodes: (0..family.nodes()).filter_map(node).collect(),
+            directions: mean(outcomes.iter().filter_map(|outcome| outcome.directions(family.nodes()))),
             efficiencies: if is_team { (1..=PATHS).filter_map(efficiency).collect() } else { Vec::new() },
         }
     }

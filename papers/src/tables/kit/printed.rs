@@ -26,6 +26,28 @@ pub(super) fn of(figure: Figure, lines: &[Line], races: &[Race]) -> Vec<PrintedF
     }
 }
 
+/// Whether two robots have explored more directions at nodes than one when all nodes are found.
+pub(super) fn directions(lines: &[Line]) -> impl Iterator<Item = Judgement> + '_ {
+    let published = lines.iter().filter(|line| line.team.rule != TeamRule::Repaired && line.team.robots == 1);
+    published.filter_map(|one| {
+        let is_two =
+            |line: &&Line| (line.family, line.team.rule, line.team.robots) == (one.family, one.team.rule, 2);
+        let two = lines.iter().find(is_two)?;
+        let verdict = match [one, two].map(|line| line.directions.and_then(|all| all.interval)) {
+            [Some([low, high]), Some([low_of_two, high_of_two])] => {
+                Verdict::decided(low_of_two > high, high_of_two < low)
+            }
+            _ => Verdict::Open,
+        };
+        Some(Judgement::new(
+            "“MAS has explored more direction at nodes than the single robot”",
+            format!("{}, {}", one.team.rule.word(), one.family),
+            format!("{} with two, {} with one", text(two.directions, 1), text(one.directions, 1)),
+            verdict,
+        ))
+    })
+}
+
 impl TeamRule {
     const fn word(self) -> &'static str {
         match self {
@@ -44,7 +66,7 @@ impl Team {
 }
 
 /// The figure for people.
-pub(super) fn text(figure: Figure, settings: &Settings, merged: &Summary) -> String {
+pub(super) fn told(figure: Figure, settings: &Settings, merged: &Summary) -> String {
     let Settings { layouts, seed, speed, spread } = *settings;
     let (speed, spread) = (f64::from(speed.get()) / 1000.0, f64::from(spread) / 10.0);
     let head = format!(
@@ -78,11 +100,12 @@ fn times(merged: &Summary) -> String {
         line.nodes.get(line.nodes.len().div_ceil(2).checked_sub(1)?).copied()
     };
     let nodes = Columns::of(named(merged))
-        .title("Seconds until half of the nodes are found, and all")
+        .title("Seconds until half of the nodes are found, and all; the directions that are explored at nodes by then")
         .left("family", 11, |(family, _)| family)
         .left("team", 20, |(_, line)| line.team.name())
         .estimate("half", 13, 0, move |(_, line)| half(line))
         .estimate("all", 13, 0, |(_, line)| line.nodes.last().copied())
+        .estimate("directions", 13, 1, |(_, line)| line.directions)
         .estimate("never all %", 18, 1, |(_, line)| line.lost);
     let races = Columns::of(&merged.races)
         .title(
