@@ -121,14 +121,16 @@ impl Random {
             self.owed[usize::from(state)] != 0
                 && self.moves[usize::from(state)].iter().all(|next| next.actors == 0)
         };
-        let all = self.distances(demand == 1).into_iter();
-        all.filter(|&(state, _)| stays(state) || self.round(demand, state).is_some())
-            .map(|(_, steps)| steps)
-            .min()
+        let all = self.distances(demand == 1);
+        let fewest = |is_meant: &dyn Fn(u8) -> bool| {
+            all.iter().filter(|&(&state, _)| is_meant(state)).map(|(_, &steps)| steps).min()
+        };
+        // A run that stays is enough: no round is looked for then.
+        fewest(&stays).or_else(|| fewest(&|state| self.round(demand, state).is_some()))
     }
 
     /// The state after the steps of a run, and whether those of its round are fair and lead back to it.
-    fn plays(&self, run: &Run<&'static str>) -> (u8, bool) {
+    fn plays(&self, demand: usize, run: &Run<&'static str>) -> (u8, bool) {
         let step = |state: u8, &number: &u32| &self.moves[usize::from(state)][number as usize];
         let home = run.steps.iter().fold(0, |state, number| step(state, number).to);
         let (mut state, mut awake, mut acted, mut owed, mut has_fault) =
@@ -136,7 +138,8 @@ impl Random {
         for number in run.round() {
             let next = step(state, number);
             awake &= self.awake(state);
-            owed &= self.owed[usize::from(state)];
+            let owes = self.owed[usize::from(state)];
+            owed &= if demand == 0 { owes } else { (owes != 0).into() };
             acted |= next.actors;
             has_fault |= next.actors == 0;
             state = next.to;
@@ -152,10 +155,12 @@ fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
         let system = Random::new(&(), &Number(number)).expect("a system");
         let found =
             Keeps::<Random>(Number(number), demand).search(&(), Limits::NONE).expect("it is searched");
-        assert!(found.is_whole && found.states == system.distances(demand == 1).len() as u64, "{number}");
+        assert!(found.is_whole);
         let way = found.broken.first().map(|run| run.steps.len());
         assert_eq!(way, system.shortest_way(demand), "{number}, {demand}");
+        let states = system.distances(demand == 1).len() as u64;
         let Some(run) = found.broken.first() else {
+            assert_eq!(found.states, states, "{number}, {demand}");
             kept += 1;
             continue;
         };
@@ -163,7 +168,7 @@ fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
             Ending::There => panic!("no step is forbidden"),
             Ending::Still => stays += 1,
             Ending::Round(round) => {
-                let (home, is_fair) = system.plays(run);
+                let (home, is_fair) = system.plays(demand, run);
                 let fewest = system.round(demand, home).expect("there is a round");
                 assert!(is_fair && round.len() >= fewest, "{number}, {demand}");
                 rounds += 1;
@@ -172,7 +177,7 @@ fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
         }
     }
     // A round visits those whom the shortest way back leaves out one after the other, which may take longer.
-    assert_eq!((kept, stays, rounds, shortest), (0, 0, 0, 0));
+    assert_eq!((kept, stays, rounds, shortest), (376, 1071, 553, 488));
 }
 
 /// A random system in three colours, which no move and no demand looks at: a move goes on by so many colours. With
@@ -240,7 +245,7 @@ fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
             assert_eq!(played.evidence.demand, run.demand);
         }
     }
-    assert_eq!((all, least), (0, 0));
+    assert_eq!((all, least), (2535, 1393));
 }
 
 #[test]
@@ -249,5 +254,5 @@ fn states_that_are_not_alike_are_not_taken_for_one() {
         |mark| Keeps::<Coloured<true>>(Number(1), 2).search(&mark, Limits::NONE).map(|found| found.is_whole);
     assert_eq!(marked(None), Ok(true));
     let refused = marked(Some(2)).expect_err("a demand tells them apart").to_string();
-    assert_eq!(refused, "");
+    assert_eq!(refused, "the states (0, 1) and (0, 2) are taken for one, and are not alike");
 }

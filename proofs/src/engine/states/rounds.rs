@@ -89,27 +89,34 @@ impl Graph {
             let component = components.get(&part[node]).filter(|component| component.is_fair())?;
             Some((node, component.awake))
         });
-        Ok(fair.map(|(first, awake)| (first, self.way_round(&part, first, awake))))
+        Ok(fair.map(|(first, due)| (first, self.way_round(&part, (first, due), awake))))
     }
 
     /// A way from `home` round to it within its part in which all of `due` act: a shortest one, and for each whom it
-    /// leaves out a way on to the nearest step of theirs and home.
-    fn way_round(&self, part: &[u32], home: usize, due: Bits) -> Vec<u32> {
-        let (mut steps, mut node, mut left) = (Vec::new(), home, due);
+    /// leaves out a way on to the nearest step of theirs and home. Whoever is not due and has been awake all the way
+    /// without acting gets a way on, too, to a step of theirs or to a state in which they are not awake.
+    fn way_round(
+        &self,
+        part: &[u32],
+        (home, due): (usize, Bits),
+        awake: &mut impl FnMut(usize) -> Bits,
+    ) -> Vec<u32> {
+        let (mut steps, mut node, mut left, mut idle) = (Vec::new(), home, due, awake(home));
         loop {
-            let is_homeward = |arc: Arc| arc.to as usize == home;
-            let is_due = |arc: Arc| arc.acting & left != 0;
-            let onward = if steps.is_empty() || left == 0 {
-                self.way_within(part, node, is_homeward)
+            let onward = if !steps.is_empty() && left != 0 {
+                self.way_within(part, node, |arc| arc.acting & left != 0)
+            } else if !steps.is_empty() && node == home {
+                self.way_within(part, node, |arc| (arc.acting | !awake(arc.to as usize)) & idle != 0)
             } else {
-                self.way_within(part, node, is_due)
+                self.way_within(part, node, |arc| arc.to as usize == home)
             };
             for &number in &onward {
                 if let Some(arc) = self.arc(node, number) {
                     (node, left) = (arc.to as usize, left & !arc.acting);
+                    idle &= !arc.acting & awake(node);
                 }
             }
-            let is_over = onward.is_empty() || node == home && left == 0;
+            let is_over = onward.is_empty() || node == home && left == 0 && idle == 0;
             steps.extend(onward);
             if is_over {
                 return steps;
@@ -118,7 +125,7 @@ impl Graph {
     }
 
     /// A shortest way from `start` within its part, up to the first step that `is_last`.
-    fn way_within(&self, part: &[u32], start: usize, is_last: impl Fn(Arc) -> bool) -> Vec<u32> {
+    fn way_within(&self, part: &[u32], start: usize, mut is_last: impl FnMut(Arc) -> bool) -> Vec<u32> {
         let mut before = FxHashMap::default();
         let mut ahead = VecDeque::from([start]);
         while let Some(node) = ahead.pop_front() {
