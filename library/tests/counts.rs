@@ -51,6 +51,28 @@ fn stateright_counts_the_same_states_of_three_rules() {
     assert_eq!(ours::<gathering::Ring>(rule, row), stateright::<gathering::Ring>(rule, &row));
 }
 
+/// States, steps, memory, and the first run that breaks the demand.
+#[test]
+fn any_number_of_workers_finds_the_same() {
+    fn same<P: Protocol>(rule: &P::Rule, bound: impl Fn() -> P::Bound, demand: usize) -> bool {
+        let by = |workers| {
+            Keeps::<P>(bound(), demand).search_together(rule, Limits::NONE, workers).expect("a search")
+        };
+        let alone = by(1);
+        assert!([2, 3, 8].into_iter().all(|workers| by(workers) == alone));
+        alone.broken.is_empty()
+    }
+    use dijkstra::{Machines, Ring, Rule};
+
+    assert!(same::<Machines>(&Rule::Published, || Ring(6, 6), 1));
+    assert!(!same::<Machines>(&Rule::Published, || Ring(7, 4), 1));
+    assert!(!same::<Machines>(&Rule::Uniform, || Ring(6, 6), 1));
+    assert!(!same::<Machines>(&Rule::CountsOn, || Ring(6, 6), 0));
+    assert!(same::<ricart::Nodes>(&ricart::RULE, || ricart::Net(3, 1), 0));
+    let hasty = ricart::Conditions { defers: false, ..ricart::RULE };
+    assert!(!same::<ricart::Nodes>(&hasty, || ricart::Net(3, 1), 0));
+}
+
 /// The states that SPIN stores for a model of `spin`; `None` where there is no SPIN or no C compiler.
 fn spin(model: &str, define: &str) -> Option<u64> {
     let folder = env::temp_dir().join(format!("{model}-{define}-{}", process::id()));

@@ -13,6 +13,8 @@ mod known;
 mod limits;
 mod rounds;
 mod search;
+mod tables;
+mod together;
 
 use std::collections::VecDeque;
 use std::hash::Hash;
@@ -21,6 +23,7 @@ use std::{fmt, mem};
 
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
+pub use together::search_together;
 
 use super::bodies::Odometer;
 use super::script::Choices;

@@ -256,18 +256,32 @@ impl<P: Protocol> Keeps<P> {
     /// [`MethodError`] if there is no such demand, if the protocol cannot be within its bound, or if its moves are not a
     /// function of their state, its states not of their bytes, or states that it takes for one not alike.
     pub fn search(&self, rule: &P::Rule, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
-        self.searched(&self.playing(rule)?, limits)
+        self.search_together(rule, limits, 1)
+    }
+
+    /// Searches as [`Self::search`] does on so many threads, with the same findings.
+    ///
+    /// # Errors
+    /// [`MethodError`] as of [`Self::search`].
+    pub fn search_together(
+        &self,
+        rule: &P::Rule,
+        limits: Limits<'_>,
+        workers: usize,
+    ) -> Result<Findings<&'static str>, MethodError> {
+        self.searched(&self.playing(rule)?, limits, workers)
     }
 
     fn searched(
         &self,
         playing: &Playing<P>,
         limits: Limits<'_>,
+        workers: usize,
     ) -> Result<Findings<&'static str>, MethodError> {
         states::repeats(playing, playing.protocol.starts()).map_err(MethodError::new)?;
         playing.comes_back()?;
         playing.is_symmetric()?;
-        let mut found = states::search(playing, playing.protocol.starts(), limits);
+        let mut found = states::search_together(playing, playing.protocol.starts(), limits, workers);
         for run in &mut found.broken {
             if let Some(start) = playing.protocol.starts().nth(run.start) {
                 *run = playing.unfolded(&start, run.clone());
@@ -289,7 +303,8 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
     /// The choices are the number of the start, and those of the moves. A check over no start is open.
     fn decide(&self, rule: &P::Rule, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let playing = self.playing(rule)?;
-        let found = self.searched(&playing, Limits { room: desk.room, ..Limits::NONE })?;
+        let limits = Limits { room: desk.room, ..Limits::NONE };
+        let found = self.searched(&playing, limits, rayon::current_num_threads())?;
         let evidence = found.broken.first().and_then(|run| {
             Some(Evidence {
                 choices: run.choices(),

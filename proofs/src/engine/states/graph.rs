@@ -2,7 +2,7 @@
 //! runs are looked for, what is owed in it and which steps are bound to be made from it.
 
 use super::Bits;
-use super::known::Pile;
+use super::tables::Pile;
 
 /// The states that were met, in the order in which they were.
 pub(super) struct Graph {
@@ -47,9 +47,9 @@ impl Graph {
         self.from.bytes() + self.owed.bytes() + self.first_arc.bytes() + self.arcs.bytes()
     }
 
-    /// How many nodes or arcs more it can number.
-    pub(super) fn room(&self) -> usize {
-        MOST.saturating_sub(self.from.len().max(self.arcs.len()))
+    /// Whether it has as many nodes or arcs as it can number.
+    pub(super) const fn is_full(&self) -> bool {
+        self.from.len() >= MOST || self.arcs.len() >= MOST
     }
 
     /// Adds the start with this number.

@@ -5,105 +5,8 @@ use std::hint::black_box;
 
 use rustc_hash::FxBuildHasher;
 
+use super::tables::{Codes, Slots};
 use super::{Places, System};
-
-/// Things in the order in which they came, in pieces, so that none is ever moved.
-pub(super) struct Pile<T> {
-    pieces: Vec<Vec<T>>,
-    length: usize,
-}
-
-/// Entries of a piece.
-const PIECE: usize = 1 << 16;
-
-impl<T> Pile<T> {
-    pub(super) const fn new() -> Self {
-        Self { pieces: Vec::new(), length: 0 }
-    }
-
-    pub(super) const fn len(&self) -> usize {
-        self.length
-    }
-
-    /// The bytes that it takes.
-    pub(super) fn bytes(&self) -> u64 {
-        let full = self.pieces.len().saturating_sub(1) * PIECE;
-        ((full + self.pieces.last().map_or(0, Vec::capacity)) * size_of::<T>()) as u64
-    }
-
-    pub(super) fn push(&mut self, entry: T) {
-        if self.length.is_multiple_of(PIECE) {
-            self.pieces.push(Vec::new());
-        }
-        if let Some(piece) = self.pieces.last_mut() {
-            piece.push(entry);
-            self.length += 1;
-        }
-    }
-}
-
-impl<T: Copy> Pile<T> {
-    pub(super) fn at(&self, place: usize) -> T {
-        self.pieces[place / PIECE][place % PIECE]
-    }
-}
-
-/// Strings of bytes in the order in which they came, in pieces.
-#[derive(Default)]
-struct Codes {
-    pieces: Vec<Piece>,
-    length: usize,
-    /// Bytes of all pieces but the last one.
-    full: usize,
-}
-
-#[derive(Default)]
-struct Piece {
-    bytes: Vec<u8>,
-    /// The length of all its strings, while it is the same.
-    width: usize,
-    /// Else where each string ends.
-    ends: Vec<u32>,
-}
-
-impl Piece {
-    const fn size(&self) -> usize {
-        self.bytes.capacity() + self.ends.capacity() * size_of::<u32>()
-    }
-}
-
-impl Codes {
-    /// The bytes that they take.
-    fn bytes(&self) -> u64 {
-        (self.full + self.pieces.last().map_or(0, Piece::size)) as u64
-    }
-
-    fn push(&mut self, code: &[u8]) {
-        let place = self.length % PIECE;
-        if place == 0 {
-            self.full += self.pieces.last().map_or(0, Piece::size);
-            self.pieces.push(Piece { width: code.len(), ..Piece::default() });
-        }
-        let Some(piece) = self.pieces.last_mut() else { return };
-        if piece.ends.is_empty() && code.len() != piece.width {
-            piece.ends = (1..=place).map(|before| (before * piece.width) as u32).collect();
-        }
-        piece.bytes.extend_from_slice(code);
-        if !piece.ends.is_empty() || code.len() != piece.width {
-            piece.ends.push(piece.bytes.len() as u32);
-        }
-        self.length += 1;
-    }
-
-    fn entry(&self, place: usize) -> &[u8] {
-        let (piece, place) = (&self.pieces[place / PIECE], place % PIECE);
-        if piece.ends.is_empty() {
-            return &piece.bytes[place * piece.width..(place + 1) * piece.width];
-        }
-        let first = place.checked_sub(1).map_or(0, |before| piece.ends[before]);
-        &piece.bytes[first as usize..piece.ends[place] as usize]
-    }
-}
 
 /// The parts that were met, each once.
 struct Parts<P> {
@@ -125,7 +28,7 @@ impl<P: Eq + Hash> Parts<P> {
 }
 
 /// The hash of a state.
-type HashOfState = u32;
+pub(super) type HashOfState = u32;
 
 /// A state by the numbers of its parts, most of which are also those of the states before and after it, or in bytes of
 /// its own.
@@ -230,10 +133,22 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.queue.push(&self.made);
     }
 
-    /// Meets the states of the queue in their order, at most so many: `met` gets the number of each, and whether it is
-    /// new. The queue is empty then.
-    pub(super) fn meet(&mut self, most: usize, mut met: impl FnMut(u32, bool)) {
-        let Self { nodes, codes, queue, .. } = self;
+    /// The states that were put into the queue, looked up. The queue is to be given back.
+    pub(super) fn queued(&mut self) -> Queue {
+        let mut queue = std::mem::take(&mut self.queue);
+        self.look_up(&mut queue);
+        queue
+    }
+
+    /// Takes a queue back whose states were met.
+    pub(super) fn give_back(&mut self, mut queue: Queue) {
+        queue.clear();
+        self.queue = queue;
+    }
+
+    /// Looks for the states of a queue among those that are known.
+    pub(super) fn look_up(&self, queue: &mut Queue) {
+        let Self { nodes, codes, .. } = self;
         // No look waits for the one before it: first into the table, then among the codes.
         black_box(queue.states.iter().fold(0, |all, state| all ^ nodes.slot(state.hash)));
         for state in &mut queue.states {
@@ -245,22 +160,33 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
             first = state.end;
             state.node = state.node.filter(|&node| codes.entry(node as usize) == code);
         }
-        let mut first = 0;
-        for state in queue.states.iter().take(most) {
-            let code = &queue.bytes[first..state.end];
-            first = state.end;
-            // One that was new may stand earlier in the queue.
-            let known =
-                state.node.or_else(|| nodes.find(state.hash, |node| codes.entry(node as usize) == code));
-            let node = known.unwrap_or_else(|| {
-                let node = codes.length as u32;
-                nodes.insert(state.hash, node);
-                codes.push(code);
-                node
-            });
-            met(node, known.is_none());
-        }
-        queue.clear();
+    }
+
+    /// Meets the next state of a queue in which all were looked up: its number, and whether it is new.
+    pub(super) fn meet_next(&mut self, queue: &mut Queue) -> (u32, bool) {
+        let Self { nodes, codes, .. } = self;
+        let state = &queue.states[queue.met];
+        let code = &queue.bytes[queue.first..state.end];
+        (queue.met, queue.first) = (queue.met + 1, state.end);
+        // Since it was looked up, it may have been met.
+        let known = state.node.or_else(|| nodes.find(state.hash, |node| codes.entry(node as usize) == code));
+        let node = known.unwrap_or_else(|| {
+            let node = codes.length as u32;
+            nodes.insert(state.hash, node);
+            codes.push(code);
+            node
+        });
+        (node, known.is_none())
+    }
+
+    /// Makes `state`, which has no parts, that of a node.
+    pub(super) fn read<S: System<Part = P>>(&self, system: &S, node: usize, state: &mut S::State) {
+        system.read(state, self.codes.entry(node));
+    }
+
+    /// Whether states are kept in bytes of their own.
+    pub(super) const fn is_bytes(&self) -> bool {
+        self.places == 0
     }
 
     /// The number of `state`, if it is known.
@@ -356,10 +282,13 @@ const fn folded(hash: u64) -> HashOfState {
 
 /// States that wait to be looked up.
 #[derive(Default)]
-struct Queue {
+pub(super) struct Queue {
     /// Their codes, one after the other.
     bytes: Vec<u8>,
     states: Vec<Queued>,
+    /// How many were met, and where the code of the next one begins.
+    met: usize,
+    first: usize,
 }
 
 struct Queued {
@@ -376,90 +305,18 @@ impl Queue {
         self.states.push(Queued { hash: code.hash, end: self.bytes.len(), node: None });
     }
 
+    /// Puts a state without parts into it.
+    pub(super) fn write<S: System>(&mut self, system: &S, state: &S::State) {
+        let first = self.bytes.len();
+        system.write(state, &mut self.bytes);
+        let hash = hash_of(&self.bytes[first..]);
+        self.states.push(Queued { hash, end: self.bytes.len(), node: None });
+    }
+
     fn clear(&mut self) {
         self.bytes.clear();
         self.states.clear();
-    }
-}
-
-/// Nodes by their hashes, each in the first slot that was free from the one on that its hash asks for. A slot has the
-/// hash of its node, too, so that the table grows without a look at the codes, and most looks that fail end here.
-#[derive(Default)]
-struct Slots {
-    slots: Vec<u64>,
-    length: usize,
-}
-
-/// A slot without a node.
-const FREE: u64 = u64::MAX;
-
-impl Slots {
-    /// The bytes that they take, and will have taken once the next one is there.
-    fn bytes_with_the_next(&self) -> u64 {
-        let grown = if self.is_full() { self.grown() } else { 0 };
-        (self.bytes() + grown * size_of::<u64>()) as u64
-    }
-
-    const fn bytes(&self) -> usize {
-        self.slots.len() * size_of::<u64>()
-    }
-
-    const fn is_full(&self) -> bool {
-        self.length >= self.slots.len() / 4 * 3
-    }
-
-    const fn grown(&self) -> usize {
-        self.slots.len() / 8 * 12 + 64
-    }
-
-    /// The slot that a hash asks for. Larger hashes ask for later ones.
-    const fn place(&self, hash: HashOfState) -> usize {
-        ((hash as u64 * self.slots.len() as u64) >> HashOfState::BITS) as usize
-    }
-
-    /// What stands in the slot that a hash asks for.
-    #[inline]
-    fn slot(&self, hash: HashOfState) -> u64 {
-        self.slots.get(self.place(hash)).copied().unwrap_or(FREE)
-    }
-
-    /// The nodes with this hash.
-    fn with(&self, hash: HashOfState) -> impl Iterator<Item = u32> {
-        let place = self.place(hash);
-        let slots = self.slots[place..].iter().chain(&self.slots[..place]);
-        let taken = slots.take_while(|&&slot| slot != FREE);
-        taken.filter(move |&&slot| (slot >> u32::BITS) as HashOfState == hash).map(|&slot| slot as u32)
-    }
-
-    /// The first node with this hash.
-    fn first(&self, hash: HashOfState) -> Option<u32> {
-        self.with(hash).next()
-    }
-
-    fn find(&self, hash: HashOfState, mut is_it: impl FnMut(u32) -> bool) -> Option<u32> {
-        self.with(hash).find(|&node| is_it(node))
-    }
-
-    /// Adds a node that is not there.
-    fn insert(&mut self, hash: HashOfState, node: u32) {
-        if self.is_full() {
-            let grown = vec![FREE; self.grown()];
-            let before = std::mem::replace(&mut self.slots, grown);
-            before.into_iter().filter(|&slot| slot != FREE).for_each(|slot| self.put(slot));
-        }
-        self.put(u64::from(hash) << u32::BITS | u64::from(node));
-        self.length += 1;
-    }
-
-    fn put(&mut self, slot: u64) {
-        let mut place = self.place((slot >> u32::BITS) as HashOfState);
-        while self.slots[place] != FREE {
-            place += 1;
-            if place == self.slots.len() {
-                place = 0;
-            }
-        }
-        self.slots[place] = slot;
+        (self.met, self.first) = (0, 0);
     }
 }
 
@@ -508,9 +365,10 @@ mod tests {
 
     fn meet(known: &mut StateTable<u32>, state: &[u32; 3], differing: Places) -> (u32, bool) {
         known.queue(&Triples, state, differing);
-        let mut met = None;
-        known.meet(1, |node, is_new| met = Some((node, is_new)));
-        met.expect("one is queued")
+        let mut queue = known.queued();
+        let met = known.meet_next(&mut queue);
+        known.give_back(queue);
+        met
     }
 
     /// The second one needs numbers of two bytes.
@@ -520,14 +378,14 @@ mod tests {
         meet(&mut known, &[0, 0, 0], Places::MAX);
         known.show_last();
         let states = [[1, 2, 3], [4, 5, 6], [1, 2, 3], [0, 0, 0]];
-        let mut met = Vec::new();
         for part in 7..260 {
             known.parts.number(part);
         }
         for state in states {
             known.queue(&Triples, &state, Places::MAX);
         }
-        known.meet(4, |node, is_new| met.push((node, is_new)));
+        let mut queue = known.queued();
+        let met = states.map(|_| known.meet_next(&mut queue));
         assert_eq!(known.width, 2);
         assert_eq!(met, [(1, true), (2, true), (1, false), (0, false)]);
     }
@@ -556,28 +414,5 @@ mod tests {
         shown[2] = 0;
         known.show(&Triples, 5, &mut shown);
         assert_eq!(shown, [5, 6, 0]);
-    }
-
-    #[test]
-    fn bytes_are_those_of_full_pieces_and_of_the_last_one() {
-        let mut pile = Pile::new();
-        (0..=PIECE as u32).for_each(|entry| pile.push([entry, !entry]));
-        assert_eq!((pile.len(), pile.at(PIECE)), (PIECE + 1, [PIECE as u32, !(PIECE as u32)]));
-        let full = (PIECE * 2 * size_of::<u32>()) as u64;
-        assert!((full + 8..full + 64).contains(&pile.bytes()), "{}", pile.bytes());
-    }
-
-    /// In the second piece, the first three are as long as each other, and the rest are not.
-    #[test]
-    fn codes_of_any_length_come_back() {
-        let code = |place: usize| {
-            let length = if place < PIECE + 3 { 3 } else { place % 5 };
-            place.to_le_bytes()[..length].to_vec()
-        };
-        let mut codes = Codes::default();
-        (0..2 * PIECE + 9).for_each(|place| codes.push(&code(place)));
-        assert!((0..codes.length).all(|place| codes.entry(place) == code(place)));
-        let (first, second) = (3 * PIECE, 2 * PIECE + 4 * PIECE);
-        assert!((first + second..2 * (first + second)).contains(&(codes.bytes() as usize)));
     }
 }

@@ -1,0 +1,110 @@
+//! Several workers on one search. Each makes the steps from some of the states that wait, and looks for where they lead
+//! among the states that were known before. What they have made is taken in the order of the states, by one of them, so
+//! that counts, runs and memory are the same for any number of workers.
+
+use std::ops::{ControlFlow, Range};
+use std::panic::resume_unwind;
+use std::thread;
+
+use super::known::{Queue, StateTable};
+use super::search::Search;
+use super::{Bits, Findings, Limits, Step, System};
+use crate::engine::watchdog::{Steps, Task};
+
+/// The fewest states that are shared out: a thread takes as long to begin as tens of steps.
+pub(super) const FEWEST: usize = 1 << 10;
+
+/// The most states that are shared out at a time.
+pub(super) const MOST: usize = 1 << 14;
+
+/// The steps from states that follow one another, and where they lead.
+pub(super) struct Chunk<D> {
+    pub(super) queue: Queue,
+    /// Of each step the situations that it is, who acts if it is bound to be made, and the demands that it breaks.
+    pub(super) steps: Vec<(u64, Option<Bits>, Vec<D>)>,
+    /// Of each state its steps, what is owed in it, and the demands that a run breaks by staying there; `None` if it is
+    /// bound to go on.
+    pub(super) nodes: Vec<(usize, Bits, Option<Vec<D>>)>,
+}
+
+/// Searches as [`search`](super::search) does, on so many threads at a time if states are kept in bytes of their own.
+pub fn search_together<S>(
+    system: &S,
+    starts: impl IntoIterator<Item = S::State>,
+    limits: Limits<'_>,
+    workers: usize,
+) -> Findings<S::Demand>
+where
+    S: System + Sync,
+    S::State: Send,
+    S::Part: Send + Sync,
+    S::Demand: Send,
+{
+    let mut search = Search::new(system, limits);
+    search.share_out = (workers > 1).then_some((workers, share_out::<S>));
+    search.run_from(starts, limits.most_steps, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The steps from all these nodes, by so many workers.
+fn share_out<S>(
+    (system, known): (&S, &StateTable<S::Part>),
+    state: &S::State,
+    nodes: Range<usize>,
+    workers: usize,
+) -> Vec<Chunk<S::Demand>>
+where
+    S: System + Sync,
+    S::State: Send,
+    S::Part: Send + Sync,
+    S::Demand: Send,
+{
+    let (task, each) = (Task::current(), nodes.len().div_ceil(workers));
+    thread::scope(|scope| {
+        let begin = |first: usize| {
+            let (nodes, state) = (first..nodes.end.min(first + each), state.clone());
+            scope.spawn(move || {
+                let _working = task.enter();
+                chunk(system, known, nodes, state)
+            })
+        };
+        let running: Vec<_> = nodes.clone().step_by(each).map(begin).collect();
+        running.into_iter().map(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    })
+}
+
+/// The steps from these nodes, up to one that breaks enough.
+fn chunk<S: System>(
+    system: &S,
+    known: &StateTable<S::Part>,
+    nodes: Range<usize>,
+    mut state: S::State,
+) -> Chunk<S::Demand> {
+    let making = Steps::begin();
+    let mut chunk = Chunk { queue: Queue::default(), steps: Vec::new(), nodes: Vec::new() };
+    let is_enough = |breaks: &[S::Demand]| breaks.iter().any(|&demand| system.is_enough(demand));
+    for node in nodes {
+        making.next();
+        known.read(system, node, &mut state);
+        let (before, mut is_still) = (chunk.steps.len(), true);
+        let mut flow = system.each_step(&state, |step| {
+            making.next();
+            let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
+            system.make_canonical(&mut to);
+            chunk.queue.write(system, &to);
+            is_still &= !is_bound;
+            let flow = if is_enough(&breaks) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            chunk.steps.push((occurs, is_bound.then_some(acting), breaks));
+            flow
+        });
+        let at_end = is_still.then(|| system.broken_at_end(&state, &[]));
+        if at_end.as_deref().is_some_and(is_enough) {
+            flow = ControlFlow::Break(());
+        }
+        chunk.nodes.push((chunk.steps.len() - before, system.owed(&state), at_end));
+        if flow.is_break() {
+            break;
+        }
+    }
+    known.look_up(&mut chunk.queue);
+    chunk
+}
