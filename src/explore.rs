@@ -15,6 +15,7 @@ use tautline_proofs::plural::counted;
 use super::evidence;
 use super::layout_args::LayoutArgs;
 use super::output::Output;
+use super::ros_map;
 use super::viewers::{self, ViewerArgs};
 use super::{CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, positive, progress, whole};
 use crate::value_parser::{self, chosen};
@@ -84,6 +85,9 @@ pub(super) struct Explore {
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Store what robots have mapped as a map of ROS: FILE ends in `.yaml`, and its image `.pgm` stands beside it.
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
     /// The drawing to print. Without it the outcome is drawn, if the area is small.
     #[arg(long, value_enum)]
     draw: Option<Draw>,
@@ -187,8 +191,9 @@ impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
         let [itf, mcap] = self.viewers.paths();
-        let files = [&self.trace, &self.html, &self.svg, itf, mcap];
-        let [trace, page, picture, itf, mcap] = self.force.files(files, self.layout.inputs())?;
+        let grid = self.map.as_ref().map(|map| map.with_extension("pgm"));
+        let files = [&self.trace, &self.html, &self.svg, itf, mcap, &self.map, &grid];
+        let [trace, page, picture, itf, mcap, map, grid] = self.force.files(files, self.layout.inputs())?;
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
@@ -212,6 +217,13 @@ impl Explore {
             out.keep(page);
         }
         viewers::store([itf, mcap], &setup, out)?;
+        if let (Some(mut map), Some(mut grid)) = (map, grid) {
+            grid.append(ros_map::image(&setup, &report));
+            let name = grid.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
+            map.append(ros_map::description(&name));
+            out.keep(grid);
+            out.keep(map);
+        }
         if let Some(mut picture) = picture {
             match self.draw {
                 Some(Draw::Moves) => picture.draw(svg::team_moves(&setup, &report, &(1..=report.steps)))?,

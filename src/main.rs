@@ -23,6 +23,7 @@ mod report;
 #[cfg(feature = "papers")]
 mod reproduce;
 mod rescue;
+mod ros_map;
 #[cfg(all(test, feature = "papers"))]
 mod schemas;
 mod schemes;

@@ -1,6 +1,6 @@
 //! Frontier cells on the command line: what is refused, with what would be right.
 
-use super::{folder, names, refused};
+use super::{folder, names, printed, refused};
 
 #[test]
 fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
@@ -31,4 +31,16 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
         assert!(said.contains(right), "{arguments:?}: {said}");
     }
     assert!(names(folder).is_empty());
+}
+
+#[test]
+fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
+    let folder = folder();
+    let folder = folder.path();
+    let explored = ["explore", "cells:6x7:0.2", "--scheme", "frontier", "--robots", "2", "--noise-db", "1"];
+    let told = printed(folder, &[&explored[..], &["--map", "map.yaml"]].concat(), 0);
+    let cells = told.lines().find_map(|line| line.split_once(" explored")).expect("what is explored").0;
+    let again = ["explore", "map.yaml", "--scheme", "frontier", "--robots", "2"];
+    assert!(printed(folder, &again, 0).contains(&format!("{cells} explored")), "{told}");
+    assert_eq!(names(folder), ["map.pgm", "map.yaml"]);
 }

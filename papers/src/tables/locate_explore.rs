@@ -244,36 +244,35 @@ impl Table for LocateExplore {
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         type Part = (&'static str, fn(&Figure) -> String);
-        let parts: [Part; 5] = [
-            ("clean runs, %", |figure| percent(figure.clean, 1)),
+        const WIDTH: usize = 22;
+        fn sides(number: Option<f64>, decimals: usize) -> String {
+            number.map_or_else(|| "-".to_owned(), |number| format!("{number:.decimals$}"))
+        }
+        // Of the repaired rule.
+        let parts: [Part; 7] = [
             ("team moves", |figure| text(figure.moves, 1)),
-            ("times the repaired rule without noise", |figure| text(figure.ratio, 2)),
+            ("times those without noise", |figure| text(figure.ratio, 2)),
             ("a robot stands, times a run", |figure| text(figure.stands, 1)),
-            ("positions off, cells (rms)", |figure| text(figure.off, 3)),
+            ("positions off, in cells (rms)", |figure| text(figure.off, 3)),
+            ("objects off, in cells: median", |figure| sides(figure.objects.map(|[median, _]| median), 3)),
+            ("objects off: 95th percentile", |figure| sides(figure.objects.map(|[_, most]| most), 3)),
+            ("over their ellipses (rms)", |figure| sides(figure.objects_ratio, 2)),
         ];
         let mut told = format!(
             "{} runs for each, {} anchors, {} beacons of each at a stop, wheels 2 % of the way and 1° a turn, seed {}\n",
             settings.layouts, settings.anchors, settings.readings, settings.seed
         );
         for lines in merged.lines.chunks(RULES.len()) {
-            let Line { size: (width, height), blocked, robots, .. } = &lines[0];
+            let Line { size: (width, height), blocked, robots, figures, .. } = &lines[REPAIRED];
             told += &format!("\n{width}×{height} cells, {blocked} % blocked, {robots} robots\n");
-            for (title, of) in parts {
-                let mut columns = Columns::of(lines).left(title, 40, |line| line.rule);
-                for (noise, noise_db) in settings.noise_db.iter().enumerate() {
-                    columns =
-                        columns.right(format!("{noise_db} dB"), 17, move |line| of(&line.figures[noise]));
-                }
-                told += &columns.text();
+            let mut clean = Columns::of(lines).left("clean runs, %", 32, |line| line.rule);
+            let mut repaired = Columns::of(&parts).left("repaired", 32, |part| part.0);
+            for (noise, noise_db) in settings.noise_db.iter().enumerate() {
+                let title = format!("{noise_db} dB");
+                clean = clean.right(title.clone(), WIDTH, move |line| percent(line.figures[noise].clean, 1));
+                repaired = repaired.right(title, WIDTH, move |part| part.1(&figures[noise]));
             }
-            for Figure { noise_db, objects, objects_ratio, .. } in &lines[REPAIRED].figures {
-                if let (Some([median, most]), Some(ratio)) = (objects, objects_ratio) {
-                    told += &format!(
-                        "objects at {noise_db} dB: off by {median:.3} of a cell's side (median) and {most:.3} (95th percentile), \
-                         {ratio:.2} times what their ellipses say\n"
-                    );
-                }
-            }
+            told += &(clean.text() + &repaired.text());
         }
         told += "\nThe largest square floor, in cells across, by the Cramér–Rao bound of a stop\n";
         let floors = Columns::of(&merged.floors)
