@@ -989,7 +989,7 @@ function ended(why = {}) {
 /** The findings, each a button that puts it on the board; the first one is put there at once. */
 function show(found, isDone, isStopped = false) {
   if (found.error) return ended(found);
-  if (isDone) find("far").textContent = [isStopped ? "Stopped." : "", found.title ? `${found.title}.` : "", found.outcome ?? ""].filter(part => part).join(" ");
+  if (isDone) find("far").textContent = [isStopped ? "Stopped." : "", found.title ? `${capital(found.title)}.` : "", found.outcome ?? ""].filter(part => part).join(" ");
   find("found").replaceChildren(...found.found.map(one => make("li", {}, make("button", { onclick: () => put(one) }, make("b", { textContent: one.clause }), ` ${one.title}. ${one.sentence ?? ""}`))));
   if (found.found.length && !isOnBoard) { isOnBoard = true; put(found.found[0]); }
 }

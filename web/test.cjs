@@ -155,7 +155,7 @@ const tests = {
     for (const name of ["notice", "mrc"]) {
       await page.selectOption("#scheme", name);
       await page.selectOption("#rule", "published");
-      await page.evaluate(() => { settings.options = settings.scheme === "mrc" ? { wfrs: "1", events: "1", faults: "1" } : {}; settings.robots = settings.scheme === "mrc" ? 1 : 4; open(); });
+      await page.evaluate(() => { settings.options = settings.scheme === "mrc" ? { wfrs: "1", events: "1", faults: "1" } : {}; settings.robots = settings.scheme === "mrc" ? 1 : 4; settings.starts = settings.scheme === "mrc" ? [] : [[1, 1], [2, 1], [1, 2], [0, 3]]; open(); });
       await page.click("#find");
       await page.waitForSelector("#found button");
       await page.waitForSelector("#find:not([hidden])");

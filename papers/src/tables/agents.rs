@@ -127,7 +127,7 @@ pub const BRICKS_FIG11: Agents = Agents::of(
         "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
      visited, by the number of agents",
         "What agents explore by their number, with missed sensors",
-        "an hour",
+        "a minute",
     ],
 );
 
@@ -139,7 +139,7 @@ pub const BRICKS_FIG12: Agents = Agents::of(
         "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
      as visited, by the area",
         "What agents explore by the area, with missed sensors",
-        "an hour",
+        "a minute",
     ],
 );
 
@@ -151,7 +151,7 @@ pub const BRICKS_IDEAL: Agents = Agents::of(
         "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
      until all agents know it, by the number of agents",
         "How long agents take, with none missed",
-        "an hour",
+        "some seconds",
     ],
 );
 

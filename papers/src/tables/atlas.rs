@@ -194,7 +194,7 @@ impl Table for Atlas {
             help: "What becomes of all runs in all layouts with few walls, by rule and number of robots",
             examples: &["atlas", "atlas --deep --format json"],
             doing: "searching",
-            takes: "half a minute",
+            takes: "some seconds",
             ..Description::NOTHING
         }
     }

@@ -89,7 +89,7 @@ impl Table for Floors {
                 "floors --map den312d.map --map room-64-64-8.map --agents 4,20 --miss 0.0556",
             ],
             doing: "exploring",
-            takes: "half a minute",
+            takes: "some seconds",
             pictures: &[("svg", "Store a chart of the share of the moves that are needed")],
             ..Description::NOTHING
         }

@@ -90,7 +90,7 @@ impl Table for FloorsMissed {
                 "floors-missed --map den312d.map --agents 4,20 --runs 20 --max-steps 2000000",
             ],
             doing: "exploring",
-            takes: "half a minute",
+            takes: "some seconds",
             ..Description::NOTHING
         }
     }

@@ -109,7 +109,7 @@ impl Table for FrontierFig7 {
                 "frontier-fig7 --blocked 12 --runs 100 --format json",
             ],
             doing: "exploring",
-            takes: "minutes",
+            takes: "a minute",
             pictures: &[("svg", "Store a chart of the team moves")],
             ..Description::NOTHING
         }

@@ -75,7 +75,7 @@ pub const KIT_FIG9: Kit = Kit::of(
     [
         "KIT: how long one robot and two take to find the nodes of random lattices",
         "How long robots that keep in touch take to find the nodes",
-        "half a minute",
+        "some seconds",
     ],
 );
 
@@ -86,7 +86,7 @@ pub const KIT_FIG14: Kit = Kit::of(
     [
         "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and how long all take",
         "How much robots that keep in touch overlap",
-        "minutes",
+        "some seconds",
     ],
 );
 

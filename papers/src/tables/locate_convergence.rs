@@ -127,7 +127,7 @@ impl Table for LocateConvergence {
                 "locate-convergence --noise-db 4 --runs 1000 --format json",
             ],
             doing: "locating",
-            takes: "a minute",
+            takes: "some seconds",
             pictures: &[("svg", "Store the medians as a picture")],
             ..Description::NOTHING
         }

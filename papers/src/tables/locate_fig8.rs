@@ -106,7 +106,7 @@ impl Table for LocateFig8 {
             more: "Anchors stand at 0,0, at 20,0 and at 0,20 metres, robots at random places between 0,0 and 20,20.",
             examples: &["locate-fig8 --svg fig8.svg", "locate-fig8 --noise-db 2 --format json"],
             doing: "locating",
-            takes: "half a minute",
+            takes: "a second",
             pictures: &[("svg", "Store the figure as a picture")],
             ..Description::NOTHING
         }

@@ -132,7 +132,7 @@ impl Table for Optimum {
             more: "Two robots in all layouts of 3×3 cells, three in those of 5×5 cells with few walls.",
             examples: &["optimum", "optimum --max-walls 2 --format json"],
             doing: "solving",
-            takes: "half a minute",
+            takes: "some seconds",
             ..Description::NOTHING
         }
     }

@@ -52,6 +52,7 @@ fn row() -> Json {
 /// A network on a board.
 struct Network {
     case: Case,
+    rule: Rule,
     area: Area,
     cells: Vec<Cell>,
     pairs: Vec<(usize, usize)>,
@@ -64,9 +65,9 @@ fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
 }
 
 fn hunt(settings: &Settings, most_steps: u64) -> Result<Hunted, Diagnostic> {
-    let Network { case, .. } = network(settings)?;
+    let Network { case, rule, .. } = network(settings)?;
     Ok(search(&case, &case.start(), most_steps, |(demand, _)| {
-        is_asked(&case, demand).then(|| clause(demand))
+        is_asked(&rule, demand).then(|| clause(demand))
     }))
 }
 
@@ -90,12 +91,12 @@ fn network(settings: &Settings) -> Result<Network, Diagnostic> {
     let own = if settings.rule == "published" { Conditions::PUBLISHED } else { Conditions::REPAIRED };
     let rule = rule(own, number(settings, "k", 1, Count::MOST)?);
     let rule = settings.on.map_or(rule, |on| rule.with_in_force(on));
-    Ok(Network { case: Case::new(pairs.iter().copied(), rule), area, cells, pairs })
+    Ok(Network { case: Case::new(pairs.iter().copied(), rule), rule, area, cells, pairs })
 }
 
 /// Whether something is demanded of this rule: of flooding alone that all forward.
-fn is_asked(case: &Case, demand: Demand) -> bool {
-    demand != Demand::Floods || matches!(case.rule.scheme, Scheme::Farthest { k: None } | Scheme::Flooding)
+fn is_asked(rule: &Rule, demand: Demand) -> bool {
+    demand != Demand::Floods || matches!(rule.scheme, Scheme::Farthest { k: None } | Scheme::Flooding)
 }
 
 const fn clause(demand: Demand) -> &'static str {
@@ -131,12 +132,12 @@ impl World for Network {
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Self::Demand> {
         let &Turn { before, planned, after, plan, event, sent } = turn;
         let broken = self.case.broken_by(&Turn { before, planned, after, plan, event, sent });
-        broken.into_iter().filter(|&(demand, _)| is_asked(&self.case, demand)).collect()
+        broken.into_iter().filter(|&(demand, _)| is_asked(&self.rule, demand)).collect()
     }
 
     fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Vec<Self::Demand> {
         let broken = self.case.broken_at_end(state, log);
-        broken.into_iter().filter(|&(demand, _)| is_asked(&self.case, demand)).collect()
+        broken.into_iter().filter(|&(demand, _)| is_asked(&self.rule, demand)).collect()
     }
 }
 

@@ -71,7 +71,7 @@ impl Table for ChainFig3 {
             more: "Where not all runs get there, the median counts the others as later than any; the chart draws medians.",
             examples: &["chain-fig3", "chain-fig3 --runs 20 --svg-50 fig3a.svg"],
             doing: "comparing",
-            takes: "minutes",
+            takes: "two minutes",
             pictures: &[
                 ("svg-50", "Store team moves to 50 % as a chart"),
                 ("svg-75", "Store team moves to 75 % as a chart"),

@@ -92,7 +92,7 @@ impl Table for ChainTable1 {
                    all runs get there, the median counts the others as later than any.",
             examples: &["chain-table1", "chain-table1 --runs 200 --pool 200 --format json"],
             doing: "comparing",
-            takes: "minutes",
+            takes: "half a minute",
             ..Description::NOTHING
         }
     }
