@@ -70,16 +70,8 @@ impl Robots {
 
     /// Whether the robots are in cells that hang together.
     fn is_cluster(robots: &[Robot]) -> bool {
-        let is_beside = |one: usize, other: usize| {
-            robots[one].0.abs_diff(robots[other].0) + robots[one].1.abs_diff(robots[other].1) == 1
-        };
-        let mut found = vec![0];
-        while let Some(other) = (0..robots.len())
-            .find(|other| !found.contains(other) && found.iter().any(|&one| is_beside(one, *other)))
-        {
-            found.push(other);
-        }
-        found.len() == robots.len()
+        let is_beside = |one: &Robot, other: &Robot| one.0.abs_diff(other.0) + one.1.abs_diff(other.1) == 1;
+        hang_together(robots, is_beside)
     }
 }
 

@@ -75,7 +75,7 @@ impl Robots {
     fn seen(&self, robots: &[Robot]) -> Vec<Robot> {
         let (column, row, ..) = robots[0];
         let from = |at: i8, zero: i8| (at - zero).rem_euclid(self.1.width);
-        let seen = |&(x, y, heading, misses): &Robot| (from(x, column), from(y, row), heading, misses);
+        let seen = |&(x, y, way, misses): &Robot| (from(x, column), from(y, row), way, misses);
         robots.iter().map(seen).collect()
     }
 }
@@ -95,8 +95,8 @@ impl Protocol for Robots {
     }
 
     fn starts(&self) -> impl Iterator<Item = Vec<Robot>> {
-        let width = self.1.width;
-        let at = |cell: i8| (0..4).map(move |way| (cell % width, cell / width, way, false));
+        let width = i16::from(self.1.width);
+        let at = |cell| (0..4).map(move |way| ((cell % width) as i8, (cell / width) as i8, way, false));
         let any: Vec<Robot> = (0..width * width).flat_map(at).collect();
         combinations((0..self.1.robots).map(move |me| any[..if me == 0 { 4 } else { any.len() }].to_vec()))
             .filter(|robots| (0..robots.len()).all(|me| self.near(robots, me) >= self.1.alpha))
@@ -107,8 +107,11 @@ impl Protocol for Robots {
             let ways = move |me: usize| {
                 if actors >> me & 1 == 1 { self.ways(robots, me) } else { vec![robots[me]] }
             };
-            let to = combinations((0..robots.len()).map(ways));
-            to.map(move |to| Move { actors, words: "go", to: self.seen(&to) })
+            combinations((0..robots.len()).map(ways)).map(move |to| Move {
+                actors,
+                words: "go",
+                to: self.seen(&to),
+            })
         };
         self.1.moves.sets(robots.len()).flat_map(act).collect()
     }
@@ -128,6 +131,7 @@ impl Protocol for Robots {
 const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, moves: Moves::Together };
 const ONE_BY_ONE: Swarm = Swarm { moves: Moves::OneAtATime, ..SWARM };
 const THREE: Swarm = Swarm { robots: 3, ..SWARM };
+const LARGE: Swarm = Swarm { width: 16, ..THREE };
 const RULE: Conditions = Conditions { goes_on: true, turns_back: true, turns_aside: true };
 const PUBLISHED: NamedRule<Conditions> = NamedRule::new("published", RULE);
 const STANDS: NamedRule<Conditions> =
@@ -145,8 +149,8 @@ pub(crate) static ENTRY: Entry = Entry {
         &[
             &Check::new(PUBLISHED, &Keeps::<Robots>(&SWARM, 0), Holds, &[STANDS]),
             &Check::new(PUBLISHED, &Keeps::<Robots>(&ONE_BY_ONE, 0), Refuted, &[]),
-            &Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { width: 4, ..THREE }, 0), Refuted, &[]),
+            &Check::new(PUBLISHED, &Keeps::<Robots>(&THREE, 0), Refuted, &[]),
         ],
     )
-    .larger(&[&Check::new(PUBLISHED, &Keeps::<Robots>(&THREE, 0), Refuted, &[])])],
+    .larger(&[&Check::new(PUBLISHED, &Keeps::<Robots>(&LARGE, 0), Refuted, &[])])],
 };

@@ -41,7 +41,7 @@ mod prelude {
     pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations, set};
     pub(crate) use tautline_proofs::team::{Graph, Graphs, Kind, Moves, Teams};
 
-    pub(crate) use crate::{APART, Entry, WAYS, arrows, conflicts, promise, robots, turned};
+    pub(crate) use crate::{APART, Entry, WAYS, arrows, conflicts, hang_together, promise, robots, turned};
 }
 
 /// A published rule.
@@ -128,6 +128,19 @@ fn conflicts(before: &[u8], after: &[u8]) -> bool {
         let is_swap = |other: usize| before[one] == after[other] && after[one] == before[other];
         (0..one).any(|other| after[one] == after[other] || is_swap(other))
     })
+}
+
+/// Whether the first of all is joined with each of them, from one to the next.
+fn hang_together<T: PartialEq>(all: &[T], is_joined: impl Fn(&T, &T) -> bool) -> bool {
+    let mut found: Vec<&T> = all.iter().take(1).collect();
+    let next = |found: &[&T]| {
+        let mut left = all.iter().filter(|other| !found.contains(other));
+        left.find(|other| found.iter().any(|one| is_joined(one, other)))
+    };
+    while let Some(other) = next(&found) {
+        found.push(other);
+    }
+    found.len() == all.len()
 }
 
 /// The steps in columns and rows of a robot that heads so, in quarter turns.
