@@ -107,11 +107,8 @@ impl Protocol for Robots {
             let ways = move |me: usize| {
                 if actors >> me & 1 == 1 { self.ways(robots, me) } else { vec![robots[me]] }
             };
-            combinations((0..robots.len()).map(ways)).map(move |to| Move {
-                actors,
-                words: "go",
-                to: self.seen(&to),
-            })
+            let to = combinations((0..robots.len()).map(ways));
+            to.map(move |to| Move { actors, words: "go", to: self.seen(&to) })
         };
         self.1.moves.sets(robots.len()).flat_map(act).collect()
     }
@@ -131,7 +128,6 @@ impl Protocol for Robots {
 const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, moves: Moves::Together };
 const ONE_BY_ONE: Swarm = Swarm { moves: Moves::OneAtATime, ..SWARM };
 const THREE: Swarm = Swarm { robots: 3, ..SWARM };
-const LARGE: Swarm = Swarm { width: 16, ..THREE };
 const RULE: Conditions = Conditions { goes_on: true, turns_back: true, turns_aside: true };
 const PUBLISHED: NamedRule<Conditions> = NamedRule::new("published", RULE);
 const STANDS: NamedRule<Conditions> =
@@ -152,5 +148,5 @@ pub(crate) static ENTRY: Entry = Entry {
             &Check::new(PUBLISHED, &Keeps::<Robots>(&THREE, 0), Refuted, &[]),
         ],
     )
-    .larger(&[&Check::new(PUBLISHED, &Keeps::<Robots>(&LARGE, 0), Refuted, &[])])],
+    .larger(&[&Check::new(PUBLISHED, &Keeps::<Robots>(&Swarm { width: 16, ..THREE }, 0), Refuted, &[])])],
 };
