@@ -11,7 +11,9 @@ pub trait Compact: Sized {
     /// Appends the bytes of several, one after the other.
     #[inline]
     fn write_all(all: &[Self], to: &mut Vec<u8>) {
-        all.iter().for_each(|value| value.write(to));
+        for value in all {
+            value.write(to);
+        }
     }
 
     /// Takes so many.

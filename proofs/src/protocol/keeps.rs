@@ -206,6 +206,20 @@ impl<P: Protocol> Playing<P> {
         states::Run { steps, ending, ..run }
     }
 
+    /// The findings of a search that can be believed.
+    fn searched(&self, limits: Limits<'_>, workers: usize) -> Result<Findings<&'static str>, MethodError> {
+        states::repeats(self, self.protocol.starts()).map_err(MethodError::new)?;
+        self.comes_back()?;
+        self.is_symmetric()?;
+        let mut found = states::search_together(self, self.protocol.starts(), limits, workers);
+        for run in &mut found.broken {
+            if let Some(start) = self.protocol.starts().nth(run.start) {
+                *run = self.unfolded(&start, run.clone());
+            }
+        }
+        Ok(found)
+    }
+
     /// Whether the first few states come back from their bytes.
     ///
     /// # Errors
@@ -269,25 +283,7 @@ impl<P: Protocol> Keeps<P> {
         limits: Limits<'_>,
         workers: usize,
     ) -> Result<Findings<&'static str>, MethodError> {
-        self.searched(&self.playing(rule)?, limits, workers)
-    }
-
-    fn searched(
-        &self,
-        playing: &Playing<P>,
-        limits: Limits<'_>,
-        workers: usize,
-    ) -> Result<Findings<&'static str>, MethodError> {
-        states::repeats(playing, playing.protocol.starts()).map_err(MethodError::new)?;
-        playing.comes_back()?;
-        playing.is_symmetric()?;
-        let mut found = states::search_together(playing, playing.protocol.starts(), limits, workers);
-        for run in &mut found.broken {
-            if let Some(start) = playing.protocol.starts().nth(run.start) {
-                *run = playing.unfolded(&start, run.clone());
-            }
-        }
-        Ok(found)
+        self.playing(rule)?.searched(limits, workers)
     }
 }
 
@@ -304,7 +300,7 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
     fn decide(&self, rule: &P::Rule, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let playing = self.playing(rule)?;
         let limits = Limits { room: desk.room, ..Limits::NONE };
-        let found = self.searched(&playing, limits, rayon::current_num_threads())?;
+        let found = playing.searched(limits, rayon::current_num_threads())?;
         let evidence = found.broken.first().and_then(|run| {
             Some(Evidence {
                 choices: run.choices(),
