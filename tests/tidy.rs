@@ -23,7 +23,8 @@ const BELOW: &str = "
 const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
-    kernel bricks chain frontier kit mrc notice pack position tan:
+    kernel position: frontier
+    kernel bricks chain frontier kit mrc notice pack tan:
     proofs ambiguity clause decide engine floor_trace judge local plural protocol run step_check team: *
     proofs ledger:
     proofs floor: ants bricks

@@ -267,7 +267,7 @@ impl Extra {
 
     /// How far wheels err.
     pub const ODOMETRY: &'static Self = &Self {
-        takes: Takes::Word("SHARE:DEGREES"),
+        takes: Takes::Real("SHARE:DEGREES"),
         about: "By which share of the way each drive errs, and by how many degrees each turn, as standard deviations. \
                 Without it 0.02:1 where positions have noise, else 0:0",
         read: |text, options| put(text.parse().map(Some), &mut options.odometry),

@@ -15,7 +15,7 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
         (&["explore", "cells:3x3:0", "--odometry", "0.02:nan"], "--odometry a share of the way from 0 to 1"),
         (&["explore", "cells:3x3:0", "--odometry", "0.02"], "such as 0.02:1"),
         (&["explore", "cells:3x3:0", "--anchors", "2"], "--anchors 3 to 8"),
-        (&["explore", "cells:3x3:0", "--readings", "-1"], "whole number"),
+        (&["explore", "cells:3x3:0", "--readings", "x"], "whole number"),
         (&["explore", "open:60x60", "--noise-db", "4"], "a smaller floor, less --noise-db"),
         (&["explore", "open:6x6", "--noise-db", "1", "--odometry", "0.02:5"], "--odometry smaller errors"),
         (&["explore", "cells:3x3:0", "--loss", "2"], "from 0 to 1"),
