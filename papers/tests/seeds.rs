@@ -34,6 +34,8 @@ impl RunOption {
                     "sight" => "2",
                     "loss" => "0.3",
                     "noise-db" => "12",
+                    "readings" | "anchors" => "5",
+                    "odometry" => "0.3:20",
                     "threshold" => "0.4",
                     "speed" | "spread" => "0.5",
                     "fail" => "3@9",

@@ -13,6 +13,7 @@ fn told(scheme: &Profile) -> Vec<Vec<String>> {
         By::Told(extra) => match extra.field {
             "speeds" => "--speeds".to_owned(),
             "loss" => "--loss 0.3".to_owned(),
+            "odometry" => "--odometry 0.3:20".to_owned(),
             field => format!("--{field} 6"),
         },
         By::Rule(rule) => format!("--rule {rule}"),
