@@ -298,7 +298,7 @@ impl Explore {
         match self.draw {
             Some(Draw::Order) => out.text(format_args!("\n{}", draw::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
-                draw_moves(setup, report, Wanted::All(1..=report.steps), draw::Pose::Before, out)?;
+                draw_moves(setup, report, &Wanted::All(1..=report.steps), draw::Pose::Before, out)?;
             }
             None if report.chart.area().width() <= SMALL_COLUMNS => {
                 out.text(format_args!("\n{}", draw::outcome(setup, &report.chart, &report.team)))?;
@@ -324,19 +324,19 @@ pub(super) enum Wanted {
 pub(super) fn draw_moves(
     run: &dyn Play,
     report: &Report,
-    wanted: Wanted,
+    wanted: &Wanted,
     pose: draw::Pose,
     out: &mut Output,
 ) -> Result<RangeInclusive<u32>, Halt> {
     let drawn = draw::TeamMoves::new(run, &report.chart);
-    let (Wanted::All(moves) | Wanted::Last(moves)) = &wanted;
+    let (Wanted::All(moves) | Wanted::Last(moves)) = wanted;
     let mut columns = None;
     run.among(moves, &mut |made| {
         columns = columns.max(Some(drawn.columns(made, pose)));
         Ok(())
     })?;
     let Some(columns) = columns else { return Ok(moves.clone()) };
-    let moves = match &wanted {
+    let moves = match wanted {
         Wanted::All(moves) => moves.clone(),
         Wanted::Last(moves) => {
             let most = drawn.fitting(columns, MOST_LINES);

@@ -96,7 +96,7 @@ impl Minimise {
             Format::Json => out.json(&minimised)?,
             Format::Text => {
                 out.text(tell(&self.file.display().to_string(), &minimised))?;
-                draw(&minimal.setup, &report, Wanted::Last(1..=report.steps), out)?;
+                draw(&minimal.setup, &report, &Wanted::Last(1..=report.steps), out)?;
                 if let Some(file) = &minimised.file {
                     out.text(format_args!("\n{}", hunt::again(file, &minimal.setup)))?;
                 }

@@ -316,7 +316,7 @@ impl Replay {
                 if is_drawn {
                     let is_said = self.all || self.moves.is_some();
                     let wanted = if is_said { Wanted::All(moves) } else { Wanted::Last(moves) };
-                    let first = *draw(run, report, wanted, out)?.start();
+                    let first = *draw(run, report, &wanted, out)?.start();
                     if !is_said && first > 1 {
                         let left = if first == 2 {
                             "Team move 1 is".to_owned()
@@ -454,7 +454,7 @@ fn said(clause: &str, is_judged: bool) -> String {
 pub(super) fn draw(
     run: &dyn Play,
     report: &Report,
-    wanted: Wanted,
+    wanted: &Wanted,
     out: &mut Output,
 ) -> Result<RangeInclusive<u32>, Halt> {
     let moves = draw_moves(run, report, wanted, draw::Pose::After, out)?;

@@ -47,7 +47,7 @@ const MOST_MOVES: f64 = 4e8;
 /// A hunt on its way: of a row of the catalogue, or through every order of a world.
 pub(crate) enum Hunting {
     Row(Box<RowHunt>),
-    World(WorldHunt),
+    World(Box<WorldHunt>),
 }
 
 impl Hunting {
@@ -55,7 +55,7 @@ impl Hunting {
     pub(crate) fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
         if let Some(search) = by_hand::hunt(settings) {
             let hunting = WorldHunt { settings: settings.clone(), search, budget: FIRST, last: None };
-            return Ok((Self::World(hunting), json!({ "command": null })));
+            return Ok((Self::World(Box::new(hunting)), json!({ "command": null })));
         }
         let (hunting, begun) = RowHunt::begin(settings, quarry)?;
         Ok((Self::Row(Box::new(hunting)), begun))

@@ -169,7 +169,6 @@ impl Table for AntennaFig4 {
             takes: "a second",
             why_none: "the paper draws the strengths of two sensors and prints no number of them",
             pictures: &[("svg", "Store the pattern as a picture")],
-            ..Description::NOTHING
         }
     }
 
