@@ -824,7 +824,7 @@ fn a_run_of_agents_without_end_is_found_and_drawn() {
     let replayed = json(folder, &["replay", "run.jsonl"], 1);
     assert_eq!((&replayed["stopped"], &replayed["terminated"]), (&"endless".into(), &false.into()));
     let minimal = json(folder, &["minimise", "run.jsonl", "--out", "minimal"], 0);
-    assert_eq!((&minimal["clause"], &minimal["after"]["robots"]), (&"BRICKS-5".into(), &1.into()));
+    assert_eq!((&minimal["clause"], &minimal["after"]["robots"]), (&"BRICKS-6".into(), &1.into()));
 }
 
 #[test]
