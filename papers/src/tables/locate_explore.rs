@@ -264,7 +264,7 @@ impl Table for LocateExplore {
         );
         for lines in merged.lines.chunks(RULES.len()) {
             let Line { size: (width, height), blocked, robots, figures, .. } = &lines[REPAIRED];
-            told += &format!("\n{width}×{height} cells, {blocked} % blocked, {robots} robots\n");
+            told.extend([format!("\n{width}×{height} cells, {blocked} % blocked, {robots} robots\n")]);
             let mut clean = Columns::of(lines).left("clean runs, %", 32, |line| line.rule);
             let mut repaired = Columns::of(&parts).left("repaired", 32, |part| part.0);
             for (noise, noise_db) in settings.noise_db.iter().enumerate() {
