@@ -175,7 +175,7 @@ impl Table for LocateExplore {
                 "locate-explore --noise-db 2 --blocked 10,20,30 --format json",
             ],
             doing: "exploring",
-            takes: "TODO",
+            takes: "minutes",
             ..Description::NOTHING
         }
     }
