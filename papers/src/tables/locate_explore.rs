@@ -386,7 +386,7 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
             };
             teams.map(of).join(", ")
         };
-        let (moves, off): (fn(&Figure) -> _, fn(&Figure) -> _) = (|one| one.moves, |one| one.off);
+        let (moves, off) = (|one: &Figure| one.moves, |one: &Figure| one.off);
         let (is_later, is_sooner) = rises(moves);
         judged[0].push(Judgement::new(
             "“performs better when team of robots has 8 members”",

@@ -52,7 +52,7 @@ pub(super) fn minimise(
     let least = *setup.scheme.robots.start() as u16;
     for robots in least..=setup.robots {
         for &(columns, rows) in &sizes {
-            let size = Some(Size::new(columns as u64, rows as u64).map_err(|problem| Halt::from(problem))?);
+            let size = Some(Size::new(columns as u64, rows as u64).map_err(Halt::from)?);
             let asked = Asked {
                 robots: Some(robots.into()),
                 size,
