@@ -250,7 +250,7 @@ fn subcommand(table: &'static dyn Entry) -> Command {
     let Description { help, more, examples, takes, .. } = table.about();
     let examples = examples.iter().map(|example| format!("\n  tautline reproduce {example}"));
     let examples = "Examples:".to_owned() + &examples.collect::<String>();
-    let examples = format!("{examples}\n\nBy its own settings, on two cores, it takes about {takes}.");
+    let examples = format!("{examples}\n\nBy its own settings it takes {takes} on two cores.");
     let command = FormatArgs::augment_args(command).about(help).after_help(examples);
     if more.is_empty() { command } else { command.long_about(format!("{help}.\n\n{more}")) }
 }

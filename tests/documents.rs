@@ -347,7 +347,8 @@ fn every_link_of_the_documents_leads_somewhere() {
 #[test]
 fn the_code_of_the_tutorial_is_that_of_the_example() {
     let tutorial = document("docs/own-rule.md");
-    let examples = ["examples/followers.rs", "examples/convoy.rs"].map(document);
+    let examples =
+        ["examples/followers.rs", "examples/convoy.rs", "library/src/aggregation.rs"].map(document);
     let blocks: Vec<&str> = tutorial.split("```rust\n").skip(1).collect();
     assert!(blocks.len() > 3, "the tutorial shows the rule");
     for block in blocks {

@@ -65,8 +65,8 @@ fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_
     assert_eq!(proved().stored.len(), refuted.count(), "each has a file of its own");
     let mut played = 0;
     for (name, text) in &proved().stored {
-        // Runs of a chain are traces, which have tests of their own.
-        if !text.contains(refutation::FORMAT) {
+        // Runs of a chain are traces, which have tests of their own; what was drawn at random is too long for every change.
+        if !text.contains(refutation::FORMAT) || text.contains("\"engine\":\"sampled\"") {
             continue;
         }
         let path = folder.path().join(name);
