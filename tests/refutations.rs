@@ -65,7 +65,7 @@ fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_
     assert_eq!(proved().stored.len(), refuted.count(), "each has a file of its own");
     let mut played = 0;
     for (name, text) in &proved().stored {
-        // Runs of a chain are traces, which have tests of their own; what was drawn at random is too long for every change.
+        // Runs of a chain are traces, which have tests of their own; what was drawn at random is long.
         if !text.contains(refutation::FORMAT) || text.contains("\"engine\":\"sampled\"") {
             continue;
         }
