@@ -99,7 +99,7 @@ fn a_step_that_is_refused_names_the_condition() {
     let settings = settings("repaired", &OPEN);
     ask(&mut page, &json!({ "do": "open", "settings": settings, "steps": 2 }));
     let refused = ask(&mut page, &json!({ "do": "refusals" }));
-    let refused = refused.as_array().expect("a list");
+    let refused = refused["refused"].as_array().expect("a list");
     assert!(refused.iter().any(|one| !one["by"].as_array().expect("a list").is_empty()), "{refused:?}");
 }
 
