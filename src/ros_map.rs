@@ -1,4 +1,4 @@
-//! What a team has mapped, as ROS has it: an occupancy grid of one pixel for each cell, which `explore` reads again.
+//! The map that a team has made, as ROS has it: an occupancy grid of one pixel for each cell, which `explore` reads again.
 
 use tautline_kernel::ground::{Cell, Side};
 use tautline_sim::explore::{Report, Setup};

@@ -5,7 +5,7 @@ use std::fs;
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// What `tautline prove --verbose --out refuted` leaves behind.
+/// The text and the files of `tautline prove --verbose --out refuted`.
 pub(crate) struct Proved {
     /// The text that it prints.
     pub(crate) told: String,

@@ -27,7 +27,7 @@ impl fmt::Display for Net {
     }
 }
 
-/// What a node does.
+/// The phase of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Phase {
     /// It has not asked.

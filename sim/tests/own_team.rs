@@ -15,7 +15,7 @@ use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
     Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Setup,
-    Starts, Stopped, Team, run,
+    Starts, Stopped, Surroundings, Team, run,
 };
 use tautline_sim::layout::{self, Layout};
 use tautline_sim::trace::{self, StoredRun, Writer};
@@ -56,11 +56,11 @@ impl Team for Pair {
         &self.cells
     }
 
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         let [first, second] = self.cells;
         let side = self.next().ok_or(End::Exhausted)?;
         let follows = Side::ALL.into_iter().find(|&side| second.beyond(side) == first);
-        let is_blocked = !is_open(Edge::new(first, side));
+        let is_blocked = !world.is_open(Edge::new(first, side));
         if self.tried.insert(first.beyond(side)) {
             self.way.extend((!is_blocked).then_some(first));
         } else {

@@ -15,7 +15,7 @@ use super::solver::Solution;
 use crate::stats::{Estimate, decimals, quantile};
 use tautline_sim::diagnostic::{Halt, Watch};
 use tautline_sim::explore::RuleName;
-use tautline_sim::noise::deviation_db;
+use tautline_sim::noise::deviation;
 
 /// Anchors that tell a position, and the rectangle that they span.
 #[derive(Clone, PartialEq, Debug)]
@@ -369,7 +369,7 @@ pub fn distances(
     oracle: &mut dyn Oracle,
 ) -> Vec<Range> {
     let measured = |&anchor: &Point| {
-        let level_db = signal.level_db(at.distance_m(anchor)) + deviation_db(noise_db, oracle);
+        let level_db = signal.level_db(at.distance_m(anchor)) + deviation(noise_db, oracle);
         Range::new(anchor, signal.distance_m(level_db))
     };
     anchors.iter().map(measured).collect()

@@ -10,7 +10,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation, Reception};
 
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::noise::deviation_db;
+use tautline_sim::noise::deviation;
 
 use super::network::Link;
 use super::problem::checked_deviation;
@@ -121,7 +121,7 @@ fn noisy_um(
     distance_um: u32,
     chance: &mut dyn Oracle,
 ) -> u32 {
-    (f64::from(distance_um) * propagation.times_as_far(-deviation_db(standard_db, chance))) as u32
+    (f64::from(distance_um) * propagation.times_as_far(-deviation(standard_db, chance))) as u32
 }
 
 /// The traffic on the air.

@@ -9,7 +9,7 @@ use std::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation};
-use tautline_sim::noise::{MOST_DEVIATIONS, deviation_db};
+use tautline_sim::noise::{MOST_DEVIATIONS, deviation};
 
 use super::grid::Grid;
 use super::problem::checked_deviation;
@@ -150,7 +150,7 @@ impl Network {
                 let seems_m = match radio.model {
                     Model::Disc => apart_m,
                     Model::Shadowed { deviation_db: standard_db, .. } => {
-                        apart_m * radio.propagation.times_as_far(-deviation_db(standard_db, oracle))
+                        apart_m * radio.propagation.times_as_far(-deviation(standard_db, oracle))
                     }
                 };
                 if seems_m <= radio.range_m && field.has_way(point, points[other as usize]) {

@@ -10,7 +10,7 @@ use tautline_kernel::tan::Heading;
 use super::Antenna;
 use super::antenna::degrees_off;
 use crate::radio::{Field, Network, Point, Problem, Radio, checked_deviation};
-use tautline_sim::noise::deviation_db;
+use tautline_sim::noise::deviation;
 
 /// How many times as far as a node a robot hears, and is heard: a tenth of a dB in free space. A robot that is at a
 /// node, as near as it goes, so hears whom the node hears.
@@ -94,7 +94,7 @@ impl Ear {
         if level_db < 0.0 || !field.has_way(signal.at, from) {
             return None;
         }
-        Some(Strength(hundredths(level_db + deviation_db(self.noise_db, chance))))
+        Some(Strength(hundredths(level_db + deviation(self.noise_db, chance))))
     }
 
     /// How strong the signal of a node so far off is on the axis of `antenna`, without shadow and noise.

@@ -2,13 +2,14 @@
 //! meets a wall does to their links is measured, not promised.
 
 use tautline_kernel::chain::{self, MAX_ROBOTS};
-use tautline_kernel::ground::{Area, Cell, Circle, Edge};
+use tautline_kernel::ground::{Area, Cell, Circle};
 use tautline_proofs::run::Frame;
 
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::SCHEMES;
 use tautline_sim::explore::{
-    By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Team, Zone,
+    By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Surroundings,
+    Team, Zone,
 };
 use tautline_sim::layout::{self, Layout};
 
@@ -127,8 +128,8 @@ impl Team for Rivals {
         self.0.cells()
     }
 
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        self.0.advance(is_open).map_err(|over| match over {
+    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
+        self.0.advance(&mut |edge| world.is_open(edge)).map_err(|over| match over {
             Standstill::Explored => End::Explored,
             Standstill::Enclosed => End::Exhausted,
             Standstill::Stuck => End::Endless,

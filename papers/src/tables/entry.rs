@@ -164,7 +164,7 @@ struct Document<'a, M> {
     id: &'static str,
     #[serde(flatten)]
     merged: &'a M,
-    /// What the paper says, and what is so.
+    /// The paper's sentences, each with its verdict.
     sentences: Vec<Judgement>,
 }
 

@@ -11,6 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
+use super::sentences::below;
 use tautline_sim::explore::frontier::{ALONE, FRONTIER};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
 use tautline_sim::layout::{Layout, generate};
@@ -270,10 +271,7 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
     let is_whole = estimate(|line| line.explored, "published", 1).map(|explored| explored.mean >= 100.0);
     let is_alone = estimate(|line| line.double, "published", 8).map(|double| double.mean <= 0.0);
-    let sooner = match [6, 8].map(|robots| ends(estimate(|line| line.moves, "wanders", robots))) {
-        [Some([low6, high6]), Some([low8, high8])] => Verdict::decided(high8 < low6, high6 < low8),
-        _ => Verdict::Open,
-    };
+    let [eight, six] = [8, 6].map(|robots| ends(estimate(|line| line.moves, "wanders", robots)));
     vec![
         Judgement::new(
             "“performs better when team of robots has 8 members”",
@@ -285,7 +283,7 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
                 moves("repaired", 6),
                 moves("repaired", 8)
             ),
-            sooner,
+            below(eight, six),
         ),
         Judgement::new(
             "“avoiding … missing out sectors”",

@@ -8,8 +8,8 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::position;
 use tautline_proofs::engine::SeededOracle;
 
-use super::paper::Verdict;
 use super::prelude::*;
+use super::sentences::below;
 use tautline_sim::explore::frontier::{FRONTIER, has_double};
 use tautline_sim::explore::{RuleId, Setup};
 use tautline_sim::frontier::{Allowance, Ended, Explorers};
@@ -374,11 +374,8 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
         };
         let floor = format!("{width}×{height} cells, {blocked} % blocked, {noise_db} dB");
         let teams = [*fewest, *most].map(|robots| (robots, of(REPAIRED, robots)));
-        // Whether the figure is higher with the larger team; lower is the opposite.
-        let rises = |part: fn(&Figure) -> Option<Estimate>| {
-            let [few, many] = teams.map(|(_, figure)| figure.and_then(part).and_then(|one| one.interval));
-            let (Some(few), Some(many)) = (few, many) else { return (false, false) };
-            (few[1] < many[0], many[1] < few[0])
+        let ends = |part: fn(&Figure) -> Option<Estimate>| {
+            teams.map(|(_, figure)| figure.and_then(part).and_then(|one| one.interval))
         };
         let measured = |part: fn(&Figure) -> Option<Estimate>, digits| {
             let of = |(robots, figure): (u16, Option<&Figure>)| {
@@ -387,12 +384,12 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
             teams.map(of).join(", ")
         };
         let (moves, off) = (|one: &Figure| one.moves, |one: &Figure| one.off);
-        let (is_later, is_sooner) = rises(moves);
+        let [few, many] = ends(moves);
         judged[0].push(Judgement::new(
             "“performs better when team of robots has 8 members”",
             &floor,
             format!("team moves of the repaired rule: {}", measured(moves, 1)),
-            if *most == 8 { Verdict::decided(is_sooner, is_later) } else { Verdict::Open },
+            if *most == 8 { below(many, few) } else { Verdict::Open },
         ));
         judged[1].push(Judgement::new(
             "“reduce the localization error to a threshold level of 0.02cm or below”",
@@ -403,12 +400,12 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
             ),
             teams[0].1.and_then(off).map_or(Verdict::Open, |off| Verdict::of(off.mean <= 0.0002)),
         ));
-        let (grows, falls) = rises(off);
+        let [few, many] = ends(off);
         judged[2].push(Judgement::new(
             "“gradual increase in localization error related to the number of robots”",
             &floor,
             format!("root mean square errors in cells: {}", measured(off, 3)),
-            Verdict::decided(grows, falls),
+            below(few, many),
         ));
         let published = of(RULES.len() - 1, *most).and_then(|figure| figure.clean);
         let repaired = of(REPAIRED, *most).and_then(|figure| figure.clean);

@@ -9,6 +9,7 @@ use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
+use super::sentences::at_least;
 use tautline_field::radio::{
     Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
@@ -28,7 +29,7 @@ pub const RANGE_M: f64 = 25.0;
 const PAPER: (Count, f64) = (Count::ONE, 1.0);
 
 /// The share that is “near 100 %”. The paper gives no number.
-const NEAR: f64 = 0.95;
+pub(super) const NEAR: f64 = 0.95;
 
 /// Figure 5.
 #[derive(Clone, Copy, Debug)]
@@ -274,10 +275,9 @@ impl Table for NoticeFig5 {
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
         let judged = |density: &Density, line: &Line| {
             line.paper?;
-            let [low, high] = line.reach.interval.unwrap_or([line.reach.mean; 2]);
             let (of, measured) =
                 (counted(density.nodes as u32, "node"), format!("{} %", percent(line.reach, 2)));
-            let verdict = Verdict::decided(low >= NEAR, high < NEAR);
+            let verdict = at_least(NEAR, line.reach);
             Some(Judgement::new(
                 format!("k-FNF reaches “near 100 %”: {:.0} % or more", 100.0 * NEAR),
                 of,

@@ -2,13 +2,11 @@
 //! numbers: low and high, shorter and longer. Ours are those of figures 5, 7 and 8 at one number of nodes; both rivals flood.
 
 use super::journeys::{self, Claim, RESCUE_FIG7, Way};
-use super::notice_fig5::{self, NoticeFig5};
+use super::notice_fig5::{self, NEAR, NoticeFig5};
 use super::prelude::*;
 use super::rescue_fig8::{self, RescueFig8};
+use super::sentences::{at_least, below};
 use tautline_sim::explore::RuleName;
-
-/// A share that is high. The paper gives no number.
-const HIGH: f64 = 0.95;
 
 /// Table 2.
 #[derive(Clone, Copy, Debug)]
@@ -185,20 +183,17 @@ impl Table for RescueTable2 {
             return Vec::new();
         };
         let ends = |estimate: Estimate| estimate.interval.unwrap_or([estimate.mean; 2]);
-        let fewer = |[low, high]: [f64; 2], [others_low, others_high]: [f64; 2]| {
-            Verdict::decided(high < others_low, others_high < low)
-        };
+        let fewer = |one, other| below(Some(ends(one)), Some(ends(other)));
         let mut judged = vec![Judgement::new(
             "Table 2, “broadcasting redundancy”: low, high, high",
             "k-FNF against flooding",
             format!("{} rebroadcasts, {}", ours.rebroadcasts.text(1), flooding.rebroadcasts.text(1)),
-            fewer(ends(ours.rebroadcasts), ends(flooding.rebroadcasts)),
+            fewer(ours.rebroadcasts, flooding.rebroadcasts),
         )];
         judged.extend([("k-FNF", ours), ("flooding", flooding)].map(|(name, line)| {
-            let [low, high] = ends(line.reach);
-            let verdict = Verdict::decided(low >= HIGH, high < HIGH);
+            let verdict = at_least(NEAR, line.reach);
             let (sentence, of) =
-                ("Table 2, “reachability”: high, high, high", format!("{name}, {HIGH} or more"));
+                ("Table 2, “reachability”: high, high, high", format!("{name}, {NEAR} or more"));
             Judgement::new(sentence, of, format!("{} %", percent(line.reach, 2)), verdict)
         }));
         judged.extend([Claim::ShorterThanVerma, Claim::LikeReich].into_iter().filter_map(|claim| {
@@ -213,7 +208,7 @@ impl Table for RescueTable2 {
                 "“it causes only a small amount of control packets” (1)",
                 "MRC against NOTICE, fewer are few",
                 format!("{} control packets, {} of NOTICE", control.text(1), notices.text(1)),
-                fewer(ends(control), ends(notices)),
+                fewer(control, notices),
             ));
         }
         judged

@@ -42,6 +42,22 @@ pub(super) fn same(paper: f64, ours: Estimate) -> Verdict {
     Verdict::decided(least <= low && high <= most, high < least || most < low)
 }
 
+/// Whether a figure is at least so much, by its whole 95 % interval.
+pub(super) fn at_least(least: f64, ours: Estimate) -> Verdict {
+    let [low, high] = ours.interval.unwrap_or([ours.mean; 2]);
+    Verdict::decided(low >= least, high < least)
+}
+
+/// Whether one figure is below another one, by their whole 95 % intervals.
+pub(super) fn below(one: Option<[f64; 2]>, other: Option<[f64; 2]>) -> Verdict {
+    match (one, other) {
+        (Some([least, most]), Some([others_least, others_most])) => {
+            Verdict::decided(most < others_least, others_most < least)
+        }
+        _ => Verdict::Open,
+    }
+}
+
 /// The sentences for people, each named once; or why there is none.
 pub(super) fn text(judged: &[Judgement], why_none: &str) -> String {
     if judged.is_empty() {

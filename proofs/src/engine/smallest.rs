@@ -143,6 +143,24 @@ pub fn smallest<F, E>(
 }
 
 impl<K: Copy, F> Certificate<K, F> {
+    /// The smallest counterexample that `search` finds in classes of which each is larger than the one before.
+    ///
+    /// # Errors
+    /// Whatever `search` returns.
+    pub fn in_order<E>(
+        classes: impl IntoIterator<Item = K>,
+        mut search: impl FnMut(K) -> Result<Searched<F>, E>,
+    ) -> Result<Self, E> {
+        let mut made = Self::default();
+        for class in classes {
+            made.look([class], &mut search)?;
+            if made.smallest.is_some() {
+                break;
+            }
+        }
+        Ok(made)
+    }
+
     /// Looks at classes of which none is smaller than another: the shortest counterexample in them is the smallest.
     ///
     /// # Errors

@@ -19,7 +19,7 @@ mod together;
 use std::collections::VecDeque;
 use std::hash::Hash;
 use std::ops::ControlFlow;
-use std::{fmt, mem};
+use std::{fmt, iter, mem};
 
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
@@ -185,8 +185,23 @@ impl fmt::Display for Unrepeatable {
     }
 }
 
-/// States whose steps are made twice before a search.
-const TRIED: usize = 500;
+/// States that are tried before a search.
+pub(crate) const TRIED: usize = 500;
+
+/// The first few states, breadth first; one comes as often as it is met.
+pub(crate) fn first_states<S: System>(
+    system: &S,
+    starts: impl IntoIterator<Item = S::State>,
+) -> impl Iterator<Item = S::State> {
+    let mut ahead: VecDeque<S::State> = starts.into_iter().take(TRIED).collect();
+    let next = move || {
+        let state = ahead.pop_front()?;
+        let room = TRIED.saturating_sub(ahead.len());
+        ahead.extend(steps(system, &state).map(|step| step.state).take(room));
+        Some(state)
+    };
+    iter::from_fn(next).take(TRIED)
+}
 
 /// Makes the steps from the first few states twice, and compares them.
 ///
@@ -196,18 +211,13 @@ pub fn repeats<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
 ) -> Result<(), Unrepeatable> {
-    let mut states: VecDeque<S::State> = starts.into_iter().take(TRIED).collect();
-    for _ in 0..TRIED {
-        let Some(state) = states.pop_front() else { break };
-        let first: Vec<S::State> = steps(system, &state).map(|step| step.state).collect();
-        let again: Vec<S::State> = steps(system, &state).map(|step| step.state).collect();
+    let differs = |state: S::State| {
+        let [first, again] =
+            [(); 2].map(|()| steps(system, &state).map(|step| step.state).collect::<Vec<_>>());
         let are_same = |(one, other): (&S::State, &S::State)| is_same(system, one, other);
-        if first.len() != again.len() || !first.iter().zip(&again).all(are_same) {
-            return Err(Unrepeatable);
-        }
-        states.extend(first.into_iter().take(TRIED.saturating_sub(states.len())));
-    }
-    Ok(())
+        first.len() != again.len() || !first.iter().zip(&again).all(are_same)
+    };
+    if first_states(system, starts).any(differs) { Err(Unrepeatable) } else { Ok(()) }
 }
 
 /// The situation in which a run ends.

@@ -86,7 +86,7 @@ impl Method<Subject> for Within {
     /// Fewest WFRs first, then faults, robots, hops and events.
     fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
         let (demand, most) = (self.0, self.setting(observed));
-        let mut search = |Counts([wfrs, faults, robots, max_hops, events]): Counts| {
+        let search = |Counts([wfrs, faults, robots, max_hops, events]): Counts| {
             let faults = Faults::any(faults as u8);
             let setting =
                 Setting { wfrs, faults, robots, max_hops: max_hops as u16, events: events as u8, ..most };
@@ -95,14 +95,7 @@ impl Method<Subject> for Within {
             let shortest = broken.map(|broken| (length(broken), chart(&setting, broken)));
             Ok::<_, MethodError>(Searched { cases: found.states, is_whole: found.complete, shortest })
         };
-        let mut made = Certificate::default();
-        for counts in Counts::up_to(&most) {
-            made.look([counts], &mut search)?;
-            if made.smallest.is_some() {
-                break;
-            }
-        }
-        Ok(Some(made.drawn(|chart| chart)))
+        Ok(Some(Certificate::in_order(Counts::up_to(&most), search)?.drawn(|chart| chart)))
     }
 }
 

@@ -22,8 +22,7 @@ use crate::plural::counted;
 /// A network, the rule of its nodes, and what is demanded of them.
 pub struct Case {
     links: Links<SMALL>,
-    /// The rule of its nodes.
-    pub rule: Rule,
+    rule: Rule,
     demands: &'static [Demand],
 }
 
@@ -356,26 +355,21 @@ impl Method<Subject> for Networks {
     /// Fewest nodes first, then links, then events.
     fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
         let cases: Vec<(u32, Case)> = (0..).zip(self.cases(observed)).collect();
-        let mut made = Certificate::default();
-        for group in cases.chunk_by(|(_, one), (_, other)| Class::of(one) == Class::of(other)) {
-            let mut search = |_| {
-                let mut searched = Searched::default();
-                for (place, case) in group {
-                    let found = search(case, [Spread::start(&case.links)], Limits::NONE);
-                    let run = found.broken.into_iter().next();
-                    let shortest = run.map(|Run { steps, .. }| {
-                        (steps.len(), self.story(observed, &[&[*place], &steps[..]].concat()))
-                    });
-                    searched.add(Searched { cases: found.looked_at, is_whole: found.is_whole, shortest });
-                }
-                Ok::<_, MethodError>(searched)
-            };
-            made.look([Class::of(&group[0].1)], &mut search)?;
-            if made.smallest.is_some() {
-                break;
+        let mut classes: Vec<Class> = cases.iter().map(|(_, case)| Class::of(case)).collect();
+        classes.dedup();
+        let search = |class| {
+            let mut searched = Searched::default();
+            for (place, case) in cases.iter().filter(|(_, case)| Class::of(case) == class) {
+                let found = search(case, [Spread::start(&case.links)], Limits::NONE);
+                let run = found.broken.into_iter().next();
+                let shortest = run.map(|Run { steps, .. }| {
+                    (steps.len(), self.story(observed, &[&[*place], &steps[..]].concat()))
+                });
+                searched.add(Searched { cases: found.looked_at, is_whole: found.is_whole, shortest });
             }
-        }
-        Ok(Some(made.drawn(|story| story)))
+            Ok::<_, MethodError>(searched)
+        };
+        Ok(Some(Certificate::in_order(classes, search)?.drawn(|story| story)))
     }
 
     fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {

@@ -1,4 +1,4 @@
-//! What a belief makes of wheels and a fix (POSITION-7): here the weighted mean and its covariance are written down for two
+//! A belief after wheels and a fix (POSITION-7): here the weighted mean and its covariance are written down for two
 //! coordinates, by the inverse of one matrix.
 
 use tautline_kernel::choice::Oracle;

@@ -1,6 +1,5 @@
 //! A check that a protocol keeps a demand within its bound.
 
-use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use tautline_kernel::choice::Oracle;
@@ -168,17 +167,13 @@ impl<P: Protocol> Playing<P> {
     /// # Errors
     /// [`MethodError`] with two that are not.
     fn is_symmetric(&self) -> Result<(), MethodError> {
-        let mut ahead: VecDeque<P::State> = self.protocol.starts().take(TRIED).collect();
-        for _ in 0..TRIED {
-            let Some(state) = ahead.pop_front() else { break };
+        for state in states::first_states(self, self.protocol.starts()) {
             let mut others = self.protocol.alike(&state).into_iter();
             if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
                 let reason =
                     format_args!("the states {state:?} and {other:?} are taken for one, and are not alike");
                 return Err(MethodError::new(reason));
             }
-            let next = self.moves(&state).into_iter().map(|next| next.to);
-            ahead.extend(next.take(TRIED.saturating_sub(ahead.len())));
         }
         Ok(())
     }
@@ -230,7 +225,7 @@ impl<P: Protocol> Playing<P> {
             next.into_iter().chain([state])
         };
         let differs = |state: &P::State| P::State::read(&mut &bytes(state)[..]) != *state;
-        self.protocol.starts().take(TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
+        self.protocol.starts().take(states::TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
             Err(MethodError::new(format_args!("the state {state:?} does not come back from its bytes")))
         })
     }
@@ -329,6 +324,3 @@ fn bytes(state: &impl Compact) -> Vec<u8> {
     state.write(&mut bytes);
     bytes
 }
-
-/// Starts whose states are made of their bytes again before a search.
-const TRIED: usize = 500;

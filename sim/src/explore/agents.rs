@@ -296,11 +296,7 @@ impl<S: Scheme> Team for Patrol<S> {
         self.team.cells()
     }
 
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        self.advance_in(&mut |edge: Edge| is_open(edge))
-    }
-
-    fn advance_in(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
+    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         if self.team.is_over() {
             let is_explored = self.team.explored() == self.team.due();
             return Err(if is_explored { End::Explored } else { End::Exhausted });

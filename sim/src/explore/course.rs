@@ -48,7 +48,7 @@ impl Course {
             return None;
         }
         let before = team.cells().to_vec();
-        let frame = match team.advance_in(world) {
+        let frame = match team.advance(world) {
             Ok(frame) => frame,
             Err(end) => {
                 let stopped = match end {

@@ -8,14 +8,14 @@ mod shown;
 use std::collections::BTreeSet;
 
 use tautline_kernel::frontier::{Condition, Rule as Frontier};
-use tautline_kernel::ground::{Cell, Edge};
+use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
 use self::hunt::{Searched, Simulated};
 use super::catalogue::{By, Drawn, Look, Profile, Starts};
 use super::clause::{Clause, ClauseId};
 use super::rule::{Rule, RuleId, Switched};
-use super::run::{End, Survey, Team};
+use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
@@ -203,7 +203,7 @@ impl Team for FrontierTeam {
         }
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         let made = match &mut self.who {
             Who::Robots(robots) => robots.advance(),
             Who::Assigned(robots) => robots.advance(),

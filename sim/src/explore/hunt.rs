@@ -41,7 +41,7 @@ pub trait Hunt: fmt::Debug + Sync {
     /// A [`Diagnostic`] if it cannot be searched so.
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
-    /// What is `asked`, with the bounds within which the choices of the run of `setup` were found.
+    /// The request `asked`, with the bounds within which the choices of the run of `setup` were found.
     fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
         let _ = setup;
         asked

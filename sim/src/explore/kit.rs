@@ -22,7 +22,7 @@ use self::hunt::Searched;
 use super::catalogue::{By, Drawn, Profile, Starts};
 use super::clause::{Clause, ClauseId};
 use super::rule::{Rule, RuleId, Switched};
-use super::run::{End, Survey, Team};
+use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
@@ -191,7 +191,7 @@ impl Team for KitTeam {
         &self.cells
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         let knows_its_end = self.course.knows_its_end();
         if self.is_driven() && !knows_its_end {
             return Err(End::Explored);

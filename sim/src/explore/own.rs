@@ -127,11 +127,7 @@ impl<R: Rule> Team for Own<'_, R> {
         &self.cells
     }
 
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        self.advance_in(&mut |edge: Edge| is_open(edge))
-    }
-
-    fn advance_in(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
+    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         self.before.clone_from(&self.scene);
         let Some(plan) = self.playing.plan(&mut self.scene, &[]) else { return Err(End::Exhausted) };
         // A search that goes round says so by the end of its answers.

@@ -8,7 +8,7 @@ mod shown;
 use std::collections::HashSet;
 
 use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Circle, Edge, Step};
+use tautline_kernel::ground::{Cell, Circle, Step};
 use tautline_kernel::pack::{
     Chart, End as Over, MAX_ROBOTS, MoveKind, Past, RangeError, Rule as Pack, Scratch, SetupError,
     Team as Robots,
@@ -18,7 +18,7 @@ use tautline_proofs::run::Frame;
 use super::catalogue::{Profile, Starts};
 use super::clause::{Clause, ClauseId};
 use super::rule::{Rule, RuleId, Switched};
-use super::run::{End, Survey, Team};
+use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
@@ -198,7 +198,7 @@ impl Team for PackTeam {
         self.robots.cells()
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         if self.idle > PATIENCE * self.reached.len() {
             return Err(End::Endless);
         }

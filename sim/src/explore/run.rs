@@ -26,19 +26,11 @@ pub trait Team {
     /// Where the robots are; if one of them is a base, it is the first.
     fn cells(&self) -> &[Cell];
 
-    /// Makes one team move. `is_open` answers for every edge that is crossed without being known.
+    /// Makes one team move. `world` answers for every edge that is crossed without being known, and what no layout knows.
     ///
     /// # Errors
     /// [`End`] if the run is over.
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
-
-    /// Makes one team move, and asks `world` also what no layout knows, if the team asks such things.
-    ///
-    /// # Errors
-    /// [`End`] if the run is over.
-    fn advance_in(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
-        self.advance(&mut |edge| world.is_open(edge))
-    }
+    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End>;
 
     /// The cells of `layout` among which the team is to explore: all of them, unless it says otherwise.
     fn area(&self, layout: &Layout) -> Area {

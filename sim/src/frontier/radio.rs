@@ -11,7 +11,7 @@ use tautline_kernel::position::{
 };
 
 use crate::layout::generate;
-use crate::noise::deviation_db;
+use crate::noise::deviation;
 use crate::options::Options;
 
 /// Where a robot is and where it heads, and where it takes itself to be, in sides of a cell.
@@ -113,11 +113,11 @@ impl Radio {
         let (mut turned, dice) = (*pose, &mut self.dice);
         turned.belief.turned(turn, &self.odometry);
         if turn != 0.0 {
-            turned.heading_rad += turn + deviation_db(self.odometry.turn_rad(), dice);
+            turned.heading_rad += turn + deviation(self.odometry.turn_rad(), dice);
         }
         let mut arrived = turned;
         arrived.belief.driven(way, &self.odometry);
-        let way = way * (1.0 + deviation_db(self.odometry.share(), dice));
+        let way = way * (1.0 + deviation(self.odometry.share(), dice));
         let (x, y) = (libm::cos(arrived.heading_rad), libm::sin(arrived.heading_rad));
         arrived.at = Point::new(pose.at.x_m + way * x, pose.at.y_m + way * y);
         [turned, arrived]
@@ -126,8 +126,8 @@ impl Radio {
     /// The place where a robot takes an object to be that is at `object`: it sees the bearing and the distance.
     pub(super) fn sees(&mut self, pose: &Pose, object: Point) -> Sighting {
         let (x, y) = (object.x_m - pose.at.x_m, object.y_m - pose.at.y_m);
-        let bearing = pose.heading_rad - libm::atan2(y, x) + deviation_db(SIGHT.bearing_rad, &mut self.dice);
-        let far = pose.at.distance_m(object) + deviation_db(SIGHT.distance_m, &mut self.dice);
+        let bearing = pose.heading_rad - libm::atan2(y, x) + deviation(SIGHT.bearing_rad, &mut self.dice);
+        let far = pose.at.distance_m(object) + deviation(SIGHT.distance_m, &mut self.dice);
         pose.belief.sees(bearing, far, &SIGHT)
     }
 
@@ -152,7 +152,7 @@ impl Radio {
         let (dice, draws) = (&mut self.dice, self.options.readings().min(MOST_DRAWS));
         let each_db = mean.noise_db() * f64::from(draws).sqrt();
         let ranges = anchors.map(|anchor| {
-            let sum: f64 = (0..draws).map(|_| deviation_db(each_db, dice)).sum();
+            let sum: f64 = (0..draws).map(|_| deviation(each_db, dice)).sum();
             let level_db = one.level_db(pose.at.distance_m(anchor)) + sum / f64::from(draws);
             Range::new(anchor, one.distance_m(level_db))
         });

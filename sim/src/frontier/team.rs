@@ -5,7 +5,7 @@ use tautline_kernel::frontier::{
     taken_for,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
-use tautline_kernel::position::{Belief, Point, Sighting};
+use tautline_kernel::position::{Point, Sighting};
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
@@ -102,11 +102,6 @@ impl Explorers {
     /// Whether a robot has noted in the last team move what is not so.
     pub const fn is_wrong(&self) -> bool {
         self.is_wrong
-    }
-
-    /// Where robots take themselves to be, in sides of a cell.
-    pub fn beliefs(&self) -> impl Iterator<Item = &Belief> {
-        self.poses.iter().map(|pose| &pose.belief)
     }
 
     /// Whether positions have an error.

@@ -3,14 +3,15 @@
 //! from the team moves. Which clauses are broken, and how many cells there were to explore, only the file knows.
 
 use serde::de::IgnoredAny;
-use tautline_kernel::ground::{Cell, Edge};
+use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
 use super::lines::{Lines, MAX_LINE_BYTES};
 use super::{Header, Line, StoredEnd, StoredViolation, drawn};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
-    ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Survey, Team, Violation, Watcher, run,
+    ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Surroundings, Survey, Team, Violation,
+    Watcher, run,
 };
 use crate::layout::Layout;
 
@@ -198,7 +199,7 @@ impl Team for Player<'_> {
         &self.cells
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         let frame = self.frames.get(self.made).ok_or(self.end)?;
         self.made += 1;
         self.cells.clone_from(&frame.cells);

@@ -1,42 +1,12 @@
-//! A rule on a page to draw on. Copy this folder, and change the rule, its surroundings, and its promises.
-//! `web/build --rule FOLDER` makes one HTML file of it: there the rule is run, decided by hand, and hunted.
+//! The rule of the folder beside this one on a page to draw on. Copy both folders, and change here the surroundings and the
+//! promises. `web/build --rule FOLDER` makes one HTML file of it: there the rule is run, decided by hand, and hunted.
 //!
-//! Two robots go east, one behind the other, in any order. The second one waits while the first one is in the cell
-//! before it.
+//! The robots move one at a time, in any order.
 
-use tautline_kernel::ground::{Cell, Side};
-use tautline_proofs::team::{Act, Demand, Ground, Moves, Places, Rule, Scene, Senses, Setting, View, Which};
+use my_rule::{East, STARTS};
+use tautline_proofs::team::{Demand, Ground, Moves, Places, Senses, Setting, Which};
 use tautline_sim::explore::{self, Clause, OwnRule, Profile, RuleId};
 use tautline_web::own::OwnPage;
-
-/// The rule. Each fault that it could have is a field, so that a mutant is another value.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct East {
-    /// Whether the second robot looks where the first one is.
-    looks: bool,
-}
-
-impl Rule for East {
-    /// Whatever a robot remembers.
-    type Memory = ();
-    type Message = ();
-
-    fn start(&self, _: usize, _: &[Cell]) {}
-
-    fn act(&self, view: &mut View<'_, Self>, (): &mut ()) -> Act {
-        let first = view.sees(0).filter(|_| view.me() == 1 && self.looks);
-        match first.and_then(|cell| view.side_to(cell)) {
-            Some(_) => Act::Wait,
-            None => Act::Go(Side::East),
-        }
-    }
-
-    fn is_done(&self, _: usize, team: &Scene<Self>) -> bool {
-        team.was_blocked(0)
-    }
-}
-
-const STARTS: [Cell; 2] = [Cell::new(1, 0), Cell::new(0, 0)];
 
 /// The surroundings of the rule: every layout of 4×2 cells with at most two walls on the way.
 static SETTING: Setting<'_, East> = Setting {

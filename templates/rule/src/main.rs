@@ -1,42 +1,13 @@
-//! A rule to begin with. Copy this folder, and change the rule, what is around it, and what it promises. `cargo run`
-//! decides the promises, `cargo test` holds the verdicts.
-//!
-//! Two robots go east, one behind the other. The second one waits while the first one is in the cell before it.
+//! A rule to begin with. Copy this folder, and change the rule, which stands in `lib.rs`, and here its surroundings and its
+//! promises. `cargo run` decides the promises, `cargo test` holds the verdicts.
 
 use std::process::ExitCode;
 
-use tautline_kernel::ground::{Cell, Side};
+use my_rule::{East, STARTS};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::Verdict::Holds;
 use tautline_proofs::ledger::{self, Row};
-use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
-
-/// The rule. What can be wrong with it is a field, so that a mutant is another value.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct East {
-    /// Whether the second robot looks where the first one is.
-    looks: bool,
-}
-
-impl Rule for East {
-    /// Whatever a robot remembers.
-    type Memory = ();
-    type Message = ();
-
-    fn start(&self, _: usize, _: &[Cell]) {}
-
-    fn act(&self, view: &mut View<'_, Self>, (): &mut ()) -> Act {
-        let first = view.sees(0).filter(|_| view.me() == 1 && self.looks);
-        match first.and_then(|cell| view.side_to(cell)) {
-            Some(_) => Act::Wait,
-            None => Act::Go(Side::East),
-        }
-    }
-
-    fn is_done(&self, _: usize, team: &Scene<Self>) -> bool {
-        team.was_blocked(0)
-    }
-}
+use tautline_proofs::team::{Demand, Ground, Keeps, Places, Senses, Setting, Which};
 
 /// The surroundings of the rule: every layout of 4×2 cells with at most two walls on the way.
 static SETTING: Setting<'_, East> = Setting {
@@ -47,12 +18,7 @@ static SETTING: Setting<'_, East> = Setting {
         Demand::never_endless("EAST-2", "every run ends"),
     ],
     covers: &[("a step", &|moved| moved.has_moved(0)), ("a wall", &|moved| !moved.has_moved(0))],
-    ..Setting::new(
-        "east",
-        Ground::open(4, 2).walls(Which::Met(2)),
-        2,
-        Places::At(|_| vec![Cell::new(1, 0), Cell::new(0, 0)]),
-    )
+    ..Setting::new("east", Ground::open(4, 2).walls(Which::Met(2)), 2, Places::At(|_| STARTS.to_vec()))
 };
 
 const OURS: NamedRule<East> = NamedRule::new("ours", East { looks: true });

@@ -2,6 +2,7 @@
 
 use super::super::paper;
 use super::super::prelude::*;
+use super::super::sentences::below;
 use super::{EXPLORED, Figure, Line, PATHS, Race, Settings, Summary, Team, TeamRule};
 
 /// The paper's numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot and
@@ -33,17 +34,12 @@ pub(super) fn directions(lines: &[Line]) -> impl Iterator<Item = Judgement> + '_
         let is_two =
             |line: &&Line| (line.family, line.team.rule, line.team.robots) == (one.family, one.team.rule, 2);
         let two = lines.iter().find(is_two)?;
-        let verdict = match [one, two].map(|line| line.directions.and_then(|all| all.interval)) {
-            [Some([low, high]), Some([low_of_two, high_of_two])] => {
-                Verdict::decided(low_of_two > high, high_of_two < low)
-            }
-            _ => Verdict::Open,
-        };
+        let [of_one, of_two] = [one, two].map(|line| line.directions.and_then(|all| all.interval));
         Some(Judgement::new(
             "“MAS has explored more direction at nodes than the single robot”",
             format!("{}, {}", one.team.rule.word(), one.family),
             format!("{} with two, {} with one", text(two.directions, 1), text(one.directions, 1)),
-            verdict,
+            below(of_one, of_two),
         ))
     })
 }

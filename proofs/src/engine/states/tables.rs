@@ -135,7 +135,7 @@ impl Slots {
         ((hash as u64 * self.slots.len() as u64) >> HashOfState::BITS) as usize
     }
 
-    /// What stands in the slot that a hash asks for.
+    /// The content of the slot that a hash asks for.
     #[inline]
     pub(super) fn slot(&self, hash: HashOfState) -> u64 {
         self.slots.get(self.place(hash)).copied().unwrap_or(FREE)

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::hunt::{Asked, Bound, Far, Hunter, Shown};
+use crate::explore::hunt::{Asked, Bound, Far, Finding, Hunter, Shown};
 use crate::explore::{ClauseId, Setup, explore};
 use crate::layout::Size;
 
@@ -65,10 +65,11 @@ pub(super) fn minimise(
                 return Err(halt.into());
             }
             watcher.progress.runs += 1;
-            let is_wanted = |shown: &Shown| matches!(shown, Shown::Run(clause) | Shown::Story(clause, _) if *clause == violation.clause);
-            let Some(found) = hunted.found.into_iter().find(|found| is_wanted(&found.shown)) else {
-                continue;
+            let is_wanted = |found: &Finding| match found.shown {
+                Shown::Run(clause) | Shown::Story(clause, _) => clause == violation.clause,
+                _ => false,
             };
+            let Some(found) = hunted.found.into_iter().find(is_wanted) else { continue };
             let report = explore(&found.setup, &mut |_| Ok(()))?;
             let after = extent(&found.setup, report.steps);
             let runs = watcher.progress.runs;

@@ -15,7 +15,9 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
 use super::shown;
-use crate::explore::{Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Survey, Team};
+use crate::explore::{
+    Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Surroundings, Survey, Team,
+};
 use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
@@ -340,7 +342,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         reach(layout, *self.cells.first()?, self.cells.len())
     }
 
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End> {
         self.unheard.clear();
         if self.is_silent {
             return Err(End::Silent);
@@ -363,7 +365,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
                 Whole::Chain(mut chain) => {
                     self.epochs = chain.epochs();
                     let end = match planned(&mut chain, &self.log) {
-                        Ok(plan) => return Ok(self.go(chain, &plan, is_open)),
+                        Ok(plan) => return Ok(self.go(chain, &plan, &mut |edge| world.is_open(edge))),
                         Err(end) => end,
                     };
                     let has_more = chain.has_more_within_reach();

@@ -5,7 +5,7 @@
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
-use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
@@ -14,7 +14,7 @@ use tautline_proofs::run::Frame;
 use super::{COVERS, KNOWS};
 use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
-use crate::explore::run::{End, Survey, Team};
+use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};
 use crate::layout::Layout;
@@ -73,7 +73,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         &self.cells
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         self.script.broken.clear();
         self.go_on();
         let look = self.script.choose(is_look).map(|turned| turned.event);

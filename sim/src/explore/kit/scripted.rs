@@ -13,7 +13,7 @@ use tautline_proofs::run::Frame;
 
 use super::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes};
 use crate::diagnostic::Diagnostic;
-use crate::explore::run::{End, Survey, Team};
+use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};
 use crate::explore::{ClauseId, RuleId};
@@ -102,7 +102,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         &self.cells
     }
 
-    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         self.script.broken.clear();
         let decides = |turned: &Successor<ROBOTS>| matches!(turned.events.first(), Some(Event::Decides(..)));
         let decision = self.script.choose(decides).and_then(|turned| turned.events.into_iter().next());
