@@ -78,6 +78,35 @@ fn what_is_decided_by_hand_is_the_same_game_when_it_is_made_at_once() {
 }
 
 #[test]
+fn in_every_scheme_that_has_conditions_some_step_shows_what_one_of_them_does() {
+    let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
+    let shows = |settings: &Value| {
+        let mut page = Page::default();
+        ask(&mut page, &json!({ "do": "open", "settings": settings }));
+        (0..40).any(|_| {
+            let all = ask(&mut page, &json!({ "do": "refusals" }));
+            ask(&mut page, &json!({ "do": "step", "steps": 1 }));
+            let mut refused = all["refused"].as_array().into_iter().flatten();
+            refused.any(|one| one["by"][0].is_string()) || all["without"][0].is_object()
+        })
+    };
+    for scheme in list["schemes"].as_array().expect("a list") {
+        let rules = scheme["rules"].as_array().expect("a list").iter();
+        let mut switched = rules.filter(|rule| rule["conditions"].is_array()).peekable();
+        let is_shown = switched.peek().is_none()
+            || switched.any(|rule| {
+                let mut settings = settings(scheme, rule);
+                settings["robots"] = json!(settings["robots"].as_u64().max(Some(3)));
+                // Rooms with doors, in which agents meet.
+                settings["ground"] = json!(["a2b3a", "a2ba1ba", "4a1ba", "a2ba1ba", "6a", "a4ba"]);
+                settings["world"] = json!(scheme["by_hand"] == "only" || scheme["by_hand"] == "world");
+                shows(&settings)
+            });
+        assert!(is_shown, "{}", scheme["name"]);
+    }
+}
+
+#[test]
 fn every_hunt_is_made_in_slices_and_its_findings_are_played() {
     let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
     let mut hunted = Vec::new();

@@ -14,7 +14,7 @@ use tautline_proofs::plural::counted;
 
 use self::hunt::Walls;
 use self::team::ChainTeam;
-pub use self::team::{ANY_ORDER, DEATH};
+pub use self::team::{ANY_ORDER, DEATH, HEARD};
 use super::catalogue::{By, Drawn, Look, Profile, Starts};
 use super::clause::{Clause, Judge};
 use super::rule::{Rule, RuleId, Switched};
@@ -83,6 +83,7 @@ pub static CHAIN: Profile = Profile {
             missed: Some("Within reach and unexplored"),
             ..Clause::new(Breach::Completeness.clause())
         },
+        Clause::new(HEARD.as_str()),
         Clause::new(ANY_ORDER.as_str()),
         Clause { missed: Some("Within reach of those left and unexplored"), ..Clause::new(DEATH.as_str()) },
     ],

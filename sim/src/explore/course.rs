@@ -56,6 +56,7 @@ impl Course {
                     End::Exhausted => Stopped::Exhausted,
                     End::Endless => Stopped::Endless,
                     End::Silent => Stopped::Silent,
+                    End::Refused => Stopped::Refused,
                 };
                 let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
                 report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));

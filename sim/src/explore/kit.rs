@@ -240,7 +240,7 @@ impl Team for KitTeam {
             End::Exhausted if is_full => Vec::new(),
             End::Exhausted if self.course.is_over() => vec![COVERS],
             End::Exhausted => vec![MOVES],
-            End::Explored | End::Endless | End::Silent => Vec::new(),
+            End::Explored | End::Endless | End::Silent | End::Refused => Vec::new(),
         }
     }
 

@@ -252,6 +252,8 @@ pub enum End {
     Endless,
     /// The robots that are left wait for one that is silent.
     Silent,
+    /// The robots refuse what they have told each other.
+    Refused,
 }
 
 /// Why a run is over.
@@ -266,6 +268,8 @@ pub enum Stopped {
     Endless,
     /// The robots that are left wait for one that is silent, and would for ever.
     Silent,
+    /// The robots refuse what they have told each other, as damaged.
+    Refused,
     /// A robot has entered as many cells as it may.
     MaxMoves,
     /// As much is explored as was asked for.
@@ -282,6 +286,7 @@ impl Stopped {
             Self::Exhausted => "the team can explore nothing more",
             Self::Endless => "the team is where it was, and would go round for ever",
             Self::Silent => "the robots that are left stay where they are, and wait for one that is silent",
+            Self::Refused => "the robots refuse what they have told each other, as damaged",
             Self::MaxMoves => "a robot has entered as many cells as it may",
             Self::Until => "as much is explored as was asked for",
             Self::Violation => "a clause was broken",

@@ -23,6 +23,9 @@ use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
 use crate::options::Options;
 
+/// A message of the team is refused by it.
+pub const HEARD: ClauseId = ClauseId::new("CHAIN-8");
+
 /// Neighbours are out of contact while they go.
 pub const ANY_ORDER: ClauseId = ClauseId::new("CHAIN-19");
 
@@ -41,7 +44,7 @@ fn planned<G: Grid, const ROBOTS: usize>(
         Ok(Intent::Go(plan)) => Ok(plan),
         Ok(Intent::Done(chain::End::Explored)) => Err(End::Explored),
         Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),
-        Err(damaged) => unreachable!("the log holds what the chain has sent, but {damaged}"),
+        Err(_) => Err(End::Refused),
     }
 }
 
@@ -412,6 +415,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         match end {
             End::Silent => Vec::new(),
+            End::Refused => vec![HEARD],
             // A wall that appears may cut robots off: CHAIN-13 is not promised.
             End::Explored | End::Exhausted | End::Endless if self.wall.is_some() => Vec::new(),
             End::Explored | End::Exhausted | End::Endless if self.missed(layout, chart).is_empty() => {
