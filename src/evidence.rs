@@ -14,7 +14,7 @@ use tautline_proofs::run::{Run, Scripted};
 use super::CATALOGUE;
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::draw::{self, page};
+use tautline_sim::draw::{self, Block, page};
 use tautline_sim::explore::{ClauseId, Play, RuleName, Setup, hunt};
 use tautline_sim::named_values::NamedValues;
 
@@ -148,7 +148,7 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
 }
 
 /// Writes the page of a refutation to `sink`: it plays the run that breaks the clause if the program can make it, and
-/// else tells the story.
+/// else goes through its turns or its lines.
 pub(super) fn page(
     clause: &Clause,
     check: &dyn AnyCheck,
@@ -163,7 +163,17 @@ pub(super) fn page(
     }
     let title = format!("{} as {}", clause.id, check.rule());
     let sentence = format!("{}: {}", clause.id, clause.sentence);
-    sink.add(&page::in_words(&title, &sentence, &story(clause, check, evidence)?));
+    let parts: Vec<String> = match &evidence.seen {
+        Depiction::Agents(course) => {
+            let (words, turns) = draw::story::turns(course)?;
+            words.lines().map(str::to_owned).chain(turns.iter().map(Block::to_string)).collect()
+        }
+        Depiction::Choices | Depiction::Story(_) | Depiction::Robots(_) | Depiction::Messages { .. } => {
+            story(clause, check, evidence)?.lines().map(str::to_owned).collect()
+        }
+    };
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.trim().is_empty()).collect();
+    sink.add(&page::in_words(&title, &sentence, &parts));
     Ok(())
 }
 

@@ -6,7 +6,7 @@ pub mod page;
 pub mod story;
 pub mod svg;
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 use std::mem;
 use std::sync::OnceLock;
 
@@ -69,6 +69,12 @@ impl Block {
     /// Columns of its longest line.
     fn width(&self) -> usize {
         self.lines.iter().chain([&self.title]).map(|line| line.chars().count()).max().unwrap_or(0)
+    }
+}
+
+impl fmt::Display for Block {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", self.title, self.lines.join("\n"))
     }
 }
 

@@ -121,12 +121,21 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
     Ok(format!("{}\n\n{words}\n{}", legend(run.setup().scheme.look), beside(blocks)))
 }
 
-/// The turns of agents in `course`, one by one: every turn before it is made, with what the agent tries and the sensors
-/// that it misses, and the end. Of turns that can go on for ever only those are shown.
+/// The turns of agents in `course`, drawn beside each other, with the legend and what to know above.
+///
+/// # Errors
+/// As of [`turns`].
+pub fn of_course(course: &Course) -> Result<String, Diagnostic> {
+    let (words, turns) = turns(course)?;
+    Ok(format!("{words}\n{}", beside(turns)))
+}
+
+/// The turns of agents in `course`, one by one: the legend and what to know, every turn before it is made, with what
+/// the agent tries and the sensors that it misses, and the end. Of turns that can go on for ever only those are shown.
 ///
 /// # Errors
 /// [`Diagnostic`] if it does not fit into a layout.
-pub fn of_course(course: &Course) -> Result<String, Diagnostic> {
+pub fn turns(course: &Course) -> Result<(String, Vec<Block>), Diagnostic> {
     let Course { width, height, blocked, walls, turns, round, end } = course;
     let layout = Layout::open(*width as u64, *height as u64)?;
     let layout = layout.with_blocked(blocked.iter().copied()).with_walls(walls.iter().copied());
@@ -152,7 +161,7 @@ pub fn of_course(course: &Course) -> Result<String, Diagnostic> {
         }
     }
     blocks.push(Block { title: "the end".to_owned(), lines: agents(&layout, end, None) });
-    Ok(format!("{}\n\n{words}\n{}", legend(Look::Apart), beside(blocks)))
+    Ok((format!("{}\n\n{words}", legend(Look::Apart)), blocks))
 }
 
 /// How the last team move of `run`, or its end, breaks its clauses.

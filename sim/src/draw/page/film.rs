@@ -17,6 +17,7 @@ use crate::options::{Extra, Takes};
 
 const TEMPLATE: &str = include_str!("page.html");
 const SCRIPT: &str = include_str!("page.js");
+const TOLD: &str = include_str!("told.html");
 
 /// The part of a page that stands still.
 #[derive(Serialize)]
@@ -210,17 +211,19 @@ pub fn foot(film: &Film) -> String {
     foot.replace("{{film}}", &json(film)).replace("{{script}}\n", SCRIPT)
 }
 
-/// A whole page of what is no run: a title, a sentence, and what is drawn with letters.
-pub fn in_words(title: &str, sentence: &str, drawn: &str) -> String {
+/// A whole page of what is no run of the program: a title, a sentence, and parts that are drawn with letters, which the
+/// page goes through one by one.
+pub fn in_words(title: &str, sentence: &str, parts: &[String]) -> String {
     let (style, _) = TEMPLATE.split_once("</head>").unwrap_or_default();
-    let (title, sentence) = (escaped(title), escaped(sentence));
-    let style = style.replace("{{title}}", &title);
-    let drawn: Vec<String> = drawn.lines().map(escaped).collect();
-    let drawn = drawn.join("\n");
-    format!(
-        "{HTML_HEAD}{style}</head>\n<body>\n<main>\n<header>\n<h1>{title}</h1>\n<p>{sentence}</p>\n</header>\n\
-         <section style=\"grid-column: 1 / -1; overflow: auto\"><pre>{drawn}</pre></section>\n</main>\n</body>\n</html>\n"
-    )
+    let title = escaped(title);
+    let part = |part: &String| {
+        let kind = if part.contains('\n') { " class=\"drawing\"" } else { "" };
+        let lines: Vec<String> = part.lines().map(escaped).collect();
+        format!("<pre{kind}>{}</pre>", lines.join("\n"))
+    };
+    let body = TOLD.replace("{{title}}", &title).replace("{{sentence}}", &escaped(sentence));
+    let parts: Vec<String> = parts.iter().map(part).collect();
+    HTML_HEAD.to_owned() + &style.replace("{{title}}", &title) + &body.replace("{{parts}}", &parts.join("\n"))
 }
 
 /// The style and the script that the pages of all runs have in common.
