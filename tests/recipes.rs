@@ -96,14 +96,15 @@ fn shell_steps() -> Vec<serde_json::Value> {
     steps.into_iter().filter(|step| step["run"].is_string()).collect()
 }
 
-/// Runs the action's steps as a runner does, in a caller's folder, the action being in a folder beside it. `rustup` and
-/// `cargo` stand in: they say how they were called, and what is built is this program.
+/// Runs the action's steps as a runner does, in a caller's folder, the action being in a folder beside it. `rustup`,
+/// `cargo` and `curl` stand in: the first two say how they were called, what is built is this program, and there are only
+/// the files in `released`.
 #[test]
-fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources() {
+fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
     let at = |name: &str| folder.join(name);
-    for name in ["action/.github", "caller", "temp", "stand-ins"] {
+    for name in ["action/.github", "caller", "temp", "stand-ins", "released"] {
         fs::create_dir_all(at(name)).expect("a folder");
     }
     fs::copy(recipe(".github/action.sh"), at("action/.github/action.sh")).expect("a copy");
@@ -111,8 +112,9 @@ fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_
     let built = format!(
         r#"mkdir -p "$RUNNER_TEMP/tautline/bin" && ln -sf {TAUTLINE} "$RUNNER_TEMP/tautline/bin/tautline""#
     );
-    for (name, does) in [("rustup", "true"), ("cargo", &built)] {
-        fs::write(at("stand-ins").join(name), format!("#!/usr/bin/env bash\n{said}\n{does}\n"))
+    let curl = format!(r#"for url; do [[ $url != http* ]] || cp "{}/${{url##*/}}" .; done"#, at("released").display());
+    for (name, does) in [("rustup", [said, "true"]), ("cargo", [said, &built]), ("curl", ["set -e", &curl])] {
+        fs::write(at("stand-ins").join(name), format!("#!/usr/bin/env bash\n{}\n", does.join("\n")))
             .expect("a file");
         assert!(
             Command::new("chmod")
@@ -124,7 +126,7 @@ fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_
         );
     }
     let path = format!("{}:{}", at("stand-ins").display(), std::env::var("PATH").expect("a path"));
-    let run = |step: &serde_json::Value| {
+    let run_of = |step: &serde_json::Value, action: &str| {
         let mut command = Command::new("bash");
         command.args(["--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"].as_str().expect("text")]);
         command.current_dir(at("caller")).env("PATH", &path);
@@ -134,6 +136,7 @@ fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_
         for (name, value) in step["env"].as_object().into_iter().flatten() {
             let value = value.as_str().expect("text");
             let value = value.replace("${{ runner.temp }}", at("temp").to_str().expect("text"));
+            let value = value.replace("${{ github.action_ref }}", action);
             command.env(
                 name,
                 value.replace(
@@ -144,7 +147,28 @@ fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_
         }
         command.output().expect("bash runs")
     };
-    let [key, build, hunt] = &shell_steps()[..] else { panic!("three steps of a shell") };
+    let run = |step: &serde_json::Value| run_of(step, "main");
+    let [released, key, build, hunt] = &shell_steps()[..] else { panic!("four steps of a shell") };
+
+    let takes = |action: &str| {
+        fs::write(at("temp/output"), "").expect("a file");
+        let output = run_of(released, action);
+        (output.status.success(), fs::read_to_string(at("temp/output")).expect("text"))
+    };
+    let built = (true, String::new());
+    // No such release yet, and then one.
+    assert_eq!(takes("v1.2.3"), built);
+    let pack = "mkdir -p all/bin && touch all/bin/tautline && tar -czf $0 all && sha256sum $0 > SHA256SUMS";
+    let archive = "tautline-1.2.3-x86_64-unknown-linux-musl.tar.gz";
+    let packed = Command::new("bash").args(["-c", pack, archive]).current_dir(at("released")).status();
+    assert!(packed.expect("bash runs").success());
+    assert_eq!([takes("main"), takes("v1"), takes("0123abc")], [built.clone(), built.clone(), built]);
+    assert!(!at("temp/tautline").exists());
+    assert_eq!(takes("v1.2.3"), (true, "here=true\n".to_owned()));
+    fs::remove_dir_all(at("temp/tautline")).expect("the released program");
+    fs::write(at("released").join(archive), "another one").expect("a file");
+    assert_eq!(takes("v1.2.3"), (false, String::new()));
+    assert!(!at("temp/tautline").exists());
 
     let keyed = || {
         fs::write(at("temp/output"), "").expect("a file");
