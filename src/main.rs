@@ -2,6 +2,7 @@
 //! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
+mod conform;
 #[cfg(test)]
 mod docs_test;
 mod evidence;
@@ -158,6 +159,7 @@ enum Command {
     Rescue(rescue::Rescue),
     Locate(locate::Locate),
     Replay(replay::Replay),
+    Conform(conform::Conform),
     Page(page::Page),
     Show(show::Show),
     #[cfg(feature = "papers")]
@@ -382,6 +384,7 @@ impl Command {
             Self::Rescue(rescue) => rescue.run(out),
             Self::Locate(locate) => locate.run(out),
             Self::Replay(replay) => replay.run(out),
+            Self::Conform(conform) => conform.run(out),
             Self::Page(page) => page.run(out),
             Self::Show(show) => show.run(out),
             #[cfg(feature = "papers")]

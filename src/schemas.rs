@@ -10,7 +10,7 @@ use tautline_sim::schema::of;
 use tautline_sim::trace::Summary;
 
 use super::output::Versioned;
-use super::{hunt, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show};
+use super::{conform, hunt, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show};
 
 /// The command that writes the schemas anew.
 const RENEW: &str = "SCHEMAS_UPDATE=always cargo test -p tautline --bin tautline schemas";
@@ -48,6 +48,15 @@ fn schemas() -> Vec<(String, Value)> {
             printed::<Either<replay::ReplayJson<'_>, replay::RefutationJson>>(
                 "tautline replay of a run of a team, or of a refutation",
             ),
+        ),
+        ("conform", printed::<conform::ConformJson<'_>>("tautline conform")),
+        (
+            "conform-told",
+            of::<conform::ToldLine<'_>>("a line that tautline conform writes to a program").to_value(),
+        ),
+        (
+            "conform-answer",
+            of::<conform::Answer>("a line that tautline conform reads from a program").to_value(),
         ),
         ("minimise", printed::<minimise::MinimiseJson>("tautline minimise")),
         ("rescue", printed::<rescue::RescueJson<'_>>("tautline rescue, and tautline replay of a rescue")),

@@ -2,6 +2,7 @@
 
 mod cli;
 mod commands;
+mod conform;
 mod documents;
 mod foreign;
 #[expect(unreachable_pub, reason = "the library of the fuzz targets is a module here")]

@@ -27,7 +27,7 @@ mod script;
 mod setup;
 mod states;
 
-pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts};
+pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts, Told};
 pub use self::clause::{Clause, ClauseId, Judge};
 pub use self::course::{Course, Made};
 pub use self::own::Own;

@@ -330,11 +330,7 @@ impl StoredMove {
     fn frame(self, before: &[Cell], layout: &Layout) -> Result<Frame, (&'static str, String)> {
         let Self { step: _, kind, tried, blocked, cells } = self;
         let robots = before.len();
-        let steps: Option<Vec<Step>> = tried.chars().map(step).collect();
-        let Some(steps) = steps.filter(|steps| steps.len() == robots) else {
-            let what = format!("write one letter of E, S, W, N or . for each of {robots} robots");
-            return Err(("tried", what));
-        };
+        let steps = steps(&tried, robots).map_err(|what| ("tried", what))?;
         if !blocked.is_sorted_by(|one, other| one < other)
             || blocked.iter().any(|robot| !(1..=robots).contains(robot))
         {
@@ -375,8 +371,8 @@ impl StoredMove {
     }
 }
 
-/// The letter of what a robot tries.
-const fn letter(step: Step) -> char {
+/// The letter of what a robot tries: E, S, W, N, or `.` for one that stays.
+pub const fn letter(step: Step) -> char {
     match step {
         Step::Cross(Side::East) => 'E',
         Step::Cross(Side::South) => 'S',
@@ -386,10 +382,16 @@ const fn letter(step: Step) -> char {
     }
 }
 
-/// The step that this letter stands for.
-fn step(name: char) -> Option<Step> {
-    let sides = Side::ALL.map(Step::Cross);
-    sides.into_iter().chain([Step::Stay]).find(|&step| letter(step) == name)
+/// The steps of so many robots, of which `tried` has a letter for each.
+///
+/// # Errors
+/// The words for what is to be written instead.
+pub fn steps(tried: &str, robots: usize) -> Result<Vec<Step>, String> {
+    let step = |name| Step::ALL.into_iter().find(|&step| letter(step) == name);
+    let steps: Option<Vec<Step>> = tried.chars().map(step).collect();
+    steps
+        .filter(|steps| steps.len() == robots)
+        .ok_or_else(|| format!("write one letter of E, S, W, N or . for each of {robots} robots"))
 }
 
 impl From<&Violation> for StoredViolation {

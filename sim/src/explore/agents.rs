@@ -16,7 +16,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
-use super::catalogue::{By, Drawn, Look, Profile, Senses};
+use super::catalogue::{By, Drawn, Look, Profile, Senses, Told};
 use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, is_visited};
 use super::run::{End, Surroundings, Survey, Team};
@@ -33,6 +33,7 @@ const MAX_AGENTS: usize = 255;
 pub(super) const AGENTS: Profile = Profile {
     robots: 1..=MAX_AGENTS,
     senses: Senses::Floor,
+    told: Told::All,
     drawn: &[Drawn { what: "which sensors are missed", by: By::Miss }],
     look: Look::Apart,
     ..Profile::named("")

@@ -232,6 +232,9 @@ pub struct Profile {
     pub senses: Senses,
     /// The options that a run of it can be told.
     pub extras: &'static [&'static Extra],
+    /// Whether a program that is told where robots are and what they bump into, or the open sides around them on a
+    /// sensor floor, can plan as they do.
+    pub told: Told,
     /// The things that its runs draw by their seed.
     pub drawn: &'static [Drawn],
     /// How its team is drawn.
@@ -360,6 +363,15 @@ pub enum Senses {
     Floor,
 }
 
+/// How much of what robots learn their cells, their bumps and the open sides around them are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Told {
+    /// All of it.
+    All,
+    /// Not all: robots also see cells farther away, hear messages, or act in an order that is drawn.
+    Part,
+}
+
 impl Profile {
     /// The rule with this name, if the scheme offers it.
     pub fn rule(&self, name: RuleId) -> Option<&'static Rule> {
@@ -410,6 +422,7 @@ impl Profile {
             starts: Starts::Anywhere,
             senses: Senses::Bumps,
             extras: &[],
+            told: Told::Part,
             drawn: &[],
             look: Look::Robots,
             knowledge: None,

@@ -15,7 +15,7 @@ use tautline_proofs::plural::counted;
 use self::hunt::Walls;
 use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH, HEARD};
-use super::catalogue::{By, Drawn, Look, Profile, Starts};
+use super::catalogue::{By, Drawn, Look, Profile, Starts, Told};
 use super::clause::{Clause, Judge};
 use super::rule::{Rule, RuleId, Switched};
 use super::run::{Team, TeamMove};
@@ -53,6 +53,7 @@ pub static CHAIN: Profile = Profile {
     team: "chain",
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
+    told: Told::All,
     extras: &[Extra::LOSS, Extra::FAIL, Extra::WALL, Extra::SPEEDS],
     drawn: &[
         Drawn { what: "which bytes are lost", by: By::Told(Extra::LOSS) },
