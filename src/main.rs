@@ -14,6 +14,8 @@ mod layout_args;
 mod library;
 mod locate;
 mod manual;
+#[cfg(feature = "mcp")]
+mod mcp;
 mod minimise;
 mod output;
 mod page;
@@ -165,6 +167,8 @@ enum Command {
     #[cfg(feature = "papers")]
     Reproduce(reproduce::Reproduce),
     Merge(shards::Merge),
+    #[cfg(feature = "mcp")]
+    Mcp(mcp::Mcp),
 
     /// Print a completion script for a shell.
     #[command(after_help = "Example: tautline completions bash > /etc/bash_completion.d/tautline")]
@@ -390,6 +394,8 @@ impl Command {
             #[cfg(feature = "papers")]
             Self::Reproduce(reproduce) => reproduce.run(out),
             Self::Merge(merge) => merge.run(out),
+            #[cfg(feature = "mcp")]
+            Self::Mcp(mcp) => mcp.run(out),
             Self::Completions { shell } => {
                 let mut script = Vec::new();
                 clap_complete::generate(*shell, &mut program(), "tautline", &mut script);

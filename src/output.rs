@@ -34,6 +34,12 @@ impl Output {
         Self { stdout: Some(BufWriter::new(io::stdout().lock())), files: Vec::new(), has_left_out: false }
     }
 
+    /// Leaves stdout to somebody else.
+    #[cfg(feature = "mcp")]
+    pub(super) fn leave(&mut self) {
+        self.stdout = None;
+    }
+
     /// Keeps a file until the command ends. Whether it will stand in its place; otherwise it is left out.
     pub(super) fn keep(&mut self, file: AtomicFile) -> bool {
         let finished = file.finish().map_err(|fault| self.leave_out(&fault));

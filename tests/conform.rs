@@ -122,7 +122,8 @@ fn ants_in_python_that_prefer_west_to_south_are_told_where_they_differ() {
         "##);
 }
 
-/// For the runs that no program of our own plans: what was told is whole, and the end is asked for where the team knows it.
+/// For runs that no program of the examples plans: what is told is whole, and the end is asked for where the team
+/// knows it.
 #[test]
 fn what_was_recorded_of_a_run_conforms_to_it() {
     let folder = tempfile::tempdir().expect("a folder");

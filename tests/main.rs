@@ -9,6 +9,7 @@ mod foreign;
 mod fuzz_corpus;
 mod layouts;
 mod mcap;
+mod mcp;
 mod page;
 mod proved;
 mod python;

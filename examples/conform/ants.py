@@ -1,5 +1,5 @@
-"""Ants [Ferranti 2009] in Python: a program for `tautline conform`. Each ant goes where ants have been least; ties go to
-the first side in the order of the compass. That order is the argument, and another one than NESW is a slip.
+"""Ants [Ferranti 2009] in Python: a program for `tautline conform`. Each ant goes where ants have been least; ties go
+to the first side in the order of the compass. That order is the argument, and another one than NESW is a slip.
 
 tautline conform RUN -- python3 ants.py
 """

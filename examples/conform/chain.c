@@ -120,8 +120,9 @@ static int lead(void)
         int steps, outward = DX[side] * (at.x - base.x) + DY[side] * (at.y - base.y);
         if (OF(wall, at)[side] || OF(virtual_, at)[side] || (steps = distance(after(at, side), 1)) == FAR)
             continue;
-        for (place = count++;
-             place > 0 && (near[place - 1] > steps || (near[place - 1] == steps && out[place - 1] < outward)); place--) {
+        for (place = count++; place > 0; place--) {
+            if (near[place - 1] < steps || (near[place - 1] == steps && out[place - 1] >= outward))
+                break;
             near[place] = near[place - 1];
             out[place] = out[place - 1];
             list[place] = list[place - 1];
@@ -212,7 +213,8 @@ static void begin(const char *line)
     const char *size = strstr(line, "\"size\":["), *start = strstr(line, "\"starts\":[[");
     int wide, high, robot, x, y, side;
     robots = number(line, "\"robots\":");
-    if (!strstr(line, "\"scheme\":\"chain\",\"rule\":\"published\"") || robots < 2 || robots > MOST || !size || !start ||
+    if (!strstr(line, "\"scheme\":\"chain\",\"rule\":\"published\"") ||
+        robots < 2 || robots > MOST || !size || !start ||
         sscanf(size, "\"size\":[%d,%d]", &wide, &high) != 2 ||
         sscanf(start, "\"starts\":[[%d,%d]", &cells[0].x, &cells[0].y) != 2) {
         fprintf(stderr, "chain: this is no published chain of 2 to %d robots\n", MOST);

@@ -1,0 +1,172 @@
+//! The server of the Model Context Protocol, as a client speaks with it over pipes.
+#![cfg(all(unix, feature = "mcp"))]
+
+use std::fs;
+use std::io::{BufRead, BufReader, Lines, Write};
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+/// A client, and the server that it has started.
+struct Client {
+    child: Child,
+    input: ChildStdin,
+    output: Lines<BufReader<ChildStdout>>,
+    sent: u32,
+}
+
+impl Client {
+    fn new(folder: &Path) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
+        command.args(["mcp", "--folder", "runs"]).current_dir(folder);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut child = command.spawn().expect("the program runs");
+        let input = child.stdin.take().expect("a pipe");
+        let output = BufReader::new(child.stdout.take().expect("a pipe")).lines();
+        let mut client = Self { child, input, output, sent: 0 };
+        let client_info = json!({"name": "a test", "version": "1"});
+        let who = json!({"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": client_info});
+        assert_eq!(client.asks("initialize", &who)["result"]["serverInfo"]["name"], "tautline");
+        client.tells(&json!({"jsonrpc": "2.0", "method": "notifications/initialized"}));
+        client
+    }
+
+    fn tells(&mut self, message: &Value) {
+        writeln!(self.input, "{message}").expect("a server that reads");
+    }
+
+    fn begins(&mut self, method: &str, params: &Value) -> u32 {
+        self.sent += 1;
+        self.tells(&json!({"jsonrpc": "2.0", "id": self.sent, "method": method, "params": params}));
+        self.sent
+    }
+
+    fn asks(&mut self, method: &str, params: &Value) -> Value {
+        let id = self.begins(method, params);
+        let line = self.output.next().expect("an answer").expect("text");
+        let answer: Value = serde_json::from_str(&line).expect("JSON");
+        assert_eq!(answer["id"], id, "{answer}");
+        answer
+    }
+
+    fn calls(&mut self, tool: &str, arguments: Value) -> Value {
+        self.asks("tools/call", &json!({"name": tool, "arguments": arguments}))
+    }
+
+    /// The object that a tool answers with.
+    fn told(&mut self, tool: &str, arguments: Value) -> Value {
+        let mut answer = self.calls(tool, arguments);
+        assert_eq!(answer["result"]["isError"], false, "{answer}");
+        answer["result"]["structuredContent"].take()
+    }
+
+    /// Why a call is refused, or has failed.
+    fn refused(&mut self, tool: &str, arguments: Value) -> String {
+        let answer = self.calls(tool, arguments);
+        let said = answer["error"]["message"].as_str().or(answer["result"]["content"][0]["text"].as_str());
+        assert!(answer["error"].is_object() || answer["result"]["isError"] == true, "{answer}");
+        said.expect("words").to_owned()
+    }
+}
+
+/// A folder with a folder for the server, and a run beside it.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("runs")).expect("a folder");
+    let run = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chain-1-published-n4.jsonl");
+    fs::copy(run, folder.path().join("outside.jsonl")).expect("a file");
+    folder
+}
+
+#[test]
+fn each_tool_answers_as_its_command_does() {
+    let folder = folder();
+    let mut client = Client::new(folder.path());
+    let listed = client.asks("tools/list", &json!({}));
+    let tools = listed["result"]["tools"].as_array().expect("a list");
+    let names: Vec<&str> = tools.iter().filter_map(|tool| tool["name"].as_str()).collect();
+    assert_eq!(names, ["prove", "hunt", "explore", "minimise", "replay"]);
+    assert!(tools.iter().all(|tool| tool["inputSchema"]["properties"]["seconds"].is_object()), "{listed}");
+    let explored = json!({"layout": "open:5x5", "robots": 3, "trace": "run.jsonl"});
+    let hunted = json!({"rule": "published", "robots": 3, "max_walls": 2});
+    for (tool, arguments, schema) in [
+        ("explore", explored, "explore"),
+        ("replay", json!({"file": "run.jsonl", "moves": "1..2"}), "replay"),
+        ("hunt", hunted, "hunt"),
+        ("minimise", json!({"file": "found/chain-13-published-n3.jsonl"}), "minimise"),
+        ("prove", json!({"clauses": ["NOTICE-4"]}), "prove"),
+    ] {
+        let told = client.told(tool, arguments);
+        crate::schema::check(schema, &told, tool);
+    }
+    assert!(folder.path().join("runs/minimal/chain-13-published-n3.jsonl").is_file());
+    drop(client.input);
+    assert!(client.child.wait().expect("it ends").success());
+}
+
+#[test]
+fn no_call_leaves_the_folder() {
+    let folder = folder();
+    let outside = folder.path().join("outside.jsonl");
+    symlink(&outside, folder.path().join("runs/link.jsonl")).expect("a link");
+    symlink(folder.path(), folder.path().join("runs/up")).expect("a link");
+    fs::write(folder.path().join("runs/map.yaml"), "image: ../map.png").expect("a file");
+    let mut client = Client::new(folder.path());
+    let outside = outside.to_str().expect("text");
+    for file in
+        ["../outside.jsonl", outside, "link.jsonl", "up/outside.jsonl", "./../outside.jsonl", "--help", ""]
+    {
+        let said = client.refused("replay", json!({"file": file}));
+        assert!(said.contains("within the folder") || said.contains("no such word"), "{file}: {said}");
+    }
+    for out in ["..", "up", "a/../..", "/tmp", "."] {
+        let said =
+            client.refused("hunt", json!({"rule": "published", "robots": 3, "max_walls": 2, "out": out}));
+        assert!(said.contains("within the folder"), "{out}: {said}");
+    }
+    for (key, path) in [("trace", "../new.jsonl"), ("trace", "link.jsonl"), ("layout", "map.yaml")] {
+        let mut arguments = json!({"layout": "open:5x5"});
+        arguments[key] = path.into();
+        let said = client.refused("explore", arguments);
+        assert!(said.contains("within the folder"), "{path}: {said}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "something was written beside");
+    // What is within is read.
+    fs::copy(outside, folder.path().join("runs/inside.jsonl")).expect("a file");
+    assert_eq!(client.told("replay", json!({"file": "inside.jsonl"}))["counterexample_to"], "CHAIN-1");
+}
+
+#[test]
+fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
+    let folder = folder();
+    let mut client = Client::new(folder.path());
+    let long = |seconds: u32| json!({"robots": 6, "max_walls": 7, "seconds": seconds});
+    let start = Instant::now();
+    assert!(client.refused("hunt", long(1)).contains("took more than 1 second and"));
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    for (tool, arguments, word) in [
+        ("explore", json!({}), "layout"),
+        ("explore", json!({"layout": "open:5x5", "robots": "many"}), "many"),
+        ("explore", json!({"layout": "open:5x5", "colour": 1}), "colour"),
+        ("explore", json!({"layout": "open:5x5", "seconds": 601}), "1 to 600 seconds"),
+        ("explore", json!({"layout": "open:5x5", "memory_mib": 1}), "64 to 16384 MiB"),
+        ("prove", json!({"clauses": []}), "name a clause"),
+        ("prove", json!({"clauses": ["CHAIN-99"]}), "there is no clause"),
+        ("replay", json!({"file": "nothing.jsonl"}), "there is no such file"),
+        ("dance", json!({}), "dance"),
+    ] {
+        let said = client.refused(tool, arguments.clone());
+        assert!(said.contains(word), "{tool} {arguments}: {said}");
+    }
+    let id = client.begins("tools/call", &json!({"name": "hunt", "arguments": long(600)}));
+    client
+        .tells(&json!({"jsonrpc": "2.0", "method": "notifications/cancelled", "params": {"requestId": id}}));
+    let start = Instant::now();
+    assert_eq!(client.told("explore", json!({"layout": "open:5x5", "robots": 3}))["explored"], 25);
+    drop(client.input);
+    assert!(client.child.wait().expect("it ends").success());
+    assert!(start.elapsed() < Duration::from_secs(5), "the hunt went on: {:?}", start.elapsed());
+}
