@@ -140,6 +140,9 @@ struct StoredPlan {
     kind: Kind,
 }
 
+/// What a program plans for each robot, and as which kind of team move, if it says so.
+type Plan = (Vec<Step>, Option<Kind>);
+
 /// The first difference, drawn.
 struct Difference {
     told: DifferenceJson,
@@ -274,7 +277,7 @@ impl Trial<'_> {
     }
 
     /// The plan of the program for team move `step` of robots in `cells`.
-    fn asked(&mut self, step: u32, cells: &[Cell]) -> Result<Option<(Vec<Step>, Option<Kind>)>, Diagnostic> {
+    fn asked(&mut self, step: u32, cells: &[Cell]) -> Result<Option<Plan>, Diagnostic> {
         let Setup { scheme, layout, .. } = self.run.setup();
         let around = |tell: fn(&Layout, Cell) -> String| {
             let are_told = scheme.senses == Senses::Floor;
