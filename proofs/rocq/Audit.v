@@ -4,8 +4,8 @@
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie
-  KitTie Local LocalChain Certificate Certified Ants Frontier.
+From Tautline Require Hold Marking Notice Kit Mrc Leases ServedBits Replay Mutants MrcMutants ChainTie Replayed NoticeTie
+  MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -52,6 +52,8 @@ Check Leases.MRC_6.
 Print Assumptions Leases.MRC_6.
 Check Leases.MRC_8.
 Print Assumptions Leases.MRC_8.
+Check ServedBits.MRC_12.
+Print Assumptions ServedBits.MRC_12.
 Check Kit.KIT_1.
 Print Assumptions Kit.KIT_1.
 Check Kit.KIT_3.
