@@ -92,6 +92,8 @@ Check MrcMutants.without_Epochs_breaks_MRC_2.
 Print Assumptions MrcMutants.without_Epochs_breaks_MRC_2.
 Check MrcMutants.without_Consent_breaks_MRC_4.
 Print Assumptions MrcMutants.without_Consent_breaks_MRC_4.
+Check ServedBits.without_a_record_breaks_MRC_12.
+Print Assumptions ServedBits.without_a_record_breaks_MRC_12.
 Check Kit.without_NextInReach_breaks_KIT_1.
 Print Assumptions Kit.without_NextInReach_breaks_KIT_1.
 Check Kit.without_FromInReach_breaks_KIT_1.

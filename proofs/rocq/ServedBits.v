@@ -81,3 +81,14 @@ Proof.
     + destruct (doing x) as [|v' e'|v' e']; try (left; eapply N; exact H).
       destruct (_ && _); left; [eapply A; exact H | eapply N; exact H].
 Qed.
+
+(** A call of a WFR that has no record may take a served record's room, so the exception is needed. *)
+Theorem without_a_record_breaks_MRC_12 : exists x y q,
+  record_of x 1 = Some q /\ served q = true
+  /\ In (y, []) (robot_outcomes REPAIRED 1 x (Told (Notice 2 1))) /\ record_of y 1 = None.
+Proof.
+  exists {| requests := [{| wfr_of := 1; epoch := 1; served := true |}]; doing := Free |},
+    {| requests := [{| wfr_of := 2; epoch := 1; served := false |}]; doing := Free |},
+    {| wfr_of := 1; epoch := 1; served := true |}.
+  repeat split; vm_compute; auto 12.
+Qed.
