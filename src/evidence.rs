@@ -163,17 +163,19 @@ pub(super) fn page(
     }
     let title = format!("{} as {}", clause.id, check.rule());
     let sentence = format!("{}: {}", clause.id, clause.sentence);
-    let parts: Vec<String> = match &evidence.seen {
+    let (words, parts): (String, Vec<String>) = match &evidence.seen {
         Depiction::Agents(course) => {
             let (words, turns) = draw::story::turns(course)?;
-            words.lines().map(str::to_owned).chain(turns.iter().map(Block::to_string)).collect()
+            (words, turns.iter().map(Block::to_string).collect())
         }
         Depiction::Choices | Depiction::Story(_) | Depiction::Robots(_) | Depiction::Messages { .. } => {
-            story(clause, check, evidence)?.lines().map(str::to_owned).collect()
+            let story = story(clause, check, evidence)?;
+            let (head, events) = story.split_once('\n').unwrap_or((&story, ""));
+            let events = events.lines().filter(|line| !line.trim().is_empty());
+            (head.to_owned(), events.map(str::to_owned).collect())
         }
     };
-    let parts: Vec<String> = parts.into_iter().filter(|part| !part.trim().is_empty()).collect();
-    sink.add(&page::in_words(&title, &sentence, &parts));
+    sink.add(&page::in_words(&title, &sentence, &words, &parts));
     Ok(())
 }
 

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 /// By crate: the crates of ours that it may use. The program stands in the folder of the workspace.
 const BELOW: &str = "
     kernel:
+    monitor:
     proofs: kernel
     library: kernel proofs
     sim: kernel proofs
@@ -50,8 +51,9 @@ const KNOWS: &str = "
 const ALL_LISTED: [&str; 3] = ["kernel", "proofs", "viewers"];
 
 /// Folders whose files are no longer than [`MOST_LINES`].
-const FOLDERS: [&str; 13] = [
+const FOLDERS: [&str; 14] = [
     "kernel/src",
+    "monitor/src",
     "capi/src",
     "proofs/src",
     "library/src",

@@ -78,13 +78,13 @@ pub static CHAIN: Profile = Profile {
             told: |_, _, made| out_of_range(made),
             ..Clause::new(Breach::Coverage.clause())
         },
+        Clause::new(HEARD.as_str()),
         Clause::new(Breach::Costly.clause()),
         Clause {
             judge: Some(Judge::Chain),
             missed: Some("Within reach and unexplored"),
             ..Clause::new(Breach::Completeness.clause())
         },
-        Clause::new(HEARD.as_str()),
         Clause::new(ANY_ORDER.as_str()),
         Clause { missed: Some("Within reach of those left and unexplored"), ..Clause::new(DEATH.as_str()) },
     ],

@@ -211,9 +211,9 @@ pub fn foot(film: &Film) -> String {
     foot.replace("{{film}}", &json(film)).replace("{{script}}\n", SCRIPT)
 }
 
-/// A whole page of what is no run of the program: a title, a sentence, and parts that are drawn with letters, which the
-/// page goes through one by one.
-pub fn in_words(title: &str, sentence: &str, parts: &[String]) -> String {
+/// A whole page of what is no run of the program: a title, a sentence, what to know, and parts that are drawn with letters,
+/// which the page goes through one by one.
+pub fn in_words(title: &str, sentence: &str, words: &str, parts: &[String]) -> String {
     let (style, _) = TEMPLATE.split_once("</head>").unwrap_or_default();
     let title = escaped(title);
     let part = |part: &String| {
@@ -221,7 +221,9 @@ pub fn in_words(title: &str, sentence: &str, parts: &[String]) -> String {
         let lines: Vec<String> = part.lines().map(escaped).collect();
         format!("<pre{kind}>{}</pre>", lines.join("\n"))
     };
+    let words: Vec<String> = words.lines().map(|line| format!("<p>{}</p>", escaped(line.trim()))).collect();
     let body = TOLD.replace("{{title}}", &title).replace("{{sentence}}", &escaped(sentence));
+    let body = body.replace("{{words}}", &words.join("\n"));
     let parts: Vec<String> = parts.iter().map(part).collect();
     HTML_HEAD.to_owned() + &style.replace("{{title}}", &title) + &body.replace("{{parts}}", &parts.join("\n"))
 }
