@@ -100,7 +100,8 @@ fn shell_steps() -> Vec<serde_json::Value> {
 /// `cargo` and `curl` stand in: the first two say how they were called, what is built is this program, and there are only
 /// the files in `released`.
 #[test]
-fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources() {
+fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources()
+ {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
     let at = |name: &str| folder.join(name);
@@ -112,7 +113,10 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
     let built = format!(
         r#"mkdir -p "$RUNNER_TEMP/tautline/bin" && ln -sf {TAUTLINE} "$RUNNER_TEMP/tautline/bin/tautline""#
     );
-    let curl = format!(r#"for url; do [[ $url != http* ]] || cp "{}/${{url##*/}}" .; done"#, at("released").display());
+    let curl = format!(
+        r#"for url; do [[ $url != http* ]] || cp "{}/${{url##*/}}" .; done"#,
+        at("released").display()
+    );
     for (name, does) in [("rustup", [said, "true"]), ("cargo", [said, &built]), ("curl", ["set -e", &curl])] {
         fs::write(at("stand-ins").join(name), format!("#!/usr/bin/env bash\n{}\n", does.join("\n")))
             .expect("a file");

@@ -161,7 +161,9 @@ impl<R: Rule> Team for Own<'_, R> {
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
         self.clauses(match end {
-            End::Explored | End::Exhausted | End::Silent | End::Refused => self.playing.broken_at_end(&self.scene, &[]),
+            End::Explored | End::Exhausted | End::Silent | End::Refused => {
+                self.playing.broken_at_end(&self.scene, &[])
+            }
             End::Endless => self.playing.broken_by_never_ending(),
         })
     }

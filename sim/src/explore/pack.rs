@@ -248,7 +248,9 @@ impl Team for PackTeam {
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         match end {
             End::Endless => vec![ENDS],
-            End::Explored | End::Exhausted | End::Silent | End::Refused if self.missed(layout, chart).is_empty() => {
+            End::Explored | End::Exhausted | End::Silent | End::Refused
+                if self.missed(layout, chart).is_empty() =>
+            {
                 Vec::new()
             }
             End::Explored | End::Exhausted | End::Silent | End::Refused => vec![COVERS],
