@@ -66,7 +66,8 @@ impl<const N: usize> Demand<N> for Joined {
 }
 
 /// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it was
-/// first heard; it has left it once it is as far from it as the demand is.
+/// first heard; it has left it while it is as far from it as the demand is. So
+/// a breach beside the start of a robot that has come back is not seen.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Apart {
     /// The least distance.

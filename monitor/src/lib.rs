@@ -4,8 +4,9 @@
 //!
 //! A breach is reported where the positions leave no doubt: a distance has to be off by more than the tolerance, and a
 //! robot is in a cell if the whole circle of the tolerance is. A clause is *kept* if every robot was heard within the
-//! gap and nothing is broken. Between two positions a robot goes where it will: choose the tolerance as the error of a
-//! position and the way that a robot goes within the gap.
+//! gap and nothing is broken. Between two positions a robot goes where it will: choose the tolerance of a cell as the
+//! error of a position and the way that a robot goes within the gap, and that of a distance, which has two ends, as twice
+//! as much.
 //!
 //! ```
 //! use tautline_monitor::{Monitor, Neighbours, Place, Verdict};
