@@ -75,7 +75,7 @@ pub(super) enum ToldLine<'a> {
     End { end: Stopped },
 }
 
-/// What the robots know that they did not know before the last team move.
+/// The news for the robots since the last team move.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct Learnt<'a> {
     /// The number of the team move to be planned, from 1.
@@ -140,7 +140,7 @@ struct StoredPlan {
     kind: Kind,
 }
 
-/// What a program plans for each robot, and as which kind of team move, if it says so.
+/// The step of each robot as a program plans it, and the kind of team move, if it says so.
 type Plan = (Vec<Step>, Option<Kind>);
 
 /// The first difference, drawn.
@@ -209,12 +209,7 @@ impl Conform {
             0 => "the program differs".to_owned(),
             _ => format!("the program plans {} as the model does, and differs", counted(same, "team move")),
         };
-        out.text(format_args!(
-            "{same} in team move {}:
-{}",
-            told.step,
-            told.words()
-        ))?;
+        out.text(format_args!("{same} in team move {}:\n{}", told.step, told.words()))?;
         if let Some(drawing) = drawing {
             let legend = draw::legend(setup.scheme.look);
             out.text(format_args!("\n{legend}\n\n{}", draw::beside(drawing.into())))?;

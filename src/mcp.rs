@@ -55,7 +55,7 @@ pub(super) struct Mcp {
     folder: PathBuf,
 }
 
-/// The bounds of a call.
+/// The bounds of a call, which every tool takes beside its own arguments.
 #[derive(Clone, Copy, Deserialize, JsonSchema)]
 struct Bounds {
     /// Seconds that the call may take: 60 unless this says otherwise, at most 600.
@@ -71,8 +71,6 @@ struct Prove {
     clauses: Vec<String>,
     /// A folder for the counterexamples.
     out: Option<String>,
-    #[serde(flatten)]
-    bounds: Bounds,
 }
 
 /// Search all layouts within a bound for runs that break a clause, and store the smallest of each.
@@ -91,8 +89,6 @@ struct Hunt {
     budget: Option<u64>,
     /// A folder for the counterexamples.
     out: Option<String>,
-    #[serde(flatten)]
-    bounds: Bounds,
 }
 
 /// Explore a layout once, and check every team move.
@@ -108,8 +104,6 @@ struct Explore {
     max_moves: Option<u32>,
     /// A file in which the run is stored.
     trace: Option<String>,
-    #[serde(flatten)]
-    bounds: Bounds,
 }
 
 /// Shrink a stored run that breaks a clause until nothing of it can go, and store what is left.
@@ -121,8 +115,6 @@ struct Minimise {
     clause: Option<String>,
     /// A folder for the minimal run.
     out: Option<String>,
-    #[serde(flatten)]
-    bounds: Bounds,
 }
 
 /// Play a stored run, counterexample or rescue, and check that it is what its rule makes.
@@ -132,8 +124,6 @@ struct Replay {
     file: String,
     /// The first and the last team move to tell, such as 10..20.
     moves: Option<String>,
-    #[serde(flatten)]
-    bounds: Bounds,
 }
 
 /// The arguments of a command, in the making.
@@ -213,13 +203,12 @@ impl Called for Prove {
     const NAME: &'static str = "prove";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
-        line.bounds = self.bounds;
         if self.clauses.is_empty() {
             return Err("name a clause: all of them take minutes".to_owned());
         }
         self.clauses.iter().try_for_each(|clause| line.word(clause))?;
         // Searches stop before the system stops them.
-        line.option("memory", Some(format!("{}MiB", (self.bounds.memory_mib.unwrap_or(MEMORY) / 2).max(1))));
+        line.option("memory", Some(format!("{}MiB", (line.bounds.memory_mib.unwrap_or(MEMORY) / 2).max(1))));
         line.place("out", self.out.as_deref())
     }
 }
@@ -228,7 +217,6 @@ impl Called for Hunt {
     const NAME: &'static str = "hunt";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
-        line.bounds = self.bounds;
         line.option("scheme", self.scheme);
         line.option("rule", self.rule);
         line.option("robots", self.robots);
@@ -244,7 +232,6 @@ impl Called for Explore {
     const NAME: &'static str = "explore";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
-        line.bounds = self.bounds;
         line.file(&self.layout)?;
         line.option("scheme", self.scheme);
         line.option("rule", self.rule);
@@ -259,7 +246,6 @@ impl Called for Minimise {
     const NAME: &'static str = "minimise";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
-        line.bounds = self.bounds;
         line.file(&self.file)?;
         line.option("clause", self.clause);
         line.place("out", Some(self.out.as_deref().unwrap_or("minimal")))
@@ -270,7 +256,6 @@ impl Called for Replay {
     const NAME: &'static str = "replay";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
-        line.bounds = self.bounds;
         line.file(&self.file)?;
         line.option("moves", self.moves);
         Ok(())
@@ -280,27 +265,44 @@ impl Called for Replay {
 /// A tool of the list, and what makes its command's line of arguments.
 struct Entry {
     tool: Tool,
-    line: fn(Map<String, Value>, &mut Line<'_>) -> Result<(), String>,
+    line: fn(Value, &mut Line<'_>) -> Result<(), String>,
 }
 
 impl Entry {
     fn of<T: Called>() -> Self {
-        let schema = schema_for!(T).to_value();
-        let mut schema = schema.as_object().cloned().unwrap_or_default();
+        let [mut schema, bounds] = [schema_for!(T), schema_for!(Bounds)]
+            .map(|schema| schema.as_object().cloned().unwrap_or_default());
         let about = schema.remove("description").and_then(|text| text.as_str().map(str::to_owned));
+        let bounds = bounds.get("properties").and_then(Value::as_object).cloned();
+        if let Some(own) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+            own.extend(bounds.unwrap_or_default());
+        }
         schema.insert("additionalProperties".to_owned(), false.into());
-        let line = |arguments: Map<String, Value>, line: &mut Line<'_>| {
-            let schema = schema_for!(T);
-            let known = schema.get("properties").and_then(Value::as_object);
-            if let Some(unknown) =
-                arguments.keys().find(|key| known.is_none_or(|known| !known.contains_key(*key)))
-            {
-                return Err(format!("there is no argument {unknown:?}"));
-            }
-            serde_json::from_value::<T>(arguments.into()).map_err(|error| error.to_string())?.line(line)
-        };
+        let line = |arguments: Value, line: &mut Line<'_>| read::<T>(arguments)?.line(line);
         Self { tool: Tool::new(T::NAME, about.unwrap_or_default(), Arc::new(schema)), line }
     }
+
+    /// The line of a call with these arguments in `folder`.
+    ///
+    /// # Errors
+    /// The words for an argument that is unknown or refused.
+    fn line<'a>(&self, arguments: Map<String, Value>, folder: &'a Path) -> Result<Line<'a>, String> {
+        let known = self.tool.input_schema.get("properties").and_then(Value::as_object);
+        let is_known = |key: &str| known.is_some_and(|known| known.contains_key(key));
+        if let Some(unknown) = arguments.keys().find(|key| !is_known(key)) {
+            return Err(format!("there is no argument {unknown:?}"));
+        }
+        let arguments = Value::from(arguments);
+        let words = vec![self.tool.name.to_string().into()];
+        let mut line = Line { folder, words, bounds: read(arguments.clone())? };
+        (self.line)(arguments, &mut line)?;
+        Ok(line)
+    }
+}
+
+/// The arguments as a `T`, which leaves out those of others.
+fn read<T: DeserializeOwned>(arguments: Value) -> Result<T, String> {
+    serde_json::from_value(arguments).map_err(|error| error.to_string())
 }
 
 /// The tools.
@@ -316,6 +318,7 @@ fn entries() -> [Entry; 5] {
 
 struct Server {
     folder: PathBuf,
+    entries: [Entry; 5],
 }
 
 impl ServerHandler for Server {
@@ -333,7 +336,7 @@ impl ServerHandler for Server {
         _: Option<PaginatedRequestParams>,
         _: RequestContext<RoleServer>,
     ) -> Result<ListToolsResult, ErrorData> {
-        Ok(ListToolsResult::with_all_items(entries().map(|entry| entry.tool).into()))
+        Ok(ListToolsResult::with_all_items(self.entries.iter().map(|entry| entry.tool.clone()).collect()))
     }
 
     async fn call_tool(
@@ -341,13 +344,11 @@ impl ServerHandler for Server {
         request: CallToolRequestParams,
         context: RequestContext<RoleServer>,
     ) -> Result<CallToolResponse, ErrorData> {
-        let Some(entry) = entries().into_iter().find(|entry| entry.tool.name == request.name) else {
+        let Some(entry) = self.entries.iter().find(|entry| entry.tool.name == request.name) else {
             return Err(ErrorData::invalid_params(format!("there is no tool {:?}", request.name), None));
         };
-        let bounds = Bounds { seconds: None, memory_mib: None };
-        let mut line = Line { folder: &self.folder, words: vec![entry.tool.name.to_string().into()], bounds };
-        let made = (entry.line)(request.arguments.unwrap_or_default(), &mut line);
-        made.map_err(|what| ErrorData::invalid_params(what, None))?;
+        let line = entry.line(request.arguments.unwrap_or_default(), &self.folder);
+        let line = line.map_err(|what| ErrorData::invalid_params(what, None))?;
         // What is dropped here is killed.
         let answer = tokio::select! {
             answer = answer(&line) => answer,
@@ -428,7 +429,10 @@ impl Mcp {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|error| unable(&error))?;
         let served = runtime.block_on(async {
-            let service = Server { folder }.serve(stdio_pipes()).await.map_err(|error| unable(&error))?;
+            let service = Server { folder, entries: entries() }
+                .serve(stdio_pipes())
+                .await
+                .map_err(|error| unable(&error))?;
             service.waiting().await.map_err(|error| unable(&error))
         });
         runtime.shutdown_background();

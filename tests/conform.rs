@@ -2,46 +2,28 @@
 #![cfg(unix)]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use insta::assert_snapshot;
 use serde_json::Value;
 
-fn root(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
-}
+use crate::recipes::{has, recipe};
 
-/// What a command tells on stdout and stderr, without blanks at the ends of lines.
+/// The lines of a command on stdout and stderr, without blanks at their ends.
 fn ended(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
-    let output = command.args(arguments).current_dir(folder).env("NO_COLOR", "1").output();
-    let output = output.expect("the program runs");
-    let text = |bytes: &[u8]| {
-        let text = String::from_utf8_lossy(bytes);
-        text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
-    };
-    let (told, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {told}{said}");
-    (told, said)
+    let text = |text: String| text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n");
+    let (told, said) = crate::foreign::ended(folder, arguments, code);
+    (text(told), text(said))
 }
 
-/// What `conform` tells of a run that `explore` has made, and of a program.
+/// The answer of `conform` about a run that `explore` has made, and of a program.
 fn conform(folder: &Path, run: &str, program: &[&str], code: i32) -> String {
     let stored = ["--force", "--trace", "run.jsonl", "--exit-zero"];
     let explore = ["explore"].into_iter().chain(run.split(' ')).chain(stored);
     ended(folder, &explore.collect::<Vec<_>>(), 0);
     ended(folder, &[&["conform", "run.jsonl", "--patience", "60", "--"], program].concat(), code).0
-}
-
-/// Whether a program is at hand; if not, that is said.
-fn has(program: &str) -> bool {
-    let works = Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
-    if !works {
-        eprintln!("skipped: there is no {program} here that works");
-    }
-    works
 }
 
 /// A program of the shell that answers each team move by the next of these lines.
@@ -52,20 +34,20 @@ fn recorded(lines: &[String]) -> String {
 
 #[test]
 fn a_chain_in_c_that_shares_no_code_plans_as_the_model_does() {
-    if !has("cc") {
+    if !has("cc", "--version") {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
     let compiled = Command::new("cc")
         .args(["-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-pedantic", "-o", "chain"])
-        .arg(root("examples/conform/chain.c"))
+        .arg(recipe("examples/conform/chain.c"))
         .current_dir(folder)
         .output()
         .expect("the compiler runs");
     assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
     for (run, moves) in [("chain-1-published-n4", 8), ("chain-2-published-n4", 7)] {
-        let run = root(&format!("docs/{run}.jsonl"));
+        let run = recipe(&format!("docs/{run}.jsonl"));
         let (told, said) = ended(folder, &["conform", run.to_str().expect("text"), "--", "./chain"], 0);
         assert!(
             told.ends_with(&format!("the program plans all {moves} team moves as the model does")),
@@ -90,12 +72,12 @@ fn a_chain_in_c_that_shares_no_code_plans_as_the_model_does() {
 
 #[test]
 fn ants_in_python_that_prefer_west_to_south_are_told_where_they_differ() {
-    if !has("python3") {
+    if !has("python3", "--version") {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    let ants = root("examples/conform/ants.py");
+    let ants = recipe("examples/conform/ants.py");
     let ants = ants.to_str().expect("text");
     for agents in 1..4 {
         let run = format!("cells:8x6:0.2 --scheme ants --rule published --robots {agents} --seed 3");
@@ -167,7 +149,7 @@ fn what_was_recorded_of_a_run_conforms_to_it() {
 
 #[test]
 fn programs_that_do_not_answer_are_named_with_their_lines() {
-    let run = root("docs/chain-1-published-n4.jsonl");
+    let run = recipe("docs/chain-1-published-n4.jsonl");
     let run = run.to_str().expect("text");
     let answer = |line: &str| recorded(&[r#"{"tried":"...S"}"#.to_owned(), line.to_owned()]);
     let cases = [

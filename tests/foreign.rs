@@ -23,7 +23,7 @@ fn tautline(folder: &Path, arguments: &[&str]) -> Output {
 }
 
 /// The text on stdout, and that on stderr, of a command that ends with exit code `code`.
-fn ended(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
+pub(crate) fn ended(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     let output = tautline(folder, arguments);
     let text = |bytes| String::from_utf8(bytes).expect("text");
     let (told, said) = (text(output.stdout), text(output.stderr));

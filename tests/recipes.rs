@@ -9,7 +9,7 @@ const TAUTLINE: &str = env!("CARGO_BIN_EXE_tautline");
 
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "3", "--max-walls", "2"];
 
-fn recipe(name: &str) -> PathBuf {
+pub(crate) fn recipe(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
 }
 
@@ -20,7 +20,7 @@ fn ran(folder: &Path, program: impl AsRef<Path>, arguments: &[&str]) -> Output {
 }
 
 /// Whether a program is at hand and works; if not, that is said.
-fn has(program: &str, argument: &str) -> bool {
+pub(crate) fn has(program: &str, argument: &str) -> bool {
     let works = Command::new(program).arg(argument).output().is_ok_and(|output| output.status.success());
     if !works {
         eprintln!("skipped: there is no {program} here that works");

@@ -7,6 +7,11 @@ fn apart_mm(one: Place, other: Place) -> u32 {
     u32::try_from(one.squared(other).isqrt()).unwrap_or(u32::MAX)
 }
 
+/// The breach of two robots by their distance.
+fn between(one: (usize, Place), other: (usize, Place), allowed: u32) -> Breach {
+    Breach { robots: [one.0, other.0], measured: apart_mm(one.1, other.1), allowed }
+}
+
 /// CHAIN-3: neighbours in the chain, which are robots whose numbers follow each other, are within range: the paper's r_cov
 /// is √6.5 = 2.549 cells.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,8 +27,7 @@ impl<const N: usize> Demand<N> for Neighbours {
         let mut pairs = track.pairs().filter(|[one, other]| other.0 == one.0 + 1);
         let most = self.range_mm.saturating_add(self.tolerance_mm);
         let [one, other] = pairs.find(|[one, other]| one.1.is_beyond(other.1, most))?;
-        let measured = apart_mm(one.1, other.1);
-        Some(Breach { robots: [one.0, other.0], measured, allowed: self.range_mm })
+        Some(between(one, other, self.range_mm))
     }
 }
 
@@ -60,8 +64,8 @@ impl<const N: usize> Demand<N> for Joined {
         let left = is_joined.iter().position(|is_joined| !is_joined)?;
         let to = |robot: &usize| places[*robot].squared(places[left]);
         let nearest = (0..N).filter(|&robot| is_joined[robot]).min_by_key(to)?;
-        let measured = apart_mm(places[nearest], places[left]);
-        Some(Breach { robots: [nearest.min(left), nearest.max(left)], measured, allowed: self.range_mm })
+        let [one, other] = [nearest.min(left), nearest.max(left)].map(|robot| (robot, places[robot]));
+        Some(between(one, other, self.range_mm))
     }
 }
 
@@ -86,8 +90,7 @@ impl<const N: usize> Demand<N> for Apart {
             one.1.squared(other.1) < u64::from(least) * u64::from(least) && has_left(*one) && has_left(*other)
         };
         let [one, other] = track.pairs().find(is_near)?;
-        let measured = apart_mm(one.1, other.1);
-        Some(Breach { robots: [one.0, other.0], measured, allowed: self.least_mm })
+        Some(between(one, other, self.least_mm))
     }
 }
 
