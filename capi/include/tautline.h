@@ -97,7 +97,7 @@ enum TautlineStatus
    */
   TAUTLINE_STATUS_NULL_POINTER = -1,
   /*
-   The memory holds no chain.
+   The memory holds no chain, or no monitor.
    */
   TAUTLINE_STATUS_NOT_BEGUN = -2,
   /*
@@ -160,6 +160,10 @@ enum TautlineStatus
    A message contradicts what the team knows.
    */
   TAUTLINE_STATUS_DAMAGED_OTHER_WORLD = -17,
+  /*
+   There is no such demand, or its cells have no width.
+   */
+  TAUTLINE_STATUS_BAD_DEMAND = -18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -16,7 +16,7 @@ pub enum TautlineStatus {
     Exhausted = 2,
     /// A pointer that must not be null is null.
     NullPointer = -1,
-    /// The memory holds no chain.
+    /// The memory holds no chain, or no monitor.
     NotBegun = -2,
     /// There is no such rule.
     UnknownRule = -3,
@@ -48,10 +48,12 @@ pub enum TautlineStatus {
     DamagedOtherStep = -16,
     /// A message contradicts what the team knows.
     DamagedOtherWorld = -17,
+    /// There is no such demand, or its cells have no width.
+    BadDemand = -18,
 }
 
 impl TautlineStatus {
-    const ALL: [Self; 20] = [
+    const ALL: [Self; 21] = [
         Self::Ok,
         Self::Explored,
         Self::Exhausted,
@@ -72,6 +74,7 @@ impl TautlineStatus {
         Self::DamagedNotHome,
         Self::DamagedOtherStep,
         Self::DamagedOtherWorld,
+        Self::BadDemand,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -80,7 +83,7 @@ impl TautlineStatus {
             Self::Explored => c"every cell of the area is explored",
             Self::Exhausted => c"the team can explore nothing more",
             Self::NullPointer => c"a pointer is null; give the address of the caller's own memory",
-            Self::NotBegun => c"the memory holds no chain; call tautline_chain_begin first",
+            Self::NotBegun => c"the memory holds nothing begun; call tautline_chain_begin or tautline_monitor_begin first",
             Self::UnknownRule => c"there is no such rule; give one of TAUTLINE_RULE_...",
             Self::TooFewRobots => c"too few robots; give at least 2, the base counted",
             Self::TooManyRobots => {
@@ -105,6 +108,9 @@ impl TautlineStatus {
             Self::DamagedOtherStep => c"a message is about another plan; give the messages of this team move",
             Self::DamagedOtherWorld => {
                 c"a message contradicts what the team knows; ask the robots for their messages again"
+            }
+            Self::BadDemand => {
+                c"there is no such demand; give one of TAUTLINE_DEMAND_..., and cells a width above 0"
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The demands that positions decide: each says which clauses of `SPEC.md` it is, with which lengths.
 
-use super::{Breach, Demand, Place, Track};
+use super::{Breach, Demand, Link, Place, Robot, Track, square};
 
 /// The distance of two places in millimetres, cut off.
 fn apart_mm(one: Place, other: Place) -> u32 {
@@ -22,8 +22,8 @@ pub struct Neighbours {
     pub tolerance_mm: u32,
 }
 
-impl<const N: usize> Demand<N> for Neighbours {
-    fn breach(&self, track: &Track<N>) -> Option<Breach> {
+impl Demand for Neighbours {
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         let mut pairs = track.pairs().filter(|[one, other]| other.0 == one.0 + 1);
         let most = self.range_mm.saturating_add(self.tolerance_mm);
         let [one, other] = pairs.find(|[one, other]| one.1.is_beyond(other.1, most))?;
@@ -41,37 +41,33 @@ pub struct Joined {
     pub tolerance_mm: u32,
 }
 
-impl<const N: usize> Demand<N> for Joined {
-    fn breach(&self, track: &Track<N>) -> Option<Breach> {
-        let mut places = [Place::new(0, 0); N];
-        for (robot, place) in places.iter_mut().enumerate() {
-            *place = track.place(robot)?;
-        }
+impl Demand for Joined {
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         let most = self.range_mm.saturating_add(self.tolerance_mm);
-        let mut is_joined = [false; N];
-        *is_joined.first_mut()? = true;
-        for _ in 1..N {
-            let before = is_joined;
-            for robot in 0..N {
-                let mut joined = places.iter().zip(&is_joined).filter(|(_, is_joined)| **is_joined);
-                let is_near = joined.any(|(&place, _)| !place.is_beyond(places[robot], most));
-                is_joined[robot] |= is_near;
-            }
-            if is_joined == before {
-                break;
-            }
+        if track.heard().count() < track.robots() {
+            return None;
         }
-        let left = is_joined.iter().position(|is_joined| !is_joined)?;
-        let to = |robot: &usize| places[*robot].squared(places[left]);
-        let nearest = (0..N).filter(|&robot| is_joined[robot]).min_by_key(to)?;
-        let [one, other] = [nearest.min(left), nearest.max(left)].map(|robot| (robot, places[robot]));
+        for (number, robot) in track.robots.iter_mut().enumerate() {
+            robot.link = if number == 0 { Link::Joined } else { Link::Apart };
+        }
+        while let Some(asked) = track.robots.iter_mut().find(|robot| robot.link == Link::Joined) {
+            asked.link = Link::Asked;
+            let from = asked.place;
+            let is_near =
+                |robot: &&mut Robot| robot.link == Link::Apart && !from.is_beyond(robot.place, most);
+            track.robots.iter_mut().filter(is_near).for_each(|robot| robot.link = Link::Joined);
+        }
+        let track = &*track;
+        let linked = |link: Link| track.heard().filter(move |&(robot, _)| track.robots[robot].link == link);
+        let left = linked(Link::Apart).next()?;
+        let nearest = linked(Link::Asked).min_by_key(|(_, place)| place.squared(left.1))?;
+        let (one, other) = if nearest.0 < left.0 { (nearest, left) } else { (left, nearest) };
         Some(between(one, other, self.range_mm))
     }
 }
 
 /// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it was
-/// first heard; it has left it while it is as far from it as the demand is. So
-/// a breach beside the start of a robot that has come back is not seen.
+/// first heard; it has left it once it was heard farther from it than the demand and its tolerance, and for ever.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Apart {
     /// The least distance.
@@ -80,14 +76,13 @@ pub struct Apart {
     pub tolerance_mm: u32,
 }
 
-impl<const N: usize> Demand<N> for Apart {
-    fn breach(&self, track: &Track<N>) -> Option<Breach> {
+impl Demand for Apart {
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         let least = self.least_mm.saturating_sub(self.tolerance_mm);
-        let has_left = |(robot, place): (usize, Place)| {
-            track.start(robot).is_some_and(|start| apart_mm(start, place) >= self.least_mm)
-        };
+        let left = self.least_mm.saturating_add(self.tolerance_mm);
         let is_near = |[one, other]: &[(usize, Place); 2]| {
-            one.1.squared(other.1) < u64::from(least) * u64::from(least) && has_left(*one) && has_left(*other)
+            let has_left = |robot: usize| track.has_strayed(robot, left);
+            one.1.squared(other.1) < square(least) && has_left(one.0) && has_left(other.0)
         };
         let [one, other] = track.pairs().find(is_near)?;
         Some(between(one, other, self.least_mm))
@@ -121,8 +116,8 @@ impl Cells {
     }
 }
 
-impl<const N: usize> Demand<N> for Cells {
-    fn breach(&self, track: &Track<N>) -> Option<Breach> {
+impl Demand for Cells {
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         let cells = || track.heard().filter_map(|(robot, place)| Some((robot, self.cell(place)?)));
         let counted = |(robot, cell): (usize, [i32; 2])| {
             let others = || cells().filter(move |other| other.1 == cell && other.0 >= robot);
@@ -141,8 +136,8 @@ pub struct Own<F>(
     pub F,
 );
 
-impl<F: Fn(&Track<N>) -> Option<Breach>, const N: usize> Demand<N> for Own<F> {
-    fn breach(&self, track: &Track<N>) -> Option<Breach> {
+impl<F: Fn(&Track<&mut [Robot]>) -> Option<Breach>> Demand for Own<F> {
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         self.0(track)
     }
 }

@@ -9,13 +9,15 @@
 //! as much.
 //!
 //! ```
-//! use tautline_monitor::{Monitor, Neighbours, Place, Verdict};
+//! use tautline_monitor::{Monitor, Neighbours, Place, Robot, Verdict};
 //!
-//! let mut chain: Monitor<_, 3> = Monitor::new(Neighbours { range_mm: 2_550, tolerance_mm: 50 }, 1_000_000);
-//! chain.hear(0, 0, Place::new(0, 0));
-//! chain.hear(1, 0, Place::new(2_000, 0));
-//! assert_eq!(chain.hear(2, 0, Place::new(4_000, 0)), Verdict::Kept);
-//! assert!(matches!(chain.hear(2, 500_000, Place::new(4_700, 0)), Verdict::Broken(_)));
+//! let range = Neighbours { range_mm: 2_550, tolerance_mm: 50 };
+//! let mut chain = Monitor::new(range, 1_000_000, [Robot::UNHEARD; 3]);
+//! chain.hear(0, 0, 0, Place::new(0, 0));
+//! chain.hear(0, 1, 0, Place::new(2_000, 0));
+//! assert_eq!(chain.hear(0, 2, 0, Place::new(4_000, 0)), Verdict::Kept);
+//! // Half a second later, by the watch of the one who looks and by the robot's stamp.
+//! assert!(matches!(chain.hear(500_000, 2, 500_000, Place::new(4_700, 0)), Verdict::Broken(_)));
 //! ```
 #![no_std]
 
@@ -60,8 +62,13 @@ impl Place {
 
     /// Whether `other` is farther than so many millimetres.
     fn is_beyond(self, other: Self, range_mm: u32) -> bool {
-        self.squared(other) > u64::from(range_mm) * u64::from(range_mm)
+        self.squared(other) > square(range_mm)
     }
+}
+
+/// The square of a length.
+const fn square(mm: u32) -> u64 {
+    mm as u64 * mm as u64
 }
 
 /// The answer to a position.
@@ -93,6 +100,8 @@ pub enum Doubt {
     Silent(usize),
     /// The stamp is before one of the same robot; the position was not taken.
     Late,
+    /// The stamp is further ahead of now than the gap; the position was not taken.
+    Ahead,
     /// There is no robot of this number; the position was not taken.
     Nobody(usize),
     /// The place is more than [`Place::FARTHEST_MM`] away; the position was not taken.
@@ -104,6 +113,9 @@ impl fmt::Display for Doubt {
         match self {
             Self::Silent(robot) => write!(f, "robot {robot} was not heard within the gap"),
             Self::Late => f.write_str("a position is older than the last one of its robot: sort the stamps"),
+            Self::Ahead => {
+                f.write_str("a stamp is further ahead of now than the gap: set the clocks of the robots")
+            }
             Self::Nobody(robot) => write!(f, "there is no robot {robot}: robots count from 0"),
             Self::TooFar => {
                 f.write_str("a position is beyond 1,000 km: give millimetres from an origin nearby")
@@ -112,30 +124,70 @@ impl fmt::Display for Doubt {
     }
 }
 
+/// The memory of one robot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Robot {
+    at_us: u64,
+    /// The square of the farthest distance from its start at which it was ever heard.
+    strayed: u64,
+    start: Place,
+    place: Place,
+    is_heard: bool,
+    link: Link,
+}
+
+/// The links of a robot, as [`Joined`] finds them at each position.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Link {
+    /// It is not joined to the first robot.
+    Apart,
+    /// It is joined to the first robot.
+    Joined,
+    /// It is joined, and who is near it is as well.
+    Asked,
+}
+
+impl Robot {
+    /// A robot that was not heard.
+    pub const UNHEARD: Self = {
+        let nowhere = Place::new(0, 0);
+        Self { at_us: 0, strayed: 0, start: nowhere, place: nowhere, is_heard: false, link: Link::Apart }
+    };
+}
+
 /// The latest positions of robots.
-#[derive(Clone, Copy, Debug)]
-pub struct Track<const N: usize> {
-    latest: [Option<(u64, Place)>; N],
-    first: [Option<Place>; N],
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Track<R> {
+    robots: R,
     gap_us: u64,
     now_us: u64,
 }
 
-impl<const N: usize> Track<N> {
-    /// Where `robot` is, if it was heard within the gap.
-    pub fn place(&self, robot: usize) -> Option<Place> {
-        let (at_us, place) = (*self.latest.get(robot)?)?;
-        (self.now_us.saturating_sub(at_us) <= self.gap_us).then_some(place)
+impl<R: AsRef<[Robot]>> Track<R> {
+    /// How many robots there are.
+    pub fn robots(&self) -> usize {
+        self.robots.as_ref().len()
     }
 
-    /// Where `robot` was when it was first heard.
-    pub fn start(&self, robot: usize) -> Option<Place> {
-        *self.first.get(robot)?
+    /// A robot that was heard within the gap.
+    fn robot(&self, robot: usize) -> Option<&Robot> {
+        let robot = self.robots.as_ref().get(robot)?;
+        (robot.is_heard && self.now_us.saturating_sub(robot.at_us) <= self.gap_us).then_some(robot)
+    }
+
+    /// Where `robot` is, if it was heard within the gap.
+    pub fn place(&self, robot: usize) -> Option<Place> {
+        Some(self.robot(robot)?.place)
+    }
+
+    /// Whether `robot` was ever heard farther than so many millimetres from where it was heard first.
+    pub fn has_strayed(&self, robot: usize, mm: u32) -> bool {
+        self.robots.as_ref().get(robot).is_some_and(|robot| robot.strayed > square(mm))
     }
 
     /// The robots that were heard within the gap.
     pub fn heard(&self) -> impl Iterator<Item = (usize, Place)> + '_ {
-        (0..N).filter_map(|robot| Some((robot, self.place(robot)?)))
+        (0..self.robots()).filter_map(|robot| Some((robot, self.place(robot)?)))
     }
 
     /// Pairs of robots that were heard within the gap, the lower number first.
@@ -146,45 +198,62 @@ impl<const N: usize> Track<N> {
 }
 
 /// A demand of positions.
-pub trait Demand<const N: usize> {
+pub trait Demand {
     /// The first breach that leaves no doubt, by robots that were heard within the gap.
-    fn breach(&self, track: &Track<N>) -> Option<Breach>;
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach>;
 }
 
-/// A demand, and the robots that it is made of.
+/// A demand, and the robots that it is made of: `R` is their memory, as `[Robot; 4]`, `Vec<Robot>` or `&mut [Robot]`.
 #[derive(Clone, Copy, Debug)]
-pub struct Monitor<D, const N: usize> {
+pub struct Monitor<D, R> {
     demand: D,
-    track: Track<N>,
+    track: Track<R>,
 }
 
-impl<D: Demand<N>, const N: usize> Monitor<D, N> {
-    /// A monitor that has heard nobody. A position that is older than `gap_us` microseconds is no longer believed.
-    pub const fn new(demand: D, gap_us: u64) -> Self {
-        let track = Track { latest: [None; N], first: [None; N], gap_us, now_us: 0 };
-        Self { demand, track }
+impl<D: Demand, R: AsMut<[Robot]>> Monitor<D, R> {
+    /// A monitor of robots that were not heard, whose memory is `robots`, each one [`Robot::UNHEARD`]. A position that is
+    /// older than `gap_us` microseconds is no longer believed.
+    pub const fn new(demand: D, gap_us: u64, robots: R) -> Self {
+        Self { demand, track: Track { robots, gap_us, now_us: 0 } }
     }
 
-    /// Takes the position of `robot` at `at_us` microseconds, and judges all positions of that moment, or of the latest
-    /// one if that was later.
-    pub fn hear(&mut self, robot: usize, at_us: u64, place: Place) -> Verdict {
+    /// Takes the position of `robot` at `at_us` microseconds, and judges all positions of now, as [`Monitor::at`] does. A
+    /// stamp further ahead of now than the gap is not believed.
+    pub fn hear(&mut self, now_us: u64, robot: usize, at_us: u64, place: Place) -> Verdict {
+        match self.take(now_us, robot, at_us, place) {
+            Ok(()) => self.at(now_us),
+            Err(doubt) => Verdict::Unknown(doubt),
+        }
+    }
+
+    fn take(&mut self, now_us: u64, number: usize, at_us: u64, place: Place) -> Result<(), Doubt> {
         let track = &mut self.track;
-        let (Some(latest), Some(first)) = (track.latest.get_mut(robot), track.first.get_mut(robot)) else {
-            return Verdict::Unknown(Doubt::Nobody(robot));
-        };
+        let robot = track.robots.as_mut().get_mut(number).ok_or(Doubt::Nobody(number))?;
         if !place.is_near() {
-            return Verdict::Unknown(Doubt::TooFar);
+            return Err(Doubt::TooFar);
         }
-        if latest.is_some_and(|(before_us, _)| at_us < before_us) {
-            return Verdict::Unknown(Doubt::Late);
+        if robot.is_heard && at_us < robot.at_us {
+            return Err(Doubt::Late);
         }
-        *latest = Some((at_us, place));
-        first.get_or_insert(place);
-        track.now_us = track.now_us.max(at_us);
-        if let Some(breach) = self.demand.breach(&self.track) {
+        if at_us.saturating_sub(track.now_us.max(now_us)) > track.gap_us {
+            return Err(Doubt::Ahead);
+        }
+        let start = if robot.is_heard { robot.start } else { place };
+        let strayed = robot.strayed.max(start.squared(place));
+        *robot = Robot { at_us, strayed, start, place, is_heard: true, link: Link::Apart };
+        Ok(())
+    }
+
+    /// Judges the positions of the moment `now_us`, in microseconds of the clock that the stamps go by; time does not go
+    /// back, and a moment before an earlier one counts as that. Ask it when nobody was heard for a while: silence is said.
+    pub fn at(&mut self, now_us: u64) -> Verdict {
+        let track = &mut self.track;
+        track.now_us = track.now_us.max(now_us);
+        let mut track = Track { robots: track.robots.as_mut(), gap_us: track.gap_us, now_us: track.now_us };
+        if let Some(breach) = self.demand.breach(&mut track) {
             return Verdict::Broken(breach);
         }
-        match (0..N).find(|&robot| self.track.place(robot).is_none()) {
+        match (0..track.robots()).find(|&robot| track.robot(robot).is_none()) {
             Some(silent) => Verdict::Unknown(Doubt::Silent(silent)),
             None => Verdict::Kept,
         }

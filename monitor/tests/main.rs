@@ -2,14 +2,14 @@
 //! keeps every sample, and looks at all pairs and all ways at each one.
 
 use tautline_monitor::{
-    Apart, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Own, Place, Track, Verdict,
+    Apart, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Own, Place, Robot, Track, Verdict,
 };
 
 const ROBOTS: usize = 4;
 const GAP_US: u64 = 1_000_000;
 
-/// A sample: robot, microseconds, two coordinates in millimetres.
-type Sample = (usize, u64, [i32; 2]);
+/// A sample: the microseconds of its arrival, robot, the microseconds of its stamp, two coordinates in millimetres.
+type Sample = (u64, usize, u64, [i32; 2]);
 
 /// The clauses, each with the numbers of its demand.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,7 +42,8 @@ impl Chance {
 }
 
 /// A log of robots that start side by side and go on by small steps; single samples are mutated: another place, an earlier
-/// stamp, a long silence, a robot that there is not, a place beyond all others; some come together in one cell.
+/// stamp, one far ahead, a long silence, a robot that there is not, a place beyond all others; some come together in one cell, or
+/// go back to where they started.
 fn log(chance: &mut Chance) -> Vec<Sample> {
     let mut places: Vec<[i32; 2]> = (0..ROBOTS).map(|robot| [1_200 * robot as i32 + 500, 500]).collect();
     let mut at_us = 0;
@@ -54,19 +55,24 @@ fn log(chance: &mut Chance) -> Vec<Sample> {
         for along in &mut places[robot] {
             *along += chance.below(801) as i32 - 400;
         }
-        let taken = (robot, at_us, places[robot]);
-        match chance.below(20) {
-            0 => (robot, at_us, [chance.below(6_000) as i32 - 1_000, chance.below(2_000) as i32]),
-            1 => (robot, at_us.saturating_sub(400_000), taken.2),
+        let taken = (at_us, robot, at_us, places[robot]);
+        match chance.below(22) {
+            0 => (at_us, robot, at_us, [chance.below(6_000) as i32 - 1_000, chance.below(2_000) as i32]),
+            1 => (at_us, robot, at_us.saturating_sub(400_000), taken.3),
             2 => {
                 at_us += 1_200_000;
-                (robot, at_us, taken.2)
+                (at_us, robot, at_us, taken.3)
             }
-            3 => (ROBOTS, at_us, taken.2),
-            4 => (robot, at_us, [i32::MAX, 0]),
+            3 => (at_us, ROBOTS, at_us, taken.3),
+            4 => (at_us, robot, at_us, [i32::MAX, 0]),
             mutation @ 5..9 => {
                 places[robot] = [if mutation < 7 { 500 } else { 1_500 }, 500];
-                (robot, at_us, places[robot])
+                (at_us, robot, at_us, places[robot])
+            }
+            9 => (at_us, robot, at_us + chance.below(2 * GAP_US), taken.3),
+            10 => {
+                places[robot] = [1_200 * robot as i32 + 500, 500];
+                (at_us, robot, at_us, places[robot])
             }
             _ => taken,
         }
@@ -82,28 +88,33 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
     };
     let tolerance = f64::from(TOLERANCE_MM);
     let (mut taken, mut verdicts): (Vec<Sample>, Vec<Option<bool>>) = (Vec::new(), Vec::new());
-    for &(robot, at_us, place) in log {
-        let last = taken.iter().rev().find(|one| one.0 == robot);
+    for &(now_us, robot, at_us, place) in log {
+        let last = taken.iter().rev().find(|one| one.1 == robot);
         let is_refused = robot >= ROBOTS
             || place.iter().any(|along| along.unsigned_abs() > 1_000_000_000)
-            || last.is_some_and(|last| at_us < last.1);
+            || last.is_some_and(|last| at_us < last.2)
+            || at_us > now_us + GAP_US;
         if is_refused {
             verdicts.push(None);
             continue;
         }
-        taken.push((robot, at_us, place));
-        let now_us = taken.iter().map(|one| one.1).max().expect("a sample");
+        taken.push((now_us, robot, at_us, place));
         let seen: Vec<Option<[i32; 2]>> = (0..ROBOTS)
             .map(|robot| {
                 taken
                     .iter()
                     .rev()
-                    .find(|one| one.0 == robot)
-                    .filter(|one| now_us - one.1 <= GAP_US)
-                    .map(|one| one.2)
+                    .find(|one| one.1 == robot)
+                    .filter(|one| now_us.saturating_sub(one.2) <= GAP_US)
+                    .map(|one| one.3)
             })
             .collect();
-        let start = |robot: usize| taken.iter().find(|one| one.0 == robot).expect("it was heard").2;
+        // Whether it was ever farther from its start than the demand and its tolerance.
+        let has_left = |robot: usize| {
+            let mut places = taken.iter().filter(|one| one.1 == robot).map(|one| one.3);
+            let start = places.next().expect("it was heard");
+            places.any(|place| far(start, place) > 1_000.0 + tolerance)
+        };
         let pairs = || {
             let all = (0..ROBOTS).flat_map(|one| (one + 1..ROBOTS).map(move |other| (one, other)));
             all.filter_map(|(one, other)| Some(((one, seen[one]?), (other, seen[other]?))))
@@ -144,8 +155,7 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
                 }
             }
             Clause::Kit3 => pairs().any(|((one, at), (other, there))| {
-                let has_left = |robot: usize, at: [i32; 2]| far(start(robot), at) >= 1_000.0;
-                has_left(one, at) && has_left(other, there) && far(at, there) < 1_000.0 - tolerance
+                has_left(one) && has_left(other) && far(at, there) < 1_000.0 - tolerance
             }),
             Clause::Chain2 => most(2, Some([0, 0])),
             Clause::Frontier2 => most(1, None),
@@ -156,25 +166,29 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
     verdicts
 }
 
-/// The verdicts of a monitor that hears the log through `changed`.
-fn monitored<D: Demand<N>, const N: usize>(demand: D, gap_us: u64, log: &[Sample]) -> Vec<Option<bool>> {
-    let mut monitor: Monitor<D, N> = Monitor::new(demand, gap_us);
-    let hear =
-        |&(robot, at_us, [x_mm, y_mm]): &Sample| match monitor.hear(robot, at_us, Place::new(x_mm, y_mm)) {
-            Verdict::Kept => Some(false),
-            Verdict::Broken(_) => Some(true),
-            Verdict::Unknown(_) => None,
-        };
+/// The verdicts of a monitor that hears the log.
+fn monitored<const N: usize>(demand: impl Demand, gap_us: u64, log: &[Sample]) -> Vec<Option<bool>> {
+    let mut monitor = Monitor::new(demand, gap_us, [Robot::UNHEARD; N]);
+    let hear = |&(now_us, robot, at_us, [x_mm, y_mm]): &Sample| match monitor.hear(
+        now_us,
+        robot,
+        at_us,
+        Place::new(x_mm, y_mm),
+    ) {
+        Verdict::Kept => Some(false),
+        Verdict::Broken(_) => Some(true),
+        Verdict::Unknown(_) => None,
+    };
     log.iter().map(hear).collect()
 }
 
 fn watched(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
     match clause {
-        Clause::Chain3 => monitored::<_, ROBOTS>(RANGE, GAP_US, log),
-        Clause::Kit12 => monitored::<_, ROBOTS>(LINKS, GAP_US, log),
-        Clause::Kit3 => monitored::<_, ROBOTS>(APART, GAP_US, log),
-        Clause::Chain2 => monitored::<_, ROBOTS>(PAIRS, GAP_US, log),
-        Clause::Frontier2 => monitored::<_, ROBOTS>(SINGLE, GAP_US, log),
+        Clause::Chain3 => monitored::<ROBOTS>(RANGE, GAP_US, log),
+        Clause::Kit12 => monitored::<ROBOTS>(LINKS, GAP_US, log),
+        Clause::Kit3 => monitored::<ROBOTS>(APART, GAP_US, log),
+        Clause::Chain2 => monitored::<ROBOTS>(PAIRS, GAP_US, log),
+        Clause::Frontier2 => monitored::<ROBOTS>(SINGLE, GAP_US, log),
     }
 }
 
@@ -218,34 +232,56 @@ type Mutant = (&'static str, Clause, fn(&[Sample]) -> Vec<Option<bool>>);
 
 #[test]
 fn each_wrong_monitor_is_found() {
-    let mutants: [Mutant; 9] = [
+    let mutants: [Mutant; 11] = [
         ("a range that is a tolerance too long", Clause::Chain3, |log| {
-            monitored::<_, ROBOTS>(Neighbours { tolerance_mm: 2 * TOLERANCE_MM, ..RANGE }, GAP_US, log)
+            monitored::<ROBOTS>(Neighbours { tolerance_mm: 2 * TOLERANCE_MM, ..RANGE }, GAP_US, log)
         }),
         ("a range without its tolerance", Clause::Chain3, |log| {
-            monitored::<_, ROBOTS>(Neighbours { tolerance_mm: 0, ..RANGE }, GAP_US, log)
+            monitored::<ROBOTS>(Neighbours { tolerance_mm: 0, ..RANGE }, GAP_US, log)
         }),
-        ("a robot left out", Clause::Chain3, |log| monitored::<_, { ROBOTS - 1 }>(RANGE, GAP_US, log)),
-        ("positions that never grow old", Clause::Chain3, |log| monitored::<_, ROBOTS>(RANGE, u64::MAX, log)),
-        ("links of neighbours alone", Clause::Kit12, |log| monitored::<_, ROBOTS>(RANGE, GAP_US, log)),
+        ("a robot left out", Clause::Chain3, |log| monitored::<{ ROBOTS - 1 }>(RANGE, GAP_US, log)),
+        ("positions that never grow old", Clause::Chain3, |log| monitored::<ROBOTS>(RANGE, u64::MAX, log)),
+        ("links of neighbours alone", Clause::Kit12, |log| monitored::<ROBOTS>(RANGE, GAP_US, log)),
         ("starts that count", Clause::Kit3, |log| {
-            let near = |track: &Track<ROBOTS>| {
+            let near = |track: &Track<&mut [Robot]>| {
                 let is_near = |[one, other]: &[(usize, Place); 2]| {
                     f64::from(one.1.x_mm - other.1.x_mm).hypot(f64::from(one.1.y_mm - other.1.y_mm)) < 900.0
                 };
                 let [one, other] = track.pairs().find(is_near)?;
                 Some(tautline_monitor::Breach { robots: [one.0, other.0], measured: 0, allowed: 1_000 })
             };
-            monitored::<_, ROBOTS>(Own(near), GAP_US, log)
+            monitored::<ROBOTS>(Own(near), GAP_US, log)
+        }),
+        ("starts that count once a robot is back", Clause::Kit3, |log| {
+            let mut starts = [None; ROBOTS];
+            let is_taken = |one: &&Sample| one.1 < ROBOTS && one.3[0] != i32::MAX && one.2 <= one.0 + GAP_US;
+            for one in log.iter().rev().filter(is_taken) {
+                starts[one.1] = Some(Place::new(one.3[0], one.3[1]));
+            }
+            let far = |one: Place, other: Place| {
+                f64::from(one.x_mm - other.x_mm).hypot(f64::from(one.y_mm - other.y_mm))
+            };
+            let near = move |track: &Track<&mut [Robot]>| {
+                let has_left =
+                    |(robot, at): (usize, Place)| starts[robot].is_some_and(|start| far(start, at) > 1_100.0);
+                let mut pairs = track.pairs().filter(|[one, other]| far(one.1, other.1) < 900.0);
+                let [one, other] = pairs.find(|[one, other]| has_left(*one) && has_left(*other))?;
+                Some(tautline_monitor::Breach { robots: [one.0, other.0], measured: 0, allowed: 1_000 })
+            };
+            monitored::<ROBOTS>(Own(near), GAP_US, log)
+        }),
+        ("stamps that are always believed", Clause::Chain3, |log| {
+            let at_once = |&(now_us, robot, at_us, place): &Sample| (now_us.max(at_us), robot, at_us, place);
+            monitored::<ROBOTS>(RANGE, GAP_US, &log.iter().map(at_once).collect::<Vec<_>>())
         }),
         ("a base like any cell", Clause::Chain2, |log| {
-            monitored::<_, ROBOTS>(Cells { base: None, ..PAIRS }, GAP_US, log)
+            monitored::<ROBOTS>(Cells { base: None, ..PAIRS }, GAP_US, log)
         }),
         ("one robot more in a cell", Clause::Frontier2, |log| {
-            monitored::<_, ROBOTS>(Cells { most: 2, ..SINGLE }, GAP_US, log)
+            monitored::<ROBOTS>(Cells { most: 2, ..SINGLE }, GAP_US, log)
         }),
         ("borders that are no doubt", Clause::Frontier2, |log| {
-            monitored::<_, ROBOTS>(Cells { tolerance_mm: 0, ..SINGLE }, GAP_US, log)
+            monitored::<ROBOTS>(Cells { tolerance_mm: 0, ..SINGLE }, GAP_US, log)
         }),
     ];
     for (name, clause, says) in mutants {
@@ -260,8 +296,9 @@ fn each_wrong_monitor_is_found() {
 
 #[test]
 fn what_cannot_be_taken_is_said() {
-    let mut monitor: Monitor<_, 2> = Monitor::new(LINKS, GAP_US);
-    let mut hear = |robot, at_us, x_mm| monitor.hear(robot, at_us, Place::new(x_mm, 0));
+    let mut monitor = Monitor::new(LINKS, GAP_US, [Robot::UNHEARD; 2]);
+    let mut hear =
+        |robot, at_us: u64, x_mm| monitor.hear(at_us.min(GAP_US + 20), robot, at_us, Place::new(x_mm, 0));
     assert_eq!(hear(0, 10, 0), Verdict::Unknown(Doubt::Silent(1)));
     assert_eq!(hear(2, 20, 0), Verdict::Unknown(Doubt::Nobody(2)));
     assert_eq!(hear(1, 20, i32::MIN), Verdict::Unknown(Doubt::TooFar));
@@ -269,16 +306,20 @@ fn what_cannot_be_taken_is_said() {
     assert_eq!(hear(1, 19, 0), Verdict::Unknown(Doubt::Late));
     // The other one is silent for longer than the gap.
     assert_eq!(hear(1, 20 + GAP_US, 0), Verdict::Unknown(Doubt::Silent(0)));
+    assert_eq!(hear(1, 2 * GAP_US + 21, 0), Verdict::Unknown(Doubt::Ahead));
+    assert_eq!(hear(0, 2 * GAP_US + 20, 0), Verdict::Kept);
+    // Silence is said although nobody is heard.
+    assert_eq!(monitor.at(3 * GAP_US), Verdict::Unknown(Doubt::Silent(1)));
     assert_eq!(Doubt::Silent(0).to_string(), "robot 0 was not heard within the gap");
 }
 
 #[test]
 fn a_breach_names_its_robots_and_what_was_measured() {
-    let mut chain: Monitor<_, 3> = Monitor::new(RANGE, GAP_US);
+    let mut chain = Monitor::new(RANGE, GAP_US, [Robot::UNHEARD; 3]);
     for (robot, x_mm) in [(0, 0), (1, 2_000)] {
-        chain.hear(robot, 0, Place::new(x_mm, 0));
+        chain.hear(0, robot, 0, Place::new(x_mm, 0));
     }
-    let Verdict::Broken(breach) = chain.hear(2, 0, Place::new(2_000, 2_650)) else {
+    let Verdict::Broken(breach) = chain.hear(0, 2, 0, Place::new(2_000, 2_650)) else {
         panic!("it is out of range")
     };
     assert_eq!((breach.robots, breach.measured, breach.allowed), ([1, 2], 2_650, 2_549));
@@ -289,9 +330,9 @@ fn a_breach_names_its_robots_and_what_was_measured() {
 fn a_monitor_takes_the_bytes_that_its_page_says() {
     let page = include_str!("../README.md");
     let sizes = [
-        size_of::<Monitor<Neighbours, 4>>(),
-        size_of::<Monitor<Neighbours, 16>>(),
-        size_of::<Monitor<Cells, 4>>(),
+        size_of::<Monitor<Neighbours, [Robot; 4]>>(),
+        size_of::<Monitor<Neighbours, [Robot; 16]>>(),
+        size_of::<Monitor<Cells, [Robot; 4]>>(),
     ];
     for (name, size) in ["`Neighbours` of 4", "`Neighbours` of 16", "`Cells` of 4"].into_iter().zip(sizes) {
         assert!(page.contains(&format!("| {name} | {size} |")), "{name}: {size}");
@@ -302,21 +343,22 @@ fn a_monitor_takes_the_bytes_that_its_page_says() {
 #[test]
 #[ignore = "it measures, and fails never"]
 fn nanoseconds_a_position() {
-    fn measured<D: Demand<N>, const N: usize>(name: &str, demand: D) {
-        let mut monitor: Monitor<D, N> = Monitor::new(demand, GAP_US);
+    fn measured<const N: usize>(name: &str, demand: impl Demand) {
+        let mut monitor = Monitor::new(demand, GAP_US, [Robot::UNHEARD; N]);
         let (rounds, start) = (2_000_000_u32, std::time::Instant::now());
         let mut kept = 0_u32;
         for number in 0..rounds {
             let robot = number as usize % N;
             let place = Place::new(2_000 * robot as i32 + (number % 7) as i32, 500);
-            kept += u32::from(monitor.hear(robot, u64::from(number), place) == Verdict::Kept);
+            kept +=
+                u32::from(monitor.hear(u64::from(number), robot, u64::from(number), place) == Verdict::Kept);
         }
         println!("{name} of {N}: {} ns, {kept} kept", start.elapsed().as_nanos() / u128::from(rounds));
     }
-    measured::<_, 4>("Neighbours", RANGE);
-    measured::<_, 16>("Neighbours", RANGE);
-    measured::<_, 4>("Joined", LINKS);
-    measured::<_, 16>("Joined", LINKS);
-    measured::<_, 4>("Cells", SINGLE);
-    measured::<_, 16>("Cells", SINGLE);
+    measured::<4>("Neighbours", RANGE);
+    measured::<16>("Neighbours", RANGE);
+    measured::<4>("Joined", LINKS);
+    measured::<16>("Joined", LINKS);
+    measured::<4>("Cells", SINGLE);
+    measured::<16>("Cells", SINGLE);
 }
