@@ -62,6 +62,10 @@ use tautline_sim::explore::ClauseId;
 use tautline_sim::layout::Size;
 use tautline_sim::value_parser::{number, real, whole};
 
+#[cfg(feature = "mimalloc")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The schemes of this program: without the papers, the chain has no rivals.
 #[cfg(not(feature = "papers"))]
 const CATALOGUE: Catalogue = Catalogue::OWN;

@@ -384,21 +384,21 @@ async fn answer(line: &Line<'_>) -> Result<Value, String> {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().map_err(|error| format!("the command cannot be started: {error}"))?;
     let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
-    let ended = async { tokio::join!(bounded(stdout), bounded(stderr)) };
+    let ended = async { tokio::join!(bounded(stdout), bounded(stderr), child.wait()) };
     let late = |_| {
         format!(
             "the call took more than {} and was ended: ask for less, or give it more",
             counted(seconds, "second")
         )
     };
-    let (told, said) = timeout(Duration::from_secs(seconds.into()), ended).await.map_err(late)?;
+    let (told, said, status) = timeout(Duration::from_secs(seconds.into()), ended).await.map_err(late)?;
     if told.len() as u64 > MAX_ANSWER {
         return Err(format!("the answer has more than {MAX_ANSWER} bytes: ask for less"));
     }
-    // A command that was refused prints nothing, and says why.
-    serde_json::from_slice(&told).map_err(|_| match String::from_utf8_lossy(&said).trim() {
-        "" => "the command has ended without an answer: it may have taken too much memory".to_owned(),
-        said => said.to_owned(),
+    // A command that was refused prints nothing, and says why. One without a code was ended, as happens where memory is out.
+    serde_json::from_slice(&told).map_err(|_| match status.is_ok_and(|status| status.code().is_some()) {
+        true => String::from_utf8_lossy(&said).trim().to_owned(),
+        false => format!("the call was ended, as where {memory} MiB are too few: ask for less, or give it more"),
     })
 }
 

@@ -153,6 +153,12 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
         ("explore", json!({"layout": "open:5x5", "colour": 1}), "colour"),
         ("explore", json!({"layout": "open:5x5", "seconds": 601}), "1 to 600 seconds"),
         ("explore", json!({"layout": "open:5x5", "memory_mib": 1}), "64 to 16384 MiB"),
+        #[cfg(target_os = "linux")]
+        (
+            "explore",
+            json!({"layout": "open:4000x4000", "scheme": "ants", "memory_mib": 64}),
+            "64 MiB are too few",
+        ),
         ("prove", json!({"clauses": []}), "name a clause"),
         ("prove", json!({"clauses": ["CHAIN-99"]}), "there is no clause"),
         ("replay", json!({"file": "nothing.jsonl"}), "there is no such file"),

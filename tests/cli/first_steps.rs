@@ -125,7 +125,7 @@ fn a_ros_map_is_taken_in_larger_cells() {
 fn the_page_of_all_verdicts_has_them_and_their_counterexamples() {
     let folder = folder();
     let folder = folder.path();
-    printed(folder, &["prove", "CHAIN-13", "LATTICE-1", "MRC-1", "--html", "report.html"], 0);
+    printed(folder, &["prove", "KIT-3", "LATTICE-1", "NOTICE-4", "--html", "report.html"], 0);
     let page = fs::read_to_string(folder.join("report.html")).expect("a page");
     let part = |id: &str| {
         let (_, rest) = page.split_once(&format!("id=\"{id}\">")).expect("a part");
@@ -139,8 +139,8 @@ fn the_page_of_all_verdicts_has_them_and_their_counterexamples() {
         assert_eq!(check["counterexample"].is_null(), page.is_null(), "{check}");
     }
     let plays = pages.iter().filter_map(|page| page.as_str()).filter(|page| page.contains("{{script}}"));
-    assert_eq!(plays.count(), 1);
-    assert_eq!(part("titles")["MRC"], "who comes to whom: MRC");
+    assert_eq!(plays.count(), 2);
+    assert_eq!(part("titles")["NOTICE"], "broadcast by k-FNF");
     // Each page has its marks, but a story has no script; and the script of the page fills them in.
     let marks = 2 * pages.iter().filter(|page| !page.is_null()).count() - 1;
     assert_eq!(page.matches("{{").count(), marks + 2);
