@@ -6,6 +6,7 @@ from ._rule import Rule
 
 __all__ = [
     "Counterexample",
+    "Environments",
     "Estimate",
     "HuntReport",
     "Layout",
@@ -134,6 +135,13 @@ class Counterexample:
     def layout(self) -> Layout: ...
     @property
     def run(self) -> Run | None: ...
+
+@final
+class Environments:
+    def __new__(cls, layout: _Path, environments: int, robots: int, max_cycles: int) -> Environments: ...
+    def layout(self, environment: int) -> Layout: ...
+    def reset(self, fresh: dict[int, int]) -> list[memoryview]: ...
+    def step(self, actions: Any, fresh: dict[int, int]) -> tuple[list[memoryview], list[memoryview[Any]]]: ...
 
 @final
 class Moved:

@@ -2,7 +2,7 @@
 //! being needed.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyMemoryView, PyTuple};
+use pyo3::types::{PyByteArray, PyBytes, PyMemoryView, PyTuple};
 
 use crate::diagnostic::{Kind, error};
 
@@ -44,9 +44,28 @@ pub(crate) fn view<'py>(
     format: &str,
     shape: &[usize],
 ) -> PyResult<Bound<'py, PyAny>> {
-    let view = PyMemoryView::from(PyBytes::new(py, bytes).as_any())?;
+    shaped(PyBytes::new(py, bytes).as_any(), format, shape)
+}
+
+/// An array of its own, of this shape, of entries of this format, written without Python's lock.
+pub(crate) fn filled<'py, const BYTES: usize>(
+    py: Python<'py>,
+    format: &str,
+    shape: &[usize],
+    entries: impl Iterator<Item = [u8; BYTES]> + Send,
+) -> PyResult<Bound<'py, PyAny>> {
+    let bytes = PyByteArray::new_with(py, BYTES * shape.iter().product::<usize>(), |bytes| {
+        let places = bytes.as_chunks_mut().0;
+        py.detach(|| places.iter_mut().zip(entries).for_each(|(place, entry)| *place = entry));
+        Ok(())
+    })?;
+    shaped(bytes.as_any(), format, shape)
+}
+
+fn shaped<'py>(bytes: &Bound<'py, PyAny>, format: &str, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
+    let view = PyMemoryView::from(bytes)?;
     if shape.contains(&0) {
         return view.call_method1("cast", (format,));
     }
-    view.call_method1("cast", (format, PyTuple::new(py, shape)?))
+    view.call_method1("cast", (format, PyTuple::new(bytes.py(), shape)?))
 }

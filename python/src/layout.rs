@@ -75,7 +75,12 @@ impl Layout {
     /// A file or a generator, as `tautline explore` takes it.
     #[staticmethod]
     #[pyo3(signature = (description, *, seed=0, image=None))]
-    fn load(py: Python<'_>, description: PathBuf, seed: u64, image: Option<PathBuf>) -> PyResult<Self> {
+    pub(crate) fn load(
+        py: Python<'_>,
+        description: PathBuf,
+        seed: u64,
+        image: Option<PathBuf>,
+    ) -> PyResult<Self> {
         let name = description.display().to_string();
         let ground = py.detach(|| layouts::load(&name, seed, image.as_deref()));
         Ok(Self { ground: ground.map_err(|fault| raised(py, &fault))?, name })

@@ -3,6 +3,7 @@
 
 mod arrays;
 mod diagnostic;
+mod environment;
 mod estimate;
 mod explore;
 mod hunt;
@@ -15,6 +16,8 @@ mod wait;
 /// The native module that `pytautline` imports.
 #[pyo3::pymodule]
 mod _native {
+    #[pymodule_export]
+    use crate::environment::Environments;
     #[pymodule_export]
     use crate::estimate::{Estimate, estimate, estimate_ratio, estimate_share};
     #[pymodule_export]

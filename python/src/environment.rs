@@ -1,0 +1,300 @@
+//! Environments for learning: teams of robots on cells that must stay in contact (CHAIN-1), each on a layout of its own. All
+//! of them lie in arrays, environment by environment, and one call steps them all without Python's lock. This is the one
+//! place that has the rule of the environment: `pytautline.pettingzoo` is a face of one environment, `pytautline.vector` of
+//! many.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use pyo3::buffer::PyBuffer;
+use pyo3::prelude::*;
+use tautline_kernel::chain;
+use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::layout::generate::Generator;
+use tautline_sim::layout::{self as layouts, Layout as Ground};
+
+use crate::arrays::filled;
+use crate::diagnostic::{Kind, error, raised};
+use crate::layout::Layout;
+
+/// The most bytes of one observation of all environments.
+const MAX_OBSERVATION_BYTES: u128 = 1 << 30;
+
+/// The sides that the actions 1 to 4 try. 0 stays.
+const SIDES: [Side; 4] = [Side::East, Side::South, Side::West, Side::North];
+
+/// The bit of a cell that was entered. Those below it are the sides that are open.
+const EXPLORED: u8 = 1 << SIDES.len();
+
+/// The arrays `walls`, `cells` and `explored`.
+type Observation<'py> = [Bound<'py, PyAny>; 3];
+/// An observation, and of each environment the reward, whether its episode is done, whether it is cut short, how many
+/// cells are explored, and whether all neighbours are in contact.
+type Stepped<'py> = (Observation<'py>, [Bound<'py, PyAny>; 5]);
+
+/// By the numbers of environments, the seeds of the layouts on which they begin an episode.
+type Fresh = BTreeMap<usize, u64>;
+
+/// Many environments of the same size.
+#[pyclass(module = "pytautline")]
+pub(crate) struct Environments {
+    name: String,
+    /// The maker of each episode's layout. That of a file does not change.
+    generator: Option<Generator>,
+    robots: usize,
+    max_cycles: u64,
+    layouts: Vec<Ground>,
+    /// Open sides and [`EXPLORED`]: environments by rows by columns.
+    ground: Vec<u8>,
+    /// Environments by robots.
+    cells: Vec<Cell>,
+    episodes: Vec<Episode>,
+}
+
+/// The counts of an episode. The default is of one that is over.
+#[derive(Clone, Copy, Default)]
+struct Episode {
+    is_on: bool,
+    explored: usize,
+    reachable: usize,
+    cycles: u64,
+}
+
+/// The outcome of a step. The default is that of a reset.
+#[derive(Clone, Copy, Default)]
+struct Outcome {
+    reward: f64,
+    is_done: bool,
+    is_cut: bool,
+    explored: i64,
+    in_contact: bool,
+}
+
+#[pymethods]
+impl Environments {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        layout: PathBuf,
+        environments: i64,
+        robots: i64,
+        max_cycles: i64,
+    ) -> PyResult<Self> {
+        let number = |name: &str, value: i64| {
+            let remedy = format_args!("give {name} a number from 1");
+            let number = u64::try_from(value).ok().filter(|&number| number > 0);
+            number.ok_or_else(|| error(py, Kind::Input, format_args!("{name} is {value}"), remedy))
+        };
+        let max_cycles = number("max_cycles", max_cycles)?;
+        let [environments, robots] = [number("num_envs", environments)?, number("robots", robots)?];
+        let Layout { ground, name } = Layout::load(py, layout, 0, None)?;
+        let cells = ground.size().cells();
+        let each = 2 * cells as u128 + 12 * u128::from(robots);
+        let bytes = u128::from(environments).saturating_mul(each);
+        if bytes > MAX_OBSERVATION_BYTES {
+            let what = format!(
+                "an observation of {environments} environments of {} cells and {robots} robots has {bytes} bytes",
+                ground.size()
+            );
+            let remedy = format!("take fewer or smaller ones: it has at most {MAX_OBSERVATION_BYTES} bytes");
+            return Err(error(py, Kind::Input, what, remedy));
+        }
+        let [environments, robots] = [environments as usize, robots as usize];
+        Ok(Self {
+            generator: name.parse().ok(),
+            name,
+            robots,
+            max_cycles,
+            ground: vec![0; environments * cells],
+            cells: vec![Cell::new(0, 0); environments * robots],
+            episodes: vec![Episode::default(); environments],
+            layouts: vec![ground; environments],
+        })
+    }
+
+    /// The layout of an environment's episode.
+    fn layout(&self, py: Python<'_>, environment: usize) -> PyResult<Layout> {
+        self.check(py, environment)?;
+        Ok(Layout { ground: self.layouts[environment].clone(), name: self.name.clone() })
+    }
+
+    /// Begins an episode in each of these environments.
+    fn reset<'py>(&mut self, py: Python<'py>, fresh: Fresh) -> PyResult<Observation<'py>> {
+        self.begin(py, &fresh)?;
+        self.observation(py)
+    }
+
+    /// Begins an episode in each of these environments, and steps the others. Nothing changes where an error is raised.
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        actions: Bound<'py, PyAny>,
+        fresh: Fresh,
+    ) -> PyResult<Stepped<'py>> {
+        let is_over = |(place, episode): &(usize, &Episode)| !episode.is_on && !fresh.contains_key(place);
+        if let Some((place, _)) = self.episodes.iter().enumerate().find(is_over) {
+            let what = format!("the episode of environment {place} is over, or has not begun");
+            return Err(error(py, Kind::Input, what, "call reset before the next step"));
+        }
+        let actions = self.actions(py, &actions)?;
+        self.begin(py, &fresh)?;
+        let outcomes = py.detach(|| {
+            let stepped = actions.chunks_exact(self.robots).enumerate();
+            let outcome = |(place, actions)| {
+                if fresh.contains_key(&place) { Outcome::default() } else { self.advance(place, actions) }
+            };
+            stepped.map(outcome).collect::<Vec<_>>()
+        });
+        let (shape, each) = ([outcomes.len()], || outcomes.iter());
+        let of = [
+            filled(py, "d", &shape, each().map(|outcome| outcome.reward.to_ne_bytes()))?,
+            filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.is_done)]))?,
+            filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.is_cut)]))?,
+            filled(py, "q", &shape, each().map(|outcome| outcome.explored.to_ne_bytes()))?,
+            filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.in_contact)]))?,
+        ];
+        Ok((self.observation(py)?, of))
+    }
+}
+
+impl Environments {
+    /// Checks that there is such an environment.
+    fn check(&self, py: Python<'_>, place: usize) -> PyResult<()> {
+        let count = self.episodes.len();
+        if place < count {
+            return Ok(());
+        }
+        let what = format!("there is no environment {place}");
+        Err(error(py, Kind::Input, what, format_args!("they are counted from 0 to {}", count - 1)))
+    }
+
+    /// The actions, robot by robot, each at most 4.
+    fn actions(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
+        let wanted = [self.episodes.len(), self.robots];
+        let wrong = |what: String| {
+            let [environments, robots] = wanted;
+            let remedy = format!(
+                "give an array of integers from 0 to {}, {environments} environments by {robots} robots",
+                SIDES.len()
+            );
+            error(py, Kind::Input, what, remedy)
+        };
+        let buffer = PyBuffer::<i64>::get(given).map_err(|_| {
+            let dtype =
+                given.getattr("dtype").map_or_else(|_| "no array".to_owned(), |dtype| dtype.to_string());
+            wrong(format!("the actions are {dtype}"))
+        })?;
+        if buffer.shape() != wanted {
+            return Err(wrong(format!("the actions have the shape {:?}", buffer.shape())));
+        }
+        let actions = buffer.to_vec(py)?;
+        let is_known = |action: &i64| (0..=SIDES.len() as i64).contains(action);
+        match actions.iter().position(|action| !is_known(action)) {
+            None => Ok(actions),
+            Some(at) => {
+                let (environment, robot) = (at / self.robots, at % self.robots);
+                Err(wrong(format!("actions[{environment}, {robot}] is {}", actions[at])))
+            }
+        }
+    }
+
+    /// Begins episodes: all of them, or none where a layout cannot be made.
+    fn begin(&mut self, py: Python<'_>, fresh: &Fresh) -> PyResult<()> {
+        if let Some((&place, _)) = fresh.last_key_value() {
+            self.check(py, place)?;
+        }
+        py.detach(|| {
+            let made = fresh.iter().map(|(&place, &seed)| {
+                let layout = match self.generator {
+                    Some(generator) => generator.generate(seed)?,
+                    None => self.layouts[place].clone(),
+                };
+                Ok((place, base(&layout)?, layout))
+            });
+            for (place, base, layout) in made.collect::<Result<Vec<_>, Diagnostic>>()? {
+                self.place(place, base, layout);
+            }
+            Ok(())
+        })
+        .map_err(|fault: Diagnostic| raised(py, &fault))
+    }
+
+    /// Begins one episode: all robots are in the base.
+    fn place(&mut self, place: usize, base: Cell, layout: Ground) {
+        let (size, robots) = (layout.size().cells(), self.robots);
+        let open = |cell: Cell| {
+            let is_open = SIDES.map(|side| layout.is_open(Edge::new(cell, side)));
+            (0..).zip(is_open).map(|(bit, is_open)| u8::from(is_open) << bit).sum()
+        };
+        let ground = &mut self.ground[place * size..][..size];
+        ground.iter_mut().zip(layout.cells()).for_each(|(sides, cell)| *sides = open(cell));
+        ground[index(&layout, base)] |= EXPLORED;
+        self.cells[place * robots..][..robots].fill(base);
+        let reachable = layout.spread(&[base]).len();
+        self.episodes[place] = Episode { is_on: true, explored: 1, reachable, cycles: 0 };
+        self.layouts[place] = layout;
+    }
+
+    /// One step of one environment.
+    fn advance(&mut self, place: usize, actions: &[i64]) -> Outcome {
+        let (layout, episode) = (&self.layouts[place], &mut self.episodes[place]);
+        let (size, robots) = (layout.size().cells(), self.robots);
+        let ground = &mut self.ground[place * size..][..size];
+        let cells = &mut self.cells[place * robots..][..robots];
+        let before = episode.explored;
+        for (cell, &action) in cells.iter_mut().zip(actions) {
+            let side = action as usize;
+            if side > 0 && ground[index(layout, *cell)] & (1 << (side - 1)) > 0 {
+                *cell = cell.beyond(SIDES[side - 1]);
+            }
+            let entered = &mut ground[index(layout, *cell)];
+            episode.explored += usize::from(*entered & EXPLORED == 0);
+            *entered |= EXPLORED;
+        }
+        episode.cycles += 1;
+        let apart = cells.windows(2).filter(|pair| !chain::Rule::REPAIRED.keeps_contact(pair[0], pair[1]));
+        let apart = apart.count();
+        let is_done = episode.explored >= episode.reachable;
+        let is_cut = episode.cycles >= self.max_cycles;
+        episode.is_on = !is_done && !is_cut;
+        Outcome {
+            reward: (episode.explored - before) as f64 - apart as f64,
+            is_done,
+            is_cut,
+            explored: episode.explored as i64,
+            in_contact: apart == 0,
+        }
+    }
+
+    fn observation<'py>(&self, py: Python<'py>) -> PyResult<Observation<'py>> {
+        let (environments, layout) = (self.episodes.len(), &self.layouts[0]);
+        let sides = self.cells.chunks_exact(self.robots).zip(self.ground.chunks_exact(layout.size().cells()));
+        let sides = sides.flat_map(|(cells, ground)| cells.iter().map(|&cell| ground[index(layout, cell)]));
+        let walls =
+            sides.flat_map(|sides| [0, 1, 2, 3].map(|bit| i16::from(sides >> bit & 1 ^ 1).to_ne_bytes()));
+        let cells = self.cells.iter().flat_map(|cell| [cell.x.to_ne_bytes(), cell.y.to_ne_bytes()]);
+        let explored = self.ground.iter().map(|sides| i16::from(sides & EXPLORED > 0).to_ne_bytes());
+        let area = [environments, layout.height() as usize, layout.width() as usize];
+        Ok([
+            filled(py, "h", &[environments, self.robots, SIDES.len()], walls)?,
+            filled(py, "h", &[environments, self.robots, 2], cells)?,
+            filled(py, "h", &area, explored)?,
+        ])
+    }
+}
+
+/// The place of a cell in the rows of its layout.
+const fn index(layout: &Ground, cell: Cell) -> usize {
+    cell.y as usize * layout.width() as usize + cell.x as usize
+}
+
+/// The base that a layout names, or else the free cell the fewest steps from the centre, ties by row, then by column.
+fn base(layout: &Ground) -> Result<Cell, Diagnostic> {
+    let steps = |cell: &Cell| {
+        let from = |at: i16, cells: i16| (2 * i32::from(at) - i32::from(cells) + 1).abs();
+        from(cell.x, layout.width()) + from(cell.y, layout.height())
+    };
+    let nearest = || layout.cells().filter(|&cell| layout.is_free(cell)).min_by_key(steps);
+    layout.base().or_else(nearest).ok_or_else(layouts::no_free_cell)
+}
