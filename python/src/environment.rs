@@ -1,7 +1,7 @@
-//! Environments for learning: teams of robots on cells that must stay in contact (CHAIN-1), each on a layout of its own. All
-//! of them lie in arrays, environment by environment, and one call steps them all without Python's lock. This is the one
-//! place that has the rule of the environment: `pytautline.pettingzoo` is a face of one environment, `pytautline.vector` of
-//! many.
+//! Environments for learning: teams of robots on cells that must stay in contact (CHAIN-1), each on a layout of its
+//! own. All of them lie in arrays, environment by environment, and one call steps them all without Python's lock. This
+//! is the one place that has the rule of the environment: `pytautline.pettingzoo` is a face of one environment,
+//! `pytautline.vector` of many.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -18,8 +18,10 @@ use crate::arrays::filled;
 use crate::diagnostic::{Kind, error, raised};
 use crate::layout::Layout;
 
-/// The most bytes of one observation of all environments.
-const MAX_OBSERVATION_BYTES: u128 = 1 << 30;
+/// The most bytes of all environments. One counts as [`OWN_BYTES`] and what its part of an observation has.
+const MAX_BYTES: u128 = 1 << 28;
+/// The bytes that an environment counts as, however small it is.
+const OWN_BYTES: u128 = 1 << 10;
 
 /// The sides that the actions 1 to 4 try. 0 stays.
 const SIDES: [Side; 4] = [Side::East, Side::South, Side::West, Side::North];
@@ -56,8 +58,8 @@ pub(crate) struct Environments {
 #[derive(Clone, Copy, Default)]
 struct Episode {
     is_on: bool,
-    explored: usize,
-    reachable: usize,
+    explored: u32,
+    reachable: u32,
     cycles: u64,
 }
 
@@ -67,7 +69,7 @@ struct Outcome {
     reward: f64,
     is_done: bool,
     is_cut: bool,
-    explored: i64,
+    explored: u32,
     in_contact: bool,
 }
 
@@ -90,14 +92,15 @@ impl Environments {
         let [environments, robots] = [number("num_envs", environments)?, number("robots", robots)?];
         let Layout { ground, name } = Layout::load(py, layout, 0, None)?;
         let cells = ground.size().cells();
-        let each = 2 * cells as u128 + 12 * u128::from(robots);
-        let bytes = u128::from(environments).saturating_mul(each);
-        if bytes > MAX_OBSERVATION_BYTES {
-            let what = format!(
-                "an observation of {environments} environments of {} cells and {robots} robots has {bytes} bytes",
-                ground.size()
+        let each = OWN_BYTES + 2 * cells as u128 + 12 * u128::from(robots);
+        if u128::from(environments).saturating_mul(each) > MAX_BYTES {
+            let size = ground.size();
+            let what =
+                format!("{environments} environments of {size} cells and {robots} robots are too many");
+            let remedy = format!(
+                "give at most {} of them: {MAX_BYTES} bytes, of which one has {OWN_BYTES}, 2 a cell and 12 a robot",
+                MAX_BYTES / each
             );
-            let remedy = format!("take fewer or smaller ones: it has at most {MAX_OBSERVATION_BYTES} bytes");
             return Err(error(py, Kind::Input, what, remedy));
         }
         let [environments, robots] = [environments as usize, robots as usize];
@@ -151,7 +154,7 @@ impl Environments {
             filled(py, "d", &shape, each().map(|outcome| outcome.reward.to_ne_bytes()))?,
             filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.is_done)]))?,
             filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.is_cut)]))?,
-            filled(py, "q", &shape, each().map(|outcome| outcome.explored.to_ne_bytes()))?,
+            filled(py, "q", &shape, each().map(|outcome| i64::from(outcome.explored).to_ne_bytes()))?,
             filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.in_contact)]))?,
         ];
         Ok((self.observation(py)?, of))
@@ -213,7 +216,7 @@ impl Environments {
                 Ok((place, base(&layout)?, layout))
             });
             for (place, base, layout) in made.collect::<Result<Vec<_>, Diagnostic>>()? {
-                self.place(place, base, layout);
+                self.start(place, base, layout);
             }
             Ok(())
         })
@@ -221,7 +224,7 @@ impl Environments {
     }
 
     /// Begins one episode: all robots are in the base.
-    fn place(&mut self, place: usize, base: Cell, layout: Ground) {
+    fn start(&mut self, place: usize, base: Cell, layout: Ground) {
         let (size, robots) = (layout.size().cells(), self.robots);
         let open = |cell: Cell| {
             let is_open = SIDES.map(|side| layout.is_open(Edge::new(cell, side)));
@@ -231,7 +234,7 @@ impl Environments {
         ground.iter_mut().zip(layout.cells()).for_each(|(sides, cell)| *sides = open(cell));
         ground[index(&layout, base)] |= EXPLORED;
         self.cells[place * robots..][..robots].fill(base);
-        let reachable = layout.spread(&[base]).len();
+        let reachable = layout.spread(&[base]).len() as u32;
         self.episodes[place] = Episode { is_on: true, explored: 1, reachable, cycles: 0 };
         self.layouts[place] = layout;
     }
@@ -249,7 +252,7 @@ impl Environments {
                 *cell = cell.beyond(SIDES[side - 1]);
             }
             let entered = &mut ground[index(layout, *cell)];
-            episode.explored += usize::from(*entered & EXPLORED == 0);
+            episode.explored += u32::from(*entered & EXPLORED == 0);
             *entered |= EXPLORED;
         }
         episode.cycles += 1;
@@ -259,10 +262,10 @@ impl Environments {
         let is_cut = episode.cycles >= self.max_cycles;
         episode.is_on = !is_done && !is_cut;
         Outcome {
-            reward: (episode.explored - before) as f64 - apart as f64,
+            reward: f64::from(episode.explored - before) - apart as f64,
             is_done,
             is_cut,
-            explored: episode.explored as i64,
+            explored: episode.explored,
             in_contact: apart == 0,
         }
     }
