@@ -212,6 +212,12 @@ def test_a_step_needs_a_reset_before_it():
         VectorEnv().step([[0] * 4])
     with pytest.raises(InputError, match="call reset"):
         parallel_env().step({})
+    ended = parallel_env("open:4x4", max_cycles=1)
+    ended.reset()
+    ended.step(dict.fromkeys(ended.agents, 0))
+    ended.agents = ended.possible_agents
+    with pytest.raises(InputError, match="environment 0 is over"):
+        ended.step(dict.fromkeys(ended.agents, 0))
     with pytest.raises(InputError, match="there are 2 seeds"):
         VectorEnv(num_envs=3).reset(seed=[1, 2])
     with pytest.raises(InputError, match="reset_mask"):
