@@ -173,7 +173,7 @@ impl Environments {
     }
 
     /// The actions, robot by robot, each at most 4.
-    fn actions(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
+    fn actions(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
         let wanted = [self.episodes.len(), self.robots];
         let wrong = |what: String| {
             let [environments, robots] = wanted;
@@ -191,15 +191,11 @@ impl Environments {
         if buffer.shape() != wanted {
             return Err(wrong(format!("the actions have the shape {:?}", buffer.shape())));
         }
-        let actions = buffer.to_vec(py)?;
-        let is_known = |action: &i64| (0..=SIDES.len() as i64).contains(action);
-        match actions.iter().position(|action| !is_known(action)) {
-            None => Ok(actions),
-            Some(at) => {
-                let (environment, robot) = (at / self.robots, at % self.robots);
-                Err(wrong(format!("actions[{environment}, {robot}] is {}", actions[at])))
-            }
-        }
+        let known = |(at, &action): (usize, &i64)| match usize::try_from(action) {
+            Ok(known) if known <= SIDES.len() => Ok(known),
+            _ => Err(wrong(format!("actions[{}, {}] is {action}", at / self.robots, at % self.robots))),
+        };
+        buffer.to_vec(py)?.iter().enumerate().map(known).collect()
     }
 
     /// Begins episodes: all of them, or none where a layout cannot be made.
@@ -240,29 +236,28 @@ impl Environments {
     }
 
     /// One step of one environment.
-    fn advance(&mut self, place: usize, actions: &[i64]) -> Outcome {
+    fn advance(&mut self, place: usize, actions: &[usize]) -> Outcome {
         let (layout, episode) = (&self.layouts[place], &mut self.episodes[place]);
         let (size, robots) = (layout.size().cells(), self.robots);
         let ground = &mut self.ground[place * size..][..size];
         let cells = &mut self.cells[place * robots..][..robots];
         let before = episode.explored;
         for (cell, &action) in cells.iter_mut().zip(actions) {
-            let side = action as usize;
-            if side > 0 && ground[index(layout, *cell)] & (1 << (side - 1)) > 0 {
-                *cell = cell.beyond(SIDES[side - 1]);
+            if action > 0 && ground[index(layout, *cell)] & (1 << (action - 1)) > 0 {
+                *cell = cell.beyond(SIDES[action - 1]);
             }
             let entered = &mut ground[index(layout, *cell)];
             episode.explored += u32::from(*entered & EXPLORED == 0);
             *entered |= EXPLORED;
         }
         episode.cycles += 1;
-        let apart = cells.windows(2).filter(|pair| !chain::Rule::REPAIRED.keeps_contact(pair[0], pair[1]));
-        let apart = apart.count();
+        let keeps = |pair: &[Cell]| chain::Rule::REPAIRED.keeps_contact(pair[0], pair[1]);
+        let apart: u32 = cells.windows(2).map(|pair| u32::from(!keeps(pair))).sum();
         let is_done = episode.explored >= episode.reachable;
         let is_cut = episode.cycles >= self.max_cycles;
         episode.is_on = !is_done && !is_cut;
         Outcome {
-            reward: f64::from(episode.explored - before) - apart as f64,
+            reward: f64::from(episode.explored - before) - f64::from(apart),
             is_done,
             is_cut,
             explored: episode.explored,
