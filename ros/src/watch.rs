@@ -1,0 +1,200 @@
+//! Robots watched by clauses, without a network: poses go in, and diagnostics and markers come out. What a pose says of
+//! a clause is the word of `tautline-monitor`; this file adds what a clock and frames have to say.
+
+use super::config::{Clause, Config, Id};
+use super::messages::{Header, Point, Time};
+use super::tell;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use tautline_monitor::{Apart, Breach, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Place, Verdict};
+
+/// How far a stamp may be ahead of this machine's clock. One that is farther ahead would make all others look old.
+const MOST_AHEAD_US: u64 = 1_000_000;
+
+/// A monitor of whatever many robots.
+trait Hear {
+    fn hear(&mut self, robot: usize, at_us: u64, place: Place) -> Verdict;
+}
+
+impl<D: Demand<N>, const N: usize> Hear for Monitor<D, N> {
+    fn hear(&mut self, robot: usize, at_us: u64, place: Place) -> Verdict {
+        Self::hear(self, robot, at_us, place)
+    }
+}
+
+/// The monitor of a demand for the number of robots that a clause has: one of 2 to [`MOST_ROBOTS`](super::config).
+macro_rules! monitor {
+    ($demand:expr, $robots:expr, $gap_us:expr) => {
+        monitor!($demand, $robots, $gap_us, 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
+    };
+    ($demand:expr, $robots:expr, $gap_us:expr, $($number:literal)*) => {
+        match $robots {
+            $($number => Box::new(Monitor::<_, $number>::new($demand, $gap_us)) as Box<dyn Hear>,)*
+            _ => Box::new(Monitor::<_, 16>::new($demand, $gap_us)),
+        }
+    };
+}
+
+/// The monitor of a clause.
+fn monitor(clause: &Clause, gap: Duration) -> Box<dyn Hear> {
+    let &Clause { id, length_mm, tolerance_mm, base, .. } = clause;
+    let (robots, gap_us) = (clause.robots.len(), gap.as_micros() as u64);
+    let cells = |most| Cells { cell_mm: length_mm, most, base, tolerance_mm };
+    match id {
+        Id::Chain3 => monitor!(Neighbours { range_mm: length_mm, tolerance_mm }, robots, gap_us),
+        Id::Kit1 | Id::Kit2 | Id::Kit12 => {
+            monitor!(Joined { range_mm: length_mm, tolerance_mm }, robots, gap_us)
+        }
+        Id::Kit3 => monitor!(Apart { least_mm: length_mm, tolerance_mm }, robots, gap_us),
+        Id::Chain2 => monitor!(cells(2), robots, gap_us),
+        Id::Frontier2 | Id::Pack2 => monitor!(cells(1), robots, gap_us),
+    }
+}
+
+/// The state of a clause. Robots are numbered as in the configuration.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Status {
+    /// Every robot was heard within the gap, and the clause is not broken.
+    Kept,
+    /// The clause is broken by these robots.
+    Broken(Breach),
+    /// This robot was not heard within the gap.
+    Silent(usize),
+}
+
+impl Status {
+    /// Whether a person has to be told at once that it follows `before`: another word, or other robots.
+    fn is_news(self, before: Self) -> bool {
+        match (self, before) {
+            (Self::Broken(now), Self::Broken(before)) => now.robots != before.robots,
+            _ => self != before,
+        }
+    }
+}
+
+/// A clause, and what is known of it.
+pub(crate) struct Watched {
+    pub(crate) clause: Clause,
+    monitor: Box<dyn Hear>,
+    pub(crate) status: Status,
+    /// The stamp of the position that was judged last.
+    pub(crate) moment: Time,
+    /// The state that was published last.
+    pub(crate) told: Status,
+}
+
+/// What was heard of a robot.
+#[derive(Clone, Default)]
+pub(crate) struct Heard {
+    /// When a position was last taken, by this machine, and which.
+    pub(crate) last: Option<(Instant, Point)>,
+    /// Why the last message was refused, if it was.
+    pub(crate) refused: Option<String>,
+}
+
+/// Robots, and the clauses that they are watched by.
+pub struct Watch {
+    pub(crate) config: Config,
+    pub(crate) frame: Option<String>,
+    pub(crate) heard: Vec<Heard>,
+    pub(crate) clauses: Vec<Watched>,
+}
+
+/// A coordinate in millimetres, to the nearest. One that is beyond all places stays beyond.
+fn millimetres(metres: f64) -> Option<i32> {
+    metres.is_finite().then_some((metres * 1_000.0).round() as i32)
+}
+
+impl Watch {
+    /// The watch that a configuration asks for. It has heard nobody.
+    pub fn new(config: Config) -> Self {
+        let watched = |clause: &Clause| {
+            let (clause, monitor, status) =
+                (clause.clone(), monitor(clause, config.gap), Status::Silent(clause.robots[0]));
+            Watched { clause, monitor, status, moment: Time::default(), told: status }
+        };
+        let clauses = config.clauses.iter().map(watched).collect();
+        Self {
+            frame: config.frame.clone(),
+            heard: vec![Heard::default(); config.robots.len()],
+            clauses,
+            config,
+        }
+    }
+
+    /// Takes a position of `robot`, or says on stderr why not.
+    pub fn hear(&mut self, robot: usize, header: &Header, position: &Point, now: Instant) {
+        match self.take(robot, header, position) {
+            Ok(()) => self.heard[robot] = Heard { last: Some((now, position.clone())), refused: None },
+            Err(why) => self.refuse(robot, why),
+        }
+    }
+
+    /// Notes that a message of `robot` cannot be used.
+    pub fn refuse(&mut self, robot: usize, why: String) {
+        let heard = &mut self.heard[robot];
+        if heard.refused.as_ref() != Some(&why) {
+            tell!("a message on {} is refused: {why}", self.config.robots[robot].topic);
+            heard.refused = Some(why);
+        }
+    }
+
+    /// Judges a position by every clause of its robot.
+    fn take(&mut self, robot: usize, header: &Header, position: &Point) -> Result<(), String> {
+        let at_us = header.stamp.micros().ok_or("its stamp is before 1970")?;
+        let clock = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        if at_us > clock.as_micros() as u64 + MOST_AHEAD_US {
+            return Err(
+                "its stamp is ahead of this machine's clock: set the clocks of the machines".to_owned()
+            );
+        }
+        let axes = (millimetres(position.x), millimetres(position.y));
+        let (Some(x_mm), Some(y_mm)) = axes else { return Err("its position is no number".to_owned()) };
+        let frame = self.frame.get_or_insert_with(|| header.frame_id.clone());
+        if *frame != header.frame_id {
+            return Err(format!(
+                "its frame is {:?}, and positions are compared in {frame:?}",
+                header.frame_id
+            ));
+        }
+        for watched in &mut self.clauses {
+            let robots = &watched.clause.robots;
+            let Some(number) = robots.iter().position(|&other| other == robot) else { continue };
+            watched.status = match watched.monitor.hear(number, at_us, Place::new(x_mm, y_mm)) {
+                Verdict::Kept => Status::Kept,
+                Verdict::Broken(breach) => {
+                    Status::Broken(Breach { robots: breach.robots.map(|number| robots[number]), ..breach })
+                }
+                Verdict::Unknown(Doubt::Silent(number)) => Status::Silent(robots[number]),
+                Verdict::Unknown(refusal) => return Err(refusal.to_string()),
+            };
+            watched.moment = header.stamp.clone();
+        }
+        Ok(())
+    }
+
+    /// Takes back what rests on robots that were not heard within the gap by this machine's clock, and says whether
+    /// there is news since the last diagnostics.
+    pub fn look(&mut self, now: Instant) -> bool {
+        let (heard, gap) = (&self.heard, self.config.gap);
+        let is_silent =
+            |robot: &usize| heard[*robot].last.as_ref().is_none_or(|(at, _)| now.duration_since(*at) > gap);
+        for watched in &mut self.clauses {
+            let silent = match watched.status {
+                Status::Broken(breach) => breach.robots.into_iter().find(is_silent),
+                Status::Kept => watched.clause.robots.iter().copied().find(is_silent),
+                Status::Silent(_) => None,
+            };
+            watched.status = silent.map_or(watched.status, Status::Silent);
+        }
+        self.clauses.iter().any(|watched| watched.status.is_news(watched.told))
+    }
+    /// Notes that all of this is published, and says of each clause whether it is news.
+    pub fn mark_told(&mut self) -> Vec<bool> {
+        let told = |watched: &mut Watched| {
+            let is_news = watched.status.is_news(watched.told);
+            watched.told = watched.status;
+            is_news
+        };
+        self.clauses.iter_mut().map(told).collect()
+    }
+}

@@ -1,0 +1,138 @@
+//! What positions say of clauses, without a network.
+
+use super::team::{at, header};
+use std::time::{Duration, Instant};
+use tautline_ros::config::Config;
+use tautline_ros::messages::{DiagnosticStatus, Header, Time};
+use tautline_ros::watch::Watch;
+
+const GAP: Duration = Duration::from_millis(500);
+
+/// The watch of so many robots by one clause.
+fn watch(robots: usize, clause: &str) -> Watch {
+    let robots: Vec<_> = (0..robots).map(|robot| format!("{{ name = 'r{robot}' }}")).collect();
+    let text = format!("gap_s = 0.5\nrobots = [{}]\nclauses = [{{ {clause} }}]", robots.join(", "));
+    Watch::new(Config::parse(&text).expect("a configuration"))
+}
+
+/// The only diagnostic.
+fn status(watch: &Watch) -> DiagnosticStatus {
+    watch.diagnostics(Time::default(), |_| None).status.pop().expect("a clause")
+}
+
+/// Tells the watch where robots are, a second after the start of all stamps.
+fn hear(watch: &mut Watch, places: &[f64], now: Instant) -> DiagnosticStatus {
+    for (robot, &x) in places.iter().enumerate() {
+        let header = Header { stamp: Time { sec: 1, nanosec: 0 }, frame_id: "map".to_owned() };
+        watch.hear(robot, &header, &at(x).position, now);
+    }
+    status(watch)
+}
+
+#[test]
+fn every_clause_is_kept_by_some_places_and_broken_by_others() {
+    let now = Instant::now();
+    let (range, cell) = ("range_m = 3.0, tolerance_m = 0.1", "cell_m = 1.0, tolerance_m = 0.1");
+    for (id, lengths, kept, broken, said) in [
+        ("CHAIN-2", cell, [0.5, 0.5, 1.5], [0.5, 0.5, 0.5], "3 robots are in one cell, r0 and r1 among them"),
+        ("CHAIN-3", range, [0.0, 3.0, 0.0], [3.0, 0.0, 3.2], "r1 and r2 are 3.200 m apart; at most 3.000 m"),
+        (
+            "FRONTIER-2",
+            cell,
+            [0.5, 1.5, 2.5],
+            [0.5, 1.5, 1.5],
+            "2 robots are in one cell, r1 and r2 among them",
+        ),
+        ("PACK-2", cell, [0.5, 1.5, 2.5], [0.5, 1.5, 0.5], "2 robots are in one cell, r0 and r2 among them"),
+        ("KIT-1", range, [0.0, 6.0, 3.0], [0.0, 6.0, 2.0], "r1 and r2, its nearest, are 4.000 m apart"),
+        ("KIT-2", range, [0.0, 6.0, 3.0], [0.0, 6.0, 2.0], "the range is 3.000 m"),
+        ("KIT-12", range, [0.0, 6.0, 3.0], [0.0, 6.0, 2.0], "the team is in two parts"),
+        (
+            "KIT-3",
+            "least_m = 3.0, tolerance_m = 0.1",
+            [0.0, 0.0, 9.0],
+            [20.0, 22.0, 9.0],
+            "at least 3.000 m have to be",
+        ),
+    ] {
+        let mut watch = watch(3, &format!("clause = '{id}', {lengths}"));
+        let status = hear(&mut watch, &kept, now);
+        assert_eq!((status.level, status.message.as_str()), (DiagnosticStatus::OK, "kept"), "{id}");
+        let status = hear(&mut watch, &broken, now);
+        assert_eq!(status.level, DiagnosticStatus::ERROR, "{id}: {}", status.message);
+        assert!(status.message.contains(said), "{id}: {}", status.message);
+    }
+}
+
+#[test]
+fn teams_of_two_to_sixteen_robots_are_watched() {
+    for robots in 2..=16 {
+        let mut watch = watch(robots, "clause = 'CHAIN-3', range_m = 2, tolerance_m = 0");
+        let mut places: Vec<f64> = (0..robots).map(|robot| 2.0 * robot as f64).collect();
+        assert_eq!(hear(&mut watch, &places, Instant::now()).level, DiagnosticStatus::OK);
+        places[robots - 1] += 0.001;
+        let status = hear(&mut watch, &places, Instant::now());
+        assert!(status.message.contains("2.001 m"), "{robots}: {}", status.message);
+    }
+}
+
+#[test]
+fn a_robot_that_falls_silent_by_the_clock_takes_back_what_rests_on_it_alone() {
+    let start = Instant::now();
+    let mut watch = watch(3, "clause = 'CHAIN-3', range_m = 2, tolerance_m = 0");
+    hear(&mut watch, &[0.0, 1.0, 9.0], start);
+    assert!(watch.look(start));
+    assert_eq!(watch.mark_told(), [true]);
+    assert!(!watch.look(start + GAP));
+    let later = start + GAP + Duration::from_millis(1);
+    assert!(watch.look(later));
+    assert_eq!(status(&watch).level, DiagnosticStatus::STALE);
+    let stamp = Header { stamp: Time { sec: 1, nanosec: 0 }, frame_id: "map".to_owned() };
+    for robot in [1, 2] {
+        watch.hear(robot, &stamp, &at(4.0 * robot as f64 - 3.0).position, later);
+    }
+    watch.look(later);
+    let broken = status(&watch);
+    assert!(
+        broken.message.contains("r1 and r2"),
+        "the first robot is no part of this breach: {}",
+        broken.message
+    );
+}
+
+#[test]
+fn a_message_that_cannot_be_used_changes_nothing_and_is_named_once_its_robot_is_silent() {
+    let start = Instant::now();
+    let good = header();
+    let stamp = |sec| Header { stamp: Time { sec, nanosec: 0 }, ..good.clone() };
+    for (header, x, why) in [
+        (
+            Header { frame_id: "odom".to_owned(), ..good.clone() },
+            0.0,
+            r#"its frame is "odom", and positions are compared in "map""#,
+        ),
+        (good.clone(), f64::NAN, "its position is no number"),
+        (good.clone(), 1e300, "1,000 km"),
+        (stamp(good.stamp.sec - 1), 0.0, "older than the last one of its robot"),
+        (stamp(good.stamp.sec + 60), 0.0, "ahead of this machine's clock"),
+        (stamp(-1), 0.0, "its stamp is before 1970"),
+    ] {
+        let mut watch = watch(2, "clause = 'CHAIN-3', range_m = 2, tolerance_m = 0");
+        for robot in [0, 1] {
+            watch.hear(robot, &good, &at(0.0).position, start);
+        }
+        watch.mark_told();
+        watch.hear(1, &header, &at(x).position, start);
+        assert!(!watch.look(start), "{why}: {}", status(&watch).message);
+        let later = start + 2 * GAP;
+        watch.hear(0, &good, &at(0.0).position, later);
+        assert!(watch.look(later));
+        let status = status(&watch);
+        assert_eq!(status.level, DiagnosticStatus::STALE);
+        assert!(
+            status.message.contains("r1 was not heard") && status.message.contains(why),
+            "{}",
+            status.message
+        );
+    }
+}
