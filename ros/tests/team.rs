@@ -10,10 +10,10 @@ use rustdds::{QosPolicies, QosPolicyBuilder, RepresentationIdentifier, TopicKind
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use signal_hook::consts::SIGTERM;
-use std::fs;
-use std::io::Read;
+use std::fs::{self, File};
 use std::marker::PhantomData;
 use std::process::{Child, Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use tautline_ros::messages::{Header, Point, Pose, PoseStamped, Time};
@@ -35,7 +35,7 @@ pub(crate) fn program() -> Command {
 /// A node that runs. It ends with the test.
 pub(crate) struct Running {
     child: Child,
-    _folder: TempDir,
+    folder: TempDir,
 }
 
 impl Running {
@@ -43,9 +43,15 @@ impl Running {
         let folder = TempDir::new().expect("a folder");
         let file = folder.path().join("tautline.toml");
         fs::write(&file, config).expect("a file");
-        let child =
-            program().arg(file).args(["--domain", &domain.to_string()]).stderr(Stdio::piped()).spawn();
-        Self { child: child.expect("the program"), _folder: folder }
+        let said = File::create(folder.path().join("said")).expect("a file");
+        let child = program().arg(file).args(["--domain", &domain.to_string()]).stderr(said).spawn();
+        Self { child: child.expect("the program"), folder }
+    }
+
+    /// The memory that it has in use, in KiB, where the system says so.
+    pub(crate) fn memory_kib(&self) -> Option<u64> {
+        let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
+        status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?.trim().strip_suffix(" kB")?.parse().ok()
     }
 
     /// Ends it as a system does, and returns its exit code and what it said.
@@ -53,9 +59,8 @@ impl Running {
         let pid = self.child.id().to_string();
         let killed = Command::new("kill").args([format!("-{SIGTERM}"), pid]).status();
         assert!(killed.expect("kill").success());
-        let mut said = String::new();
-        self.child.stderr.take().expect("piped").read_to_string(&mut said).expect("text");
-        (self.child.wait().expect("an end").code(), said)
+        let code = self.child.wait().expect("an end").code();
+        (code, fs::read_to_string(self.folder.path().join("said")).expect("text"))
     }
 }
 
@@ -122,21 +127,26 @@ impl<M: DeserializeOwned + 'static> Ear<M> {
     }
 }
 
-/// The programs of the robots.
+/// The library wants one participant in a process.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// The programs of the robots. There is one team at a time.
 pub(crate) struct Team {
     context: Context,
     _node: Node,
     quality: QosPolicies,
+    _alone: MutexGuard<'static, ()>,
 }
 
 impl Team {
     pub(crate) fn new(domain: u16) -> Self {
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let (context, node) = join("team", domain).expect("a network");
         let reliable =
             policy::Reliability::Reliable { max_blocking_time: rustdds::Duration::from_millis(100) };
         let history = policy::History::KeepLast { depth: 100 };
         let quality = QosPolicyBuilder::new().reliability(reliable).history(history).build();
-        Self { context, _node: node, quality }
+        Self { context, _node: node, quality, _alone: alone }
     }
 
     fn topic(&self, name: &str, kind: &str) -> rustdds::Topic {
