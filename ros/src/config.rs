@@ -135,8 +135,8 @@ impl ConfigError {
         match self {
             Self::Toml(why) => format!("{name}: {}", why.trim_end()),
             Self::Wrong { at, why } => {
-                let before = &text.as_bytes()[..text.len().min(*at)];
-                format!("{name}:{}: {why}", before.iter().filter(|&&byte| byte == b'\n').count() + 1)
+                let before = text.get(..*at).unwrap_or_default();
+                format!("{name}:{}: {why}", before.matches('\n').count() + 1)
             }
         }
     }
@@ -232,7 +232,7 @@ impl ClauseTable {
             return Err(wrong(at, format!("a robot of {id} is named twice: name each once")));
         }
         if !(2..=MOST_ROBOTS).contains(&robots.len()) {
-            let why = format!("{id} would be of {} robots: name 2 to {MOST_ROBOTS}", robots.len());
+            let why = format!("{id} is of 2 to {MOST_ROBOTS} robots, not of {}", robots.len());
             return Err(wrong(at, why));
         }
         let mut length = None;

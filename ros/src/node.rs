@@ -27,6 +27,9 @@ const EACH: Duration = Duration::from_secs(1);
 /// How long the node sleeps where nobody publishes. Silence is noticed that much later than the gap.
 const PATIENCE: Duration = Duration::from_millis(20);
 
+/// How many poses of a robot are kept until they are judged.
+const KEPT: usize = 100;
+
 /// The last domain whose ports all exist.
 pub const LAST_DOMAIN: u16 = 231;
 
@@ -118,7 +121,7 @@ enum Poses {
 impl Poses {
     /// Whoever publishes is heard, also without acknowledgements: an old pose is not worth asking for again.
     fn subscribe(node: &mut Node, robot: &Robot) -> Result<Self, NodeError> {
-        let quality = QosProfile::subscription_default().history(History::KeepLast { depth: 100 });
+        let quality = QosProfile::subscription_default().history(History::KeepLast { depth: KEPT });
         let name = Name::parse(&robot.topic).map_err(dds)?;
         let topic = node.create_topic(&name, robot.kind.message_type(), &quality).map_err(dds)?;
         Ok(match robot.kind {
@@ -233,21 +236,23 @@ pub fn run(config: Config, (context, mut node): (Context, Node), stop: &AtomicBo
             Err(error) if error.kind() != io::ErrorKind::Interrupted => return Err(dds(error)),
             Ok(()) | Err(_) => {}
         }
-        // One pose of each robot after the other: a backlog of one is not judged by old poses of the others.
-        let mut is_more = true;
-        while is_more {
-            is_more = false;
+        // One pose of each robot after the other, so that a backlog of one is not judged by old poses of the others; and
+        // no more than the subscriptions keep, so that a flood does not keep the node from its other duties.
+        for _ in 0..KEPT {
+            let mut is_quiet = true;
             for (robot, poses) in robots.iter().enumerate() {
-                let taken = poses.take();
-                is_more |= !matches!(taken, Ok(None));
-                match taken {
+                match poses.take() {
                     Ok(Some((header, position))) => watch.hear(robot, &header, &position, Instant::now()),
                     Ok(None) => continue,
                     Err(why) => watch.refuse(robot, why),
                 }
+                is_quiet = false;
                 if watch.look(Instant::now()) {
                     voice.say(&mut watch);
                 }
+            }
+            if is_quiet {
+                break;
             }
         }
         let now = Instant::now();

@@ -1,5 +1,5 @@
-//! Robots watched by clauses, without a network: poses go in, and diagnostics and markers come out. What a pose says of
-//! a clause is the word of `tautline-monitor`; this file adds what a clock and frames have to say.
+//! Robots watched by clauses, without a network. What positions say of a clause is the word of `tautline-monitor`; this
+//! file adds what stamps, frames and this machine's clock have to say.
 
 use super::config::{Clause, Config, Id};
 use super::messages::{Header, Point, Time};
@@ -7,7 +7,8 @@ use super::tell;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use tautline_monitor::{Apart, Breach, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Place, Verdict};
 
-/// How far a stamp may be ahead of this machine's clock. One that is farther ahead would make all others look old.
+/// How far a stamp may be ahead of this machine's clock. One that is farther ahead would make all other robots look
+/// silent, until their stamps reach it.
 const MOST_AHEAD_US: u64 = 1_000_000;
 
 /// A monitor of whatever many robots.
@@ -21,7 +22,7 @@ impl<D: Demand<N>, const N: usize> Hear for Monitor<D, N> {
     }
 }
 
-/// The monitor of a demand for the number of robots that a clause has: one of 2 to [`MOST_ROBOTS`](super::config).
+/// The monitor of a demand for the number of robots that a clause has: 2 to 16, which is `config::MOST_ROBOTS`.
 macro_rules! monitor {
     ($demand:expr, $robots:expr, $gap_us:expr) => {
         monitor!($demand, $robots, $gap_us, 2 3 4 5 6 7 8 9 10 11 12 13 14 15)

@@ -11,85 +11,77 @@ fn call(arguments: &[&str]) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8(output.stderr).expect("text"))
 }
 
-const ROBOTS: &str = "gap_s = 0.5\nrobots = [{ name = 'a' }, { name = 'b' }]\n";
-
-#[test]
-fn a_wrong_configuration_is_refused_with_its_line_and_what_would_be_right() {
+/// What a configuration is refused with.
+fn refused(text: &str) -> String {
     let folder = TempDir::new().expect("a folder");
     let file = folder.path().join("wrong.toml");
-    let file = file.to_str().expect("Unicode");
-    let clause = |rest: &str| format!("{ROBOTS}[[clauses]]\ntolerance_m = 0.1\n{rest}");
-    for (text, line, said) in [
-        (clause("clause = 'CHAIN-9'\nrange_m = 2"), "line 5", "expected one of `CHAIN-2`, `CHAIN-3`"),
-        (clause("clause = 'CHAIN-3'\nrange_m = 2\nspeed = 1"), "line 7", "unknown field `speed`"),
-        ("gap_s = ".to_owned(), "line 1", "expected"),
+    fs::write(&file, text).expect("a file");
+    let (code, said) = call(&[file.to_str().expect("Unicode")]);
+    assert_eq!(code, Some(2), "{text}\n{said}");
+    assert!(said.contains("wrong.toml"), "{said}");
+    said
+}
+
+#[test]
+fn a_clause_that_cannot_be_watched_is_refused_with_its_line_and_what_would_be_right() {
+    let head = "gap_s = 0.5\nrobots = [{ name = 'a' }, { name = 'b' }]\n[[clauses]]\ntolerance_m = 0.1\n";
+    for (clause, line, right) in [
+        ("clause = 'CHAIN-9'\nrange_m = 2", "line 5", "expected one of `CHAIN-2`, `CHAIN-3`"),
+        ("clause = 'CHAIN-3'\nrange_m = 2\nspeed = 1", "line 7", "unknown field `speed`, expected one of"),
         (
-            "gap_s = 0.5\n[[clauses]]\nclause = 'CHAIN-3'\nrange_m = 2\ntolerance_m = 0".to_owned(),
-            ":1:",
-            "no robot is named: write [[robots]]",
-        ),
-        (ROBOTS.to_owned(), ":1:", "no clause is named: write [[clauses]]"),
-        (
-            clause("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a', 'c']"),
+            "clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a', 'c']",
             ":7:",
             "no robot is called c: there are a, b",
         ),
+        ("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a', 'a']", ":5:", "a robot of CHAIN-3 is named twice"),
+        ("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a']", ":5:", "CHAIN-3 is of 2 to 16 robots, not of 1"),
+        ("clause = 'CHAIN-3'", ":5:", "CHAIN-3 needs its range_m"),
+        ("clause = 'CHAIN-3'\ncell_m = 1", ":6:", "CHAIN-3 has no cell_m: give its range_m"),
+        ("clause = 'CHAIN-3'\nrange_m = nan", ":6:", "range_m is from 0.001 to 1000000 metres"),
+        ("clause = 'PACK-2'\ncell_m = 1\nbase = [0, 0]", ":7:", "PACK-2 has no base"),
+    ] {
+        let said = refused(&format!("{head}{clause}"));
+        assert!(said.contains(line) && said.contains(right), "{clause}\n{said}");
+    }
+}
+
+#[test]
+fn a_map_of_names_that_cannot_be_heard_is_refused_with_its_line_and_what_would_be_right() {
+    let clause = "[[clauses]]\nclause = 'KIT-3'\nleast_m = 3\ntolerance_m = 0\n";
+    let robots = "[[robots]]\nname = 'a'\n[[robots]]\nname = 'b'\n";
+    for (text, line, right) in [
+        (clause.to_owned(), ":1:", "no robot is named: write [[robots]]"),
+        (robots.to_owned(), ":1:", "no clause is named: write [[clauses]]"),
+        (format!("{robots}[[robots]]\nname = 'a'"), ":7:", "two robots are called a"),
+        (format!("{robots}[[robots]]\nname = 'c'\ntopic = '/a/pose'"), ":8:", "c would hear the topic of a"),
+        (format!("{robots}[[robots]]\nname = 'c'\ntopic = '/c pose'"), ":8:", "write letters, digits and _"),
         (
-            clause("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a', 'a']"),
-            ":5:",
-            "a robot of CHAIN-3 is named twice",
+            format!("{robots}[[robots]]\nname = 'c'\ntype = 'Pose'"),
+            "line 8",
+            "expected `geometry_msgs/PoseStamped`",
         ),
         (
-            clause("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a']"),
-            ":5:",
-            "CHAIN-3 would be of 1 robots: name 2 to 16",
-        ),
-        (clause("clause = 'CHAIN-3'"), ":5:", "CHAIN-3 needs its range_m"),
-        (clause("clause = 'CHAIN-3'\ncell_m = 1"), ":6:", "CHAIN-3 has no cell_m: give its range_m"),
-        (clause("clause = 'CHAIN-3'\nrange_m = nan"), ":6:", "range_m is from 0.001 to 1000000 metres"),
-        (clause("clause = 'PACK-2'\ncell_m = 1\nbase = [0, 0]"), ":7:", "PACK-2 has no base"),
-        (clause("clause = 'KIT-3'\nleast_m = 3\n[[robots]]\nname = 'c'"), "", ""),
-        ("gap_s = 0\n".to_owned(), ":1:", "gap_s is from 0.001 to 3600 seconds"),
-        (
-            "gap_s = 1\n[[robots]]\nname = 'a'\n[[robots]]\nname = 'a'".to_owned(),
-            ":5:",
-            "two robots are called a",
-        ),
-        (
-            "gap_s = 1\n[[robots]]\nname = 'a'\n[[robots]]\nname = 'b'\ntopic = '/a/pose'".to_owned(),
-            ":6:",
-            "b would hear the topic of a, /a/pose",
-        ),
-        (
-            "gap_s = 1\n[[robots]]\nname = 'a'\ntopic = '/a pose'".to_owned(),
-            ":4:",
-            "is no name of a topic: write letters",
-        ),
-        (
-            "gap_s = 1\n[[robots]]\nname = 'a'\ntype = 'geometry_msgs/Pose'".to_owned(),
-            "line 4",
-            "expected `geometry_msgs/PoseStamped` or `nav_msgs/Odometry`",
+            format!("{robots}[[robots]]\nname = 'c'\n{clause}robots = ['a', 'b']"),
+            ":7:",
+            "c is in no clause: name it in one, or leave it out",
         ),
     ] {
-        fs::write(file, &text).expect("a file");
-        let (code, told) = call(&[file]);
-        assert_eq!(code, Some(2), "{text}\n{told}");
-        assert!(told.contains(line) && told.contains(said) && told.contains("wrong.toml"), "{text}\n{told}");
+        let said = refused(&format!("gap_s = 0.5\n{text}"));
+        assert!(said.contains(line) && said.contains(right), "{text}\n{said}");
     }
-    fs::write(file, format!("gap_s = 1\n[[robots]]\nname = 'a'\n[[robots]]\nname = 'b'\n[[robots]]\nname = 'c'\n[[clauses]]\nclause = 'KIT-3'\nleast_m = 3\ntolerance_m = 0\nrobots = ['a', 'b']")).expect("a file");
-    assert!(call(&[file]).1.contains(":7: c is in no clause: name it in one, or leave it out"));
-    let (code, told) = call(&["nowhere.toml"]);
-    assert!(code == Some(2) && told.contains("nowhere.toml: "), "{told}");
+    assert!(refused("gap_s = 0").contains(":1: gap_s is from 0.001 to 3600 seconds"));
+    assert!(refused("gap_s = ").contains("line 1"));
 }
 
 #[test]
 fn wrong_arguments_are_refused() {
     for (arguments, said) in [
         ("", "<CONFIG>"),
+        ("nowhere.toml", "nowhere.toml: No such file"),
         ("--clause CHAIN-9", "possible values: CHAIN-2, CHAIN-3"),
         ("--clause CHAIN-3", "--robots"),
         ("--clause CHAIN-3 --robots 3 --tolerance-m 0.1 --gap-s 1", "CHAIN-3 needs its range_m"),
-        ("--clause CHAIN-3 --robots 17 --range-m 2 --tolerance-m 0.1 --gap-s 1", "name 2 to 16"),
+        ("--clause CHAIN-3 --robots 17 --range-m 2 --tolerance-m 0.1 --gap-s 1", "2 to 16 robots"),
         ("some.toml --domain 232", "231"),
     ] {
         let (code, told) = call(&arguments.split_whitespace().collect::<Vec<_>>());

@@ -51,7 +51,7 @@ fn an_hour_in_a_minute_loses_no_breach() {
     let mut planted = 0_u64;
     // After the hour, some rounds without a breach: the last one takes its time, too.
     for round in 0..ROUNDS + EACH - 1 {
-        let due = start + Duration::from_secs(60) * round as u32 / ROUNDS as u32;
+        let due = start + Duration::from_mins(1) * round as u32 / ROUNDS as u32;
         let at_us = 3_600_000_000 + round * 100_000;
         let is_out = round % EACH == EACH - 1;
         for robot in 0..ROBOTS {
@@ -65,7 +65,7 @@ fn an_hour_in_a_minute_loses_no_breach() {
         if round % 3_600 == 1_800 {
             memories.extend(node.memory_kib());
         }
-        while Instant::now() < due + Duration::from_secs(60) / ROUNDS as u32 {
+        while Instant::now() < due + Duration::from_mins(1) / ROUNDS as u32 {
             while let Some(array) = ear.take() {
                 let is_error = array.status[0].level == DiagnosticStatus::ERROR;
                 if let Some(written) = breach.take_if(|_| is_error) {

@@ -194,7 +194,7 @@ pub(crate) fn until<T>(awaited: &str, mut step: impl FnMut() -> Option<T>) -> T 
         if let Some(answer) = step() {
             return answer;
         }
-        assert!(start.elapsed() < Duration::from_secs(60), "{awaited} did not come");
+        assert!(start.elapsed() < Duration::from_mins(1), "{awaited} did not come");
         sleep(Duration::from_millis(5));
     }
 }
