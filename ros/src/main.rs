@@ -1,5 +1,6 @@
 //! The program: arguments, signals, and exit codes, which are those of `tautline`.
 
+use clap::builder::TypedValueParser;
 use clap::{Parser, value_parser};
 use log::{Level, LevelFilter, Log, Metadata, Record};
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -42,8 +43,13 @@ struct Arguments {
     #[arg(long, value_name = "SECONDS", requires = "clause")]
     gap_s: Option<f64>,
     /// The domain of ROS.
-    #[arg(long, env = "ROS_DOMAIN_ID", default_value_t = 0, value_parser = value_parser!(u16).range(..=i64::from(LAST_DOMAIN)))]
+    #[arg(long, env = "ROS_DOMAIN_ID", default_value_t = 0, value_parser = domains())]
     domain: u16,
+}
+
+/// The domains that there are.
+fn domains() -> impl TypedValueParser<Value = u16> {
+    value_parser!(u16).range(..=i64::from(LAST_DOMAIN))
 }
 
 impl Arguments {

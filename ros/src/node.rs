@@ -236,18 +236,19 @@ pub fn run(config: Config, (context, mut node): (Context, Node), stop: &AtomicBo
             Err(error) if error.kind() != io::ErrorKind::Interrupted => return Err(dds(error)),
             Ok(()) | Err(_) => {}
         }
-        // One pose of each robot after the other, so that a backlog of one is not judged by old poses of the others; and
-        // no more than the subscriptions keep, so that a flood does not keep the node from its other duties.
+        // One pose of each robot after the other: a backlog of one robot is not judged by old poses of the others.
+        // There is a bound, so that a flood of poses does not keep the node from its other duties.
         for _ in 0..KEPT {
             let mut is_quiet = true;
             for (robot, poses) in robots.iter().enumerate() {
-                match poses.take() {
-                    Ok(Some((header, position))) => watch.hear(robot, &header, &position, Instant::now()),
+                let (taken, now) = (poses.take(), Instant::now());
+                match taken {
+                    Ok(Some((header, position))) => watch.hear(robot, &header, &position, now),
                     Ok(None) => continue,
-                    Err(why) => watch.refuse(robot, why),
+                    Err(why) => watch.refuse(robot, why, now),
                 }
                 is_quiet = false;
-                if watch.look(Instant::now()) {
+                if watch.look(now) {
                     voice.say(&mut watch);
                 }
             }

@@ -11,6 +11,9 @@ use tautline_monitor::{Apart, Breach, Cells, Demand, Doubt, Joined, Monitor, Nei
 /// silent, until their stamps reach it.
 const MOST_AHEAD_US: u64 = 1_000_000;
 
+/// How often stderr is told, for each robot, that messages are refused.
+const EACH: Duration = Duration::from_secs(10);
+
 /// A monitor of whatever many robots.
 trait Hear {
     fn hear(&mut self, robot: usize, at_us: u64, place: Place) -> Verdict;
@@ -90,6 +93,8 @@ pub(crate) struct Heard {
     pub(crate) last: Option<(Instant, Point)>,
     /// Why the last message was refused, if it was.
     pub(crate) refused: Option<String>,
+    /// When stderr was told last that a message was refused.
+    told: Option<Instant>,
 }
 
 /// Robots, and the clauses that they are watched by.
@@ -124,19 +129,22 @@ impl Watch {
 
     /// Takes a position of `robot`, or says on stderr why not.
     pub fn hear(&mut self, robot: usize, header: &Header, position: &Point, now: Instant) {
-        match self.take(robot, header, position) {
-            Ok(()) => self.heard[robot] = Heard { last: Some((now, position.clone())), refused: None },
-            Err(why) => self.refuse(robot, why),
+        if let Err(why) = self.take(robot, header, position) {
+            self.refuse(robot, why, now);
+        } else {
+            let heard = &mut self.heard[robot];
+            (heard.last, heard.refused) = (Some((now, position.clone())), None);
         }
     }
 
     /// Notes that a message of `robot` cannot be used.
-    pub fn refuse(&mut self, robot: usize, why: String) {
+    pub fn refuse(&mut self, robot: usize, why: String, now: Instant) {
         let heard = &mut self.heard[robot];
-        if heard.refused.as_ref() != Some(&why) {
+        if heard.told.is_none_or(|told| now.duration_since(told) >= EACH) {
             tell!("a message on {} is refused: {why}", self.config.robots[robot].topic);
-            heard.refused = Some(why);
+            heard.told = Some(now);
         }
+        heard.refused = Some(why);
     }
 
     /// Judges a position by every clause of its robot.

@@ -136,3 +136,17 @@ fn a_message_that_cannot_be_used_changes_nothing_and_is_named_once_its_robot_is_
         );
     }
 }
+
+#[test]
+fn the_sample_and_the_configuration_of_the_page_are_taken() {
+    let page = include_str!("../../docs/ros.md");
+    let shown =
+        page.split("```toml").nth(1).and_then(|rest| rest.split("```").next()).expect("a configuration");
+    for text in [include_str!("../launch/tautline.toml"), shown] {
+        let config = Config::parse(text).expect("a configuration");
+        assert_eq!(
+            (config.clauses.len(), config.robots.last().map(|robot| robot.name.as_str())),
+            (2, Some("guest"))
+        );
+    }
+}
