@@ -5,10 +5,10 @@ use core::mem::MaybeUninit;
 use core::slice;
 
 use tautline_monitor::{
-    Apart, Breach, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Place, Robot, Track, Verdict,
+    AnyDemand, Apart, Breach, Cells, Doubt, Joined, Monitor, Neighbours, Place, Robot, Verdict,
 };
 
-use crate::caller::{status, write};
+use crate::caller::{read, status, write};
 use crate::status::TautlineStatus;
 
 /// The size of a monitor in words of 8 bytes.
@@ -92,45 +92,26 @@ pub struct TautlineMonitor {
     memory: [MaybeUninit<u64>; TAUTLINE_MONITOR_WORDS],
 }
 
-/// The demands that a caller can name.
-#[derive(Clone, Copy)]
-enum Named {
-    Neighbours(Neighbours),
-    Joined(Joined),
-    Apart(Apart),
-    Cells(Cells),
-}
-
-impl Named {
-    const fn new(demand: &TautlineDemand) -> Option<Self> {
-        let &TautlineDemand { kind, length_mm, tolerance_mm, most, .. } = demand;
+impl TautlineDemand {
+    const fn demand(&self) -> Option<AnyDemand> {
+        let &Self { kind, length_mm, tolerance_mm, most, .. } = self;
         Some(match kind {
-            TAUTLINE_DEMAND_NEIGHBOURS => Self::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm }),
-            TAUTLINE_DEMAND_JOINED => Self::Joined(Joined { range_mm: length_mm, tolerance_mm }),
-            TAUTLINE_DEMAND_APART => Self::Apart(Apart { least_mm: length_mm, tolerance_mm }),
+            TAUTLINE_DEMAND_NEIGHBOURS => {
+                AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm })
+            }
+            TAUTLINE_DEMAND_JOINED => AnyDemand::Joined(Joined { range_mm: length_mm, tolerance_mm }),
+            TAUTLINE_DEMAND_APART => AnyDemand::Apart(Apart { least_mm: length_mm, tolerance_mm }),
             TAUTLINE_DEMAND_CELLS if length_mm > 0 => {
-                let base =
-                    if demand.has_base == 0 { None } else { Some([demand.base_column, demand.base_row]) };
-                Self::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm })
+                let base = if self.has_base == 0 { None } else { Some([self.base_column, self.base_row]) };
+                AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm })
             }
             _ => return None,
         })
     }
 }
 
-impl Demand for Named {
-    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
-        match self {
-            Self::Neighbours(demand) => demand.breach(track),
-            Self::Joined(demand) => demand.breach(track),
-            Self::Apart(demand) => demand.breach(track),
-            Self::Cells(demand) => demand.breach(track),
-        }
-    }
-}
-
 /// The content of the memory: the robots are the caller's, who keeps them where they are.
-type State = Monitor<Named, &'static mut [Robot]>;
+type State = Monitor<AnyDemand, &'static mut [Robot]>;
 
 /// The mark of memory that holds a [`State`]: the letters of the name and the size.
 const MARK: u64 = 0x7461_7574_6d6f_0000 | size_of::<State>() as u64;
@@ -193,8 +174,7 @@ pub unsafe extern "C" fn tautline_monitor_begin(
             return Err(TautlineStatus::NullPointer);
         }
         // SAFETY: the caller's promise.
-        let demand = unsafe { demand.as_ref() }.ok_or(TautlineStatus::NullPointer)?;
-        let demand = Named::new(demand).ok_or(TautlineStatus::BadDemand)?;
+        let demand = unsafe { read(demand) }?.demand().ok_or(TautlineStatus::BadDemand)?;
         if count > isize::MAX as usize / size_of::<Robot>() {
             return Err(TautlineStatus::TooManyRobots);
         }

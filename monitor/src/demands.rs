@@ -129,6 +129,30 @@ impl Demand for Cells {
     }
 }
 
+/// A demand that is chosen when the program runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum AnyDemand {
+    /// CHAIN-3.
+    Neighbours(Neighbours),
+    /// KIT-1, KIT-2, KIT-12.
+    Joined(Joined),
+    /// KIT-3.
+    Apart(Apart),
+    /// CHAIN-2, FRONTIER-2, PACK-2.
+    Cells(Cells),
+}
+
+impl Demand for AnyDemand {
+    fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
+        match self {
+            Self::Neighbours(demand) => demand.breach(track),
+            Self::Joined(demand) => demand.breach(track),
+            Self::Apart(demand) => demand.breach(track),
+            Self::Cells(demand) => demand.breach(track),
+        }
+    }
+}
+
 /// A demand of one's own: a function of the robots that were heard within the gap.
 #[derive(Clone, Copy, Debug)]
 pub struct Own<F>(

@@ -25,7 +25,7 @@ mod demands;
 
 use core::fmt;
 
-pub use demands::{Apart, Cells, Joined, Neighbours, Own};
+pub use demands::{AnyDemand, Apart, Cells, Joined, Neighbours, Own};
 
 /// A position on a floor, in millimetres. The axes are those of the one who measures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -6,7 +6,7 @@ use std::time::Duration;
 use toml::Spanned;
 
 /// The most robots that a clause can be of.
-pub const MOST_ROBOTS: usize = 16;
+pub const MOST_ROBOTS: usize = 64;
 
 /// A configuration that can be run.
 #[derive(Clone, PartialEq, Debug)]

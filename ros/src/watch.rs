@@ -5,7 +5,9 @@ use super::config::{Clause, Config, Id};
 use super::messages::{Header, Point, Time};
 use super::tell;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
-use tautline_monitor::{Apart, Breach, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Place, Verdict};
+use tautline_monitor::{
+    AnyDemand, Apart, Breach, Cells, Doubt, Joined, Monitor, Neighbours, Place, Robot, Verdict,
+};
 
 /// How far a stamp may be ahead of this machine's clock. One that is farther ahead would make all other robots look
 /// silent, until their stamps reach it.
@@ -14,44 +16,18 @@ const MOST_AHEAD_US: u64 = 1_000_000;
 /// How often stderr is told, for each robot, that messages are refused.
 const EACH: Duration = Duration::from_secs(10);
 
-/// A monitor of whatever many robots.
-trait Hear {
-    fn hear(&mut self, robot: usize, at_us: u64, place: Place) -> Verdict;
-}
-
-impl<D: Demand<N>, const N: usize> Hear for Monitor<D, N> {
-    fn hear(&mut self, robot: usize, at_us: u64, place: Place) -> Verdict {
-        Self::hear(self, robot, at_us, place)
-    }
-}
-
-/// The monitor of a demand for the number of robots that a clause has: 2 to 16, which is `config::MOST_ROBOTS`.
-macro_rules! monitor {
-    ($demand:expr, $robots:expr, $gap_us:expr) => {
-        monitor!($demand, $robots, $gap_us, 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
-    };
-    ($demand:expr, $robots:expr, $gap_us:expr, $($number:literal)*) => {
-        match $robots {
-            $($number => Box::new(Monitor::<_, $number>::new($demand, $gap_us)) as Box<dyn Hear>,)*
-            _ => Box::new(Monitor::<_, 16>::new($demand, $gap_us)),
-        }
-    };
-}
-
 /// The monitor of a clause.
-fn monitor(clause: &Clause, gap: Duration) -> Box<dyn Hear> {
+fn monitor(clause: &Clause, gap: Duration) -> Monitor<AnyDemand, Vec<Robot>> {
     let &Clause { id, length_mm, tolerance_mm, base, .. } = clause;
-    let (robots, gap_us) = (clause.robots.len(), gap.as_micros() as u64);
-    let cells = |most| Cells { cell_mm: length_mm, most, base, tolerance_mm };
-    match id {
-        Id::Chain3 => monitor!(Neighbours { range_mm: length_mm, tolerance_mm }, robots, gap_us),
-        Id::Kit1 | Id::Kit2 | Id::Kit12 => {
-            monitor!(Joined { range_mm: length_mm, tolerance_mm }, robots, gap_us)
-        }
-        Id::Kit3 => monitor!(Apart { least_mm: length_mm, tolerance_mm }, robots, gap_us),
-        Id::Chain2 => monitor!(cells(2), robots, gap_us),
-        Id::Frontier2 | Id::Pack2 => monitor!(cells(1), robots, gap_us),
-    }
+    let cells = |most| AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm });
+    let demand = match id {
+        Id::Chain3 => AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm }),
+        Id::Kit1 | Id::Kit2 | Id::Kit12 => AnyDemand::Joined(Joined { range_mm: length_mm, tolerance_mm }),
+        Id::Kit3 => AnyDemand::Apart(Apart { least_mm: length_mm, tolerance_mm }),
+        Id::Chain2 => cells(2),
+        Id::Frontier2 | Id::Pack2 => cells(1),
+    };
+    Monitor::new(demand, gap.as_micros() as u64, vec![Robot::UNHEARD; clause.robots.len()])
 }
 
 /// The state of a clause. Robots are numbered as in the configuration.
@@ -78,7 +54,7 @@ impl Status {
 /// A clause, and what is known of it.
 pub(crate) struct Watched {
     pub(crate) clause: Clause,
-    monitor: Box<dyn Hear>,
+    monitor: Monitor<AnyDemand, Vec<Robot>>,
     pub(crate) status: Status,
     /// The stamp of the position that was judged last.
     pub(crate) moment: Time,
@@ -168,7 +144,7 @@ impl Watch {
         for watched in &mut self.clauses {
             let robots = &watched.clause.robots;
             let Some(number) = robots.iter().position(|&other| other == robot) else { continue };
-            watched.status = match watched.monitor.hear(number, at_us, Place::new(x_mm, y_mm)) {
+            watched.status = match watched.monitor.hear(at_us, number, at_us, Place::new(x_mm, y_mm)) {
                 Verdict::Kept => Status::Kept,
                 Verdict::Broken(breach) => {
                     Status::Broken(Breach { robots: breach.robots.map(|number| robots[number]), ..breach })

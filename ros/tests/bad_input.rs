@@ -34,7 +34,7 @@ fn a_clause_that_cannot_be_watched_is_refused_with_its_line_and_what_would_be_ri
             "no robot is called c: there are a, b",
         ),
         ("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a', 'a']", ":5:", "a robot of CHAIN-3 is named twice"),
-        ("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a']", ":5:", "CHAIN-3 is of 2 to 16 robots, not of 1"),
+        ("clause = 'CHAIN-3'\nrange_m = 2\nrobots = ['a']", ":5:", "CHAIN-3 is of 2 to 64 robots, not of 1"),
         ("clause = 'CHAIN-3'", ":5:", "CHAIN-3 needs its range_m"),
         ("clause = 'CHAIN-3'\ncell_m = 1", ":6:", "CHAIN-3 has no cell_m: give its range_m"),
         ("clause = 'CHAIN-3'\nrange_m = nan", ":6:", "range_m is from 0.001 to 1000000 metres"),
@@ -81,7 +81,7 @@ fn wrong_arguments_are_refused() {
         ("--clause CHAIN-9", "possible values: CHAIN-2, CHAIN-3"),
         ("--clause CHAIN-3", "--robots"),
         ("--clause CHAIN-3 --robots 3 --tolerance-m 0.1 --gap-s 1", "CHAIN-3 needs its range_m"),
-        ("--clause CHAIN-3 --robots 17 --range-m 2 --tolerance-m 0.1 --gap-s 1", "2 to 16 robots"),
+        ("--clause CHAIN-3 --robots 65 --range-m 2 --tolerance-m 0.1 --gap-s 1", "2 to 64 robots"),
         ("some.toml --domain 232", "231"),
     ] {
         let (code, told) = call(&arguments.split_whitespace().collect::<Vec<_>>());

@@ -65,8 +65,8 @@ fn every_clause_is_kept_by_some_places_and_broken_by_others() {
 }
 
 #[test]
-fn teams_of_two_to_sixteen_robots_are_watched() {
-    for robots in 2..=16 {
+fn teams_of_two_to_sixty_four_robots_are_watched() {
+    for robots in 2..=64 {
         let mut watch = watch(robots, "clause = 'CHAIN-3', range_m = 2, tolerance_m = 0");
         let mut places: Vec<f64> = (0..robots).map(|robot| 2.0 * robot as f64).collect();
         assert_eq!(hear(&mut watch, &places, Instant::now()).level, DiagnosticStatus::OK);
