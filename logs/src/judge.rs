@@ -1,0 +1,341 @@
+//! The judge of a whole log. At each stamp it looks at all robots: where each is, between which positions of it the stamp
+//! lies, and which pairs are too far, too near or in one cell. It keeps nothing from one stamp to the next but what a
+//! clause asks for: whether a robot has ever left its start.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use super::ground::{Grid, visits};
+use super::{Limits, Silence, Tracks};
+
+/// The demand of a clause, with its lengths.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Demand {
+    /// CHAIN-3: robots whose numbers follow each other are within range.
+    Neighbours {
+        /// The range.
+        range_mm: u32,
+    },
+    /// KIT-1, KIT-12: all robots hear each other, directly or over others.
+    Joined {
+        /// The range.
+        range_mm: u32,
+        /// The robots of which the clause speaks.
+        of: Joining,
+    },
+    /// KIT-3: robots that have left their starts are apart. A robot has left its start, the first place of it in the log, for
+    /// ever once it was farther from it than this distance and the tolerance.
+    Apart {
+        /// The least distance.
+        least_mm: u32,
+    },
+    /// CHAIN-2, FRONTIER-2, PACK-2: no more robots than that are in a cell.
+    Crowd {
+        /// The cells.
+        grid: Grid,
+        /// So many.
+        most: u32,
+        /// The cell that may have more.
+        base: Option<[i32; 2]>,
+    },
+    /// FRONTIER-1: these cells were visited when the log ends.
+    Visited {
+        /// The cells.
+        grid: Grid,
+        /// Those that robots can reach.
+        cells: Vec<[i32; 2]>,
+        /// Whether the log ends where the run ends.
+        is_whole: bool,
+    },
+}
+
+/// The robots that have to hear each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Joining {
+    /// All.
+    All,
+    /// All, if they do so when they start: at the first stamp at which the log says where all of them are.
+    JoinedAtStart,
+}
+
+/// What a log says of a clause.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// At no stamp it is broken, and no robot was silent for longer than the gap.
+    Kept,
+    /// It is broken, whatever else happened.
+    Broken(Breach),
+    /// It is not seen to be broken, but the log does not say enough.
+    Unknown(Doubt),
+}
+
+/// The first breach of a clause.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Breach {
+    /// The stamp.
+    pub at_us: i64,
+    /// The robots that break it, from 0.
+    pub robots: Vec<u32>,
+    /// The distance in millimetres, the robots in the cell, or the cells that nobody visited.
+    pub measured: u32,
+    /// The most or the least that the clause allows, without the tolerance.
+    pub allowed: u32,
+    /// The cell, if the clause speaks of cells.
+    pub cell: Option<[i32; 2]>,
+    /// The last line or message of the log that has part in it.
+    pub place: u32,
+    /// The stamps at which the clause is broken.
+    pub moments: u32,
+}
+
+/// The reason why a verdict is open.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Doubt {
+    /// A robot was silent for longer than the gap; in all so many times some robot was.
+    Silent(Silence, usize),
+    /// There are fewer than two robots.
+    Alone,
+    /// The robots do not hear each other when they start: the clause asks for nothing.
+    Parted(i64),
+    /// Within the tolerance, this cell may have been visited or not; in all so many.
+    Cell([i32; 2], usize),
+    /// The log ends in the midst.
+    Cut,
+}
+
+/// More comparisons of robots than a judge makes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TooMuch {
+    /// So many.
+    pub comparisons: u128,
+}
+
+/// The comparisons of robots that a judge makes for a clause.
+pub const MOST_COMPARISONS: u128 = 1 << 32;
+
+impl fmt::Display for TooMuch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { comparisons } = self;
+        write!(
+            f,
+            "the judge would compare robots {comparisons} times, and does so at most {MOST_COMPARISONS} times"
+        )
+    }
+}
+
+impl std::error::Error for TooMuch {}
+
+/// A moment in which a clause is broken.
+struct Found {
+    robots: Vec<u32>,
+    measured: u32,
+    cell: Option<[i32; 2]>,
+}
+
+fn apart(one: [f64; 2], other: [f64; 2]) -> f64 {
+    (one[0] - other[0]).hypot(one[1] - other[1])
+}
+
+/// A stamp, with the robots that have a position of it and the places of these in the log.
+struct Moment<'a> {
+    at_us: i64,
+    fresh: &'a [(i64, u32, u32)],
+    tracks: &'a Tracks,
+}
+
+impl Moment<'_> {
+    fn at(&self, robot: u32) -> Option<[f64; 2]> {
+        self.tracks.at(robot as usize, self.at_us)
+    }
+
+    fn robots(&self) -> impl Iterator<Item = u32> + use<> {
+        0..self.tracks.count() as u32
+    }
+
+    /// Pairs with a position of this stamp and their distances, of robots whose places are known.
+    fn pairs(&self, others: impl Fn(u32) -> Vec<u32>) -> impl Iterator<Item = ([u32; 2], f64)> {
+        self.fresh.iter().flat_map(move |&(_, robot, _)| {
+            let place = self.at(robot);
+            let distance = move |other: u32| {
+                let far = apart(place?, self.at(other)?);
+                Some(([robot.min(other), robot.max(other)], far))
+            };
+            others(robot).into_iter().filter(move |&other| other != robot).filter_map(distance)
+        })
+    }
+}
+
+/// Whether all robots are joined by links of at most so many millimetres; if not, the nearest two of whom one is joined to
+/// the first robot and the other one is not. `None` if some place is not known.
+fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Found>> {
+    let places: Vec<[f64; 2]> = moment.robots().map(|robot| moment.at(robot)).collect::<Option<_>>()?;
+    let (mut reached, mut left): (Vec<usize>, Vec<usize>) = (vec![0], (1..places.len()).collect());
+    let mut next = 0;
+    while let Some(&robot) = reached.get(next) {
+        let (near, far) = left.into_iter().partition(|&other| apart(places[robot], places[other]) <= most_mm);
+        reached.extend::<Vec<usize>>(near);
+        left = far;
+        next += 1;
+    }
+    let pairs = reached.iter().flat_map(|&one| left.iter().map(move |&other| (one, other)));
+    let nearest =
+        pairs.min_by(|a, b| apart(places[a.0], places[a.1]).total_cmp(&apart(places[b.0], places[b.1])));
+    Some(nearest.map_or(Ok(()), |(one, other)| {
+        let measured = apart(places[one], places[other]) as u32;
+        Err(Found { robots: vec![one.min(other) as u32, one.max(other) as u32], measured, cell: None })
+    }))
+}
+
+/// The stamp from which on each robot has left its start.
+fn leaving(tracks: &Tracks, beyond_mm: f64) -> Vec<Option<i64>> {
+    let place = |sample: &super::Sample| [sample.x_mm, sample.y_mm].map(f64::from);
+    let left = |track: &Vec<super::Sample>| {
+        let start = place(track.first()?);
+        track.iter().find(|sample| apart(start, place(sample)) > beyond_mm).map(|sample| sample.at_us)
+    };
+    tracks.robots.iter().map(left).collect()
+}
+
+/// The cell with the most robots in it, if they are more than allowed.
+fn crowded(
+    moment: &Moment<'_>,
+    grid: Grid,
+    tolerance_mm: u32,
+    most: u32,
+    base: Option<[i32; 2]>,
+) -> Option<Found> {
+    let mut within: BTreeMap<[i32; 2], Vec<u32>> = BTreeMap::new();
+    for robot in moment.robots() {
+        if let Some(cell) = moment.at(robot).and_then(|place| grid.surely(place, tolerance_mm)) {
+            within.entry(cell).or_default().push(robot);
+        }
+    }
+    let crowds =
+        within.into_iter().filter(|(cell, robots)| Some(*cell) != base && robots.len() > most as usize);
+    let (cell, robots) = crowds.max_by_key(|(_, robots)| robots.len())?;
+    Some(Found { measured: robots.len() as u32, robots, cell: Some(cell) })
+}
+
+/// Judges a clause.
+///
+/// # Errors
+/// [`TooMuch`] if there are too many robots for so many stamps.
+pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdict, TooMuch> {
+    let mut stamps: Vec<(i64, u32, u32)> =
+        tracks.samples().map(|sample| (sample.at_us, sample.robot, sample.place)).collect();
+    stamps.sort_unstable();
+    let moments = || stamps.chunk_by(|one, other| one.0 == other.0);
+    let robots = tracks.count() as u128;
+    let comparisons = match demand {
+        Demand::Neighbours { .. } | Demand::Visited { .. } => stamps.len() as u128,
+        Demand::Apart { .. } => stamps.len() as u128 * robots,
+        Demand::Crowd { .. } => moments().count() as u128 * robots,
+        Demand::Joined { .. } => moments().count() as u128 * robots * robots,
+    };
+    if comparisons > MOST_COMPARISONS {
+        return Err(TooMuch { comparisons });
+    }
+    if tracks.count() < 2 && !matches!(demand, Demand::Visited { .. }) {
+        return Ok(Verdict::Unknown(Doubt::Alone));
+    }
+    let tolerance = f64::from(limits.tolerance_mm);
+    let mut is_started = false;
+    let mut parted = None;
+    let left = match demand {
+        Demand::Apart { least_mm } => leaving(tracks, f64::from(*least_mm) + tolerance),
+        Demand::Neighbours { .. } | Demand::Joined { .. } | Demand::Crowd { .. } | Demand::Visited { .. } => {
+            Vec::new()
+        }
+    };
+    let pair = |([one, other], far): ([u32; 2], f64)| Found {
+        robots: vec![one, other],
+        measured: far as u32,
+        cell: None,
+    };
+    let mut found = |moment: &Moment<'_>| match demand {
+        Demand::Neighbours { range_mm } => {
+            let beside = |robot: u32| robot.checked_sub(1).into_iter().chain([robot + 1]).collect();
+            let most = f64::from(*range_mm) + tolerance;
+            moment.pairs(beside).filter(|&(_, far)| far > most).max_by(|a, b| a.1.total_cmp(&b.1)).map(pair)
+        }
+        Demand::Joined { range_mm, of } => {
+            let is_joined = joined(moment, f64::from(*range_mm) + tolerance)?;
+            let is_first = !std::mem::replace(&mut is_started, true);
+            if is_first && is_joined.is_err() && *of == Joining::JoinedAtStart {
+                parted = Some(moment.at_us);
+            }
+            is_joined.err()
+        }
+        Demand::Apart { least_mm } => {
+            let least = f64::from(*least_mm) - tolerance;
+            let has_left = |robot: &u32| left[*robot as usize].is_some_and(|since| since <= moment.at_us);
+            let near = moment
+                .pairs(|_| moment.robots().collect())
+                .filter(|&(robots, far)| far < least && robots.iter().all(has_left));
+            near.min_by(|a, b| a.1.total_cmp(&b.1)).map(pair)
+        }
+        Demand::Crowd { grid, most, base } => crowded(moment, *grid, limits.tolerance_mm, *most, *base),
+        Demand::Visited { .. } => None,
+    };
+    let mut first: Option<Breach> = None;
+    if !matches!(demand, Demand::Visited { .. }) {
+        for fresh in moments() {
+            let moment = Moment { at_us: fresh[0].0, fresh, tracks };
+            let Some(Found { robots, measured, cell }) = found(&moment) else { continue };
+            let place = fresh.iter().filter(|one| robots.contains(&one.1)).map(|one| one.2).max();
+            let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
+            let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
+            first.get_or_insert(Breach { at_us, robots, measured, allowed, cell, place, moments }).moments +=
+                1;
+        }
+    }
+    if let Some(at_us) = parted {
+        return Ok(Verdict::Unknown(Doubt::Parted(at_us)));
+    }
+    if let Some(breach) = first {
+        return Ok(Verdict::Broken(breach));
+    }
+    let silent = tracks.silences().next().map(|silence| Doubt::Silent(silence, tracks.silences().count()));
+    Ok(match demand {
+        Demand::Visited { grid, cells, is_whole } => visited(tracks, limits, *grid, cells, *is_whole, silent),
+        Demand::Neighbours { .. } | Demand::Joined { .. } | Demand::Apart { .. } | Demand::Crowd { .. } => {
+            silent.map_or(Verdict::Kept, Verdict::Unknown)
+        }
+    })
+}
+
+/// The number that a demand allows.
+fn allowed(demand: &Demand) -> u32 {
+    match demand {
+        Demand::Neighbours { range_mm } | Demand::Joined { range_mm, .. } => *range_mm,
+        Demand::Apart { least_mm } => *least_mm,
+        Demand::Crowd { most, .. } => *most,
+        Demand::Visited { .. } => 0,
+    }
+}
+
+/// Judges whether all cells were visited: one that a robot may have passed while it was silent may have been.
+fn visited(
+    tracks: &Tracks,
+    limits: &Limits,
+    grid: Grid,
+    cells: &[[i32; 2]],
+    is_whole: bool,
+    silent: Option<Doubt>,
+) -> Verdict {
+    let [surely, maybe] = visits(tracks, limits, grid, &cells.iter().copied().collect::<BTreeSet<_>>());
+    let left: Vec<_> = cells.iter().copied().filter(|cell| !surely.contains(cell)).collect();
+    let Some(&first) = left.first() else { return Verdict::Kept };
+    if let Some(doubt) = silent {
+        return Verdict::Unknown(doubt);
+    }
+    if !is_whole {
+        return Verdict::Unknown(Doubt::Cut);
+    }
+    let missed: Vec<_> = left.iter().copied().filter(|cell| !maybe.contains(cell)).collect();
+    let Some(&cell) = missed.first() else { return Verdict::Unknown(Doubt::Cell(first, left.len())) };
+    let (robots, measured) = (Vec::new(), missed.len() as u32);
+    let place = tracks.samples().map(|sample| sample.place).max().unwrap_or(0);
+    let at_us = tracks.span_us()[1];
+    Verdict::Broken(Breach { at_us, robots, measured, allowed: 0, cell: Some(cell), place, moments: 1 })
+}

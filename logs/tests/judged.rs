@@ -1,0 +1,189 @@
+//! The judge on small logs whose verdicts are seen by hand, and wrong judges, each of which one of these logs finds.
+
+use std::fmt::Write;
+
+use tautline_logs::{Breach, Demand, Doubt, Grid, Joining, Limits, Numbers, Tracks, Verdict, judge, read};
+
+const LIMITS: Limits = Limits { tolerance_mm: 100, gap_us: 1_000_000, jump_us: 60_000_000 };
+const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000 };
+const RANGE: Demand = Demand::Neighbours { range_mm: 2_549 };
+const JOINED: Demand = Demand::Joined { range_mm: 2_549, of: Joining::JoinedAtStart };
+const APART: Demand = Demand::Apart { least_mm: 3_000 };
+const CHAIN_2: Demand = Demand::Crowd { grid: GRID, most: 2, base: Some([0, 0]) };
+const FRONTIER_2: Demand = Demand::Crowd { grid: GRID, most: 1, base: None };
+
+fn row(cells: &[[i32; 2]], is_whole: bool) -> Demand {
+    Demand::Visited { grid: GRID, cells: cells.to_vec(), is_whole }
+}
+
+/// The tracks of rows: the tenths of a second, and the place of each robot along the first axis in millimetres, or `-`. All
+/// are in the middle of the first row of cells.
+fn tracks(rows: &str, limits: &Limits) -> Tracks {
+    let mut text = "t_ms,robot,x_mm,y_mm\n".to_owned();
+    for row in rows.split("; ") {
+        let (tenths, places) = row.split_once(' ').expect("a time");
+        for (robot, x) in places.split(' ').enumerate().filter(|(_, x)| *x != "-") {
+            writeln!(text, "{tenths}00,{robot},{x},500").expect("a string");
+        }
+    }
+    let log = read(text.as_bytes()).expect("a log");
+    Tracks::new(&log, &Numbers::natural(&log.names), limits)
+}
+
+/// Logs, each with what it is held to, and when it is broken in tenths of a second, kept or unknown.
+fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
+    let kept = Err(true);
+    let unknown = Err(false);
+    vec![
+        ("in range within the tolerance", "0 0 2600", RANGE, kept),
+        ("out of range", "0 0 2000; 5 0 2650", RANGE, Ok(5)),
+        ("far from a robot that is no neighbour", "0 0 2000 4000", RANGE, kept),
+        ("between two positions", "0 0 2000; 5 - 4000; 8 3000 4000", RANGE, kept),
+        ("silent", "0 0 0; 5 - 9000; 11 9000 9000", RANGE, unknown),
+        ("silent, and broken", "0 0 0; 11 0 9000", RANGE, Ok(11)),
+        ("silent at the end", "0 0 0; 9 - 0; 18 - 0", RANGE, unknown),
+        ("alone", "0 0", RANGE, unknown),
+        ("joined over another", "0 0 4000 2000", JOINED, kept),
+        ("parted", "0 0 2000; 5 0 3000", JOINED, Ok(5)),
+        ("parted from the start on", "0 0 3000; 5 0 3000", JOINED, unknown),
+        (
+            "parted where all have to be joined",
+            "0 0 3000",
+            Demand::Joined { range_mm: 2_549, of: Joining::All },
+            Ok(0),
+        ),
+        ("near at the starts", "0 0 1000; 5 2000 1000", APART, kept),
+        ("near, and one has never left", "0 0 9000; 5 4000 9000; 10 8000 9000", APART, kept),
+        (
+            "near beside the start of one that has come back",
+            "0 0 9000; 5 4000 13000; 10 8000 9000",
+            APART,
+            Ok(10),
+        ),
+        ("near within the tolerance", "0 0 9000; 5 4000 13000; 10 6050 9000", APART, kept),
+        ("three in a cell", "0 500 1500 1200; 5 1800 1500 1500", CHAIN_2, Ok(5)),
+        ("two in a cell", "0 500 1500 1200", CHAIN_2, kept),
+        ("three in the base", "0 500 500 500", CHAIN_2, kept),
+        ("two in a cell of one", "0 500 500", FRONTIER_2, Ok(0)),
+        ("at the border of a cell", "0 500 950", FRONTIER_2, kept),
+        ("all visited", "0 500; 9 2500", row(&[[0, 0], [1, 0], [2, 0]], true), kept),
+        ("one not visited", "0 500; 9 1500", row(&[[0, 0], [1, 0], [2, 0]], true), Ok(9)),
+        ("at its border", "0 500; 9 1950", row(&[[0, 0], [1, 0], [2, 0]], true), unknown),
+        ("visited perhaps in a silence", "0 500; 11 1500", row(&[[0, 0], [2, 0]], true), unknown),
+        ("perhaps later", "0 500; 9 1500", row(&[[0, 0], [2, 0]], false), unknown),
+    ]
+}
+
+/// The moment of a breach, in tenths of a second, or whether the clause is kept.
+fn short(verdict: Verdict) -> Result<i64, bool> {
+    match verdict {
+        Verdict::Broken(breach) => Ok(breach.at_us / 100_000),
+        Verdict::Kept => Err(true),
+        Verdict::Unknown(_) => Err(false),
+    }
+}
+
+#[test]
+fn small_logs_are_judged_as_seen_by_hand() {
+    for (name, rows, demand, expected) in cases() {
+        let verdict = judge(&tracks(rows, &LIMITS), &LIMITS, &demand).expect("few");
+        assert_eq!(short(verdict), expected, "{name}");
+    }
+}
+
+/// A wrong judge: its name, and its limits and its demand in place of the right ones.
+type Mutant = (&'static str, fn(Limits, Demand) -> (Limits, Demand));
+
+#[test]
+fn each_wrong_judge_is_found() {
+    let mutants: [Mutant; 12] = [
+        ("twice the tolerance", |limits, demand| (Limits { tolerance_mm: 200, ..limits }, demand)),
+        ("no tolerance", |limits, demand| (Limits { tolerance_mm: 0, ..limits }, demand)),
+        ("robots that are never silent", |limits, demand| (Limits { gap_us: u64::MAX, ..limits }, demand)),
+        ("robots that are always silent", |limits, demand| (Limits { gap_us: 1, ..limits }, demand)),
+        ("all pairs for neighbours", |limits, demand| match demand {
+            Demand::Neighbours { range_mm } => {
+                (limits, Demand::Joined { range_mm: range_mm / 2, of: Joining::All })
+            }
+            other => (limits, other),
+        }),
+        ("neighbours for all that are joined", |limits, demand| match demand {
+            Demand::Joined { range_mm, .. } => (limits, Demand::Neighbours { range_mm }),
+            other => (limits, other),
+        }),
+        ("no start", |limits, demand| match demand {
+            Demand::Joined { range_mm, .. } => (limits, Demand::Joined { range_mm, of: Joining::All }),
+            other => (limits, other),
+        }),
+        ("always a start", |limits, demand| match demand {
+            Demand::Joined { range_mm, .. } => {
+                (limits, Demand::Joined { range_mm, of: Joining::JoinedAtStart })
+            }
+            other => (limits, other),
+        }),
+        ("a base like any cell", |limits, demand| match demand {
+            Demand::Crowd { grid, most, .. } => (limits, Demand::Crowd { grid, most, base: None }),
+            other => (limits, other),
+        }),
+        ("one more in a cell", |limits, demand| match demand {
+            Demand::Crowd { grid, most, base } => (limits, Demand::Crowd { grid, most: most + 1, base }),
+            other => (limits, other),
+        }),
+        ("cells from their middles on", |limits, demand| match demand {
+            Demand::Crowd { grid, most, base } => {
+                (limits, Demand::Crowd { grid: Grid { origin_mm: [500.0, 0.0], ..grid }, most, base })
+            }
+            other => (limits, other),
+        }),
+        ("a log that is never cut", |limits, demand| match demand {
+            Demand::Visited { grid, cells, .. } => (limits, Demand::Visited { grid, cells, is_whole: true }),
+            other => (limits, other),
+        }),
+    ];
+    for (name, mutated) in mutants {
+        let is_found = cases().into_iter().any(|(_, rows, demand, expected)| {
+            let (limits, demand) = mutated(LIMITS, demand);
+            short(judge(&tracks(rows, &limits), &limits, &demand).expect("few")) != expected
+        });
+        assert!(is_found, "{name}");
+    }
+}
+
+#[test]
+fn a_breach_says_who_when_how_far_and_where_in_the_log() {
+    let rows = "0 0 0 0; 5 0 0 3000; 9 - 0 3000";
+    let Ok(Verdict::Broken(breach)) = judge(&tracks(rows, &LIMITS), &LIMITS, &RANGE) else {
+        panic!("it is broken")
+    };
+    let expected = Breach {
+        at_us: 500_000,
+        robots: vec![1, 2],
+        measured: 3_000,
+        allowed: 2_549,
+        cell: None,
+        place: 7,
+        moments: 2,
+    };
+    assert_eq!(breach, expected);
+}
+
+#[test]
+fn a_silence_says_who_and_how_long() {
+    let rows = "0 0 0; 5 0 -; 11 0 0";
+    let Ok(Verdict::Unknown(Doubt::Silent(silence, 1))) = judge(&tracks(rows, &LIMITS), &LIMITS, &RANGE)
+    else {
+        panic!("robot 1 is silent")
+    };
+    assert_eq!((silence.robot, silence.from_us, silence.to_us), (1, 0, 1_100_000));
+}
+
+#[test]
+fn too_many_robots_are_refused_before_any_is_compared() {
+    let mut rows = "t,robot,x,y\n".to_owned();
+    (0..100_000).for_each(|robot| writeln!(rows, "0,{robot},{robot},0").expect("a string"));
+    let log = read(rows.as_bytes()).expect("a log");
+    let tracks = Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS);
+    assert!(judge(&tracks, &LIMITS, &JOINED).expect_err("too much").comparisons == 10_000_000_000);
+    assert_eq!(judge(&tracks, &LIMITS, &RANGE), Ok(Verdict::Kept));
+    assert!(matches!(judge(&tracks, &LIMITS, &FRONTIER_2), Ok(Verdict::Kept)));
+}

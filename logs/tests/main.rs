@@ -1,0 +1,5 @@
+//! Logs are read as they were written, and judged by the sentences of SPEC.md.
+
+mod forms;
+mod judged;
+mod read;
