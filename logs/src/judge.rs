@@ -101,6 +101,8 @@ pub enum Doubt {
     Cell([i32; 2], usize),
     /// The log ends in the midst.
     Cut,
+    /// More than half of the positions are not on the map: it is another one, or has other units.
+    OtherMap,
 }
 
 /// More comparisons of robots than a judge makes.

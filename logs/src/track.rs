@@ -107,6 +107,11 @@ impl Tracks {
         self.robots.iter().flatten()
     }
 
+    /// The first place of each robot that has one, in millimetres.
+    pub fn starts(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.robots.iter().filter_map(|track| Some([track.first()?.x_mm, track.first()?.y_mm].map(f64::from)))
+    }
+
     /// The positions that were not taken.
     pub const fn refused(&self) -> Refused {
         self.refused

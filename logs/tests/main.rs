@@ -2,4 +2,5 @@
 
 mod forms;
 mod judged;
+mod many;
 mod read;
