@@ -10,6 +10,7 @@ mod explore;
 mod findings;
 mod hunt;
 mod interrupt;
+mod judge;
 mod layout_args;
 mod library;
 mod locate;
@@ -127,7 +128,7 @@ impl From<Exit> for ExitCode {
 /// The meaning of the exit codes, for the help, the manual pages and the documents.
 const EXIT_CODES: &str = "\
 0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, Ctrl-C, \
-SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 4 a merge has gaps · 70 a bug of \
+SIGTERM or SIGHUP ended the work before its bound, also if something was found by then, or a log does not say enough · 4 a merge has gaps · 70 a bug of \
 ours. Where several apply, the code is the first of 70, 2, 4, 3, 1, 0. With --exit-zero 1 is 0.";
 
 /// The fate of files.
@@ -166,6 +167,7 @@ enum Command {
     Locate(locate::Locate),
     Replay(replay::Replay),
     Conform(conform::Conform),
+    Judge(judge::Judge),
     Page(page::Page),
     Show(show::Show),
     #[cfg(feature = "papers")]
@@ -393,6 +395,7 @@ impl Command {
             Self::Locate(locate) => locate.run(out),
             Self::Replay(replay) => replay.run(out),
             Self::Conform(conform) => conform.run(out),
+            Self::Judge(judge) => judge.run(out),
             Self::Page(page) => page.run(out),
             Self::Show(show) => show.run(out),
             #[cfg(feature = "papers")]

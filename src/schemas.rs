@@ -10,7 +10,9 @@ use tautline_sim::schema::of;
 use tautline_sim::trace::Summary;
 
 use super::output::Versioned;
-use super::{conform, hunt, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show};
+use super::{
+    conform, hunt, judge, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show,
+};
 
 /// The command that writes the schemas anew.
 const RENEW: &str = "SCHEMAS_UPDATE=always cargo test -p tautline --bin tautline schemas";
@@ -58,6 +60,7 @@ fn schemas() -> Vec<(String, Value)> {
             "conform-answer",
             of::<conform::Answer>("a line that tautline conform reads from a program").to_value(),
         ),
+        ("judge", printed::<judge::told::JudgeJson<'_>>("tautline judge")),
         ("minimise", printed::<minimise::MinimiseJson>("tautline minimise")),
         ("rescue", printed::<rescue::RescueJson<'_>>("tautline rescue, and tautline replay of a rescue")),
         ("locate", printed::<Either<locate::TrialsJson<'_>, locate::FixesJson<'_>>>("tautline locate")),

@@ -1203,6 +1203,7 @@ fn every_command_has_help_with_examples() {
         "locate",
         "replay",
         "conform",
+        "judge",
         "page",
         "show",
         "reproduce",
@@ -1228,7 +1229,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
     assert_eq!(printed(folder, &["man", "--out", "man1"], 0), "");
     let stored = names(&folder.join("man1"));
     let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
-    assert_eq!((stored.len(), of_tables), (1 + 17 + 28, 28), "{stored:?}");
+    assert_eq!((stored.len(), of_tables), (1 + 18 + 28, 28), "{stored:?}");
     for name in stored {
         let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
         let title = name.strip_suffix(".1").expect("section 1");

@@ -7,6 +7,7 @@ mod documents;
 mod foreign;
 #[expect(unreachable_pub, reason = "the library of the fuzz targets is a module here")]
 mod fuzz_corpus;
+mod judge;
 mod layouts;
 mod mcap;
 mod mcp;

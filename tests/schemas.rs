@@ -15,7 +15,7 @@ fn printed(folder: &Path, arguments: &str) -> Value {
 }
 
 /// The name of a schema, and commands, one a line, that print what it is of. Later ones read what earlier ones stored.
-const COMMANDS: [(&str, &str); 13] = [
+const COMMANDS: [(&str, &str); 14] = [
     (
         "schemes",
         "schemes
@@ -56,7 +56,7 @@ const COMMANDS: [(&str, &str); 13] = [
     ("reproduce-repair-cost", "merge table.json"),
     (
         "explore",
-        "explore open:3x3 --robots 2 --trace run.jsonl
+        "explore open:3x3 --robots 2 --trace run.jsonl --mcap run.mcap
          explore walls:7x7:0.2 --rule published --robots 4 --max-moves 9 --trace broken.jsonl
          explore open:7x7 --rule reel --robots 4 --fail 3@5
          explore open:3x3 --rule reel --robots 2 --loss 0.1
@@ -72,6 +72,12 @@ const COMMANDS: [(&str, &str); 13] = [
          explore walls:5x5:0.1 --scheme kit --robots 2 --trace kit.jsonl
          explore cells:6x6:0.1 --scheme frontier --robots 2 --loss 0.1 --noise-db 1
          explore cells:6x6:0.1 --scheme pack --robots 2",
+    ),
+    (
+        "judge",
+        "judge run.mcap --clauses CHAIN-3,FRONTIER-1 --map open:3x3
+         judge run.mcap --clauses KIT-1 --range 0.5
+         judge run.mcap --clauses KIT-12 --gap 0.5",
     ),
     (
         "replay",

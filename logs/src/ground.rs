@@ -52,7 +52,8 @@ pub struct Misplaced {
     pub off: Option<(u32, u32)>,
     /// Steps from a cell into one beside it with a wall between them.
     pub through: Option<(u32, u32)>,
-    /// Whether more than half of the positions would be on the map if their unit were a thousandth.
+    /// Whether more than half of the positions are off the map, and would be on it, in several cells, if their unit were a
+    /// thousandth.
     pub is_milli: bool,
 }
 
@@ -64,7 +65,7 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
         *counted = (counted.0 + 1, counted.1.min(place));
     };
     let tolerance = f64::from(limits.tolerance_mm);
-    let (mut all, mut milli) = (0_usize, 0_usize);
+    let (mut all, mut milli, mut cells) = (0_usize, 0_usize, BTreeSet::new());
     for track in &tracks.robots {
         let mut before: Option<([i32; 2], i64)> = None;
         for sample in track {
@@ -77,7 +78,10 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
             }
             all += 1;
             let thousandth = grid.around(place.map(|along| along / 1e3), 0.0)[0];
-            milli += usize::from(ground.is_free(thousandth));
+            if ground.is_free(thousandth) {
+                milli += 1;
+                cells.insert(thousandth);
+            }
             let cell = grid.surely(place, limits.tolerance_mm);
             if let (Some((from, at_us)), Some(to)) = (before, cell) {
                 let is_soon = sample.at_us.abs_diff(at_us) <= limits.gap_us;
@@ -87,11 +91,12 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
                     count(&mut found.through, sample.place);
                 }
             }
-            before = cell.map(|cell| (cell, sample.at_us));
+            // At a border it may be in either cell: the last sure one counts.
+            before = cell.map(|cell| (cell, sample.at_us)).or(before);
         }
     }
     let is_off = found.off.is_some_and(|(off, _)| off as usize * 2 > all);
-    found.is_milli = is_off && milli * 2 > all;
+    found.is_milli = is_off && milli * 2 > all && cells.len() > 1;
     found
 }
 

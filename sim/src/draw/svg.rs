@@ -1,6 +1,8 @@
 //! Pictures as SVG, for light and dark pages: layouts, the environments of a cell, the order of exploration, team
 //! moves. Every text is escaped by being made of numbers and our own words.
 
+mod moment;
+
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
@@ -12,6 +14,8 @@ use crate::atomic_file::SVG_HEAD;
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{Look, Play, Report, Setup, Survey, TeamMove};
 use crate::layout::Layout;
+
+pub use moment::moment;
 
 /// The side of a cell.
 const CELL: i32 = 24;

@@ -1,0 +1,27 @@
+//! A moment of a log: robots anywhere on a layout, and those of them that break a clause.
+
+use std::fmt::Write;
+
+use super::{CELL, Panel, escaped, ground, name, panel, walls, whole};
+use crate::layout::Layout;
+
+/// Robots in cells from the corner of a layout, each with its name; `broken` are those that break a clause, with a line
+/// between them if they are two.
+pub fn moment(layout: &Layout, caption: &str, robots: &[([f64; 2], String)], broken: &[usize]) -> Panel {
+    let area = whole(layout);
+    let mut body = ground(layout, area) + &walls(layout, area);
+    let pixel = |along: f64| (along * f64::from(CELL)).round() as i32;
+    let place = |robot: usize| robots.get(robot).map(|(place, _)| place.map(pixel));
+    if let [one, other] = broken
+        && let (Some([x, y]), Some([to_x, to_y])) = (place(*one), place(*other))
+    {
+        let _ = write!(body, "<path class=\"broken\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
+    }
+    for (robot, (place, label)) in robots.iter().enumerate() {
+        let class = if broken.contains(&robot) { "crowded" } else { "robot" };
+        let [x, y] = place.map(pixel);
+        let _ = write!(body, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"8\"/>");
+        body += &name((x, y), &escaped(label));
+    }
+    panel(area, escaped(caption), body)
+}

@@ -1,0 +1,204 @@
+//! The map under a log, or the cells alone, and where they lie in metres.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_logs::{Grid, Ground, Limits, Tracks};
+
+use super::super::{CellArg, needless, number};
+use super::{above_0, milli};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::layout::{self, Coarse, Generator, Layout, ros};
+use tautline_sim::value_parser::{Metres, real};
+
+#[derive(Debug, Args)]
+pub(super) struct MapArgs {
+    /// The map: a layout file or a generator, with its lower left corner at 0,0, or where a ROS map says.
+    #[arg(long, value_name = "LAYOUT")]
+    map: Option<String>,
+    /// The seed of a map that is generated. Without it 0.
+    #[arg(long, requires = "map", value_parser = number::<u64>)]
+    seed: Option<u64>,
+    /// The image of a ROS map, in place of the one that it names.
+    #[arg(long, value_name = "FILE", requires = "map")]
+    image: Option<PathBuf>,
+    /// The radius of a robot on a ROS map in cells larger than its pixels, in metres. Without it half the side of a cell.
+    #[arg(long, value_name = "METRES", requires = "map", value_parser = real)]
+    radius: Option<f64>,
+    /// The side of a cell in metres. Without it that of a pixel of a ROS map, and else 1.
+    #[arg(long, value_name = "METRES", value_parser = above_0)]
+    cell: Option<f64>,
+    /// The corner of the cells in metres: the lower left one of the map. Without it 0,0, or what a ROS map says.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    origin: Option<Metres<2>>,
+    /// The cell of the base for CHAIN-2, as the map counts cells. Without it that of the map, or the one in which robot 1
+    /// is first.
+    #[arg(long, value_name = "X,Y", requires = "map")]
+    base: Option<CellArg>,
+}
+
+/// The cells under a log, and the map of them if there is one. The rows of a map are counted southwards from 0; those of a
+/// grid northwards from its corner.
+pub(super) struct Given {
+    layout: Option<Layout>,
+    grid: Grid,
+    base: Option<Cell>,
+}
+
+impl MapArgs {
+    /// The files that this is read from.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        self.map.as_ref().map_or_else(Vec::new, |map| layout::inputs(map, self.image.as_deref()))
+    }
+
+    pub(super) fn load(&self, is_map_needed: bool) -> Result<Given, Diagnostic> {
+        let mut corner = [0.0, 0.0];
+        let mut cell_m = self.cell.unwrap_or(1.0);
+        let layout = match &self.map {
+            None if is_map_needed => {
+                let what = "FRONTIER-1 asks which cells robots can reach";
+                return Err(Diagnostic::usage(what, "give a --map"));
+            }
+            None => None,
+            Some(map) => {
+                let (image, path) = (self.image.as_deref(), Path::new(map));
+                let is_ros = path.extension().is_some_and(|end| end == "yaml" || end == "yml");
+                let mut coarse = Coarse { cell_m: None, radius_m: self.radius };
+                let mut top = None;
+                if is_ros && map.parse::<Generator>().is_err() {
+                    let (pixels, frame) = ros::load(path, image)?;
+                    if frame.yaw_rad != 0.0 {
+                        let what = format!("the map is turned by {} rad", frame.yaw_rad);
+                        let remedy = "turn the positions into the axes of its image, and set the yaw of its origin to 0";
+                        return Err(Diagnostic::in_file(path, what, remedy));
+                    }
+                    coarse.cell_m = self.cell;
+                    cell_m = self.cell.unwrap_or(frame.resolution_m);
+                    top = Some(frame.y_m + f64::from(pixels.height()) * frame.resolution_m);
+                    corner = [frame.x_m, frame.y_m];
+                }
+                let layout = layout::load_coarse(map, self.seed.unwrap_or(0), image, coarse)?;
+                if let Some(top) = top {
+                    corner[1] = top - f64::from(layout.height()) * cell_m;
+                }
+                Some(layout)
+            }
+        };
+        if let Some(Metres(origin)) = self.origin {
+            corner = origin;
+        }
+        if self.seed.is_some() && !self.map.as_deref().is_some_and(|map| map.parse::<Generator>().is_ok()) {
+            return Err(needless("--seed", "the map is not generated"));
+        }
+        let base = self.base.map(|CellArg(cell)| cell);
+        if let (Some(layout), Some(base)) = (&layout, base) {
+            layout.check_start(base)?;
+        }
+        let base = base.or_else(|| layout.as_ref()?.base());
+        let grid = Grid { origin_mm: corner.map(|along| along * 1e3), cell_mm: milli(cell_m).max(1) };
+        Ok(Given { layout, grid, base })
+    }
+}
+
+impl Given {
+    pub(super) const fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    pub(super) fn cell_m(&self) -> f64 {
+        f64::from(self.grid.cell_mm) / 1e3
+    }
+
+    pub(super) const fn layout(&self) -> Option<&Layout> {
+        self.layout.as_ref()
+    }
+
+    pub(super) fn ground(&self) -> Option<&dyn Ground> {
+        self.layout.as_ref().map(|_| self as &dyn Ground)
+    }
+
+    /// Refuses cells in which no robot is without doubt.
+    pub(super) fn check_cells(&self, id: &str, limits: &Limits) -> Result<(), Diagnostic> {
+        if limits.tolerance_mm * 2 < self.grid.cell_mm {
+            return Ok(());
+        }
+        let what = format!(
+            "{id} speaks of cells, and with this tolerance no robot is in a cell of {} m without doubt",
+            self.cell_m()
+        );
+        Err(Diagnostic::usage(what, "give a --tolerance below half a --cell"))
+    }
+
+    /// The cell of the grid.
+    fn northward(&self, cell: Cell) -> [i32; 2] {
+        let rows = self.layout.as_ref().map_or(0, Layout::height);
+        [cell.x.into(), i32::from(rows) - 1 - i32::from(cell.y)]
+    }
+
+    /// The cell of the map, or as far as its numbers go.
+    fn southward(&self, [column, row]: [i32; 2]) -> Option<Cell> {
+        let rows = self.layout.as_ref().map_or(0, Layout::height);
+        let row = i32::from(rows).checked_sub(1)?.checked_sub(row)?;
+        Some(Cell::new(column.try_into().ok()?, row.try_into().ok()?))
+    }
+
+    /// A cell of the grid as people count it: as the map does, or as the grid does if there is none.
+    pub(super) fn counted(&self, cell: [i32; 2]) -> [i32; 2] {
+        match (&self.layout, self.southward(cell)) {
+            (Some(_), Some(cell)) => [cell.x.into(), cell.y.into()],
+            (Some(_) | None, _) => cell,
+        }
+    }
+
+    /// The cell in which each robot is first.
+    fn starts(&self, tracks: &Tracks) -> impl Iterator<Item = [i32; 2]> {
+        let first = tracks.starts().map(|place| self.grid.surely(place, 0));
+        first.flatten()
+    }
+
+    /// The base, in the grid.
+    pub(super) fn base(&self, tracks: &Tracks) -> Option<[i32; 2]> {
+        self.base.map(|base| self.northward(base)).or_else(|| self.starts(tracks).next())
+    }
+
+    /// The cells that robots can reach from where they are first, in the grid.
+    pub(super) fn reachable(&self, tracks: &Tracks) -> Vec<[i32; 2]> {
+        let Some(layout) = &self.layout else { return Vec::new() };
+        let starts = self.starts(tracks).filter_map(|cell| self.southward(cell));
+        let starts: Vec<Cell> = starts.filter(|&cell| layout.is_free(cell)).collect();
+        layout.reachable(&starts).into_iter().map(|cell| self.northward(cell)).collect()
+    }
+}
+
+impl Ground for Given {
+    fn is_free(&self, cell: [i32; 2]) -> bool {
+        self.southward(cell)
+            .is_some_and(|cell| self.layout.as_ref().is_none_or(|layout| layout.is_free(cell)))
+    }
+
+    fn is_open(&self, cell: [i32; 2], beside: [i32; 2]) -> bool {
+        let (Some(layout), Some(from), Some(to)) =
+            (&self.layout, self.southward(cell), self.southward(beside))
+        else {
+            return true;
+        };
+        let side = Side::ALL.into_iter().find(|&side| from.beyond(side) == to);
+        side.is_some_and(|side| layout.is_open(Edge::new(from, side)))
+    }
+}
+
+/// The bytes of a file, at most so many.
+pub(super) fn bytes(file: &Path, most: u64) -> Result<Vec<u8>, Diagnostic> {
+    let unread = |error: std::io::Error| Diagnostic::in_file(file, error, "name a file that can be read");
+    let mut bytes = Vec::new();
+    let opened = File::open(file).map_err(unread)?;
+    opened.take(most + 1).read_to_end(&mut bytes).map_err(unread)?;
+    if bytes.len() as u64 > most {
+        let what = format!("the file has more than {} MiB", most >> 20);
+        return Err(Diagnostic::in_file(file, what, "cut it into parts"));
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,159 @@
+//! `tautline judge`: logs of robots that this program did not move.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::foreign::ended;
+
+/// Four robots in a row swing to and fro for half a minute; from 20 s on the last one is 80 cm farther off.
+fn field(header: &str, metre: f64) -> String {
+    let mut text = format!("{header}\n");
+    for moment in 0..60 {
+        for robot in 0..4 {
+            let swing = f64::from((moment % 20_i32 - 10).abs()) / 10.0;
+            let off = if robot == 3 && moment >= 40 { 0.8 } else { 0.0 };
+            let x = f64::from(robot) * 2.0 + 0.5 + swing + off;
+            writeln!(text, "{},ugv{},{},{}", f64::from(moment) / 2.0, robot + 1, x * metre, 0.5 * metre)
+                .expect("a string");
+        }
+    }
+    text
+}
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("field.csv"), field("time,robot,x,y", 1.0)).expect("a file");
+    folder
+}
+
+fn judged(folder: &Path, arguments: &str, code: i32) -> (String, String) {
+    let arguments: Vec<&str> = ["judge"].into_iter().chain(arguments.split(' ')).collect();
+    ended(folder, &arguments, code)
+}
+
+#[test]
+fn a_breach_has_its_moment_its_robots_its_line_a_picture_and_a_page() {
+    let folder = folder();
+    let folder = folder.path();
+    let arguments = "field.csv --clauses CHAIN-3,CHAIN-2,KIT-12,PACK-2 --svg moment.svg --html moment.html";
+    let (told, _) = judged(folder, arguments, 1);
+    let page = include_str!("../docs/judge.md");
+    assert!(page.contains(&told), "docs/judge.md has not:\n{told}");
+    let picture = fs::read_to_string(folder.join("moment.svg")).expect("a picture");
+    assert!(
+        picture.contains("CHAIN-3 is broken at 20 s; cells of 1 m") && picture.contains("class=\"broken\"")
+    );
+    assert_eq!(picture.matches("class=\"crowded\"").count(), 2, "{picture}");
+    let page = fs::read_to_string(folder.join("moment.html")).expect("a page");
+    assert!(page.contains("20 s: CHAIN-3 is broken") && page.contains("! 4 (ugv4)"), "{page}");
+    let (told, _) = judged(folder, "field.csv --clauses chain-3 --format json", 1);
+    let told: Value = serde_json::from_str(&told).expect("JSON");
+    assert_eq!(told["clauses"][0]["breach"]["place"], 165);
+}
+
+#[test]
+fn runs_of_ours_keep_their_clauses_in_the_recordings_that_we_write() {
+    let folder = folder();
+    let folder = folder.path();
+    for (run, map, clauses) in [
+        ("--robots 4", "walls:9x9:0.1", "CHAIN-2,CHAIN-3"),
+        ("--robots 3 --scheme frontier", "cells:6x6:0.1", "FRONTIER-1,FRONTIER-2"),
+        ("--robots 3 --scheme pack", "cells:6x6:0.1", "PACK-2"),
+    ] {
+        let explore = format!("explore {map} --mcap run.mcap --force {run}");
+        ended(folder, &explore.split(' ').collect::<Vec<_>>(), 0);
+        let (told, _) = judged(folder, &format!("run.mcap --map {map} --clauses {clauses}"), 0);
+        assert!(!told.contains("off the map") && !told.contains("through a wall"), "{told}");
+    }
+    // As published, a chain comes to be three in a cell; the picture of a map is that of the map.
+    let run = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/chain-2-published-n4.jsonl");
+    ended(folder, &["replay", run, "--mcap", "crowd.mcap"], 1);
+    let (told, _) = judged(folder, "crowd.mcap --clauses CHAIN-2", 1);
+    assert!(told.contains("CHAIN-2: broken at 7 s: robots"), "{told}");
+}
+
+#[test]
+fn a_log_of_another_map_or_in_other_units_is_said() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("mm.csv"), field("time,robot,x,y", 1_000.0)).expect("a file");
+    fs::write(folder.join("units.csv"), field("time_s,robot,x_mm,y_mm", 1_000.0)).expect("a file");
+    let (told, _) = judged(folder, "mm.csv --clauses CHAIN-3 --map open:12x3", 3);
+    assert!(
+        told.contains("are they millimetres?") && told.contains("CHAIN-3: unknown: more than half"),
+        "{told}"
+    );
+    let (told, _) = judged(folder, "field.csv --clauses CHAIN-3 --map open:3x3", 3);
+    assert!(!told.contains("millimetres") && told.contains("off the map, first in line 3"), "{told}");
+    judged(folder, "units.csv --clauses CHAIN-3 --map open:12x3", 1);
+    let (told, _) = judged(folder, "field.csv --clauses FRONTIER-1 --map open:12x1", 1);
+    assert!(told.contains("nobody was in 3 cells, the first is (9,0)"), "{told}");
+    let wall = "tautline layout 1\n+--+--+--+--+--+--+--+--+--+--+--+--+\n|  |                                |\n+--+--+--+--+--+--+--+--+--+--+--+--+\n";
+    fs::write(folder.join("wall.txt"), wall).expect("a file");
+    let (told, _) = judged(folder, "field.csv --clauses CHAIN-2 --map wall.txt", 0);
+    assert!(told.contains("a step through a wall of the map, first in line"), "{told}");
+}
+
+#[test]
+fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
+    let folder = folder();
+    let folder = folder.path();
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
+    write("nobody.csv", "robot_a,1\n");
+    write("twice.csv", "ugv1,1\nugv1,2\n");
+    write("bad.csv", "time,robot,x,y\n0,a,0,0\n1,a,0.0.1,0\n");
+    write("scan.mcap", "\u{89}");
+    for (arguments, words) in [
+        ("field.csv --clauses CHAIN-1", "it speaks of the moments after team moves"),
+        ("field.csv --clauses KIT-1", "KIT-1 speaks of two robots, and the log has 4"),
+        ("field.csv --clauses FRONTIER-1", "give a --map"),
+        ("field.csv --clauses CHAIN-3 --least 3", "--least has no effect"),
+        ("field.csv --clauses KIT-3 --range 3", "--range has no effect"),
+        ("field.csv --clauses CHAIN-2 --tolerance 0.5", "give a --tolerance below half a --cell"),
+        ("field.csv --clauses CHAIN-2 --map field.csv", "field.csv:1"),
+        ("field.csv --clauses CHAIN-3 --names nobody.csv", "which has ugv1, ugv2, ugv3, ugv4"),
+        ("field.csv --clauses CHAIN-3 --names twice.csv", "twice.csv:2"),
+        ("bad.csv --clauses CHAIN-3", "bad.csv:3:5"),
+        ("gone.csv --clauses CHAIN-3", "gone.csv"),
+        ("field.csv --clauses CHAIN-3 --svg field.csv --force", "field.csv"),
+    ] {
+        let (_, said) = judged(folder, arguments, 2);
+        assert!(
+            said.contains(words) && said.contains("Help:") | said.contains("--help"),
+            "{arguments}: {said}"
+        );
+    }
+    assert!(fs::read_to_string(folder.join("field.csv")).expect("the log").starts_with("time,"));
+}
+
+#[test]
+fn numbers_of_robots_are_those_of_the_file_of_names() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("names.csv"), "name,robot\nugv3,1\nugv4,2\nugv9,3\n").expect("a file");
+    let (told, _) = judged(folder, "field.csv --clauses CHAIN-3,KIT-12 --names names.csv", 3);
+    assert!(
+        told.contains("120 × not taken: a name that is no robot") && told.contains("not in the log: ugv9"),
+        "{told}"
+    );
+    assert!(told.contains("CHAIN-3: broken at 20 s: robots 1 (ugv3) and 2 (ugv4)"), "{told}");
+    assert!(told.contains("KIT-12: unknown: robot 3 (ugv9) is silent from 0 s to 29.5 s"), "{told}");
+}
+
+/// `logs/tests/logs` says which programs have written them.
+#[test]
+fn logs_of_other_programs_are_judged() {
+    let log = |name: &str| format!("{}/logs/tests/logs/{name}", env!("CARGO_MANIFEST_DIR"));
+    let folder = folder();
+    let folder = folder.path();
+    let (told, _) = judged(folder, &format!("{} --clauses KIT-3,KIT-12", log("sumo-fcd.csv")), 3);
+    assert!(told.contains("72 positions of 3 robots in 15.5 s"), "{told}");
+    assert!(told.contains("KIT-3: unknown: robot 2 (cart_1) is silent from 0 s to 4 s"), "{told}");
+    judged(folder, &format!("{} --clauses KIT-3 --gap 5", log("sumo-fcd.csv")), 3);
+    judged(folder, &format!("{} --clauses KIT-3 --gap 8", log("sumo-fcd.csv")), 0);
+    let (told, _) = judged(folder, &format!("{} --clauses KIT-1,CHAIN-3", log("rosbags.mcap")), 1);
+    assert!(told.contains("KIT-1: kept") && told.contains("2.692 m apart, at most 2.549 m"), "{told}");
+}
