@@ -26,8 +26,8 @@ Examples:
   tautline judge run.jsonl --clauses KIT-12,KIT-3 --gap 2 --svg moment.svg
   tautline judge log.csv --clauses FRONTIER-1,FRONTIER-2 --map floor.yaml --cell 0.5 --radius 0.2
 
-LOG is a table (CSV) with columns time, robot, x and y, lines of JSON with these fields or like messages of ROS, or a recording of \
-ROS 2 in MCAP. Names end with units that are not seconds and metres: t_ms, x_mm. docs/judge.md shows all of it.";
+LOG is a table (CSV) with columns time, robot, x and y, lines of JSON with these fields or like messages of ROS, or a \
+recording of ROS 2 in MCAP. Names end with units that are not seconds and metres: t_ms, x_mm. docs/judge.md shows all of it.";
 
 /// The longest log that is read.
 const MOST_BYTES: u64 = 1 << 30;
@@ -43,8 +43,8 @@ pub(super) struct Judge {
     /// The clauses, with commas between them.
     #[arg(long, value_name = "CLAUSE", required = true, value_delimiter = ',', value_parser = clause)]
     clauses: Vec<(&'static str, Kind)>,
-    /// A file of lines NAME,NUMBER: which name of the log is which robot, from 1. Without it names are numbered in their
-    /// order, robot 2 before robot 10.
+    /// A file of lines NAME,NUMBER: which name of the log is which robot, from 1. Without it names are numbered in
+    /// their order, robot 2 before robot 10.
     #[arg(long, value_name = "FILE")]
     names: Option<PathBuf>,
     #[command(flatten)]
@@ -108,16 +108,14 @@ impl Judge {
         let [svg, html] = self.force.files([&self.svg, &self.html], inputs)?;
         self.check()?;
         let given = self.map.load(self.clauses.iter().any(|(_, kind)| matches!(kind, Kind::Visited)))?;
+        if given.layout().is_some() {
+            given.check_cells("--map", &self.limits())?;
+        }
         let bytes = given::bytes(&self.log, MOST_BYTES)?;
         let log = read(&bytes).map_err(|fault| self.unread(fault))?;
         drop(bytes);
         let numbers = self.numbers(&log)?;
-        let micros = |seconds: f64| (seconds * 1e6).round() as u64;
-        let limits = Limits {
-            tolerance_mm: milli(self.tolerance),
-            gap_us: micros(self.gap),
-            jump_us: micros(self.jump),
-        };
+        let limits = self.limits();
         let tracks = Tracks::new(&log, &numbers, &limits);
         let misplaced = given.ground().map(|ground| misplaced(&tracks, &limits, given.grid(), ground));
         let is_other = misplaced.is_some_and(|misplaced| is_other_map(misplaced, &tracks));
@@ -161,7 +159,12 @@ impl Judge {
         Ok(verdicts.iter().map(exit).max().unwrap_or(Exit::Expected))
     }
 
-    /// Refuses options that have no effect, and tolerances that leave no cell.
+    fn limits(&self) -> Limits {
+        let micros = |seconds: f64| (seconds * 1e6).round() as u64;
+        Limits { tolerance_mm: milli(self.tolerance), gap_us: micros(self.gap), jump_us: micros(self.jump) }
+    }
+
+    /// Refuses options that have no effect.
     fn check(&self) -> Result<(), Diagnostic> {
         let has = |kinds: &[Kind]| self.clauses.iter().any(|(_, kind)| kinds.contains(kind));
         if self.range.is_some() && !has(&[Kind::Neighbours, Kind::Pair, Kind::Joined]) {
@@ -179,7 +182,8 @@ impl Judge {
         let bytes = given::bytes(file, MOST_BYTES)?;
         let text = String::from_utf8_lossy(&bytes);
         Numbers::named(&log.names, &text).map_err(|wrong| {
-            let remedy = "write lines as robot_a,1 with the names of the log and the numbers of robots, from 1, each once";
+            let remedy = "write lines as robot_a,1 with the names of the log and the numbers of robots, from 1, each \
+                          once";
             match wrong {
                 Misnamed::Line(line) | Misnamed::Twice(line) => {
                     let text = text.lines().nth(line - 1).unwrap_or_default();

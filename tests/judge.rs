@@ -97,6 +97,28 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
     assert!(told.contains("a step through a wall of the map, first in line"), "{told}");
 }
 
+/// The lower left corner of the image is at -1,-1, and its lowest row of pixels is blocked.
+#[test]
+fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
+    let folder = folder();
+    let folder = folder.path();
+    let image = format!("P2\n20 6\n255\n{}{}", "255 ".repeat(100), "0 ".repeat(20));
+    fs::write(folder.join("floor.pgm"), image).expect("a file");
+    let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    fs::write(folder.join("floor.yaml"), yaml).expect("a file");
+    // Ten columns from x = -1 on, of which robots reach 1 to 9; two of three rows are free, from y = 0 on.
+    let (told, _) =
+        judged(folder, "field.csv --clauses FRONTIER-1,CHAIN-2 --map floor.yaml --cell 1 --radius 0.4", 1);
+    assert!(
+        told.contains("nobody was in 11 cells, the first is (0,0)") && told.contains("CHAIN-2: kept"),
+        "{told}"
+    );
+    assert!(!told.contains("off the map"), "{told}");
+    let (told, _) =
+        judged(folder, "field.csv --clauses CHAIN-2 --map floor.yaml --cell 1 --radius 0.4 --origin 0,5", 3);
+    assert!(told.contains("240 × a position in a blocked cell or off the map"), "{told}");
+}
+
 #[test]
 fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
     let folder = folder();

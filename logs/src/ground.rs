@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::judge::{MOST_COMPARISONS, TooMuch};
 use super::{Limits, Tracks};
 
 /// The grid of cells under the positions. Columns are counted along the first axis, rows along the second one.
@@ -52,8 +53,8 @@ pub struct Misplaced {
     pub off: Option<(u32, u32)>,
     /// Steps from a cell into one beside it with a wall between them.
     pub through: Option<(u32, u32)>,
-    /// Whether more than half of the positions are off the map, and would be on it, in several cells, if their unit were a
-    /// thousandth.
+    /// Whether more than half of the positions are off the map, and would be on it, in several cells, if their unit
+    /// were a thousandth.
     pub is_milli: bool,
 }
 
@@ -101,12 +102,15 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
 }
 
 /// Those of `cells` that were visited without doubt, and those that may have been.
+///
+/// # Errors
+/// [`TooMuch`] if robots leap over too many cells.
 pub fn visits(
     tracks: &Tracks,
     limits: &Limits,
     grid: Grid,
     cells: &BTreeSet<[i32; 2]>,
-) -> [BTreeSet<[i32; 2]>; 2] {
+) -> Result<[BTreeSet<[i32; 2]>; 2], TooMuch> {
     let tolerance = f64::from(limits.tolerance_mm);
     // A position far away is no reason to look at all cells on the way.
     let rim = |axis: usize| {
@@ -114,7 +118,7 @@ pub fn visits(
         (along().min().unwrap_or(0), along().max().unwrap_or(0))
     };
     let rims = [rim(0), rim(1)];
-    let [mut surely, mut maybe] = [BTreeSet::new(), BTreeSet::new()];
+    let ([mut surely, mut maybe], mut comparisons) = ([BTreeSet::new(), BTreeSet::new()], 0);
     for track in &tracks.robots {
         for (sample, next) in track.iter().zip(track.iter().skip(1).chain(track.last())) {
             let is_straight = next.at_us.abs_diff(sample.at_us) <= limits.gap_us;
@@ -125,6 +129,10 @@ pub fn visits(
                 let (low, high) = (one[0][axis].min(other[0][axis]), one[1][axis].max(other[1][axis]));
                 low.max(rims[axis].0)..=high.min(rims[axis].1)
             });
+            comparisons += columns.clone().count() as u128 * rows.clone().count() as u128;
+            if comparisons > MOST_COMPARISONS {
+                return Err(TooMuch { comparisons });
+            }
             for column in columns {
                 for cell in rows.clone().map(|row| [column, row]).filter(|cell| cells.contains(cell)) {
                     if !surely.contains(&cell) && crosses(ends, grid.bounds(cell, -tolerance)) {
@@ -137,7 +145,7 @@ pub fn visits(
             }
         }
     }
-    [surely, maybe]
+    Ok([surely, maybe])
 }
 
 /// Whether the straight way between two places meets a rectangle: the part of the way that is within the bounds of one

@@ -1,6 +1,6 @@
-//! The judge of a whole log. At each stamp it looks at all robots: where each is, between which positions of it the stamp
-//! lies, and which pairs are too far, too near or in one cell. It keeps nothing from one stamp to the next but what a
-//! clause asks for: whether a robot has ever left its start.
+//! The judge of a whole log. At each stamp it looks at all robots: where each is, between which positions of it the
+//! stamp lies, and which pairs are too far, too near or in one cell. It keeps nothing from one stamp to the next but
+//! what a clause asks for: whether a robot has ever left its start.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -23,8 +23,8 @@ pub enum Demand {
         /// The robots of which the clause speaks.
         of: Joining,
     },
-    /// KIT-3: robots that have left their starts are apart. A robot has left its start, the first place of it in the log, for
-    /// ever once it was farther from it than this distance and the tolerance.
+    /// KIT-3: robots that have left their starts are apart. A robot has left its start, the first place of it in the
+    /// log, for ever once it was farther from it than this distance and the tolerance.
     Apart {
         /// The least distance.
         least_mm: u32,
@@ -129,6 +129,7 @@ impl std::error::Error for TooMuch {}
 
 /// A moment in which a clause is broken.
 struct Found {
+    /// In their order.
     robots: Vec<u32>,
     measured: u32,
     cell: Option<[i32; 2]>,
@@ -167,8 +168,8 @@ impl Moment<'_> {
     }
 }
 
-/// Whether all robots are joined by links of at most so many millimetres; if not, the nearest two of whom one is joined to
-/// the first robot and the other one is not. `None` if some place is not known.
+/// Whether all robots are joined by links of at most so many millimetres; if not, the nearest two of whom one is
+/// joined to the first robot and the other one is not. `None` if some place is not known.
 fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Found>> {
     let places: Vec<[f64; 2]> = moment.robots().map(|robot| moment.at(robot)).collect::<Option<_>>()?;
     let (mut reached, mut left): (Vec<usize>, Vec<usize>) = (vec![0], (1..places.len()).collect());
@@ -284,7 +285,8 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         for fresh in moments() {
             let moment = Moment { at_us: fresh[0].0, fresh, tracks };
             let Some(Found { robots, measured, cell }) = found(&moment) else { continue };
-            let place = fresh.iter().filter(|one| robots.contains(&one.1)).map(|one| one.2).max();
+            let place =
+                fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
             let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
             let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
             first.get_or_insert(Breach { at_us, robots, measured, allowed, cell, place, moments }).moments +=
@@ -299,7 +301,9 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     }
     let silent = tracks.silences().next().map(|silence| Doubt::Silent(silence, tracks.silences().count()));
     Ok(match demand {
-        Demand::Visited { grid, cells, is_whole } => visited(tracks, limits, *grid, cells, *is_whole, silent),
+        Demand::Visited { grid, cells, is_whole } => {
+            return visited(tracks, limits, *grid, cells, *is_whole, silent);
+        }
         Demand::Neighbours { .. } | Demand::Joined { .. } | Demand::Apart { .. } | Demand::Crowd { .. } => {
             silent.map_or(Verdict::Kept, Verdict::Unknown)
         }
@@ -324,20 +328,22 @@ fn visited(
     cells: &[[i32; 2]],
     is_whole: bool,
     silent: Option<Doubt>,
-) -> Verdict {
-    let [surely, maybe] = visits(tracks, limits, grid, &cells.iter().copied().collect::<BTreeSet<_>>());
+) -> Result<Verdict, TooMuch> {
+    let [surely, maybe] = visits(tracks, limits, grid, &cells.iter().copied().collect::<BTreeSet<_>>())?;
     let left: Vec<_> = cells.iter().copied().filter(|cell| !surely.contains(cell)).collect();
-    let Some(&first) = left.first() else { return Verdict::Kept };
+    let Some(&first) = left.first() else { return Ok(Verdict::Kept) };
     if let Some(doubt) = silent {
-        return Verdict::Unknown(doubt);
+        return Ok(Verdict::Unknown(doubt));
     }
     if !is_whole {
-        return Verdict::Unknown(Doubt::Cut);
+        return Ok(Verdict::Unknown(Doubt::Cut));
     }
     let missed: Vec<_> = left.iter().copied().filter(|cell| !maybe.contains(cell)).collect();
-    let Some(&cell) = missed.first() else { return Verdict::Unknown(Doubt::Cell(first, left.len())) };
+    let Some(&cell) = missed.first() else {
+        return Ok(Verdict::Unknown(Doubt::Cell(first, left.len())));
+    };
     let (robots, measured) = (Vec::new(), missed.len() as u32);
     let place = tracks.samples().map(|sample| sample.place).max().unwrap_or(0);
     let at_us = tracks.span_us()[1];
-    Verdict::Broken(Breach { at_us, robots, measured, allowed: 0, cell: Some(cell), place, moments: 1 })
+    Ok(Verdict::Broken(Breach { at_us, robots, measured, allowed: 0, cell: Some(cell), place, moments: 1 }))
 }

@@ -1,6 +1,6 @@
 //! The numbers of robots: by the order of their names, or as a small file says.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// The number of each name of a log, and the names by number.
@@ -65,7 +65,7 @@ impl Numbers {
     /// [`Misnamed`].
     pub fn named(names: &[String], file: &str) -> Result<Self, Misnamed> {
         let mut numbers: HashMap<&str, u32> = HashMap::new();
-        let mut by_number: Vec<(u32, &str)> = Vec::new();
+        let (mut by_number, mut given): (Vec<(u32, &str)>, HashSet<u32>) = (Vec::new(), HashSet::new());
         let lines =
             (1..).zip(file.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
         for (place, line) in lines {
@@ -79,7 +79,7 @@ impl Numbers {
                 }
                 Some(_) | None => return Err(Misnamed::Line(place)),
             };
-            if numbers.insert(name, robot).is_some() || by_number.iter().any(|(other, _)| *other == robot) {
+            if numbers.insert(name, robot).is_some() || !given.insert(robot) {
                 return Err(Misnamed::Twice(place));
             }
             by_number.push((robot, name));
@@ -92,7 +92,8 @@ impl Numbers {
         if of.iter().all(Option::is_none) {
             return Err(Misnamed::Nothing(names.iter().take(SHOWN).cloned().collect()));
         }
-        let is_absent = |name: &&str| names.iter().all(|known| known != name);
+        let known: HashSet<&str> = names.iter().map(String::as_str).collect();
+        let is_absent = |name: &&str| !known.contains(name);
         let absent = by_number.iter().map(|&(_, name)| name).filter(is_absent).map(str::to_owned).collect();
         Ok(Self { of, names: by_number.into_iter().map(|(_, name)| name.to_owned()).collect(), absent })
     }

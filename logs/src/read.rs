@@ -13,7 +13,11 @@ use std::ops::Range;
 /// The samples that are held: some 400 MB.
 pub const MOST_SAMPLES: usize = 1 << 24;
 
-/// The farthest that a position may be along an axis, in millimetres: distances between positions fit into their numbers.
+/// The frames that are named.
+const MOST_FRAMES: usize = 8;
+
+/// The farthest that a position may be along an axis, in millimetres: distances between positions fit into their
+/// numbers.
 const FARTHEST_MM: f64 = 1e9;
 
 /// The form of a log.
@@ -61,7 +65,7 @@ pub struct Log {
     pub samples: Vec<Sample>,
     /// The names of the robots, in the order of the log.
     pub names: Vec<String>,
-    /// The frames that its positions are given in, where it names any.
+    /// The first frames that its positions are given in, where it names any.
     pub frames: Vec<String>,
     /// The last place, if the log ends in the midst of it. What stands there is not taken.
     pub cut: Option<u32>,
@@ -168,8 +172,9 @@ impl Reading {
 
     /// Notes the frame of a position.
     fn frame(&mut self, frame: &str) {
-        if !frame.is_empty() && self.log.frames.iter().all(|known| known != frame) {
-            self.log.frames.push(frame.to_owned());
+        let frames = &mut self.log.frames;
+        if frames.len() < MOST_FRAMES && !frame.is_empty() && frames.iter().all(|known| known != frame) {
+            frames.push(frame.to_owned());
         }
     }
 }
@@ -181,9 +186,8 @@ fn micros(seconds: i64, nanos: i64) -> Option<i64> {
 
 /// Reads a log.
 ///
-/// # Errors
-/// A [`Fault`] if it is none, has no position, or too many. A log that ends in the midst of a line or a message is read up
-/// to there.
+/// # Errors A [`Fault`] if it is none, has no position, or too many. A log that ends in the midst of a line or a
+/// message is read up to there.
 pub fn read(bytes: &[u8]) -> Result<Log, Fault> {
     const REMEDY: &str = "name a table with columns time, robot, x and y, lines of JSON with these fields, or a recording of ROS 2 \
                           in MCAP";

@@ -122,8 +122,8 @@ impl Tracks {
         self.span_us
     }
 
-    /// The place of a robot, in millimetres, if the log says it: a robot goes straight from one position to the next one,
-    /// unless the time between them is longer than the gap.
+    /// The place of a robot, in millimetres, if the log says it: a robot goes straight from one position to the next
+    /// one, unless the time between them is longer than the gap.
     pub fn at(&self, robot: usize, at_us: i64) -> Option<[f64; 2]> {
         let track = self.robots.get(robot)?;
         let next = track.partition_point(|sample| sample.at_us < at_us);

@@ -16,8 +16,8 @@ fn row(cells: &[[i32; 2]], is_whole: bool) -> Demand {
     Demand::Visited { grid: GRID, cells: cells.to_vec(), is_whole }
 }
 
-/// The tracks of rows: the tenths of a second, and the place of each robot along the first axis in millimetres, or `-`. All
-/// are in the middle of the first row of cells.
+/// The tracks of rows: the tenths of a second, and the place of each robot along the first axis in millimetres, or
+/// `-`. All are in the middle of the first row of cells.
 fn tracks(rows: &str, limits: &Limits) -> Tracks {
     let mut text = "t_ms,robot,x_mm,y_mm\n".to_owned();
     for row in rows.split("; ") {

@@ -1,5 +1,5 @@
-//! Many logs of runs of our own simulator, by rules that keep the clauses: the judge finds nothing in them, and finds the
-//! one violation that is planted in each, whatever the form of the log, with stamps that are off, late or astray.
+//! Many logs of runs of our own simulator, by rules that keep the clauses: the judge finds nothing in them, and finds
+//! the one violation that is planted in each, whatever the form of the log, with stamps that are off, late or astray.
 
 use std::collections::BTreeSet;
 
@@ -152,8 +152,8 @@ impl Run {
     }
 }
 
-/// A log of a run, with a violation from a moment on for so long that three positions show it; and the robots that break
-/// it. Stamps are off; some positions come late, one is astray; both are somewhere else.
+/// A log of a run, with a violation from a moment on for so long that three positions show it; and the robots that
+/// break it. Stamps are off; some positions come late, one is astray; both are somewhere else.
 fn log(
     sort: &Sort,
     run: &Run,
@@ -167,7 +167,7 @@ fn log(
     }
     let mut rows: Vec<Row<'static>> = Vec::new();
     for at_us in (0..=end_us).step_by(PERIOD_US as usize) {
-        for robot in 0..sort.robots {
+        for (robot, name) in NAMES.into_iter().take(sort.robots).enumerate() {
             let mut place = run.at(sort, robot, at_us);
             if let Some((plant, from_us)) = plant
                 && (from_us..from_us + 3 * PERIOD_US).contains(&at_us)
@@ -184,7 +184,7 @@ fn log(
             }
             let stamp =
                 1_700_000_000_000_000 + at_us + 17_000 * robot as i64 + chance.below(2 * NOISE_US) - NOISE_US;
-            rows.push((stamp, NAMES[robot], place));
+            rows.push((stamp, name, place));
         }
     }
     rows.sort_by_key(|row| row.0);
@@ -210,8 +210,8 @@ fn verdict(bytes: &[u8], demand: &Demand) -> Verdict {
     judge(&tracks, &LIMITS, demand).expect("few")
 }
 
-/// Judges so many logs without a violation and as many with one, each in three forms; returns how many verdicts were right
-/// of each.
+/// Judges so many logs without a violation and as many with one, each in three forms; returns how many verdicts were
+/// right of each.
 fn judged(logs: u64) -> [u64; 2] {
     let mut chance = Chance(0x9e37_79b9_7f4a_7c15);
     let mut right = [0, 0];

@@ -40,8 +40,8 @@ fn every_form_yields_the_positions_that_were_written() {
     assert_eq!(places, [2, 3, 4, 5, 6, 7]);
 }
 
-/// `logs/sumo-fcd.csv`: floating car data as Eclipse SUMO 1.28.0 writes them (`sumo --fcd-output fcd.csv`), of three carts one
-/// behind the other. `logs/rosbags.mcap`: a recording of ROS 2, written by the library rosbags 0.11.9.
+/// `logs/sumo-fcd.csv`: floating car data as Eclipse SUMO 1.28.0 writes them (`sumo --fcd-output fcd.csv`), of three
+/// carts one behind the other. `logs/rosbags.mcap`: a recording of ROS 2, written by the library rosbags 0.11.9.
 #[test]
 fn logs_of_other_programs_are_read() {
     let log = read(include_bytes!("logs/sumo-fcd.csv")).expect("a log");

@@ -25,7 +25,8 @@ pub(super) struct MapArgs {
     /// The image of a ROS map, in place of the one that it names.
     #[arg(long, value_name = "FILE", requires = "map")]
     image: Option<PathBuf>,
-    /// The radius of a robot on a ROS map in cells larger than its pixels, in metres. Without it half the side of a cell.
+    /// The radius of a robot on a ROS map in cells larger than its pixels, in metres. Without it half the side of a
+    /// cell.
     #[arg(long, value_name = "METRES", requires = "map", value_parser = real)]
     radius: Option<f64>,
     /// The side of a cell in metres. Without it that of a pixel of a ROS map, and else 1.
@@ -34,14 +35,14 @@ pub(super) struct MapArgs {
     /// The corner of the cells in metres: the lower left one of the map. Without it 0,0, or what a ROS map says.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     origin: Option<Metres<2>>,
-    /// The cell of the base for CHAIN-2, as the map counts cells. Without it that of the map, or the one in which robot 1
-    /// is first.
+    /// The cell of the base for CHAIN-2, as the map counts cells. Without it that of the map, or the one in which
+    /// robot 1 is first.
     #[arg(long, value_name = "X,Y", requires = "map")]
     base: Option<CellArg>,
 }
 
-/// The cells under a log, and the map of them if there is one. The rows of a map are counted southwards from 0; those of a
-/// grid northwards from its corner.
+/// The cells under a log, and the map of them if there is one. The rows of a map are counted southwards from 0; those
+/// of a grid northwards from its corner.
 pub(super) struct Given {
     layout: Option<Layout>,
     grid: Grid,
@@ -90,7 +91,7 @@ impl MapArgs {
         if let Some(Metres(origin)) = self.origin {
             corner = origin;
         }
-        if self.seed.is_some() && !self.map.as_deref().is_some_and(|map| map.parse::<Generator>().is_ok()) {
+        if self.seed.is_some() && self.map.as_deref().is_none_or(|map| map.parse::<Generator>().is_err()) {
             return Err(needless("--seed", "the map is not generated"));
         }
         let base = self.base.map(|CellArg(cell)| cell);

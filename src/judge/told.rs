@@ -141,7 +141,9 @@ impl Told<'_> {
             say(misplaced.off, "a position in a blocked cell or off the map");
             say(misplaced.through, "a step through a wall of the map");
             if misplaced.is_milli {
-                remarks.push("a thousandth of most positions would be on the map: are they millimetres? Name columns x_mm and y_mm".to_owned());
+                let what = "a thousandth of most positions would be on the map: are they millimetres? Name columns \
+                            x_mm and y_mm";
+                remarks.push(what.to_owned());
             }
         }
         if let Some(cut) = log.cut {
@@ -150,8 +152,7 @@ impl Told<'_> {
         if log.frames.len() > 1 {
             let frames: Vec<_> = log.frames.iter().take(SHOWN).map(String::as_str).collect();
             remarks.push(format!(
-                "positions are given in {} frames, and taken as if they were one: {}",
-                log.frames.len(),
+                "positions are given in several frames, and taken as if they were one: {}",
                 frames.join(", ")
             ));
         }
@@ -161,7 +162,9 @@ impl Told<'_> {
         let steps = self.tracks.samples().count().saturating_sub(self.tracks.count());
         let silences = self.tracks.silences().count();
         if silences * 2 > steps && steps > 0 {
-            remarks.push("after most positions a robot is silent for longer than --gap: are stamps in seconds? Name the column t_ms, or give a longer --gap".to_owned());
+            let what = "after most positions a robot is silent for longer than --gap: are stamps in seconds? Name \
+                        the column t_ms, or give a longer --gap";
+            remarks.push(what.to_owned());
         }
         remarks
     }
@@ -238,18 +241,37 @@ impl Told<'_> {
         match doubt {
             Doubt::Silent(silence, count) => {
                 let (from, to) = (seconds(silence.from_us), seconds(silence.to_us));
-                let all = if *count > 1 { format!(", and {count} times in all some robot is") } else { String::new() };
-                format!("robot {} is silent from {from} s to {to} s, longer than --gap{all}", self.robot(silence.robot))
+                let all = if *count > 1 {
+                    format!(", and {count} times in all some robot is")
+                } else {
+                    String::new()
+                };
+                format!(
+                    "robot {} is silent from {from} s to {to} s, longer than --gap{all}",
+                    self.robot(silence.robot)
+                )
             }
             Doubt::Alone => "it speaks of several robots, and the log has one".to_owned(),
             Doubt::Parted(at_us) => {
-                format!("at {} s, the first moment that has all robots, they do not hear each other, and the clause asks for nothing", seconds(*at_us))
+                format!(
+                    "at {} s, the first moment that has all robots, they do not hear each other, and the clause asks for \
+                     nothing",
+                    seconds(*at_us)
+                )
             }
             Doubt::Cell(cell, count) => {
-                format!("within the tolerance {} may have been visited or not, the first is {}", counted(*count, "cell"), self.cell(*cell))
+                format!(
+                    "within the tolerance {} may have been visited or not, the first is {}",
+                    counted(*count, "cell"),
+                    self.cell(*cell)
+                )
             }
             Doubt::Cut => "the log is cut, and the run may have gone on".to_owned(),
-            Doubt::OtherMap => "more than half of the positions are not on the map: it is another one, or has other units, or another --origin".to_owned(),
+            Doubt::OtherMap => {
+                "more than half of the positions are not on the map: it is another one, or has other \
+                                units, or another --origin"
+                    .to_owned()
+            }
         }
     }
 
@@ -321,7 +343,7 @@ impl Told<'_> {
         let inside = places.into_iter().filter_map(|(robot, [x, y])| {
             let place = [(x - left) / side, rows - (y - bottom) / side];
             let is_inside = (0.0..=columns).contains(&place[0]) && (0.0..=rows).contains(&place[1]);
-            is_inside.then(|| (robot, place))
+            is_inside.then_some((robot, place))
         });
         let inside: Vec<(u32, [f64; 2])> = inside.collect();
         let marked = |robot: &u32| inside.iter().position(|(other, _)| other == robot);

@@ -1,5 +1,5 @@
-//! Values in CDR, the encoding of ROS 2 on the wire: each number at a multiple of its own size, counted from behind a head
-//! of four bytes, which says their order.
+//! Values in CDR, the encoding of ROS 2 on the wire: each number at a multiple of its own size, counted from behind a
+//! head of four bytes, which says their order.
 
 /// A message that is being read. Whatever is not there is `None`.
 pub(super) struct Cdr<'a> {

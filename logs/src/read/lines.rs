@@ -1,4 +1,5 @@
-//! Lines of JSON: each an object with a position, flat under the names of a table, or nested as the messages of ROS are.
+//! Lines of JSON: each an object with a position, flat under the names of a table, or nested as the messages of ROS
+//! are.
 
 use serde_json::{Map, Value};
 

@@ -1,6 +1,6 @@
-//! Recordings in MCAP. Positions are taken of messages in CDR of the types that are listed here, and of messages in JSON.
-//! The robot is the topic; in a list of poses the topic with the place in the list behind it, in a list of transforms the
-//! frame that moves.
+//! Recordings in MCAP. Positions are taken of messages in CDR of the types that are listed here, and of messages in
+//! JSON. The robot is the topic; in a list of poses the topic with the place in the list behind it, in a list of
+//! transforms the frame that moves.
 
 use std::collections::BTreeSet;
 
