@@ -167,7 +167,9 @@ fn sources(folder: &str) -> Vec<(String, String)> {
 
 #[test]
 fn arrows_run_one_way_and_files_are_short() {
-    for part in ["kernel", "logs", "ros", "proofs", "library", "sim", "field", "papers", "viewers", "web", "."] {
+    for part in
+        ["kernel", "logs", "ros", "proofs", "library", "sim", "field", "papers", "viewers", "web", "."]
+    {
         let files = sources(&format!("{part}/src"));
         let found: Vec<_> = files.iter().flat_map(|(file, text)| forbidden(part, file, text)).collect();
         assert!(found.is_empty(), "{found:#?}");
