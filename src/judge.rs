@@ -144,7 +144,9 @@ impl Judge {
             out.keep(svg);
         }
         if let Some(mut html) = html {
-            html.add(&page::in_words(&told.title(), &told.sentence(), &told.text(), &told.moments()));
+            let text = told.text();
+            let (first, words) = text.split_once('\n').unwrap_or((&text, ""));
+            html.add(&page::in_words(&told.title(), first, words, &told.moments()));
             out.keep(html);
         }
         match self.format.format {

@@ -48,7 +48,10 @@ fn a_breach_has_its_moment_its_robots_its_line_a_picture_and_a_page() {
     );
     assert_eq!(picture.matches("class=\"crowded\"").count(), 2, "{picture}");
     let page = fs::read_to_string(folder.join("moment.html")).expect("a page");
-    assert!(page.contains("20 s: CHAIN-3 is broken") && page.contains("! 4 (ugv4)"), "{page}");
+    assert!(
+        page.contains("20 s, x and y in metres: CHAIN-3 is broken") && page.contains("! 4 (ugv4)"),
+        "{page}"
+    );
     let (told, _) = judged(folder, "field.csv --clauses chain-3 --format json", 1);
     let told: Value = serde_json::from_str(&told).expect("JSON");
     assert_eq!(told["clauses"][0]["breach"]["place"], 165);

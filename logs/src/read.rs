@@ -186,8 +186,9 @@ fn micros(seconds: i64, nanos: i64) -> Option<i64> {
 
 /// Reads a log.
 ///
-/// # Errors A [`Fault`] if it is none, has no position, or too many. A log that ends in the midst of a line or a
-/// message is read up to there.
+/// # Errors
+/// A [`Fault`] if it is none, has no position, or too many. A log that ends in the midst of a line or a message is read
+/// up to there.
 pub fn read(bytes: &[u8]) -> Result<Log, Fault> {
     const REMEDY: &str = "name a table with columns time, robot, x and y, lines of JSON with these fields, or a recording of ROS 2 \
                           in MCAP";

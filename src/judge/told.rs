@@ -111,7 +111,7 @@ impl Told<'_> {
     }
 
     /// The line about the whole.
-    pub(super) fn sentence(&self) -> String {
+    fn sentence(&self) -> String {
         let [first, last] = self.tracks.span_us();
         let positions = self.tracks.samples().count();
         format!(
@@ -365,7 +365,7 @@ impl Told<'_> {
         stamps.dedup();
         let shown = stamps.split_off(stamps.len().saturating_sub(STAMPS));
         let drawn = |&at_us: &i64| {
-            let mut part = format!("{} s", seconds(at_us));
+            let mut part = format!("{} s, x and y in metres", seconds(at_us));
             if at_us == breach.at_us {
                 let _ = write!(part, ": {id} is broken {}", self.breach(demand, breach));
             }
