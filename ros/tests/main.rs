@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod hour;
+mod layout;
 mod loopback;
 mod team;
 mod watch;

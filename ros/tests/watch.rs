@@ -150,3 +150,14 @@ fn the_sample_and_the_configuration_of_the_page_are_taken() {
         );
     }
 }
+
+#[test]
+fn a_breach_by_other_robots_is_news_and_one_by_the_same_robots_is_none() {
+    let now = Instant::now();
+    let mut watch = watch(3, "clause = 'CHAIN-3', range_m = 2, tolerance_m = 0");
+    for (places, is_news) in [([0.0, 1.0, 9.0], true), ([0.0, 1.0, 8.0], false), ([0.0, 7.0, 8.0], true)] {
+        hear(&mut watch, &places, now);
+        assert_eq!(watch.look(now), is_news, "{places:?}");
+        watch.mark_told();
+    }
+}
