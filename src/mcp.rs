@@ -396,9 +396,10 @@ async fn answer(line: &Line<'_>) -> Result<Value, String> {
         return Err(format!("the answer has more than {MAX_ANSWER} bytes: ask for less"));
     }
     // A command that was refused prints nothing, and says why. One without a code was ended, as happens where memory is out.
-    serde_json::from_slice(&told).map_err(|_| match status.is_ok_and(|status| status.code().is_some()) {
-        true => String::from_utf8_lossy(&said).trim().to_owned(),
-        false => {
+    serde_json::from_slice(&told).map_err(|_| {
+        if status.is_ok_and(|status| status.code().is_some()) {
+            String::from_utf8_lossy(&said).trim().to_owned()
+        } else {
             format!("the call was ended, as where {memory} MiB are too few: ask for less, or give it more")
         }
     })
