@@ -400,7 +400,7 @@ impl<R: Sync> AnyCheck for Check<R> {
     }
 }
 
-impl fmt::Debug for dyn AnyCheck {
+impl fmt::Debug for dyn AnyCheck + '_ {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} by {}: {}", self.rule(), self.engine(), self.bound())
     }

@@ -55,6 +55,11 @@ pub trait Protocol: Sized + Sync + 'static {
 
     /// A drawing of `state`, in lines.
     fn draw(&self, state: &Self::State) -> String;
+
+    /// The words for `state` in what is said of a protocol that is refused.
+    fn words(&self, state: &Self::State) -> String {
+        format!("{state:?}")
+    }
 }
 
 /// A move to another state.

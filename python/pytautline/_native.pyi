@@ -2,10 +2,12 @@ from collections.abc import Sequence
 from os import PathLike
 from typing import Any, final
 
+from ._protocol import Move, Protocol
 from ._rule import Rule
 
 __all__ = [
     "Counterexample",
+    "Decision",
     "Environments",
     "Estimate",
     "HuntReport",
@@ -13,8 +15,11 @@ __all__ = [
     "Moved",
     "OwnCounterexample",
     "OwnHuntReport",
+    "ProtocolReport",
     "Run",
+    "StateRun",
     "Sweep",
+    "decide_protocol",
     "estimate",
     "estimate_ratio",
     "estimate_share",
@@ -23,6 +28,7 @@ __all__ = [
     "hunt_rule",
     "in_contact",
     "replay",
+    "replay_protocol",
     "schemes",
     "sweep",
 ]
@@ -197,6 +203,57 @@ class OwnCounterexample:
     def run(self) -> Run: ...
 
 @final
+class ProtocolReport:
+    @property
+    def rule(self) -> str: ...
+    @property
+    def bound(self) -> str: ...
+    @property
+    def verdict(self) -> str: ...
+    @property
+    def calls(self) -> int: ...
+    @property
+    def decisions(self) -> list[Decision]: ...
+    def __getitem__(self, clause: str, /) -> Decision: ...
+
+@final
+class Decision:
+    @property
+    def clause(self) -> str: ...
+    @property
+    def words(self) -> str: ...
+    @property
+    def verdict(self) -> str: ...
+    @property
+    def states(self) -> int: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def complete(self) -> bool: ...
+    @property
+    def covered(self) -> list[str]: ...
+    @property
+    def counterexample(self) -> StateRun | None: ...
+
+@final
+class StateRun:
+    @property
+    def clause(self) -> str: ...
+    @property
+    def words(self) -> str: ...
+    @property
+    def start(self) -> Any: ...
+    @property
+    def moves(self) -> list[Move]: ...
+    @property
+    def again(self) -> list[Move]: ...
+    @property
+    def story(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    def store(self, path: _Path, *, force: bool = False) -> None: ...
+
+@final
 class Estimate:
     @property
     def count(self) -> int: ...
@@ -248,6 +305,8 @@ def hunt(
     budget: int | None = None,
 ) -> HuntReport: ...
 def hunt_rule(rule: Rule, *, budget: int | None = None, patience_s: float = 10.0) -> OwnHuntReport: ...
+def decide_protocol(rule: Protocol, *, budget: int | None = None, patience_s: float = 10.0) -> ProtocolReport: ...
+def replay_protocol(rule: Protocol, path: _Path, *, patience_s: float = 10.0) -> StateRun: ...
 def sweep(
     layouts: Sequence[str],
     scheme: str = "chain",

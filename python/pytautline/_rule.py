@@ -12,21 +12,23 @@ Cell: TypeAlias = tuple[int, int]
 
 @dataclass(frozen=True)
 class Demand:
-    """What is demanded, when it is looked at, and by what. Made by ``always``, ``at_the_end`` and ``never_endless``."""
+    """What is demanded, when it is looked at, and by what. Made by ``always`` and its like."""
 
     id: str
     words: str
-    when: Literal["always", "at-the-end", "never-endless"]
-    kept: Callable[..., bool] | None
+    when: Literal["always", "at-the-end", "never-endless", "eventually", "again-and-again"]
+    kept: Callable[..., Any] | None
 
 
-def always(id: str, words: str, kept: Callable[[Moved], bool]) -> Demand:
-    """``kept`` is to be so after every team move."""
+def always(id: str, words: str, kept: Callable[[Moved], bool] | Callable[[Any, Any], bool]) -> Demand:
+    """``kept`` is to be so of every team move; of a rule over states, of the states before and after every move."""
     return Demand(id, words, "always", kept)
 
 
-def at_the_end(id: str, words: str, kept: Callable[[Any, Sequence[Cell]], bool]) -> Demand:
-    """``kept`` is to be so of the state and the cells at the end of every run that ends."""
+def at_the_end(
+    id: str, words: str, kept: Callable[[Any, Sequence[Cell]], bool] | Callable[[Any], bool]
+) -> Demand:
+    """``kept`` is to be so of the state and the cells at the end of every run that ends; of a rule over states, of the state."""
     return Demand(id, words, "at-the-end", kept)
 
 

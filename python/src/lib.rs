@@ -8,8 +8,10 @@ mod estimate;
 mod explore;
 mod hunt;
 mod layout;
+mod protocol;
 mod rule;
 mod run;
+mod script;
 mod sweep;
 mod wait;
 
@@ -26,6 +28,8 @@ mod _native {
     use crate::hunt::{Counterexample, HuntReport, hunt};
     #[pymodule_export]
     use crate::layout::Layout;
+    #[pymodule_export]
+    use crate::protocol::{Decision, ProtocolReport, StateRun, decide_protocol, replay_protocol};
     #[pymodule_export]
     use crate::rule::moved::TeamMove;
     #[pymodule_export]

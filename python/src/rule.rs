@@ -10,7 +10,6 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
-use rayon::ThreadPoolBuilder;
 use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
@@ -28,7 +27,6 @@ use self::written::{Demand, RuleScript};
 use crate::diagnostic::{Kind, error, halted};
 use crate::hunt::verdict;
 use crate::run::{Run, RunSource};
-use crate::wait::wait;
 
 /// The outcome of a hunt of a rule written in Python.
 #[pyclass(frozen, module = "pytautline", get_all)]
@@ -110,20 +108,9 @@ pub(crate) fn hunt_rule(
     patience_s: f64,
 ) -> PyResult<OwnHuntReport> {
     let written = Arc::new(RuleScript::read(&rule)?);
-    let mut patience = written.patience(patience_s)?;
     let worker = Arc::clone(&written);
-    let found = wait(
-        py,
-        &written.is_stopped,
-        || {
-            let pool = ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| {
-                Python::attach(|py| crate::diagnostic::error(py, Kind::Input, error, "end other programs"))
-            })?;
-            pool.install(|| Python::attach(|py| found(py, &worker, budget)))
-        },
-        |py| patience.look(py),
-    )?;
-    let Outcome { found, counterexamples } = found?;
+    let Outcome { found, counterexamples } =
+        written.script.work(py, patience_s, move |py| found(py, &worker, budget))?;
     let told = |plain: Plain| {
         let Demand { clause, words, .. } = &written.demands[plain.demand];
         let (clause, words, runs) = (clause.as_str(), *words, plain.runs);
@@ -132,7 +119,7 @@ pub(crate) fn hunt_rule(
     let is_whole = found.complete && found.given_up == 0 && found.covered.len() == written.covers.len();
     Ok(OwnHuntReport {
         scheme: written.scheme.to_owned(),
-        rule: written.name.to_owned(),
+        rule: written.script.name.to_owned(),
         runs: found.runs,
         moves: found.moves,
         longest: found.longest,
@@ -141,7 +128,7 @@ pub(crate) fn hunt_rule(
         complete: found.complete,
         covered: found.covered.iter().map(|&name| name.to_owned()).collect(),
         verdict: verdict(counterexamples.is_empty(), is_whole),
-        calls: written.calls.load(Ordering::Relaxed),
+        calls: written.script.calls.load(Ordering::Relaxed),
         counterexamples: counterexamples.into_iter().map(told).collect::<PyResult<_>>()?,
     })
 }
@@ -159,25 +146,25 @@ fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyRe
     let playing = setting.playing(&rule, &[]).map_err(|what| refused(&what))?;
     let mut tree = Tree::new(playing, &limits).map_err(|what| refused(&what))?;
     while tree.wave() {
-        written.checked(py)?;
+        written.script.checked(py)?;
     }
-    written.checked(py)?;
+    written.script.checked(py)?;
     let found = tree.found();
-    written.checked(py)?;
+    written.script.checked(py)?;
     let is_found = |demand: &usize| found.counterexamples.iter().any(|example| example.broken.0 == *demand);
     if !written.seen().iter().all(is_found) {
-        return Err(written.not_pure(py));
+        return Err(written.script.not_pure(py));
     }
     let mut counterexamples = Vec::new();
     for example in &found.counterexamples {
         let demand = example.broken.0;
         let clause = written.demands[demand].clause;
         let run = setting.run(written.starts().to_vec(), example);
-        let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
+        let halted = |halt: Halt| written.script.failure(py).unwrap_or_else(|| halted(py, &halt));
         let (layout, _) = layout_of(&run).map_err(|problem| halted(problem.into()))?;
         let (made, report) = stored(written, (&setting, &rule), &layout, demand).map_err(halted)?;
         if report.violations.is_empty() {
-            return Err(written.not_pure(py));
+            return Err(written.script.not_pure(py));
         }
         let run = Run { made, name: clause.to_string(), report, clause: Some(clause) };
         counterexamples.push(Plain { demand, runs: example.runs, run });
@@ -197,7 +184,7 @@ fn stored(
     let path = folder.path().join("run.jsonl");
     let clause = written.demands[demand].clause;
     let limits = Limits::stopping_at(Some(clause));
-    let setup = Setup::named(written.scheme, written.name, layout.clone(), written.starts());
+    let setup = Setup::named(written.scheme, written.script.name, layout.clone(), written.starts());
     let setup = Setup { limits, ..setup };
     let aside = AtomicFile::new(&path, &Replaceable::default())?;
     let mut writer = Writer::new(aside, &setup, Some(clause)).map_err(Diagnostic::from)?;
@@ -207,9 +194,9 @@ fn stored(
         left = left.saturating_sub(1);
         writer.add(made);
         // A rule that is not the same each time may have a run that neither ends nor comes back.
-        if written.is_over() || left == 0 { Err(Halt::Interrupted) } else { Ok(()) }
+        if written.script.is_over() || left == 0 { Err(Halt::Interrupted) } else { Ok(()) }
     })?;
-    if written.is_over() {
+    if written.script.is_over() {
         return Err(Halt::Interrupted);
     }
     writer.end(&report).keep()?;

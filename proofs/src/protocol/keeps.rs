@@ -170,8 +170,8 @@ impl<P: Protocol> Playing<P> {
         for state in states::first_states(self, self.protocol.starts()) {
             let mut others = self.protocol.alike(&state).into_iter();
             if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
-                let reason =
-                    format_args!("the states {state:?} and {other:?} are taken for one, and are not alike");
+                let [state, other] = [&state, &other].map(|state| self.protocol.words(state));
+                let reason = format_args!("the states {state} and {other} are taken for one, and are not alike");
                 return Err(MethodError::new(reason));
             }
         }
@@ -226,7 +226,8 @@ impl<P: Protocol> Playing<P> {
         };
         let differs = |state: &P::State| P::State::read(&mut &bytes(state)[..]) != *state;
         self.protocol.starts().take(states::TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
-            Err(MethodError::new(format_args!("the state {state:?} does not come back from its bytes")))
+            let state = self.protocol.words(&state);
+            Err(MethodError::new(format_args!("the state {state} does not come back from its bytes")))
         })
     }
 

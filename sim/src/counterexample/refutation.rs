@@ -98,11 +98,22 @@ pub fn store(
     evidence: &Evidence,
     replaceable: &Replaceable,
 ) -> Result<AtomicFile, Diagnostic> {
-    let choices = &evidence.choices;
-    let RefutationPlay { of, .. } = check.replay(choices).map_err(|unfit| {
+    let text = text(clause, check, evidence).map_err(|unfit| {
         let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
         Diagnostic::in_file(path, what, "this is a bug of tautline: please report it")
     })?;
+    let mut file = AtomicFile::late(path, replaceable);
+    file.append(text);
+    Ok(file)
+}
+
+/// What refutes `clause` by `check`, as it stands in a file.
+///
+/// # Errors
+/// [`ScriptError`] if it does not lead where it is said to lead.
+pub fn text(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<String, ScriptError> {
+    let choices = &evidence.choices;
+    let RefutationPlay { of, .. } = check.replay(choices)?;
     let mut text = line_of(&Header {
         format: FORMAT.to_owned(),
         version: VERSION,
@@ -120,18 +131,16 @@ pub fn store(
     }
     let crc32 = crc32fast::hash(text.as_bytes());
     text += &line_of(&Line::End(End { choices: once.len(), again: again.len(), crc32 }));
-    let mut file = AtomicFile::late(path, replaceable);
-    file.append(text);
-    Ok(file)
+    Ok(text)
 }
 
 /// A refutation that was read, and played again.
 #[derive(Debug)]
-pub struct Refutation {
+pub struct Refutation<'a> {
     /// The clause that is refuted.
-    pub clause: &'static Clause,
+    pub clause: &'a Clause,
     /// The check within whose bound it lies.
-    pub check: &'static dyn AnyCheck,
+    pub check: &'a dyn AnyCheck,
     /// The demand that is broken, and how.
     pub evidence: Evidence,
 }
@@ -140,11 +149,24 @@ pub struct Refutation {
 ///
 /// # Errors
 /// A [`Diagnostic`] that names the line and what is wrong.
-pub fn replay(path: &Path, others: &[&'static Clause]) -> Result<Refutation, Diagnostic> {
+pub fn replay(path: &Path, others: &[&'static Clause]) -> Result<Refutation<'static>, Diagnostic> {
+    let clauses = ledger::clauses().chain(others.iter().copied());
+    let meant = clauses.flat_map(|clause| clause.checks.iter().map(move |&check| (clause, check)));
+    replay_by(path, &meant.collect::<Vec<_>>())
+}
+
+/// A check, and the clause that it decides.
+pub type Meant<'a> = (&'a Clause, &'a dyn AnyCheck);
+
+/// Reads the refutation at `path`, and plays it again by one of these checks.
+///
+/// # Errors
+/// A [`Diagnostic`] that names the line and what is wrong.
+pub fn replay_by<'a>(path: &Path, known: &[Meant<'a>]) -> Result<Refutation<'a>, Diagnostic> {
     let mut lines = Lines::open(path, AGAIN)?;
     let first = lines.header(FORMAT, VERSION, MAX_LINE_BYTES)?;
     let header: Header = lines.parse(&first, AGAIN)?;
-    let checks = find(&lines, &first, &header, others)?;
+    let checks = find(&lines, &first, &header, known)?;
     let mut seal = crc32fast::Hasher::new();
     seal.update(format!("{first}\n").as_bytes());
     let (mut choices, mut of) = (Choices::default(), Vec::new());
@@ -201,30 +223,23 @@ fn spot(text: &str, key: &str) -> std::ops::Range<usize> {
     start..start + key.len() + 2
 }
 
-/// A check, and the clause that it decides.
-type Meant = (&'static Clause, &'static dyn AnyCheck);
-
 /// The checks that a header may mean.
-fn find(
+fn find<'a>(
     lines: &Lines,
     text: &str,
     header: &Header,
-    others: &[&'static Clause],
-) -> Result<Vec<Meant>, Diagnostic> {
-    let clauses = || ledger::clauses().chain(others.iter().copied());
+    known: &[Meant<'a>],
+) -> Result<Vec<Meant<'a>>, Diagnostic> {
     let Header { clause: id, rule: name, engine, bound, .. } = header;
-    let checks: Vec<Meant> = clauses()
-        .filter(|clause| clause.id == id)
-        .flat_map(|clause| clause.checks.iter().map(move |&check| (clause, check)))
-        .collect();
+    let checks: Vec<Meant<'a>> = known.iter().copied().filter(|(clause, _)| clause.id == id).collect();
     if checks.is_empty() {
-        let mut known: Vec<&str> = clauses().map(|clause| clause.id).collect();
+        let mut known: Vec<&str> = known.iter().map(|(clause, _)| clause.id).collect();
         known.dedup();
         let remedy = format!("the clauses are {}", known.join(", "));
         return Err(lines.fault(text, "\"clause\"", format_args!("there is no clause {id:?}"), remedy));
     }
-    let fitting = |key: &str, what: &str, is: &dyn Fn(&dyn AnyCheck) -> bool, checks: Vec<Meant>| {
-        let fitting: Vec<Meant> = checks.into_iter().filter(|&(_, check)| is(check)).collect();
+    let fitting = |key: &str, what: &str, is: &dyn Fn(&dyn AnyCheck) -> bool, checks: Vec<Meant<'a>>| {
+        let fitting: Vec<Meant<'a>> = checks.into_iter().filter(|&(_, check)| is(check)).collect();
         if fitting.is_empty() {
             let what = format!("no check of {id} {what}");
             return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
@@ -238,12 +253,12 @@ fn find(
 }
 
 /// Plays `choices` by the first of `checks` that goes along with them.
-fn play(
+fn play<'a>(
     path: &Path,
-    checks: &[Meant],
+    checks: &[Meant<'a>],
     choices: &Choices,
     of: &[u32],
-) -> Result<(&'static Clause, &'static dyn AnyCheck, Evidence), Diagnostic> {
+) -> Result<(&'a Clause, &'a dyn AnyCheck, Evidence), Diagnostic> {
     let at = |at: usize, what: &str| {
         let all = choices.once.iter().chain(&choices.again);
         let text = all.zip(of).nth(at).map(|(&taken, &of)| {

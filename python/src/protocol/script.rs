@@ -1,0 +1,268 @@
+//! A rule over states in Python, as a [`Protocol`]: a state is the number of the value that Python has for it.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::{Arc, Mutex, OnceLock};
+
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use tautline_proofs::decide::MethodError;
+use tautline_proofs::engine::states::Bits;
+use tautline_proofs::protocol::{Demand, Move, Protocol, set};
+
+use crate::diagnostic::{Kind, error};
+use crate::script::{Script, attribute, held, kept, shown, word};
+
+/// Different words of moves that a rule may have, which are kept as long as the process.
+const MAX_WORDS: usize = 256;
+
+/// A hint at what `moves` is to return.
+const MOVES: &str = "return a list of pytautline.Move, each with the numbers of its actors from 0 to 15, with words, and with the \
+                     next state";
+
+/// A demand of the rule.
+pub(super) struct Wanted {
+    pub(super) clause: &'static str,
+    pub(super) words: &'static str,
+    /// The number of its kind among the demands of [`Written`].
+    pub(super) kind: usize,
+    asked: Py<PyAny>,
+}
+
+/// A rule over states.
+pub(super) struct StateScript {
+    /// The rule as Python has it.
+    pub(super) script: Script,
+    pub(super) bound: &'static str,
+    pub(super) demands: Vec<Wanted>,
+    pub(super) covers: Vec<String>,
+    starts: OnceLock<Vec<u32>>,
+    /// The words of moves that were possible.
+    met: Mutex<BTreeSet<&'static str>>,
+}
+
+impl StateScript {
+    /// The rule's description of itself.
+    pub(super) fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = rule.py();
+        let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
+        let bound: String = attribute(rule, "bound", "a bound, in words, such as \"3 nodes\"")?;
+        let demands: Vec<Bound<'_, PyAny>> =
+            attribute(rule, "demands", "demands, a list of pytautline.Demand")?;
+        if demands.is_empty() {
+            let remedy = "give the rule demands, made by pytautline.always and others";
+            return Err(error(py, Kind::Input, "nothing is demanded", remedy));
+        }
+        Ok(Self {
+            script: Script::new(rule, word(py, "name", &name)?),
+            bound: kept(&bound),
+            demands: demands.iter().map(wanted).collect::<PyResult<_>>()?,
+            covers: attribute(rule, "covers", "covers, a list of the words of moves")?,
+            starts: OnceLock::new(),
+            met: Mutex::default(),
+        })
+    }
+
+    /// Asks the rule where its runs begin.
+    pub(super) fn begin(&self, py: Python<'_>) -> PyResult<()> {
+        let starts =
+            self.states(py, "starts", "return a list of states", |rule| rule.call_method0("starts"))?;
+        let _ = self.starts.set(starts);
+        Ok(())
+    }
+
+    /// The states in which runs begin; before [`StateScript::begin`] there are none.
+    pub(super) fn starts(&self) -> &[u32] {
+        self.starts.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// The words of the moves that were possible since this was asked last.
+    pub(super) fn take_met(&self) -> BTreeSet<&'static str> {
+        std::mem::take(&mut held(&self.met))
+    }
+
+    /// The members of what a function of the rule returns.
+    fn listed<'py>(
+        &self,
+        py: Python<'py>,
+        what: &str,
+        remedy: &str,
+        call: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let listed = self.script.called(py, what, |rule| {
+            let answer = call(rule)?;
+            // A function that yields its answers is asked for them here.
+            match answer.try_iter() {
+                Ok(all) => Ok(Ok(all.collect::<PyResult<Vec<_>>>()?)),
+                Err(_) => Ok(Err(answer)),
+            }
+        })?;
+        listed.map_err(|answer| {
+            error(py, Kind::WrongType, format_args!("{what} returned {}", shown(&answer)), remedy)
+        })
+    }
+
+    fn states<'py>(
+        &self,
+        py: Python<'py>,
+        what: &str,
+        remedy: &str,
+        call: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
+    ) -> PyResult<Vec<u32>> {
+        let states = self.listed(py, what, remedy, call)?;
+        states.iter().map(|state| self.script.number(py, what, state)).collect()
+    }
+
+    fn moves(&self, py: Python<'_>, state: u32) -> PyResult<Vec<Move<u32>>> {
+        let state = (self.script.state(py, state),);
+        let moves = self.listed(py, "moves", MOVES, |rule| rule.call_method1("moves", state))?;
+        moves.iter().map(|made| self.made(py, made)).collect()
+    }
+
+    fn made(&self, py: Python<'_>, made: &Bound<'_, PyAny>) -> PyResult<Move<u32>> {
+        let wrong = || error(py, Kind::WrongType, format_args!("moves returned {}", shown(made)), MOVES);
+        let (actors, words, to): (Vec<u32>, String, Bound<'_, PyAny>) =
+            made.extract().map_err(|_| wrong())?;
+        if actors.iter().any(|&actor| actor >= Bits::BITS) {
+            return Err(wrong());
+        }
+        let actors = set(actors.into_iter().map(|actor| actor as usize));
+        Ok(Move { actors, words: self.met(py, &words)?, to: self.script.number(py, "moves", &to)? })
+    }
+
+    /// The words of a move, which are met.
+    fn met(&self, py: Python<'_>, words: &str) -> PyResult<&'static str> {
+        let mut met = held(&self.met);
+        if let Some(known) = met.get(words) {
+            return Ok(known);
+        }
+        if met.len() == MAX_WORDS {
+            let what = format!("moves have more than {MAX_WORDS} different words");
+            let remedy = "let words be those of a kind of move; what differs stands in the states";
+            return Err(error(py, Kind::Input, what, remedy));
+        }
+        let words = kept(words);
+        met.insert(words);
+        Ok(words)
+    }
+
+    /// An answer about states; the default if the rule has failed or is to stop.
+    fn answer<T: Default>(&self, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
+        if self.script.is_over() {
+            return T::default();
+        }
+        Python::attach(|py| ask(py).unwrap_or_else(|failed| self.script.fail(failed)))
+    }
+}
+
+fn wanted(demand: &Bound<'_, PyAny>) -> PyResult<Wanted> {
+    let py = demand.py();
+    let made_by = "demands made by pytautline.always, at_the_end, eventually and again_and_again";
+    let (id, words): (String, String) =
+        (attribute(demand, "id", made_by)?, attribute(demand, "words", made_by)?);
+    let when: String = attribute(demand, "when", made_by)?;
+    let kind = KINDS.iter().position(|&kind| kind == when).ok_or_else(|| {
+        let what = format!("a demand on states is looked at {when:?}");
+        error(py, Kind::WrongType, what, format_args!("give the rule {made_by}"))
+    })?;
+    let asked = attribute(demand, "kept", made_by)?;
+    Ok(Wanted { clause: word(py, "the id", &id)?, words: kept(&words), kind, asked })
+}
+
+/// The kinds of demands, in the order of those of [`Written`].
+const KINDS: [&str; 4] = ["always", "at-the-end", "eventually", "again-and-again"];
+
+/// A rule, and the number of the demand that is looked at.
+#[derive(Clone)]
+pub(super) struct Posed(pub(super) Arc<StateScript>, pub(super) usize);
+
+/// A bound in the words of its rule.
+pub(super) struct Words(pub(super) &'static str);
+
+impl fmt::Display for Words {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+}
+
+/// A rule over states that was written in Python, of whose demands one is looked at.
+pub(super) struct Written(pub(super) Posed);
+
+impl Written {
+    /// Whether the demand says yes to states.
+    fn says<const N: usize>(&self, states: [u32; N]) -> bool {
+        let Posed(rule, demand) = &self.0;
+        let Wanted { clause, asked, .. } = &rule.demands[*demand];
+        rule.answer(|py| {
+            let states = PyTuple::new(py, states.map(|state| rule.script.state(py, state)))?;
+            Ok(rule.script.says(py, clause, asked, states))
+        })
+    }
+
+    /// What is owed in a state by the demand.
+    fn owed(&self, state: u32) -> Bits {
+        let Posed(rule, demand) = &self.0;
+        let Wanted { clause, asked, .. } = &rule.demands[*demand];
+        let remedy = "return a list of what is owed, numbers from 0 to 15";
+        rule.answer(|py| {
+            let state = (rule.script.state(py, state),);
+            let owed = rule.listed(py, clause, remedy, |_| asked.bind(py).call1(state))?;
+            let number = |owed: &Bound<'_, PyAny>| {
+                let number = owed.extract().ok().filter(|&number: &u32| number < Bits::BITS);
+                number.map(|number| number as usize).ok_or_else(|| {
+                    error(py, Kind::WrongType, format_args!("{clause} returned {}", shown(owed)), remedy)
+                })
+            };
+            Ok(set(owed.iter().map(number).collect::<PyResult<Vec<_>>>()?))
+        })
+    }
+}
+
+impl Protocol for Written {
+    type Rule = Posed;
+    type Bound = Words;
+    type State = u32;
+
+    const DEMANDS: &'static [Demand<Self>] = &[
+        Demand::always("every move keeps it", |written, &before, &after| written.says([before, after])),
+        Demand::at_the_end("it is so at the end", |written, &state| written.says([state])),
+        Demand::eventually("it is so at some time", |written, &state| written.says([state])),
+        Demand::again_and_again("nothing is owed for ever", |written, &state| written.owed(state)),
+    ];
+
+    fn new(rule: &Posed, _: &Words) -> Result<Self, MethodError> {
+        Ok(Self(rule.clone()))
+    }
+
+    fn starts(&self) -> impl Iterator<Item = u32> {
+        self.0.0.starts().iter().copied()
+    }
+
+    fn moves(&self, &state: &u32) -> Vec<Move<u32>> {
+        self.0.0.answer(|py| self.0.0.moves(py, state))
+    }
+
+    fn alike(&self, &state: &u32) -> Vec<u32> {
+        let Posed(rule, _) = &self.0;
+        rule.answer(|py| {
+            let state = (rule.script.state(py, state),);
+            rule.states(py, "alike", "return a list of states", |rule| rule.call_method1("alike", state))
+        })
+    }
+
+    fn draw(&self, &state: &u32) -> String {
+        let Posed(rule, _) = &self.0;
+        rule.answer(|py| {
+            let state = (rule.script.state(py, state),);
+            let drawing = rule.script.called(py, "draw", |rule| rule.call_method1("draw", state))?;
+            drawing.extract().map_err(|_| {
+                let what = format!("draw returned {}", shown(&drawing));
+                error(py, Kind::WrongType, what, "return a string, in as many lines as it takes")
+            })
+        })
+    }
+
+    fn words(&self, &state: &u32) -> String {
+        Python::attach(|py| shown(self.0.0.script.state(py, state).bind(py)))
+    }
+}
