@@ -6,6 +6,8 @@
 mod chain;
 #[path = "rocq/kit.rs"]
 mod kit;
+#[path = "rocq/machines.rs"]
+mod machines;
 #[path = "rocq/mrc.rs"]
 mod mrc;
 #[path = "rocq/notice.rs"]
@@ -63,6 +65,11 @@ fn nodes_answer_as_the_proofs_have_it() {
 #[test]
 fn robots_and_wfrs_answer_as_the_proofs_have_it() {
     is_up_to_date("MrcAnswers.v", &mrc::terms());
+}
+
+#[test]
+fn machines_of_a_rescue_answer_as_the_proofs_have_it() {
+    is_up_to_date("MachineAnswers.v", &machines::terms());
 }
 
 #[test]
