@@ -4,8 +4,9 @@
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Hold Marking Notice Kit Mrc Leases ServedBits Replay Mutants MrcMutants ChainTie Replayed NoticeTie
-  MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier.
+From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
+  MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
+  Ways MachinesTie Homing HomingTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -42,18 +43,38 @@ Check Notice.NOTICE_1.
 Print Assumptions Notice.NOTICE_1.
 Check Notice.NOTICE_2.
 Print Assumptions Notice.NOTICE_2.
+Check Spread.NOTICE_3.
+Print Assumptions Spread.NOTICE_3.
+Check Spread.NOTICE_5.
+Print Assumptions Spread.NOTICE_5.
+Check Spread.NOTICE_6.
+Print Assumptions Spread.NOTICE_6.
 Check Leases.MRC_1.
 Print Assumptions Leases.MRC_1.
 Check Leases.MRC_2.
 Print Assumptions Leases.MRC_2.
 Check Leases.MRC_4.
 Print Assumptions Leases.MRC_4.
-Check Leases.MRC_6.
-Print Assumptions Leases.MRC_6.
 Check Leases.MRC_8.
 Print Assumptions Leases.MRC_8.
-Check ServedBits.MRC_12.
-Print Assumptions ServedBits.MRC_12.
+Check Choices.MRC_3.
+Print Assumptions Choices.MRC_3.
+Check Records.MRC_6.
+Print Assumptions Records.MRC_6.
+Check Asking.MRC_7.
+Print Assumptions Asking.MRC_7.
+Check Choices.MRC_9.
+Print Assumptions Choices.MRC_9.
+Check Records.MRC_10.
+Print Assumptions Records.MRC_10.
+Check Ways.MRC_11.
+Print Assumptions Ways.MRC_11.
+Check Records.MRC_12.
+Print Assumptions Records.MRC_12.
+Check Homing.TAN_1.
+Print Assumptions Homing.TAN_1.
+Check Homing.TAN_2.
+Print Assumptions Homing.TAN_2.
 Check Kit.KIT_1.
 Print Assumptions Kit.KIT_1.
 Check Kit.KIT_3.
@@ -86,14 +107,30 @@ Check Hold.unsure_ahead_does_not_hold.
 Print Assumptions Hold.unsure_ahead_does_not_hold.
 Check Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
 Print Assumptions Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
+Check Spread.k_of_one_breaks_NOTICE_5.
+Print Assumptions Spread.k_of_one_breaks_NOTICE_5.
 Check MrcMutants.without_ChoiceStands_breaks_MRC_1.
 Print Assumptions MrcMutants.without_ChoiceStands_breaks_MRC_1.
 Check MrcMutants.without_Epochs_breaks_MRC_2.
 Print Assumptions MrcMutants.without_Epochs_breaks_MRC_2.
 Check MrcMutants.without_Consent_breaks_MRC_4.
 Print Assumptions MrcMutants.without_Consent_breaks_MRC_4.
-Check ServedBits.without_a_record_breaks_MRC_12.
-Print Assumptions ServedBits.without_a_record_breaks_MRC_12.
+Check Choices.each_condition_is_needed_for_MRC_3.
+Print Assumptions Choices.each_condition_is_needed_for_MRC_3.
+Check Choices.without_AnswersAgain_breaks_MRC_9.
+Print Assumptions Choices.without_AnswersAgain_breaks_MRC_9.
+Check Choices.without_room_breaks_MRC_9.
+Print Assumptions Choices.without_room_breaks_MRC_9.
+Check Asking.each_condition_is_needed_for_MRC_7.
+Print Assumptions Asking.each_condition_is_needed_for_MRC_7.
+Check Records.without_Epochs_breaks_MRC_10.
+Print Assumptions Records.without_Epochs_breaks_MRC_10.
+Check Records.without_room_breaks_MRC_10_and_MRC_12.
+Print Assumptions Records.without_room_breaks_MRC_10_and_MRC_12.
+Check Ways.without_room_breaks_MRC_11.
+Print Assumptions Ways.without_room_breaks_MRC_11.
+Check Homing.a_liar_breaks_TAN_2.
+Print Assumptions Homing.a_liar_breaks_TAN_2.
 Check Kit.without_NextInReach_breaks_KIT_1.
 Print Assumptions Kit.without_NextInReach_breaks_KIT_1.
 Check Kit.without_FromInReach_breaks_KIT_1.
@@ -114,8 +151,16 @@ Check Replayed.kernel_runs_are_runs.
 Print Assumptions Replayed.kernel_runs_are_runs.
 Check NoticeTie.notice_answers_agree.
 Print Assumptions NoticeTie.notice_answers_agree.
+Check SpreadTie.spread_agrees.
+Print Assumptions SpreadTie.spread_agrees.
 Check MrcTie.mrc_answers_agree.
 Print Assumptions MrcTie.mrc_answers_agree.
+Check MachinesTie.machine_answers_agree.
+Print Assumptions MachinesTie.machine_answers_agree.
+Check MachinesTie.ways_agree.
+Print Assumptions MachinesTie.ways_agree.
+Check HomingTie.homing_answers_agree.
+Print Assumptions HomingTie.homing_answers_agree.
 Check KitTie.kit_answers_agree.
 Print Assumptions KitTie.kit_answers_agree.
 Check KitTie.every_drive_is_in_the_table.

@@ -1,4 +1,4 @@
-(** MRC-1, MRC-2, MRC-4, MRC-6 and MRC-8, repaired, for any number of robots, WFRs, events and calls, whatever
+(** MRC-1, MRC-2, MRC-4 and MRC-8, repaired, for any number of robots, WFRs, events and calls, whatever
     the network does.
 
     The clauses follow from ten sentences that every event keeps: [inv]. The two that carry the others: for one
@@ -517,16 +517,4 @@ Proof.
   intros s R r i x out H w e L N; pose proof (inv_always s R) as V.
   apply robot_goes in H; [|apply (tasks_known s V)]. destruct (goes_takes _ _ _ _ _ H w e L);
     [contradiction | assumption].
-Qed.
-
-(** A robot that hears a call under a new epoch has its SBit clear. *)
-Theorem MRC_6 : forall r x w e q, record_of x w = Some q -> epoch q < e ->
-  forall y out, In (y, out) (robot_outcomes REPAIRED r x (Told (Notice w e))) ->
-  record_of y w = Some {| wfr_of := w; epoch := e; served := false |}.
-Proof.
-  intros r x w e q R L y out H; cbn in H; apply in_flat_map in H; destruct H as [z [Z H]].
-  unfold notes in Z; rewrite R in Z; cbn [epochs REPAIRED] in Z. apply Nat.ltb_lt in L; rewrite L in Z.
-  destruct Z as [<-|[]].
-  apply asks_requests in H; cbn [requests] in H.
-  unfold record_of in *; rewrite H, find_change by auto. now rewrite Nat.eqb_refl, R.
 Qed.

@@ -2,8 +2,9 @@
     generated/MachineAnswers.v, the functions do, too, and nothing else.
 
     The tables have every state of a repaired robot with room for one record and for two, and of a published one,
-    that a call of one WFR and two of another lead to, from two distances; and every state of a WFR with room
-    for one robot and for two, up to its third call. *)
+    that a call of one WFR and two of another lead to, from two distances; every state of a WFR with room for one
+    robot and for two, up to its third call; and what a path node with room for one way and for four answers after
+    any three of 13 messages. *)
 From Coq Require Import ZArith NArith List Bool Arith.
 From Tautline Require Import Machines.
 From Tautline.generated Require Import MachineAnswers.
@@ -75,3 +76,24 @@ Theorem machine_answers_agree :
   /\ existsb wfrs_2_agree [without_NearestRobot; without_LeastIdentity; without_ChoiceStands; without_AnswersAgain;
        without_Epochs] = false.
 Proof. repeat split; vm_compute; reflexivity. Qed.
+
+(** Who gets each RESB after each three messages, as the kernel's path node has it: a digit each, the first the
+    lowest. *)
+Definition digit (r : nat) (h : option hop) : N :=
+  match h with
+  | None => 0
+  | Some (Robot q) => if q =? r then 1 else 3
+  | Some (Node n) => if n =? 5 then 2 else 3
+  end.
+
+Definition resbs : list (nat * nat * nat) :=
+  flat_map (fun r => map (fun c => (fst c, snd c, r)) [(1, 1); (1, 2); (2, 1)]) [1; 2].
+
+Definition ways_code (room : nat) (l : list passing) : N :=
+  fold_right (fun '(w, e, r) sum => (3 * sum + digit r (goes_to (after (relay_step 7 room) [] l) w e r))%N) 0%N resbs.
+
+Definition all_ways (room : nat) : list N :=
+  flat_map (fun a => flat_map (fun b => map (fun c => ways_code room [a; b; c]) passings) passings) passings.
+
+Theorem ways_agree : all_ways 1 = ways_1 /\ all_ways 4 = ways_4 /\ ways_1 <> ways_4.
+Proof. repeat split; vm_compute; congruence. Qed.

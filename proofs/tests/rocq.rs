@@ -14,6 +14,8 @@ mod mrc;
 mod notice;
 #[path = "rocq/runs.rs"]
 mod runs;
+#[path = "rocq/tan.rs"]
+mod tan;
 #[path = "rocq/term.rs"]
 mod term;
 
@@ -70,6 +72,11 @@ fn robots_and_wfrs_answer_as_the_proofs_have_it() {
 #[test]
 fn machines_of_a_rescue_answer_as_the_proofs_have_it() {
     is_up_to_date("MachineAnswers.v", &machines::terms());
+}
+
+#[test]
+fn robots_on_their_way_answer_as_the_proofs_have_it() {
+    is_up_to_date("HomingAnswers.v", &tan::terms());
 }
 
 #[test]

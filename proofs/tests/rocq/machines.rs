@@ -1,12 +1,13 @@
 //! The answers of a robot and a WFR in every state that they can come to, as they are: with hop counts, parents and
-//! what is still repeated; and those of a path node. A robot hears of a call of one WFR and two of another, and has room for one record
-//! or two; a WFR hears two robots, and has room for one or two; a path node has room for one way or two.
+//! what is still repeated; and those of a path node. A robot hears of a call of one WFR and two of another, and has
+//! room for one record or two; a WFR hears two robots, and has room for one or two; a path node has room for one way or
+//! four.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 
 use tautline_kernel::mrc::{
-    Bid, Downward, Mail, Phase, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word,
+    Bid, Downward, Hop, Mail, Phase, Relay, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word,
 };
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
@@ -51,8 +52,8 @@ fn upward(message: Upward) -> String {
     format!("(Build_upward {} {} {})", of(message.call), word(message.word), message.parent.0)
 }
 
-/// The definitions of the states that can be reached, in the order found, and of what comes of each input: the number of
-/// the input, the number of the state and the number of what is sent. Where a state stays and is silent nothing stands.
+/// The definitions of the states that can be reached, in the order found, and of what comes of each input: the numbers
+/// of the input, of the state, and of what is sent. Where a state stays and is silent nothing stands.
 fn table<S: Copy + Eq + Hash>(
     (name, kind, silence): (&str, &str, &str),
     first: S,
@@ -165,7 +166,10 @@ fn wfr_answers<const ROOM: usize>(wfr: &Wfr<ROOM>) -> Vec<Answer<Wfr<ROOM>>> {
         let sent = match sent {
             Mail::Nothing => String::new(),
             Mail::Notice(notice) => {
-                assert_eq!((notice.call.wfr, notice.hops, notice.sender), (wfr.call().wfr, 0, wfr.call().wfr));
+                assert_eq!(
+                    (notice.call.wfr, notice.hops, notice.sender),
+                    (wfr.call().wfr, 0, wfr.call().wfr)
+                );
                 format!("Calls {}", notice.call.epoch.0)
             }
             Mail::One(message) => resb(message),
@@ -192,11 +196,68 @@ fn wfr_table<const ROOM: usize>(name: &str) -> String {
     table((name, "wfr", "[]"), first, wfr_term, wfr_answers, |wfr| wfr.call().epoch <= LAST)
 }
 
+/// The messages that come by node 7, whose own parent is 3; the last is another's to send on.
+fn passings() -> Vec<(Upward, Hop)> {
+    let message =
+        |call, robot, parent| Upward { call, robot, word: Word::Move { hops: 2 }, parent: NodeId(parent) };
+    let of = |robot| {
+        let ways = [Hop::Robot(robot), Hop::Node(NodeId(5))];
+        ANSWERED.into_iter().flat_map(move |call| ways.map(|from| (message(call, robot, 7), from)))
+    };
+    let mut all: Vec<_> = [ME, OTHER].into_iter().flat_map(of).collect();
+    all.push((message(call(1, 1), ME, 8), Hop::Robot(ME)));
+    all
+}
+
+/// After each three messages who gets each RESB, a digit each, the first the lowest: nobody, the robot, the node.
+fn ways<const ROOM: usize>(passings: &[(Upward, Hop)]) -> Vec<String> {
+    let up = |relay: Relay<ROOM>, &(message, from): &(Upward, Hop)| {
+        let (relay, onward) = relay.up(message, from, NodeId(3));
+        let due = (message.parent == NodeId(7)).then_some(Upward { parent: NodeId(3), ..message });
+        assert_eq!(onward, due);
+        relay
+    };
+    let asked =
+        [ME, OTHER].into_iter().flat_map(|robot| ANSWERED.map(|call| Resb { call, robot, chosen: None }));
+    let code = |relay: &Relay<ROOM>| {
+        asked.clone().rev().fold(0, |sum, resb| {
+            3 * sum
+                + match relay.down(resb) {
+                    None => 0,
+                    Some(Hop::Robot(_)) => 1,
+                    Some(Hop::Node(_)) => 2,
+                }
+        })
+    };
+    let mut codes = Vec::new();
+    for one in passings {
+        let first = up(Relay::new(NodeId(7)), one);
+        for other in passings {
+            let second = up(first, other);
+            codes.extend(passings.iter().map(|last| code(&up(second, last)).to_string()));
+        }
+    }
+    codes
+}
+
 pub(super) fn terms() -> String {
     let mut text = "From Tautline Require Import Machines.\n\n".to_owned();
     text += &robot_table::<1>("robot_1", Rule::REPAIRED);
     text += &robot_table::<2>("robot_2", Rule::REPAIRED);
     text += &robot_table::<2>("published", Rule::PUBLISHED);
     text += &wfr_table::<1>("wfr_1");
-    text + &wfr_table::<2>("wfr_2")
+    text += &wfr_table::<2>("wfr_2");
+    let passings = passings();
+    let passing = |&(message, from): &(Upward, Hop)| {
+        let from = match from {
+            Hop::Robot(robot) => format!("(Robot {})", robot.0),
+            Hop::Node(node) => format!("(Node {})", node.0),
+        };
+        format!("Build_passing {} {} {from} 3", upward(message), message.robot.0)
+    };
+    text += &definition("passings", "list passing", &list(passings.iter().map(passing)));
+    for (name, codes) in [("ways_1", ways::<1>(&passings)), ("ways_4", ways::<4>(&passings))] {
+        text += &definition(name, "list N", &format!("{}%N", list(codes)));
+    }
+    text
 }

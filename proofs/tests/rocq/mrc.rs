@@ -48,10 +48,10 @@ fn upward(message: Upward) -> String {
 }
 
 /// The answers in a state: the states and the messages that may follow, each as a Rocq term.
-type Answers = BTreeMap<(String, String), BTreeSet<(String, String)>>;
+pub(super) type Answers = BTreeMap<(String, String), BTreeSet<(String, String)>>;
 
 /// Goes through every state that can be reached from `first`, and adds what comes of each input.
-fn explore<S: Copy + Eq + Hash>(
+pub(super) fn explore<S: Copy + Eq + Hash>(
     first: S,
     term: impl Fn(&S) -> String,
     next: impl Fn(&S) -> Vec<(String, S, String)>,
@@ -147,7 +147,7 @@ fn wfr_inputs(wfr: &Wfr<2>) -> Vec<(String, Wfr<2>, String)> {
 /// The states, the inputs and the lists of messages that occur, each once; and for every state that was gone on from,
 /// which are the first ones, and every input the numbers of what may follow. Where nothing changes and nothing is sent,
 /// that list is empty.
-fn table(name: &str, state: &str, input: &str, answers: &Answers) -> String {
+pub(super) fn table(name: &str, state: &str, input: &str, answers: &Answers) -> String {
     let each = |terms: BTreeSet<&String>| -> Vec<String> { terms.into_iter().cloned().collect() };
     let followers = || answers.values().flatten();
     let expanded: BTreeSet<&String> = answers.keys().map(|(state, _)| state).collect();

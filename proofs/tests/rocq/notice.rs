@@ -80,6 +80,41 @@ fn explore(conditions: Conditions, rows: &mut Rows) {
     }
 }
 
+/// How many NOTICEs a node hears of three senders, each with its own hop count of three.
+const HEARD: usize = 4;
+const HOPS: u16 = 3;
+
+/// How far a node is, as published, after any [`HEARD`] NOTICEs of three senders, by any hop counts of theirs, under
+/// k = 1, 2, 3 and ∞, and under flooding: 16 times its stage, four times its parent, and its hops.
+fn spread() -> Vec<String> {
+    let numbers = |base: usize, digits: usize| {
+        let digit = move |number: usize, place: usize| number / base.pow((digits - 1 - place) as u32) % base;
+        (0..base.pow(digits as u32))
+            .map(move |number| (0..digits).map(|place| digit(number, place)).collect::<Vec<_>>())
+    };
+    let counts = [1, 2, 3].map(Count::new).into_iter().chain([None]);
+    let schemes = counts.map(|k| Scheme::Farthest { k }).chain([Scheme::Flooding]);
+    let mut codes = Vec::new();
+    for scheme in schemes {
+        let rule = Rule { conditions: Conditions::PUBLISHED, ..Rule::new(scheme, RANGE, 1) };
+        for hops in numbers(HOPS.into(), 3) {
+            for senders in numbers(3, HEARD) {
+                let mut node = Node::new(NodeId(ME), SOURCE);
+                for sender in senders {
+                    let call = Call { wfr: SOURCE, epoch: Epoch(1) };
+                    let message =
+                        Notice { call, hops: hops[sender] as u16, sender: NodeId(1 + sender as u32) };
+                    let heard = Reception { message, distance_um: RANGE.get(), now_ns: 0 };
+                    node.receive(&rule, heard, Surroundings::none, &mut AtOnce);
+                }
+                let (stage, parent, hops) = state(&node);
+                codes.push((16 * stage + 4 * parent as usize + usize::from(hops)).to_string());
+            }
+        }
+    }
+    codes
+}
+
 pub(super) fn terms() -> String {
     let mut rows = Rows::default();
     let repaired = Conditions::REPAIRED;
@@ -108,6 +143,7 @@ pub(super) fn terms() -> String {
     text += &definition("sent", "list ((nat * nat * nat) * ((nat * nat * nat) * nat))", &sent(&rows));
     // Only what forwarded nodes make of it differs.
     thawed.heard.retain(|row| !rows.heard.contains(row));
+    text += &definition("spread", "list N", &format!("{}%N", list(spread())));
     text + &definition(
         "heard_without_FrozenOnceForwarded",
         "list ((nat * nat * nat) * (nat * nat) * (nat * nat * nat))",

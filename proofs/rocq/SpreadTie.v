@@ -1,0 +1,25 @@
+(** The tie between the kernel and Spread.v: after any four NOTICEs of three senders, by any hop counts from 0 to 2 of
+    theirs, under k = 1, 2, 3 and ∞, and under flooding, a node of the kernel, as published, is what [hears] makes of
+    it. What it sends when its wait is over is in NoticeTie.v. *)
+From Coq Require Import NArith List.
+From Tautline Require Import Spread.
+From Tautline.generated Require Import NoticeAnswers.
+Import ListNotations.
+
+Definition stage_number (p : phase) : nat :=
+  match p with Unaware => 0 | Waiting => 1 | Silent => 2 | Forwarded => 3 end.
+Definition code (x : node) : N := N.of_nat (16 * stage_number (stage x) + 4 * parent x + hops x).
+
+(** All lists of so many of these. *)
+Fixpoint lists_of (l : list nat) (length : nat) : list (list nat) :=
+  match length with 0 => [[]] | S n => flat_map (fun a => map (cons a) (lists_of l n)) l end.
+
+Definition spread_by (k : option nat) : list N :=
+  flat_map (fun hops => map (fun senders =>
+      code (fold_left (fun x s => hears k x (S s) (nth s hops 0)) senders (unaware me)))
+    (lists_of [0; 1; 2] 4)) (lists_of [0; 1; 2] 3).
+
+(** Another k is told apart, and so is a node that takes the last NOTICE of the least hop count, or any. *)
+Theorem spread_agrees : flat_map spread_by [Some 1; Some 2; Some 3; None; None] = spread
+  /\ spread_by (Some 1) <> spread_by (Some 2) /\ spread_by (Some 2) <> spread_by None.
+Proof. repeat split; vm_compute; congruence. Qed.
