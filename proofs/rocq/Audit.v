@@ -6,7 +6,7 @@ From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
 From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
-  Ways MachinesTie Homing HomingTie.
+  Ways MachinesTie Homing HomingTie Refined.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -159,6 +159,10 @@ Check MachinesTie.machine_answers_agree.
 Print Assumptions MachinesTie.machine_answers_agree.
 Check MachinesTie.ways_agree.
 Print Assumptions MachinesTie.ways_agree.
+Check Refined.robots_are_refined.
+Print Assumptions Refined.robots_are_refined.
+Check Refined.wfrs_are_refined.
+Print Assumptions Refined.wfrs_are_refined.
 Check HomingTie.homing_answers_agree.
 Print Assumptions HomingTie.homing_answers_agree.
 Check KitTie.kit_answers_agree.
