@@ -4,6 +4,8 @@
 
 #[path = "rocq/chain.rs"]
 mod chain;
+#[path = "rocq/frontier.rs"]
+mod frontier;
 #[path = "rocq/kit.rs"]
 mod kit;
 #[path = "rocq/machines.rs"]
@@ -82,6 +84,11 @@ fn robots_on_their_way_answer_as_the_proofs_have_it() {
 #[test]
 fn robots_keep_in_touch_as_the_proofs_have_it() {
     is_up_to_date("KitAnswers.v", &kit::terms());
+}
+
+#[test]
+fn robots_explore_cells_as_the_proofs_have_it() {
+    is_up_to_date("FrontierRuns.v", &frontier::terms());
 }
 
 #[test]

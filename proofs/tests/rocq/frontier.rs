@@ -1,0 +1,155 @@
+//! Runs of robots that explore cells, by the plain rule and by the repaired one, in drawn layouts: who might have acted in
+//! each state and what was done, and what each robot knows at the end.
+
+use tautline_kernel::frontier::{Map, Robot, Rule, Sight, Stance, Status, TinyMap};
+use tautline_kernel::ground::{Area, Cell};
+use tautline_proofs::frontier::areas::setting;
+use tautline_proofs::frontier::world::{Event, Setting, Successor, World};
+
+use super::runs::Draw;
+use super::term::{definition, list};
+
+const KIND: &str = "list ((nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)\n  \
+                    * list (list nat * list nat * nat))";
+
+/// The situations that a set of runs must contain for the comparison to mean something.
+#[derive(Default)]
+struct Situations {
+    obstacles: usize,
+    meetings: usize,
+    slots: usize,
+    missed: usize,
+    wrong: usize,
+}
+
+/// Of each rule's runs: robots, columns and rows; the obstacles and the starts; of each step the first cells to which robots
+/// might have gone, whether a slot might have been over, and the event; and the map and the cell of each robot at the end.
+pub(super) fn terms() -> String {
+    let rules = [("PLAIN", Rule::PLAIN), ("REPAIRED", Rule::REPAIRED)];
+    let terms = rules.map(|(name, rule)| {
+        let (mut draw, mut met) = (Draw::new(2024), Situations::default());
+        let mut runs = vec![run::<1>(rule, (3, 3), &mut draw, &mut met)];
+        runs.push(run::<2>(rule, (3, 2), &mut draw, &mut met));
+        runs.push(run::<3>(rule, (3, 2), &mut draw, &mut met));
+        runs.push(run::<4>(rule, (3, 2), &mut draw, &mut met));
+        runs.push(run::<2>(rule, (3, 3), &mut draw, &mut met));
+        runs.push(run::<3>(rule, (3, 3), &mut draw, &mut met));
+        let Situations { obstacles, meetings, slots, missed, wrong } = met;
+        assert!(
+            obstacles > 0 && meetings > 0 && slots > 0 && missed > 0 && wrong > 0,
+            "{obstacles} {meetings} {slots} {missed} {wrong}"
+        );
+        definition(&format!("runs_{name}"), KIND, &list(runs))
+    });
+    format!("From Tautline Require Import Explorers.\n{}", terms.concat())
+}
+
+fn run<const ROBOTS: usize>(
+    rule: Rule,
+    size: (i16, i16),
+    draw: &mut Draw,
+    met: &mut Situations,
+) -> String {
+    let setting = setting::<ROBOTS>(rule, size).expect("a small area");
+    let mut cells: Vec<Cell> = setting.area.cells().collect();
+    let mut drawn = || cells.swap_remove(draw.below(cells.len() as u64) as usize);
+    let starts: [Cell; ROBOTS] = std::array::from_fn(|_| drawn());
+    let obstacles = [drawn(), drawn()];
+    let mut given = TinyMap::new(setting.area).expect("a small area");
+    obstacles.iter().for_each(|&cell| given.block(cell));
+    let setting = Setting { given: Some(given), max_losses: 3, max_wrong: 1, ..setting };
+
+    let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
+    let mut world = setting.start(starts).expect("a small area");
+    let mut steps = Vec::new();
+    loop {
+        let turns: Vec<Successor<ROBOTS>> =
+            setting.turns(&world).into_iter().filter(|turn| !is_unclear(&world, &turn.event)).collect();
+        if turns.is_empty() {
+            break;
+        }
+        let mut might: Vec<String> = turns
+            .iter()
+            .filter_map(|turn| match turn.event {
+                Event::Decides(robot, side, ..) => {
+                    Some(format!("({robot},{})", number(world.robots()[robot].at().beyond(side))))
+                }
+                Event::Looks(..) | Event::Arrives(..) | Event::Ticks => None,
+            })
+            .collect();
+        might.dedup();
+        let ticks = turns.iter().any(|turn| turn.event == Event::Ticks);
+        let turn = &turns[draw.below(turns.len() as u64) as usize];
+        assert!(turn.breaks.is_empty(), "{turn:?}");
+        steps.push(format!("({},{ticks},{})", list(might), event(&world, &turn.event, number, met)));
+        world = turn.world;
+    }
+    let (starts, obstacles) = (list(starts.map(number)), list(obstacles.map(number)));
+    let end = world.robots().map(|robot| knows(setting.area, &robot));
+    let (columns, rows) = size;
+    let steps = list(steps);
+    format!("\n (({ROBOTS},{columns},{rows}),{obstacles},{starts},\n  {steps},\n  {})", list(end))
+}
+
+/// The other robots that are met by one that looks.
+fn meets<const ROBOTS: usize>(world: &World<ROBOTS>, robot: usize, cell: Cell) -> Vec<usize> {
+    let is_there = |other: &Robot<TinyMap>| match other.stance() {
+        Stance::Stands => other.at() == cell,
+        Stance::Tries(side) | Stance::Enters(side) => other.at() == cell || other.at().beyond(side) == cell,
+    };
+    (0..ROBOTS).filter(|&other| other != robot && is_there(&world.robots()[other])).collect()
+}
+
+/// Whether the event does not say whom of several robots the one that looks has missed.
+fn is_unclear<const ROBOTS: usize>(world: &World<ROBOTS>, event: &Event) -> bool {
+    let Event::Looks(robot, side, Sight::Robot, missed, _) = *event else { return false };
+    missed >> robot & 1 == 1 && meets(world, robot, world.robots()[robot].at().beyond(side)).len() > 1
+}
+
+fn event<const ROBOTS: usize>(
+    world: &World<ROBOTS>,
+    event: &Event,
+    number: impl Fn(Cell) -> String,
+    met: &mut Situations,
+) -> String {
+    let at = |robot: usize| world.robots()[robot].at();
+    let mut those = |missed: u8| {
+        met.missed += usize::from(missed != 0);
+        let robots = (0..ROBOTS).filter(|robot| missed >> robot & 1 == 1);
+        list(robots.map(|robot| robot.to_string()))
+    };
+    match *event {
+        Event::Decides(robot, side, aim, missed) => {
+            format!("Decides {robot} {} {} {}", number(at(robot).beyond(side)), number(aim), those(missed))
+        }
+        Event::Looks(robot, side, sight, missed, slot) => {
+            met.obstacles += usize::from(sight == Sight::Obstacle);
+            met.meetings += usize::from(sight == Sight::Robot);
+            let own = missed >> robot & 1 == 1;
+            let unheard = if own { meets(world, robot, at(robot).beyond(side)) } else { Vec::new() };
+            let unheard = list(unheard.iter().map(usize::to_string));
+            format!("Looks {robot} {} {unheard} {slot}", those(missed & !(1 << robot)))
+        }
+        Event::Arrives(robot, fix, missed) => {
+            met.wrong += usize::from(match world.robots()[robot].stance() {
+                Stance::Enters(side) => at(robot).beyond(side) != fix,
+                Stance::Stands | Stance::Tries(_) => true,
+            });
+            format!("Arrives {robot} {}", those(missed))
+        }
+        Event::Ticks => {
+            met.slots += 1;
+            "Ticks".to_owned()
+        }
+    }
+}
+
+/// What a robot takes for explored and for obstacles, and where it is.
+fn knows(area: Area, robot: &Robot<TinyMap>) -> String {
+    let those = |status: Status| {
+        let cells = area.cells().filter(move |&cell| robot.map().status(cell) == status);
+        list(cells.filter_map(|cell| area.place(cell)).map(|place| place.to_string()))
+    };
+    let at = area.place(robot.at()).expect("it is inside");
+    format!("({},{},{at})", those(Status::Explored), those(Status::Obstacle))
+}
