@@ -6,7 +6,8 @@ From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
 From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
-  Ways MachinesTie Homing HomingTie Refined.
+  Ways MachinesTie Homing HomingTie Refined
+  Explorers ExplorersEnd ExplorersTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -83,6 +84,14 @@ Check Kit.KIT_12.
 Print Assumptions Kit.KIT_12.
 Check Kit.arrivals_keep_admitted.
 Print Assumptions Kit.arrivals_keep_admitted.
+Check Explorers.FRONTIER_1.
+Print Assumptions Explorers.FRONTIER_1.
+Check ExplorersEnd.FRONTIER_3.
+Print Assumptions ExplorersEnd.FRONTIER_3.
+Check Explorers.FRONTIER_4.
+Print Assumptions Explorers.FRONTIER_4.
+Check Explorers.FRONTIER_5.
+Print Assumptions Explorers.FRONTIER_5.
 
 (** What each condition is needed for. *)
 Check Mutants.published_breaks_CHAIN_1.
@@ -169,6 +178,8 @@ Check KitTie.kit_answers_agree.
 Print Assumptions KitTie.kit_answers_agree.
 Check KitTie.every_drive_is_in_the_table.
 Print Assumptions KitTie.every_drive_is_in_the_table.
+Check ExplorersTie.kernel_runs_are_runs.
+Print Assumptions ExplorersTie.kernel_runs_are_runs.
 
 (** Any local rule. *)
 Check Local.every_N.
