@@ -7,7 +7,7 @@ From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Cover
 From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie.
+  Explorers ExplorersEnd ExplorersTie AntsTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -92,6 +92,8 @@ Check Explorers.FRONTIER_4.
 Print Assumptions Explorers.FRONTIER_4.
 Check Explorers.FRONTIER_5.
 Print Assumptions Explorers.FRONTIER_5.
+Check Ants.ANTS_1.
+Print Assumptions Ants.ANTS_1.
 
 (** What each condition is needed for. *)
 Check Mutants.published_breaks_CHAIN_1.
@@ -146,6 +148,10 @@ Check Kit.without_FromInReach_breaks_KIT_1.
 Print Assumptions Kit.without_FromInReach_breaks_KIT_1.
 Check Kit.without_Apart_breaks_KIT_3.
 Print Assumptions Kit.without_Apart_breaks_KIT_3.
+Check Ants.counting_is_needed.
+Print Assumptions Ants.counting_is_needed.
+Check Ants.an_end_of_misses_is_needed.
+Print Assumptions Ants.an_end_of_misses_is_needed.
 
 (** The tie to the kernel. *)
 Check ChainTie.chain_answers_agree.
@@ -180,6 +186,12 @@ Check KitTie.every_drive_is_in_the_table.
 Print Assumptions KitTie.every_drive_is_in_the_table.
 Check ExplorersTie.kernel_runs_are_runs.
 Print Assumptions ExplorersTie.kernel_runs_are_runs.
+Check AntsTie.ants_answers_agree.
+Print Assumptions AntsTie.ants_answers_agree.
+Check AntsTie.kernel_ants_run.
+Print Assumptions AntsTie.kernel_ants_run.
+Check AntsTie.floors_are_floors.
+Print Assumptions AntsTie.floors_are_floors.
 
 (** Any local rule. *)
 Check Local.every_N.
@@ -213,9 +225,7 @@ Print Assumptions Certified.FRONTIER_2.
 Check Certified.PACK_2.
 Print Assumptions Certified.PACK_2.
 
-(** Models that nothing ties to the kernel. *)
-Check Ants.every_cell_is_entered.
-Print Assumptions Ants.every_cell_is_entered.
+(** A model that nothing ties to the kernel. *)
 Check Frontier.no_two_in_one_cell.
 Print Assumptions Frontier.no_two_in_one_cell.
 Check Frontier.every_run_ends.

@@ -2,6 +2,8 @@
 //! and Rocq compares it with the definitions that the theorems speak of. Here the committed files are compared byte by
 //! byte with fresh ones. So neither the kernel nor the definitions can move alone.
 
+#[path = "rocq/ants.rs"]
+mod ants;
 #[path = "rocq/chain.rs"]
 mod chain;
 #[path = "rocq/frontier.rs"]
@@ -89,6 +91,11 @@ fn robots_keep_in_touch_as_the_proofs_have_it() {
 #[test]
 fn robots_explore_cells_as_the_proofs_have_it() {
     is_up_to_date("FrontierRuns.v", &frontier::terms());
+}
+
+#[test]
+fn ants_go_as_the_proofs_have_it() {
+    is_up_to_date("AntsAnswers.v", &ants::terms());
 }
 
 #[test]

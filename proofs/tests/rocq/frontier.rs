@@ -27,7 +27,7 @@ struct Situations {
 pub(super) fn terms() -> String {
     let rules = [("PLAIN", Rule::PLAIN), ("REPAIRED", Rule::REPAIRED)];
     let terms = rules.map(|(name, rule)| {
-        let (mut draw, mut met) = (Draw::new(2024), Situations::default());
+        let (mut draw, mut met) = (Draw(2024), Situations::default());
         let mut runs = vec![run::<1>(rule, (3, 3), &mut draw, &mut met)];
         runs.push(run::<2>(rule, (3, 2), &mut draw, &mut met));
         runs.push(run::<3>(rule, (3, 2), &mut draw, &mut met));

@@ -9,13 +9,9 @@ const BASE: Cell = Cell::new(5, 5);
 const MOST: usize = 6;
 
 /// A generator of our own, so that the file is the same everywhere.
-pub(super) struct Draw(u64);
+pub(super) struct Draw(pub(super) u64);
 
 impl Draw {
-    pub(super) const fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
     pub(super) fn below(&mut self, n: u64) -> u64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % n
@@ -43,7 +39,7 @@ pub(super) fn terms() -> String {
 }
 
 fn runs(name: &str, rule: Rule) -> (String, Situations) {
-    let (mut draw, mut met) = (Draw::new(2011), Situations::default());
+    let (mut draw, mut met) = (Draw(2011), Situations::default());
     let runs: Vec<String> =
         (0..15).map(|number| run(rule, 2 + number % (MOST - 1), &mut draw, &mut met)).collect();
     let kind = "list (nat * (Z * Z) * list ((Z * Z) * bool) * list N * list (Z * Z))";
