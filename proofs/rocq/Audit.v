@@ -4,7 +4,7 @@
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
+From Tautline Require Heard Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
   Explorers ExplorersEnd ExplorersTie AntsTie.
@@ -26,6 +26,10 @@ Check CHAIN_6.
 Print Assumptions CHAIN_6.
 Check backtrack_meets_no_wall.
 Print Assumptions backtrack_meets_no_wall.
+Check Heard.CHAIN_8.
+Print Assumptions Heard.CHAIN_8.
+Check Heard.messages_survive_their_bytes.
+Print Assumptions Heard.messages_survive_their_bytes.
 Check CHAIN_10.
 Print Assumptions CHAIN_10.
 Check CHAIN_13_step.
@@ -114,6 +118,8 @@ Check Mutants.without_FullForLeader_breaks_CHAIN_2.
 Print Assumptions Mutants.without_FullForLeader_breaks_CHAIN_2.
 Check Mutants.without_SafeAhead_breaks_CHAIN_3.
 Print Assumptions Mutants.without_SafeAhead_breaks_CHAIN_3.
+Check Heard.steps_alone_are_not_enough.
+Print Assumptions Heard.steps_alone_are_not_enough.
 Check Hold.unsure_ahead_does_not_hold.
 Print Assumptions Hold.unsure_ahead_does_not_hold.
 Check Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
@@ -164,6 +170,8 @@ Check Replay.replay_reachable.
 Print Assumptions Replay.replay_reachable.
 Check Replayed.kernel_runs_are_runs.
 Print Assumptions Replayed.kernel_runs_are_runs.
+Check Replayed.kernel_runs_are_heard.
+Print Assumptions Replayed.kernel_runs_are_heard.
 Check NoticeTie.notice_answers_agree.
 Print Assumptions NoticeTie.notice_answers_agree.
 Check SpreadTie.spread_agrees.

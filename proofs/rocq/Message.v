@@ -18,6 +18,22 @@ Definition decode (byte : N) : option (step * outcome) :=
   | _, _ => None
   end.
 
+Definition encode (m : step * outcome) : N :=
+  let place :=
+    match fst m with Cross East => 0 | Cross South => 1 | Cross West => 2 | Cross North => 3 | Stay => 4 end in
+  place + match snd m with Arrived => 0 | Blocked => 8 | TookBack => 16 end.
+
+(** What the robots ahead of the base say of one team move. *)
+Fixpoint decoded (l : list N) : option (list (step * outcome)) :=
+  match l with
+  | [] => Some []
+  | byte :: l =>
+      match decode byte, decoded l with Some m, Some more => Some (m :: more) | _, _ => None end
+  end.
+
+Definition is_back (m : step * outcome) : bool := match snd m with TookBack => true | Arrived | Blocked => false end.
+Definition is_blocked (m : step * outcome) : bool := match snd m with Blocked => true | Arrived | TookBack => false end.
+
 (** The [k] bytes of a number, the lowest first. *)
 Fixpoint bytes (k : nat) (n : N) : list N :=
   match k with O => [] | S k => n mod 256 :: bytes k (n / 256) end.

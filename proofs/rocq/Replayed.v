@@ -4,22 +4,12 @@
     A run is given by its walls and by the bytes that the robots sent. Each byte is decoded; each advance must
     be admitted, each robot that says that it met a wall must have one in its way, and no other; each backtrack
     must take back the last advance that was not; and at the end the robots must be where the kernel has them.
-    *)
+
+    A listener of Heard.v that gets the bytes alone, and no walls, has the robots there, too. *)
 From Coq Require Import ZArith NArith Lia Bool List Arith.
-From Tautline Require Import Lattice Rule Team Message Replay.
+From Tautline Require Import Lattice Rule Team Message Replay Heard.
 From Tautline.generated Require Import Runs.
 Import ListNotations.
-
-(** What the robots ahead of the base say of one team move. *)
-Fixpoint decoded (l : list N) : option (list (step * outcome)) :=
-  match l with
-  | [] => Some []
-  | byte :: l =>
-      match decode byte, decoded l with Some m, Some more => Some (m :: more) | _, _ => None end
-  end.
-
-Definition is_back (m : step * outcome) : bool := match snd m with TookBack => true | Arrived | Blocked => false end.
-Definition is_blocked (m : step * outcome) : bool := match snd m with Blocked => true | Arrived | TookBack => false end.
 
 (** The team move, if they agree on what it was. The base stays. *)
 Definition team_move_of (l : list (step * outcome)) : option team_move :=
@@ -94,4 +84,24 @@ Proof.
   exists (state_of s); split.
   - unfold end_of in E; eapply replayed_reachable; [|exact E]. eexists; apply run_start, alike_start.
   - intros i; cbn; unfold team_of; now rewrite A.
+Qed.
+
+Definition hears_all (r : run_of_kernel) : bool :=
+  let '(n, base, _, sent, last) := r in
+  match hears n (begins n base) (map (bytes (pred n)) sent) with
+  | Some k => list_eqb cell_eqb (places (team_state k)) last
+  | None => false
+  end.
+
+Lemma all_are_heard : forallb (fun rs => forallb hears_all (snd rs)) runs_of_kernel = true.
+Proof. vm_compute; reflexivity. Qed.
+
+(** Who hears the bytes of a run of the kernel, and nothing else, knows where the kernel has the robots. *)
+Theorem kernel_runs_are_heard : forall rl rs n base walls sent last, In (rl, rs) runs_of_kernel ->
+  In (n, base, walls, sent, last) rs ->
+  exists k, hears n (begins n base) (map (bytes (pred n)) sent) = Some k /\ places (team_state k) = last.
+Proof.
+  intros rl rs n base walls sent last I J; pose proof all_are_heard as A; rewrite forallb_forall in A;
+    specialize (A _ I); cbn [snd] in A; rewrite forallb_forall in A; specialize (A _ J); unfold hears_all in A.
+  destruct (hears _ _ _) as [k|]; [|discriminate]; apply list_eqb_cells in A; eauto.
 Qed.
