@@ -4,7 +4,7 @@
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Heard Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
+From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
   Explorers ExplorersEnd ExplorersTie AntsTie.
@@ -34,6 +34,10 @@ Check CHAIN_10.
 Print Assumptions CHAIN_10.
 Check CHAIN_13_step.
 Print Assumptions CHAIN_13_step.
+Check Reach.CHAIN_13.
+Print Assumptions Reach.CHAIN_13.
+Check Reach.within_reach_is_reachable.
+Print Assumptions Reach.within_reach_is_reachable.
 Check Hold.CHAIN_19.
 Print Assumptions Hold.CHAIN_19.
 Check Hold.hold_keeps_coverage.
@@ -172,6 +176,8 @@ Check Replayed.kernel_runs_are_runs.
 Print Assumptions Replayed.kernel_runs_are_runs.
 Check Replayed.kernel_runs_are_heard.
 Print Assumptions Replayed.kernel_runs_are_heard.
+Check ChainEnds.kernel_runs_end.
+Print Assumptions ChainEnds.kernel_runs_end.
 Check NoticeTie.notice_answers_agree.
 Print Assumptions NoticeTie.notice_answers_agree.
 Check SpreadTie.spread_agrees.

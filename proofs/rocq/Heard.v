@@ -66,9 +66,10 @@ Section Heard.
           end
         else if existsb is_back l then None
         else
-          let t := list_make s (Stay :: map made_of l) in
-          let walls := walls_in s l ++ met k in
-          if apart (opened t) walls then Some {| team_state := t; met := walls |} else None
+          let made := Stay :: map made_of l in
+          let walls := walls_in s l in
+          if apart (crossed N (team_of (places s)) (plan_of made)) (walls ++ met k) && apart walls (opened s)
+          then Some {| team_state := list_make s made; met := fold_left add walls (met k) |} else None
     end.
 
   (** The world: what the robots say of a team move, and what is known after it. *)
@@ -83,7 +84,7 @@ Section Heard.
   Definition learns (k : known) (m : team_move) (t : listed) : known :=
     {| team_state := t;
        met := match m with
-         | Advance _ => walls_in (team_state k) (map (says (team_state k) m) (seq 1 (pred N))) ++ met k
+         | Advance _ => fold_left add (walls_in (team_state k) (map (says (team_state k) m) (seq 1 (pred N)))) (met k)
          | Backtrack _ => met k
          end |}.
 
@@ -207,8 +208,8 @@ Section Heard.
       by (eapply next_reachable; eauto).
     split; cbn [learns team_state met]; auto.
     - now apply sound_state.
-    - intros e I; destruct m as [steps|steps]; [|auto]. apply in_app_iff in I; destruct I as [I|I]; [|auto].
-      eapply walls_in_walls; eauto.
+    - intros e I; destruct m as [steps|steps]; [|auto]. apply has_in in I; rewrite has_fold, orb_true_iff, !has_in in I.
+      destruct I as [I|I]; [auto|]. eapply walls_in_walls; eauto.
     - destruct m as [steps|steps].
       + destruct (advance_base _ _ _ X) as [Z ->]; cbn; constructor; [|exact B].
         rewrite tabulate_cons; unfold plan_of, made; cbn. unfold plan_of in Z; rewrite Z; reflexivity.
@@ -230,9 +231,17 @@ Section Heard.
         now destruct (arrives _ _ _). }
       subst l; rewrite made_heard by exact Z.
       change (list_make (team_state k) _) with (list_advance N walls (team_state k) steps).
-      cbn [learns team_state met] in O, W |- *. unfold apart; replace (forallb _ _) with true; [reflexivity|].
-      symmetry; apply forallb_forall; intros e I. destruct (has _ e) eqn:H; [|reflexivity].
-      apply has_in in H, I. apply O in I; rewrite (W e H) in I; discriminate.
+      cbn [learns team_state met list_advance opened] in O, W |- *.
+      assert (forall l m, (forall e, In e l -> In e m -> False) -> apart l m = true) as A.
+      { intros l m D; apply forallb_forall; intros e I. destruct (has m e) eqn:H; [|reflexivity].
+        apply has_in in H; destruct (D e I H). }
+      rewrite !A; [reflexivity | |]; intros e I H; apply has_in in I.
+      + apply has_in in I; apply walls_in_walls in I. apply has_in in H. rewrite O in I; [discriminate|].
+        now rewrite has_fold, H.
+      + assert (stands walls e = true) as Y.
+        { apply in_app_iff in H; destruct H as [H|H]; [now apply walls_in_walls in H|].
+          apply W, has_in. now rewrite has_fold, (proj2 (has_in _ _) H). }
+        rewrite O in Y; [discriminate|]. now rewrite has_fold, I, orb_true_r.
     - cbn [next] in X. destruct (made_so_far (team_state k)) as [|pl rest] eqn:M; [discriminate|].
       destruct (list_eqb _ _ _) eqn:E; [|discriminate]; injection X as <-. apply list_eqb_steps in E; subst steps.
       assert (forallb is_back l = true) as -> by (subst l; induction (seq 1 (pred N)); cbn; auto).
