@@ -16,6 +16,8 @@ mod machines;
 mod mrc;
 #[path = "rocq/notice.rs"]
 mod notice;
+#[path = "rocq/pack.rs"]
+mod pack;
 #[path = "rocq/runs.rs"]
 mod runs;
 #[path = "rocq/tan.rs"]
@@ -96,6 +98,11 @@ fn robots_explore_cells_as_the_proofs_have_it() {
 #[test]
 fn ants_go_as_the_proofs_have_it() {
     is_up_to_date("AntsAnswers.v", &ants::terms());
+}
+
+#[test]
+fn packs_stay_connected_as_the_proofs_have_it() {
+    is_up_to_date("PackAnswers.v", &pack::terms());
 }
 
 #[test]
