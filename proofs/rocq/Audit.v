@@ -7,7 +7,7 @@ From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Cover
 From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie.
+  Explorers ExplorersEnd ExplorersTie AntsTie Pack PackTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -102,6 +102,10 @@ Check Explorers.FRONTIER_5.
 Print Assumptions Explorers.FRONTIER_5.
 Check Ants.ANTS_1.
 Print Assumptions Ants.ANTS_1.
+Check Pack.PACK_1.
+Print Assumptions Pack.PACK_1.
+Check Pack.PACK_2.
+Print Assumptions Pack.PACK_2.
 
 (** What each condition is needed for. *)
 Check Mutants.published_breaks_CHAIN_1.
@@ -162,6 +166,8 @@ Check Ants.counting_is_needed.
 Print Assumptions Ants.counting_is_needed.
 Check Ants.an_end_of_misses_is_needed.
 Print Assumptions Ants.an_end_of_misses_is_needed.
+Check Pack.published_breaks_PACK_1.
+Print Assumptions Pack.published_breaks_PACK_1.
 
 (** The tie to the kernel. *)
 Check ChainTie.chain_answers_agree.
@@ -206,6 +212,10 @@ Check AntsTie.kernel_ants_run.
 Print Assumptions AntsTie.kernel_ants_run.
 Check AntsTie.floors_are_floors.
 Print Assumptions AntsTie.floors_are_floors.
+Check PackTie.pack_answers_agree.
+Print Assumptions PackTie.pack_answers_agree.
+Check PackTie.kernel_runs_are_runs.
+Print Assumptions PackTie.kernel_runs_are_runs.
 
 (** Any local rule. *)
 Check Local.every_N.
