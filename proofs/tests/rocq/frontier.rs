@@ -34,9 +34,11 @@ pub(super) fn terms() -> String {
         runs.push(run::<4>(rule, (3, 2), &mut draw, &mut met));
         runs.push(run::<2>(rule, (3, 3), &mut draw, &mut met));
         runs.push(run::<3>(rule, (3, 3), &mut draw, &mut met));
+        runs.extend((0..6).map(|_| run::<3>(rule, (5, 1), &mut draw, &mut met)));
+        runs.extend((0..4).map(|_| run::<3>(rule, (4, 2), &mut draw, &mut met)));
         let Situations { obstacles, meetings, slots, missed, wrong } = met;
         assert!(
-            obstacles > 0 && meetings > 0 && slots > 0 && missed > 0 && wrong > 0,
+            obstacles > 10 && meetings > 10 && slots > 5 && missed > 5 && wrong > 3,
             "{obstacles} {meetings} {slots} {missed} {wrong}"
         );
         definition(&format!("runs_{name}"), KIND, &list(runs))
@@ -44,12 +46,7 @@ pub(super) fn terms() -> String {
     format!("From Tautline Require Import Explorers.\n{}", terms.concat())
 }
 
-fn run<const ROBOTS: usize>(
-    rule: Rule,
-    size: (i16, i16),
-    draw: &mut Draw,
-    met: &mut Situations,
-) -> String {
+fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: &mut Situations) -> String {
     let setting = setting::<ROBOTS>(rule, size).expect("a small area");
     let mut cells: Vec<Cell> = setting.area.cells().collect();
     let mut drawn = || cells.swap_remove(draw.below(cells.len() as u64) as usize);
