@@ -7,7 +7,7 @@ From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Cover
 From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie Pack PackTie.
+  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -166,6 +166,8 @@ Check Ants.counting_is_needed.
 Print Assumptions Ants.counting_is_needed.
 Check Ants.an_end_of_misses_is_needed.
 Print Assumptions Ants.an_end_of_misses_is_needed.
+Check ExplorersMutants.without_Route_breaks_FRONTIER_1.
+Print Assumptions ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Check Pack.published_breaks_PACK_1.
 Print Assumptions Pack.published_breaks_PACK_1.
 
