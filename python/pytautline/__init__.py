@@ -17,6 +17,7 @@ from ._native import (
     Counterexample,
     Decision,
     Estimate,
+    EveryNumberReport,
     HuntReport,
     Layout,
     Moved,
@@ -26,6 +27,7 @@ from ._native import (
     Run,
     StateRun,
     Sweep,
+    decide_every_number,
     decide_protocol,
     estimate,
     estimate_ratio,
@@ -39,6 +41,7 @@ from ._native import (
     schemes,
     sweep,
 )
+from ._local import LocalPlan, LocalRobot, LocalRule
 from ._protocol import Letter, Mail, Move, Protocol, again_and_again, eventually
 from ._rule import Cell, Demand, Rule, always, at_the_end, never_endless
 
@@ -49,10 +52,14 @@ __all__ = [
     "Demand",
     "Error",
     "Estimate",
+    "EveryNumberReport",
     "HuntReport",
     "InputError",
     "Layout",
     "Letter",
+    "LocalPlan",
+    "LocalRobot",
+    "LocalRule",
     "Mail",
     "Move",
     "Moved",
@@ -72,6 +79,7 @@ __all__ = [
     "again_and_again",
     "always",
     "at_the_end",
+    "decide_every_number",
     "decide_protocol",
     "estimate",
     "estimate_ratio",

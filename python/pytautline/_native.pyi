@@ -2,6 +2,7 @@ from collections.abc import Sequence
 from os import PathLike
 from typing import Any, final
 
+from ._local import LocalRule
 from ._protocol import Move, Protocol
 from ._rule import Rule
 
@@ -10,6 +11,7 @@ __all__ = [
     "Decision",
     "Environments",
     "Estimate",
+    "EveryNumberReport",
     "HuntReport",
     "Layout",
     "Moved",
@@ -19,6 +21,7 @@ __all__ = [
     "Run",
     "StateRun",
     "Sweep",
+    "decide_every_number",
     "decide_protocol",
     "estimate",
     "estimate_ratio",
@@ -254,6 +257,23 @@ class StateRun:
     def store(self, path: _Path, *, force: bool = False) -> None: ...
 
 @final
+class EveryNumberReport:
+    @property
+    def rule(self) -> str: ...
+    @property
+    def verdict(self) -> str: ...
+    @property
+    def cases(self) -> int: ...
+    @property
+    def note(self) -> str | None: ...
+    @property
+    def counterexample(self) -> str | None: ...
+    @property
+    def certificate(self) -> str | None: ...
+    @property
+    def calls(self) -> int: ...
+
+@final
 class Estimate:
     @property
     def count(self) -> int: ...
@@ -305,6 +325,9 @@ def hunt(
     budget: int | None = None,
 ) -> HuntReport: ...
 def hunt_rule(rule: Rule, *, budget: int | None = None, patience_s: float = 10.0) -> OwnHuntReport: ...
+def decide_every_number(
+    rule: LocalRule, *, certificate: bool = False, patience_s: float = 10.0
+) -> EveryNumberReport: ...
 def decide_protocol(rule: Protocol, *, budget: int | None = None, patience_s: float = 10.0) -> ProtocolReport: ...
 def replay_protocol(rule: Protocol, path: _Path, *, patience_s: float = 10.0) -> StateRun: ...
 def sweep(

@@ -8,6 +8,7 @@ mod estimate;
 mod explore;
 mod hunt;
 mod layout;
+mod local;
 mod protocol;
 mod rule;
 mod run;
@@ -28,6 +29,8 @@ mod _native {
     use crate::hunt::{Counterexample, HuntReport, hunt};
     #[pymodule_export]
     use crate::layout::Layout;
+    #[pymodule_export]
+    use crate::local::{EveryNumberReport, decide_every_number};
     #[pymodule_export]
     use crate::protocol::{Decision, ProtocolReport, StateRun, decide_protocol, replay_protocol};
     #[pymodule_export]
