@@ -1,6 +1,6 @@
 //! `tautline judge`: a log of robots that this program did not move, held to clauses by a judge that knows no rule.
 
-mod given;
+pub(super) mod given;
 pub(super) mod told;
 
 use std::path::PathBuf;

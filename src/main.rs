@@ -2,6 +2,7 @@
 //! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
+mod check;
 mod conform;
 #[cfg(test)]
 mod docs_test;
@@ -166,6 +167,7 @@ enum Command {
     Rescue(rescue::Rescue),
     Locate(locate::Locate),
     Replay(replay::Replay),
+    Check(check::Check),
     Conform(conform::Conform),
     Judge(judge::Judge),
     Page(page::Page),
@@ -394,6 +396,7 @@ impl Command {
             Self::Rescue(rescue) => rescue.run(out),
             Self::Locate(locate) => locate.run(out),
             Self::Replay(replay) => replay.run(out),
+            Self::Check(check) => check.run(out),
             Self::Conform(conform) => conform.run(out),
             Self::Judge(judge) => judge.run(out),
             Self::Page(page) => page.run(out),

@@ -17,7 +17,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::clause::{Clause, Variant};
 use tautline_proofs::decide::{Answer, Depiction, Verdict};
-use tautline_proofs::engine::states::MemoryLimit;
+use tautline_proofs::engine::states::{self, MemoryLimit};
 use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
 use super::evidence::{self, EvidenceJson, shown};
@@ -85,8 +85,8 @@ pub(super) struct Deciding {
     /// Store a page with all of it: sentences, verdicts, what they rest on, and counterexamples that play.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Store a proof for each check that holds for every number of robots as a file in DIR, which Rocq checks with those of
-    /// proofs/rocq. DIR is made if it is not there.
+    /// Store a certificate for each check that holds as a file in DIR: of a search over all states one that `tautline
+    /// check` checks, of a proof for every number of robots one that Rocq checks. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     certificate: Option<PathBuf>,
     /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice
@@ -277,7 +277,7 @@ impl Deciding {
             });
             if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds)
             {
-                certify(row, folder, &replaceable, out);
+                certify((row, room), folder, &replaceable, out);
             }
         }
         let unfinished = unfinished(&rows, room);
@@ -421,16 +421,25 @@ fn stored(
     Ok(keep(file, out))
 }
 
-/// Stores the proof of a row in `folder`, if it has one.
-fn certify(row: &Row, folder: &Path, replaceable: &Replaceable, out: &mut Output) {
-    let Row { clause, check, .. } = *row;
-    match check.certificate() {
-        None => {}
-        Some(Err(why)) => tracing::warn!("{} as {} gets no certificate: {why}", clause.id, check.rule()),
-        Some(Ok(terms)) => {
+/// Stores the proof of a row in `folder`, or the certificate of what its search has exhausted.
+fn certify((row, room): (&Row, &MemoryLimit), folder: &Path, replaceable: &Replaceable, out: &mut Output) {
+    let Row { clause, number, check, .. } = *row;
+    let limits = states::Limits { room, ..states::Limits::NONE };
+    let (path, content) = match check.certificate() {
+        Some(terms) => {
             let name = format!("{}_{}.v", clause.id.replace('-', "_"), check.rule());
-            let mut file = AtomicFile::late(&folder.join(name), replaceable);
-            file.append(terms);
+            (folder.join(name), terms.map(String::into_bytes))
+        }
+        None => {
+            let path = refutation::path(folder, clause, number).with_extension("cert");
+            (path, ledger::certificate(clause, number, limits))
+        }
+    };
+    match content {
+        Err(why) => tracing::warn!("{} as {} gets no certificate: {why}", clause.id, check.rule()),
+        Ok(content) => {
+            let mut file = AtomicFile::late(&path, replaceable);
+            file.append(content);
             keep(file, out);
         }
     }

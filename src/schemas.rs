@@ -11,7 +11,7 @@ use tautline_sim::trace::Summary;
 
 use super::output::Versioned;
 use super::{
-    conform, hunt, judge, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show,
+    check, conform, hunt, judge, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show,
 };
 
 /// The command that writes the schemas anew.
@@ -51,6 +51,7 @@ fn schemas() -> Vec<(String, Value)> {
                 "tautline replay of a run of a team, or of a refutation",
             ),
         ),
+        ("check", printed::<check::CheckJson>("tautline check")),
         ("conform", printed::<conform::ConformJson<'_>>("tautline conform")),
         (
             "conform-told",

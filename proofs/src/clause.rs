@@ -6,7 +6,7 @@ use std::fmt;
 
 use crate::ambiguity::Paper;
 use crate::decide::{
-    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Verdict,
+    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems, Verdict,
 };
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Watch;
@@ -300,6 +300,12 @@ pub trait AnyCheck: Sync {
     /// [`MethodError`] if its method cannot begin, or if the file would be too large.
     fn certificate(&self) -> Option<Result<String, MethodError>>;
 
+    /// The systems of a certificate: see [`Method::systems`].
+    ///
+    /// # Errors
+    /// [`MethodError`] if its method cannot begin, or searches something else.
+    fn systems(&self) -> Result<Systems, MethodError>;
+
     /// The counterexample that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>>;
 
@@ -380,6 +386,10 @@ impl<R: Sync> AnyCheck for Check<R> {
 
     fn certificate(&self) -> Option<Result<String, MethodError>> {
         self.method.certificate(&self.about.rule)
+    }
+
+    fn systems(&self) -> Result<Systems, MethodError> {
+        self.method.systems(&self.about.rule)
     }
 
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>> {

@@ -7,7 +7,8 @@ use std::fmt;
 use tautline_kernel::choice::Oracle;
 
 use crate::engine::smallest::Certificate;
-use crate::engine::states::{self, Limits, MemoryLimit, Step, System};
+use crate::engine::model::Started;
+use crate::engine::states::{self, AnySystem, Limits, MemoryLimit, Step, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
@@ -252,6 +253,15 @@ pub trait Method<R>: Sync {
         None
     }
 
+    /// The systems whose states it searches for `rule`, all of them, each of which a section of a certificate is about.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin, or searches something else.
+    fn systems(&self, _: &R) -> Result<Systems, MethodError> {
+        let reason = format_args!("the engine {} does not search all states of a system", self.engine());
+        Err(MethodError::new(reason))
+    }
+
     /// The counterexample to `rule` that these choices make, written down for a judge; `None` if no judge reads it.
     fn case(&self, _: &R, _: &Choices) -> Option<Box<dyn AnyCase>> {
         None
@@ -276,6 +286,9 @@ pub trait Method<R>: Sync {
         Ok(None)
     }
 }
+
+/// Systems whose states are all searched.
+pub type Systems = Vec<Box<dyn AnySystem>>;
 
 /// The class of a counterexample, in words, and its moves.
 pub type Size = (String, usize);
@@ -410,7 +423,8 @@ impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
 impl<R, S> Method<R> for EveryState<R, S>
 where
     R: Sync,
-    S: System<Demand = &'static str>,
+    S: System<Demand = &'static str> + Sync + 'static,
+    S::State: Send,
 {
     fn engine(&self) -> &'static str {
         "states"
@@ -432,6 +446,10 @@ where
         });
         let is_covered = self.covers.iter().all(|situation| found.covered.contains(situation));
         Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
+    }
+
+    fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
+        Ok(vec![Box::new(Started::new((self.system)(rule), self.starts))])
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -8,6 +8,7 @@
 
 mod bodies;
 pub mod lots;
+pub mod model;
 mod script;
 pub mod smallest;
 pub mod states;

@@ -1,5 +1,6 @@
 //! The ledger: the clauses of all rooms, in the order of `SPEC.md`, and what came of clauses, whosever they are.
 
+mod certificates;
 mod composition;
 mod jobs;
 mod readings;
@@ -10,6 +11,7 @@ use std::iter;
 use crate::clause::{AnyCheck, Clause, Decision};
 use crate::decide::Verdict;
 
+pub use certificates::{Examined, Misfit, certificate, examine};
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all};
 

@@ -5,6 +5,7 @@ mod certificates;
 mod charts;
 mod coverage;
 mod evidence;
+mod exhausted;
 mod fairness;
 mod hostile;
 mod judge_and_rule;

@@ -192,7 +192,7 @@ impl Ground for Given {
 }
 
 /// The bytes of a file, at most so many.
-pub(super) fn bytes(file: &Path, most: u64) -> Result<Vec<u8>, Diagnostic> {
+pub(crate) fn bytes(file: &Path, most: u64) -> Result<Vec<u8>, Diagnostic> {
     let unread = |error: std::io::Error| Diagnostic::in_file(file, error, "name a file that can be read");
     let mut bytes = Vec::new();
     let opened = File::open(file).map_err(unread)?;

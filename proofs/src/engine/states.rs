@@ -8,6 +8,7 @@
 //! Besides, of each state the one is kept from which it was first found, and where endless runs are looked for, the
 //! steps that are bound to be made. A run is given by the numbers of its steps, each among all steps from its state.
 
+mod exhausted;
 mod graph;
 mod known;
 mod limits;
@@ -21,6 +22,7 @@ use std::hash::Hash;
 use std::ops::ControlFlow;
 use std::{fmt, iter, mem};
 
+pub use exhausted::{AnySystem, NoCertificate};
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
 pub use together::search_together;

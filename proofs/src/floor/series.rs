@@ -9,9 +9,10 @@ use super::small::StateOf;
 use super::team::{Demand, Demands, Series, Team, Turns};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation};
-use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
+use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems};
 use crate::engine::smallest::{Class, Most, Searched, smallest};
-use crate::engine::states::{Limits, Run, search};
+use crate::engine::model::Started;
+use crate::engine::states::{AnySystem, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, Case};
 
@@ -217,6 +218,15 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
         let report = report?.clone();
         let is_kept = report.tally.violation.is_none();
         Ok(if is_kept { report } else { self.explore(subject, (limits, until)) }.answer(shown))
+    }
+
+    /// One in each plan.
+    fn systems(&self, subject: &Subject<S>) -> Result<Systems, MethodError> {
+        let teams = self.all().flat_map(|series| series.teams(subject, self.demand));
+        let started = |team| -> Box<dyn AnySystem> {
+            Box::new(Started::new(team, |team: &Team<S>| team.starts().collect()))
+        };
+        Ok(teams.map(started).collect())
     }
 
     fn replay(&self, subject: &Subject<S>, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -5,9 +5,10 @@ use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use super::world::{Demand, Event, Setting, World};
-use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems};
 use crate::engine::smallest::{Class, Most, Searched, smallest};
-use crate::engine::states::{Limits, Run, search};
+use crate::engine::model::Started;
+use crate::engine::states::{AnySystem, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::counted;
@@ -309,6 +310,13 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         }
         let is_covered = self.covers.iter().all(|situation| covered.contains(situation));
         Ok(Answer::new(None, is_whole && is_covered, self.shows_of(), states))
+    }
+
+    fn systems(&self, rule: &Rule) -> Result<Systems, MethodError> {
+        let started = |&size: &Size| -> Result<Box<dyn AnySystem>, MethodError> {
+            Ok(Box::new(Started::new(self.setting(rule, size)?, Setting::starts)))
+        };
+        self.sizes.iter().map(started).collect()
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

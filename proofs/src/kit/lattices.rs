@@ -6,9 +6,10 @@ use tautline_kernel::kit::Rule;
 
 use super::counterexample::Counterexample;
 use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
-use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems};
 use crate::engine::smallest::{Class, Most, Searched, smallest};
-use crate::engine::states::{END, Limits, search};
+use crate::engine::model::Started;
+use crate::engine::states::{AnySystem, END, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::AnyCase;
 use crate::run::Scripted;
@@ -170,6 +171,15 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             }
         }
         Ok(self.answer(self.look(rule, Some(self.demand), (until, limits))))
+    }
+
+    fn systems(&self, rule: &Rule) -> Result<Systems, MethodError> {
+        let started = |&size: &Size| -> Result<Box<dyn AnySystem>, MethodError> {
+            let setting = self.setting(rule, size, Some(self.demand));
+            let setting = setting.ok_or_else(|| MethodError::new("the lattice is too large"))?;
+            Ok(Box::new(Started::new(setting, Setting::starts)))
+        };
+        self.sizes.iter().map(started).collect()
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -8,7 +8,7 @@ use super::chart::chart;
 use super::space::{self, Ending, Refutation};
 use super::state::{Action, Message, place};
 use super::{Demand, Faults, Setting, Subject};
-use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
+use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems};
 use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, ScriptError, Until};
@@ -63,6 +63,10 @@ impl Method<Subject> for Within {
         let found = found?;
         let evidence = found.broken(demand).map(|broken| Self::evidence(&setting, broken));
         Ok(Answer::new(evidence, found.complete, self.shows(), found.states))
+    }
+
+    fn systems(&self, observed: &Subject) -> Result<Systems, MethodError> {
+        Ok(vec![space::started(self.setting(observed), self.0)])
     }
 
     fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

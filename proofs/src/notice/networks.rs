@@ -10,9 +10,10 @@ use super::Subject;
 pub use super::shapes::SMALL;
 use super::shapes::shapes;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
-use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size};
+use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems};
 use crate::engine::smallest::{Certificate, Searched};
-use crate::engine::states::{Limits, Run, System, search};
+use crate::engine::model::Started;
+use crate::engine::states::{AnySystem, Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover};
@@ -335,6 +336,13 @@ impl Method<Subject> for Networks {
             evidence.seen = Depiction::Story(self.story(observed, &evidence.choices.once));
         }
         Ok(answer)
+    }
+
+    fn systems(&self, observed: &Subject) -> Result<Systems, MethodError> {
+        let started = |case| -> Box<dyn AnySystem> {
+            Box::new(Started::new(case, |case: &Case| vec![case.start()]))
+        };
+        Ok(self.cases(observed).map(started).collect())
     }
 
     fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

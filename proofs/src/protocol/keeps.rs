@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use tautline_kernel::choice::Oracle;
 
 use super::{Compact, Demand, Move, Protocol, When, beside};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Systems};
+use crate::engine::model::Started;
 use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 use crate::engine::{Choices, Script, ScriptError, Until};
@@ -307,6 +308,11 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
         let is_whole = found.is_whole && is_covered && found.states > 0;
         Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
+    }
+
+    fn systems(&self, rule: &P::Rule) -> Result<Systems, MethodError> {
+        let starts = |playing: &Playing<P>| playing.protocol.starts().collect();
+        Ok(vec![Box::new(Started::new(self.playing(rule)?, starts))])
     }
 
     fn replay(&self, rule: &P::Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

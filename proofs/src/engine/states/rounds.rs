@@ -11,7 +11,7 @@ use super::graph::{Arc, Graph};
 use super::limits::MemoryShare;
 
 /// In place of a component of a node that owes nothing.
-const NONE: u32 = 0;
+pub(super) const NONE: u32 = 0;
 
 /// The search would take more memory than it may.
 pub(super) struct TooLarge;
@@ -157,7 +157,7 @@ impl Graph {
 
     /// The strongly connected component of each node in which `owed` is owed, among such nodes, by a number; [`NONE`]
     /// for the other nodes.
-    fn components(&self, owed: Bits, taken: &mut MemoryShare<'_>) -> Result<Vec<u32>, TooLarge> {
+    pub(super) fn components(&self, owed: Bits, taken: &mut MemoryShare<'_>) -> Result<Vec<u32>, TooLarge> {
         let is_inside = |node: usize| self.owed.at(node) & owed != 0;
         let before = taken.held + (self.len() * size_of::<u32>()) as u64;
         let mut fits = |path: &Vec<Visit>, open: &Vec<u32>| {

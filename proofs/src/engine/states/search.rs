@@ -63,15 +63,15 @@ type ShareOut<S> = fn(
 ) -> Vec<Chunk<<S as World>::Demand>>;
 
 pub(super) struct Search<'a, S: System> {
-    system: &'a S,
+    pub(super) system: &'a S,
     /// How many workers there are, and how they share the steps.
     pub(super) share_out: Option<(usize, ShareOut<S>)>,
-    known: StateTable<S::Part>,
-    graph: Graph,
+    pub(super) known: StateTable<S::Part>,
+    pub(super) graph: Graph,
     looked_at: usize,
     steps: u64,
     /// The state that is shown: of the next one only what differs is put.
-    shown: Option<Box<S::State>>,
+    pub(super) shown: Option<Box<S::State>>,
     taken: MemoryShare<'a>,
     /// The situations that occurred, a bit for each.
     occurred: u64,
@@ -101,7 +101,7 @@ impl<'a, S: System> Search<'a, S> {
 
     /// Searches from these starts.
     pub(super) fn run_from(
-        mut self,
+        &mut self,
         starts: impl IntoIterator<Item = S::State>,
         most_steps: u64,
         watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
@@ -145,7 +145,7 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     /// The state of a node. It is to be given back as what is shown.
-    fn state(&mut self, node: usize) -> Option<Box<S::State>> {
+    pub(super) fn state(&mut self, node: usize) -> Option<Box<S::State>> {
         let mut state = self.shown.take()?;
         self.known.show(self.system, node, &mut state);
         Some(state)

@@ -1,0 +1,379 @@
+//! The checker of a section. It makes all steps from each state, and holds each against where the section says that it
+//! leads; steps lead to the same state if they agree on its digest, of 128 bits. It looks at subtrees by themselves, on
+//! as many threads as there are.
+
+use std::fmt;
+use std::hash::Hasher;
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64};
+use std::sync::OnceLock;
+
+use siphasher::sip128::SipHasher13;
+
+use crate::file::take;
+use crate::model::{Answers, Model, Step};
+
+/// What a section has that was accepted.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Counts {
+    /// States.
+    pub states: u64,
+    /// Steps from them.
+    pub steps: u64,
+    /// States from which no step is bound to be made.
+    pub ends: u64,
+}
+
+impl Counts {
+    /// These and others.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        let Self { states, steps, ends } = other;
+        Self { states: self.states + states, steps: self.steps + steps, ends: self.ends + ends }
+    }
+}
+
+/// Why a section is refused. States are numbered in their order in the section, starts and steps in that of the model.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Refusal {
+    /// From this byte of the section on it is no list of states that are joined to trees.
+    Malformed(usize),
+    /// The model has other starts than the section: so many.
+    Starts(usize),
+    /// The start with this number is another state than the section says.
+    Start(usize),
+    /// The model has other steps from this state: so many, and maybe more.
+    Steps(u32, usize),
+    /// This step from this state leads to another state than the section says.
+    Leads(u32, usize),
+    /// It breaks a demand.
+    Breaks(u32, usize, String),
+    /// A run that stays in this state breaks a demand.
+    Ends(u32, String),
+    /// This state owes something for which the section has no ranks.
+    Owes(u32),
+    /// This step from this state leads to a state of a higher rank that owes the same.
+    Rises(u32, usize),
+    /// Within the states of this rank a weakly fair run may owe for ever what this bit stands for.
+    Endless(u32, u32),
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Malformed(byte) => write!(f, "from byte {byte} on there is no list of states"),
+            Self::Starts(count) => write!(f, "it has not the starts of the model, which are {count}"),
+            Self::Start(start) => write!(f, "start {start} is another state than is said"),
+            Self::Steps(state, count) => write!(f, "state {state}: it has not the steps of the model, at least {count}"),
+            Self::Leads(state, step) => write!(f, "state {state}, step {step}: it leads to another state than is said"),
+            Self::Breaks(state, step, demand) => write!(f, "state {state}, step {step}: it breaks {demand}"),
+            Self::Ends(state, demand) => write!(f, "state {state}: a run that stays there breaks {demand}"),
+            Self::Owes(state) => write!(f, "state {state}: there are no ranks for what it owes"),
+            Self::Rises(state, step) => write!(f, "state {state}, step {step}: it leads to a higher rank"),
+            Self::Endless(rank, bit) => {
+                write!(f, "rank {rank}: a weakly fair run may stay there and owe obligation {bit} for ever")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// Checks that a section lists all states of `model`, and that they break nothing. `key` is the digest of the file: who
+/// makes a file does not choose by which digests its states are told apart.
+///
+/// # Errors
+/// [`Refusal`], which does not depend on the number of threads.
+pub fn check<M: Model>(model: &M, section: &[u8], key: u128) -> Result<Counts, Refusal> {
+    let run = |share| Checker::new(model, section, key)?.run(share);
+    // One thread finds always the same fault first.
+    run(SHARE).or_else(|refusal| run(u32::MAX).and(Err(refusal)))
+}
+
+/// The states of a subtree that another thread may look at.
+const SHARE: u32 = 1 << 10;
+
+/// A section, read.
+#[derive(Default)]
+struct Trees {
+    /// The obligations for which there are ranks.
+    owed: u16,
+    /// Of each start 0, or the number of its state and 1.
+    starts: Vec<u64>,
+    /// Of each state the byte at which it stands.
+    at: Vec<usize>,
+    /// Of each state the number of states in its subtree.
+    size: Vec<u32>,
+    /// Of each obligation the rank of each state.
+    ranks: Vec<Vec<u32>>,
+}
+
+impl Trees {
+    fn read(section: &[u8]) -> Result<Self, Refusal> {
+        let mut rest = section;
+        let mut trees = Self::default();
+        let read = trees.take(&mut rest, section.len());
+        read.map(|()| trees).ok_or(Refusal::Malformed(section.len() - rest.len()))
+    }
+
+    fn take(&mut self, rest: &mut &[u8], length: usize) -> Option<()> {
+        self.owed = take(rest)?.try_into().ok()?;
+        self.ranks = vec![Vec::new(); self.owed.count_ones() as usize];
+        for _ in 0..take(rest)? {
+            self.starts.push(take(rest)?);
+        }
+        let mut roots = self.starts.iter().filter(|&&link| link == 0).count();
+        // The states whose subtrees are not at their ends, with how many subtrees of theirs are to come.
+        let mut open: Vec<(u32, usize)> = Vec::new();
+        while !rest.is_empty() {
+            if open.is_empty() {
+                roots = roots.checked_sub(1)?;
+            }
+            let mut children = 0;
+            let state = u32::try_from(self.at.len()).ok()?;
+            self.at.push(length - rest.len());
+            for _ in 0..take(rest)? {
+                children += usize::from(take(rest)? == 0);
+            }
+            for ranks in &mut self.ranks {
+                ranks.push(take(rest)?.try_into().ok()?);
+            }
+            self.size.push(1);
+            open.push((state, children));
+            while let Some((state, _)) = open.pop_if(|(_, left)| *left == 0) {
+                self.size[state as usize] = self.at.len() as u32 - state;
+                if let Some((_, left)) = open.last_mut() {
+                    *left -= 1;
+                }
+            }
+        }
+        let is_ranked = |ranks: &Vec<u32>| ranks.iter().all(|&rank| (rank as usize) < self.at.len());
+        (roots == 0 && open.is_empty() && !self.at.is_empty() && self.ranks.iter().all(is_ranked)).then_some(())
+    }
+}
+
+/// The digest of a state, in halves that are 0 until it is known.
+#[derive(Default)]
+struct Known([AtomicU64; 2]);
+
+impl Known {
+    /// Whether this is the digest, or none was known.
+    fn is(&self, digest: [u64; 2]) -> bool {
+        let is_half = |(half, new): (&AtomicU64, u64)| {
+            let new = new.max(1);
+            let known = half.load(Relaxed);
+            known == new || known == 0 && half.compare_exchange(0, new, Relaxed, Relaxed).map_or_else(|other| other == new, |_| true)
+        };
+        self.0.iter().zip(digest).all(is_half)
+    }
+}
+
+/// The states of a rank between which steps are bound to be made.
+struct Class {
+    /// Who acts in these steps, and [`Class::HAS_STEPS`].
+    acting: AtomicU32,
+    /// Who is awake in all states from which they are made.
+    awake: AtomicU16,
+}
+
+impl Class {
+    const HAS_STEPS: u32 = 1 << u16::BITS;
+
+    /// Whether everybody acts who is awake throughout.
+    fn is_fair(&self) -> bool {
+        let acting = self.acting.load(Relaxed);
+        acting & Self::HAS_STEPS != 0 && self.awake.load(Relaxed) & !(acting as u16) == 0
+    }
+}
+
+struct Checker<'a, M> {
+    model: &'a M,
+    section: &'a [u8],
+    trees: Trees,
+    hasher: SipHasher13,
+    known: Vec<Known>,
+    /// Of each obligation the classes by their ranks.
+    classes: Vec<Vec<Class>>,
+    steps: AtomicU64,
+    ends: AtomicU64,
+    refusal: OnceLock<Refusal>,
+}
+
+/// The bytes by which states are told apart.
+#[derive(Default)]
+struct Told(Vec<u8>);
+
+impl Hasher for Told {
+    fn write(&mut self, bytes: &[u8]) {
+        self.0.extend_from_slice(bytes);
+    }
+
+    fn finish(&self) -> u64 {
+        0
+    }
+}
+
+impl<'a, M: Model> Checker<'a, M> {
+    fn new(model: &'a M, section: &'a [u8], key: u128) -> Result<Self, Refusal> {
+        let trees = Trees::read(section)?;
+        let class = |_: &u32| Class { acting: AtomicU32::new(0), awake: AtomicU16::new(u16::MAX) };
+        Ok(Self {
+            model,
+            section,
+            known: trees.at.iter().map(|_| Known::default()).collect(),
+            classes: trees.ranks.iter().map(|ranks| ranks.iter().map(class).collect()).collect(),
+            trees,
+            hasher: SipHasher13::new_with_keys(key as u64, (key >> 64) as u64),
+            steps: AtomicU64::new(0),
+            ends: AtomicU64::new(0),
+            refusal: OnceLock::new(),
+        })
+    }
+
+    fn run(self, share: u32) -> Result<Counts, Refusal> {
+        let starts = self.starts()?;
+        rayon::scope(|scope| self.walk(scope, share, starts));
+        if let Some(refusal) = self.refusal.into_inner() {
+            return Err(refusal);
+        }
+        for (bit, classes) in bits(self.trees.owed).zip(&self.classes) {
+            if let Some(rank) = classes.iter().position(Class::is_fair) {
+                return Err(Refusal::Endless(rank as u32, bit));
+            }
+        }
+        let states = self.trees.at.len() as u64;
+        Ok(Counts { states, steps: self.steps.into_inner(), ends: self.ends.into_inner() })
+    }
+
+    /// The starts that are roots.
+    fn starts(&self) -> Result<Vec<(u32, M::State)>, Refusal> {
+        let starts = self.model.starts();
+        if starts.is_empty() || starts.len() != self.trees.starts.len() {
+            return Err(Refusal::Starts(starts.len()));
+        }
+        let (mut roots, mut next) = (Vec::new(), 0);
+        for (number, (state, &link)) in starts.into_iter().zip(&self.trees.starts).enumerate() {
+            let place = if link == 0 { Some(next) } else { u32::try_from(link - 1).ok() };
+            if !place.is_some_and(|place| self.is(place, &state, &mut Told::default())) {
+                return Err(Refusal::Start(number));
+            }
+            if link == 0 {
+                roots.push((next, state));
+                next += self.trees.size[next as usize];
+            }
+        }
+        Ok(roots)
+    }
+
+    /// Whether `state` is the one that stands in this place, as far as that is known.
+    fn is(&self, place: u32, state: &M::State, told: &mut Told) -> bool {
+        told.0.clear();
+        self.model.tell(state, told);
+        let digest = self.hasher.hash(&told.0);
+        self.known.get(place as usize).is_some_and(|known| known.is([digest.h1, digest.h2]))
+    }
+
+    /// Looks at all states of the subtrees of these ones.
+    fn walk<'s>(&'s self, scope: &rayon::Scope<'s>, share: u32, mut ahead: Vec<(u32, M::State)>) {
+        let (mut told, mut children) = (Told::default(), Vec::new());
+        while let Some((place, state)) = ahead.pop() {
+            if let Err(refusal) = self.look(place, &state, &mut told, &mut children) {
+                // Of several threads the first one tells.
+                let _ = self.refusal.set(refusal);
+            }
+            if self.refusal.get().is_some() {
+                return;
+            }
+            for (place, state) in children.drain(..) {
+                if self.trees.size[place as usize] >= share {
+                    scope.spawn(move |scope| self.walk(scope, share, vec![(place, state)]));
+                } else {
+                    ahead.push((place, state));
+                }
+            }
+        }
+    }
+
+    /// Makes all steps from a state: those that lead on in the tree lead to its children.
+    fn look(
+        &self,
+        place: u32,
+        state: &M::State,
+        told: &mut Told,
+        children: &mut Vec<(u32, M::State)>,
+    ) -> Result<(), Refusal> {
+        let mut record = &self.section[self.trees.at[place as usize]..];
+        let mut next = || take(&mut record).unwrap_or(0);
+        let (said, owed) = (next(), self.model.owed(state));
+        if owed & !self.trees.owed != 0 {
+            return Err(Refusal::Owes(place));
+        }
+        let (mut child, mut step, mut is_still) = (place + 1, 0, true);
+        let mut planned = state.clone();
+        if let Some(plan) = self.model.plan(&mut planned) {
+            let mut answers = Answers::default();
+            loop {
+                let Step { to, acting, breaks } = self.model.step(state, &planned, &plan, &mut answers);
+                if step as u64 == said {
+                    return Err(Refusal::Steps(place, step + 1));
+                }
+                if let Some(demand) = breaks {
+                    return Err(Refusal::Breaks(place, step, demand));
+                }
+                let link = next();
+                let target = if link == 0 { Some(child) } else { linked(place, link) };
+                let target = target.filter(|&target| self.is(target, &to, told));
+                let target = target.ok_or(Refusal::Leads(place, step))?;
+                if let Some(acting) = acting {
+                    is_still = false;
+                    self.rank((place, state, owed), (target, &to), acting).ok_or(Refusal::Rises(place, step))?;
+                }
+                if link == 0 {
+                    children.push((child, to));
+                    child += self.trees.size[child as usize];
+                }
+                step += 1;
+                if !answers.advance() {
+                    break;
+                }
+            }
+        }
+        if step as u64 != said {
+            return Err(Refusal::Steps(place, step));
+        }
+        self.steps.fetch_add(said, Relaxed);
+        self.ends.fetch_add(is_still.into(), Relaxed);
+        let broken = if is_still { self.model.broken_at_end(state) } else { None };
+        broken.map_or(Ok(()), |demand| Err(Refusal::Ends(place, demand)))
+    }
+
+    /// Notes a step that is bound to be made in its class, if it stays in one; `None` if its rank rises.
+    fn rank(&self, (place, state, owed): (u32, &M::State, u16), (to, after): (u32, &M::State), acting: u16) -> Option<()> {
+        let both = if owed == 0 { 0 } else { owed & self.model.owed(after) };
+        for ((bit, ranks), classes) in bits(self.trees.owed).zip(&self.trees.ranks).zip(&self.classes) {
+            let [from, to] = [place, to].map(|state| ranks[state as usize]);
+            if both >> bit & 1 == 0 || to < from {
+                continue;
+            }
+            if to > from {
+                return None;
+            }
+            let class = &classes[from as usize];
+            class.acting.fetch_or(Class::HAS_STEPS | u32::from(acting), Relaxed);
+            class.awake.fetch_and(self.model.awake(state), Relaxed);
+        }
+        Some(())
+    }
+}
+
+/// The numbers of these bits.
+fn bits(set: u16) -> impl Iterator<Item = u32> {
+    (0..u16::BITS).filter(move |bit| set >> bit & 1 == 1)
+}
+
+/// The state to which a link from this one leads that is not 0: how far behind or before it, in turns.
+fn linked(place: u32, link: u64) -> Option<u32> {
+    let way = i64::try_from(link - 1).ok()?;
+    let way = way >> 1 ^ -(way & 1);
+    i64::from(place).checked_add(way)?.try_into().ok()
+}

@@ -1,0 +1,85 @@
+//! What a checker knows of a system, and how it enumerates what an oracle may answer.
+
+use std::hash::Hasher;
+
+use tautline_kernel::choice::Oracle;
+
+/// The step function of a system, and what is demanded of it.
+pub trait Model: Sync {
+    /// All that is at a time.
+    type State: Clone + Send;
+    /// The intention of a step, before anything is asked.
+    type Plan;
+
+    /// The states in which runs begin.
+    fn starts(&self) -> Vec<Self::State>;
+
+    /// The plan of the next step from a state, which may be noted in it; `None` if the run is over.
+    fn plan(&self, state: &mut Self::State) -> Option<Self::Plan>;
+
+    /// The step from `before` that these answers make of its plan. Of states that are taken for one, the same one comes
+    /// out always.
+    fn step(
+        &self,
+        before: &Self::State,
+        planned: &Self::State,
+        plan: &Self::Plan,
+        answers: &mut impl Oracle,
+    ) -> Step<Self::State>;
+
+    /// The demand that a run breaks by staying in `state`, in words.
+    fn broken_at_end(&self, state: &Self::State) -> Option<String>;
+
+    /// The obligations owed in `state`, a bit each, of which a run breaks the demand if it owes one for ever although it
+    /// is weakly fair; none where endless runs break nothing.
+    fn owed(&self, state: &Self::State) -> u16;
+
+    /// Who has something left to do in `state`, a bit each.
+    fn awake(&self, state: &Self::State) -> u16;
+
+    /// Writes what tells `state` from every other one.
+    fn tell(&self, state: &Self::State, to: &mut impl Hasher);
+}
+
+/// A step.
+pub struct Step<S> {
+    /// The state to which it leads.
+    pub to: S,
+    /// Who acts in it, a bit each, if it is bound to be made where no other step is.
+    pub acting: Option<u16>,
+    /// The demand that it breaks, in words.
+    pub breaks: Option<String>,
+}
+
+/// Every combination of answers: each answer with the number of those that were possible.
+#[derive(Default)]
+pub(crate) struct Answers {
+    given: Vec<(u32, u32)>,
+    asked: usize,
+}
+
+impl Answers {
+    /// The next combination; false if there is none.
+    pub(crate) fn advance(&mut self) -> bool {
+        self.given.truncate(self.asked);
+        self.asked = 0;
+        while let Some((answer, of)) = self.given.pop() {
+            if answer + 1 < of {
+                self.given.push((answer + 1, of));
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl Oracle for Answers {
+    fn pick(&mut self, below: u32) -> u32 {
+        if self.asked == self.given.len() {
+            self.given.push((0, below));
+        }
+        let (answer, _) = self.given[self.asked];
+        self.asked += 1;
+        answer
+    }
+}

@@ -1,0 +1,3 @@
+//! The checker by itself.
+
+mod check;

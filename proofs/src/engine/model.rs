@@ -1,0 +1,88 @@
+//! The step function of a system, as the checker of certificates asks for it. What is here is believed: it plans and
+//! settles as the world does, and knows no search.
+
+use std::hash::{Hash, Hasher};
+
+use tautline_certificates::{Model, Step};
+use tautline_kernel::choice::Oracle;
+
+use super::states::System;
+use super::world::Turn;
+
+/// A system with its starts, and which demands count.
+pub struct Started<S: System> {
+    /// The system.
+    pub system: S,
+    /// Its starts.
+    pub starts: fn(&S) -> Vec<S::State>,
+    /// Whether it is this demand that is looked at.
+    pub is_asked: fn(&S, S::Demand) -> bool,
+}
+
+impl<S: System> Started<S> {
+    /// A system of which one thing alone is demanded.
+    pub fn new(system: S, starts: fn(&S) -> Vec<S::State>) -> Self {
+        Self { system, starts, is_asked: |_, _| true }
+    }
+
+    /// The first demand that is asked for, in words.
+    fn words(&self, broken: Vec<S::Demand>) -> Option<String> {
+        let mut asked = broken.into_iter().filter(|&demand| (self.is_asked)(&self.system, demand));
+        asked.next().map(|demand| format!("{demand:?}"))
+    }
+}
+
+impl<S> Model for Started<S>
+where
+    S: System + Sync,
+    S::State: Send,
+{
+    type State = S::State;
+    type Plan = S::Plan;
+
+    fn starts(&self) -> Vec<S::State> {
+        let mut starts = (self.starts)(&self.system);
+        starts.iter_mut().for_each(|state| self.system.make_canonical(state));
+        starts
+    }
+
+    fn plan(&self, state: &mut S::State) -> Option<S::Plan> {
+        self.system.plan(state, &[])
+    }
+
+    fn step(
+        &self,
+        before: &S::State,
+        planned: &S::State,
+        plan: &S::Plan,
+        answers: &mut impl Oracle,
+    ) -> Step<S::State> {
+        let (mut after, mut log) = (planned.clone(), Vec::new());
+        let event = self.system.settle(&mut after, plan, &mut log, answers);
+        let turn = Turn { before, planned, after: &after, plan, event: &event, sent: &log };
+        let breaks = self.words(self.system.broken_by(&turn));
+        let acting = self.system.is_bound(&turn).then(|| self.system.acting(&turn));
+        self.system.make_canonical(&mut after);
+        Step { to: after, acting, breaks }
+    }
+
+    fn broken_at_end(&self, state: &S::State) -> Option<String> {
+        self.words(self.system.broken_at_end(state, &[]))
+    }
+
+    fn owed(&self, state: &S::State) -> u16 {
+        let asked = self.system.broken_by_endless_runs().filter(|&demand| (self.is_asked)(&self.system, demand));
+        asked.map_or(0, |_| self.system.owed(state))
+    }
+
+    fn awake(&self, state: &S::State) -> u16 {
+        self.system.awake(state)
+    }
+
+    fn tell(&self, state: &S::State, to: &mut impl Hasher) {
+        (0..self.system.places(state)).for_each(|place| self.system.part(state, place).hash(to));
+        let mut bytes = Vec::new();
+        self.system.write(state, &mut bytes);
+        to.write(&bytes);
+    }
+}
