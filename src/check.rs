@@ -91,7 +91,9 @@ impl CertificateJson {
                 let counts = [counted(*states, "state"), counted(*steps, "step"), counted(*ends, "end")];
                 format!("{file}: accepted: {} in {}\n", counts.join(", "), counted(*systems as u64, "system"))
             }
-            (None, Some(Refused { section, reason })) => format!("{file}: refused: section {section}, {reason}\n"),
+            (None, Some(Refused { section, reason })) => {
+                format!("{file}: refused: section {section}, {reason}\n")
+            }
             (None, None) => String::new(),
         };
         // Writing to a string cannot fail.
@@ -105,7 +107,8 @@ impl Check {
         let check = |file: &PathBuf| {
             let clauses = ledger::clauses().chain(tautline_library::clauses());
             let examined = examine(&bytes(file, MOST_BYTES)?, clauses).map_err(|misfit| {
-                let remedy = "name a file that `tautline prove --certificate` of this version wrote, as it wrote it";
+                let remedy =
+                    "name a file that `tautline prove --certificate` of this version wrote, as it wrote it";
                 Diagnostic::in_file(file, misfit, remedy)
             })?;
             Ok(CertificateJson::of(file, examined))

@@ -12,6 +12,8 @@ use tempfile::TempDir;
 
 #[path = "cli/areas.rs"]
 mod areas;
+#[path = "cli/certificates.rs"]
+mod certificates;
 #[path = "cli/faults.rs"]
 mod failures;
 #[path = "cli/files.rs"]
@@ -1202,6 +1204,7 @@ fn every_command_has_help_with_examples() {
         "rescue",
         "locate",
         "replay",
+        "check",
         "conform",
         "judge",
         "page",
@@ -1229,7 +1232,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
     assert_eq!(printed(folder, &["man", "--out", "man1"], 0), "");
     let stored = names(&folder.join("man1"));
     let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
-    assert_eq!((stored.len(), of_tables), (1 + 18 + 28, 28), "{stored:?}");
+    assert_eq!((stored.len(), of_tables), (1 + 19 + 28, 28), "{stored:?}");
     for name in stored {
         let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
         let title = name.strip_suffix(".1").expect("section 1");

@@ -4,9 +4,9 @@
 
 use std::fmt;
 use std::hash::Hasher;
+use std::sync::OnceLock;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64};
-use std::sync::OnceLock;
 
 use siphasher::sip128::SipHasher13;
 
@@ -64,8 +64,12 @@ impl fmt::Display for Refusal {
             Self::Malformed(byte) => write!(f, "from byte {byte} on there is no list of states"),
             Self::Starts(count) => write!(f, "it has not the starts of the model, which are {count}"),
             Self::Start(start) => write!(f, "start {start} is another state than is said"),
-            Self::Steps(state, count) => write!(f, "state {state}: it has not the steps of the model, at least {count}"),
-            Self::Leads(state, step) => write!(f, "state {state}, step {step}: it leads to another state than is said"),
+            Self::Steps(state, count) => {
+                write!(f, "state {state}: it has not the steps of the model, at least {count}")
+            }
+            Self::Leads(state, step) => {
+                write!(f, "state {state}, step {step}: it leads to another state than is said")
+            }
             Self::Breaks(state, step, demand) => write!(f, "state {state}, step {step}: it breaks {demand}"),
             Self::Ends(state, demand) => write!(f, "state {state}: a run that stays there breaks {demand}"),
             Self::Owes(state) => write!(f, "state {state}: there are no ranks for what it owes"),
@@ -148,9 +152,13 @@ impl Trees {
             }
         }
         let is_ranked = |ranks: &Vec<u32>| ranks.iter().all(|&rank| (rank as usize) < self.at.len());
-        (roots == 0 && open.is_empty() && !self.at.is_empty() && self.ranks.iter().all(is_ranked)).then_some(())
+        (roots == 0 && open.is_empty() && !self.at.is_empty() && self.ranks.iter().all(is_ranked))
+            .then_some(())
     }
 }
+
+/// The digest of a state: those of its parts, put together so that one can be taken out again.
+type Digest = u128;
 
 /// The digest of a state, in halves that are 0 until it is known.
 #[derive(Default)]
@@ -158,13 +166,14 @@ struct Known([AtomicU64; 2]);
 
 impl Known {
     /// Whether this is the digest, or none was known.
-    fn is(&self, digest: [u64; 2]) -> bool {
+    fn is(&self, digest: Digest) -> bool {
         let is_half = |(half, new): (&AtomicU64, u64)| {
             let new = new.max(1);
             let known = half.load(Relaxed);
-            known == new || known == 0 && half.compare_exchange(0, new, Relaxed, Relaxed).map_or_else(|other| other == new, |_| true)
+            let put = || half.compare_exchange(0, new, Relaxed, Relaxed);
+            known == new || known == 0 && put().map_or_else(|other| other == new, |_| true)
         };
-        self.0.iter().zip(digest).all(is_half)
+        self.0.iter().zip([digest as u64, (digest >> 64) as u64]).all(is_half)
     }
 }
 
@@ -199,17 +208,40 @@ struct Checker<'a, M> {
     refusal: OnceLock<Refusal>,
 }
 
-/// The bytes by which states are told apart.
+/// The bytes by which a part is told.
 #[derive(Default)]
 struct Told(Vec<u8>);
 
 impl Hasher for Told {
+    #[inline]
     fn write(&mut self, bytes: &[u8]) {
         self.0.extend_from_slice(bytes);
     }
 
     fn finish(&self) -> u64 {
         0
+    }
+}
+
+/// A state with its place in the section, and its digest.
+struct Placed<S> {
+    place: u32,
+    state: S,
+    digest: Digest,
+}
+
+/// What a thread has at hand.
+struct Desk<S> {
+    told: Told,
+    /// The digests of the parts of the state that it looks at, as far as they were asked for.
+    parts: Vec<Option<Digest>>,
+    /// The states to which steps from it lead in the tree.
+    children: Vec<Placed<S>>,
+}
+
+impl<S> Desk<S> {
+    fn new() -> Self {
+        Self { told: Told::default(), parts: Vec::new(), children: Vec::new() }
     }
 }
 
@@ -246,68 +278,83 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// The starts that are roots.
-    fn starts(&self) -> Result<Vec<(u32, M::State)>, Refusal> {
+    fn starts(&self) -> Result<Vec<Placed<M::State>>, Refusal> {
         let starts = self.model.starts();
         if starts.is_empty() || starts.len() != self.trees.starts.len() {
             return Err(Refusal::Starts(starts.len()));
         }
-        let (mut roots, mut next) = (Vec::new(), 0);
+        let (mut roots, mut next, mut told) = (Vec::new(), 0, Told::default());
         for (number, (state, &link)) in starts.into_iter().zip(&self.trees.starts).enumerate() {
+            let parts = 0..self.model.parts(&state);
+            let digest = parts.fold(0, |all, part| all ^ self.part(&state, part, &mut told));
             let place = if link == 0 { Some(next) } else { u32::try_from(link - 1).ok() };
-            if !place.is_some_and(|place| self.is(place, &state, &mut Told::default())) {
+            if !place.is_some_and(|place| self.is(place, digest)) {
                 return Err(Refusal::Start(number));
             }
             if link == 0 {
-                roots.push((next, state));
+                roots.push(Placed { place: next, state, digest });
                 next += self.trees.size[next as usize];
             }
         }
         Ok(roots)
     }
 
-    /// Whether `state` is the one that stands in this place, as far as that is known.
-    fn is(&self, place: u32, state: &M::State, told: &mut Told) -> bool {
+    /// The digest of a part of `state`.
+    fn part(&self, state: &M::State, part: usize, told: &mut Told) -> Digest {
         told.0.clear();
-        self.model.tell(state, told);
-        let digest = self.hasher.hash(&told.0);
-        self.known.get(place as usize).is_some_and(|known| known.is([digest.h1, digest.h2]))
+        told.write_usize(part);
+        self.model.tell(state, part, told);
+        self.hasher.hash(&told.0).as_u128()
+    }
+
+    /// The digest of a state to which a step leads from the one that a thread looks at.
+    fn digest(&self, from: &Placed<M::State>, to: &M::State, desk: &mut Desk<M::State>) -> Digest {
+        let differing = self.model.differing(&from.state, to);
+        let differs = |&part: &usize| part >= 64 || differing >> part & 1 == 1;
+        (0..desk.parts.len()).filter(differs).fold(from.digest, |all, part| {
+            let before = desk.parts[part].unwrap_or_else(|| self.part(&from.state, part, &mut desk.told));
+            desk.parts[part] = Some(before);
+            all ^ before ^ self.part(to, part, &mut desk.told)
+        })
+    }
+
+    /// Whether the state with this digest is the one that stands in this place, as far as that is known.
+    fn is(&self, place: u32, digest: Digest) -> bool {
+        self.known.get(place as usize).is_some_and(|known| known.is(digest))
     }
 
     /// Looks at all states of the subtrees of these ones.
-    fn walk<'s>(&'s self, scope: &rayon::Scope<'s>, share: u32, mut ahead: Vec<(u32, M::State)>) {
-        let (mut told, mut children) = (Told::default(), Vec::new());
-        while let Some((place, state)) = ahead.pop() {
-            if let Err(refusal) = self.look(place, &state, &mut told, &mut children) {
+    fn walk<'s>(&'s self, scope: &rayon::Scope<'s>, share: u32, mut ahead: Vec<Placed<M::State>>) {
+        let mut desk = Desk::new();
+        while let Some(placed) = ahead.pop() {
+            if let Err(refusal) = self.look(&placed, &mut desk) {
                 // Of several threads the first one tells.
                 let _ = self.refusal.set(refusal);
             }
             if self.refusal.get().is_some() {
                 return;
             }
-            for (place, state) in children.drain(..) {
-                if self.trees.size[place as usize] >= share {
-                    scope.spawn(move |scope| self.walk(scope, share, vec![(place, state)]));
+            for child in desk.children.drain(..) {
+                if self.trees.size[child.place as usize] >= share {
+                    scope.spawn(move |scope| self.walk(scope, share, vec![child]));
                 } else {
-                    ahead.push((place, state));
+                    ahead.push(child);
                 }
             }
         }
     }
 
     /// Makes all steps from a state: those that lead on in the tree lead to its children.
-    fn look(
-        &self,
-        place: u32,
-        state: &M::State,
-        told: &mut Told,
-        children: &mut Vec<(u32, M::State)>,
-    ) -> Result<(), Refusal> {
+    fn look(&self, from: &Placed<M::State>, desk: &mut Desk<M::State>) -> Result<(), Refusal> {
+        let &Placed { place, ref state, .. } = from;
         let mut record = &self.section[self.trees.at[place as usize]..];
         let mut next = || take(&mut record).unwrap_or(0);
         let (said, owed) = (next(), self.model.owed(state));
         if owed & !self.trees.owed != 0 {
             return Err(Refusal::Owes(place));
         }
+        desk.parts.clear();
+        desk.parts.resize(self.model.parts(state), None);
         let (mut child, mut step, mut is_still) = (place + 1, 0, true);
         let mut planned = state.clone();
         if let Some(plan) = self.model.plan(&mut planned) {
@@ -320,16 +367,17 @@ impl<'a, M: Model> Checker<'a, M> {
                 if let Some(demand) = breaks {
                     return Err(Refusal::Breaks(place, step, demand));
                 }
-                let link = next();
+                let (link, digest) = (next(), self.digest(from, &to, desk));
                 let target = if link == 0 { Some(child) } else { linked(place, link) };
-                let target = target.filter(|&target| self.is(target, &to, told));
+                let target = target.filter(|&target| self.is(target, digest));
                 let target = target.ok_or(Refusal::Leads(place, step))?;
                 if let Some(acting) = acting {
                     is_still = false;
-                    self.rank((place, state, owed), (target, &to), acting).ok_or(Refusal::Rises(place, step))?;
+                    self.rank((place, state, owed), (target, &to), acting)
+                        .ok_or(Refusal::Rises(place, step))?;
                 }
                 if link == 0 {
-                    children.push((child, to));
+                    desk.children.push(Placed { place: child, state: to, digest });
                     child += self.trees.size[child as usize];
                 }
                 step += 1;
@@ -348,7 +396,12 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// Notes a step that is bound to be made in its class, if it stays in one; `None` if its rank rises.
-    fn rank(&self, (place, state, owed): (u32, &M::State, u16), (to, after): (u32, &M::State), acting: u16) -> Option<()> {
+    fn rank(
+        &self,
+        (place, state, owed): (u32, &M::State, u16),
+        (to, after): (u32, &M::State),
+        acting: u16,
+    ) -> Option<()> {
         let both = if owed == 0 { 0 } else { owed & self.model.owed(after) };
         for ((bit, ranks), classes) in bits(self.trees.owed).zip(&self.trees.ranks).zip(&self.classes) {
             let [from, to] = [place, to].map(|state| ranks[state as usize]);

@@ -55,7 +55,9 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Foreign => write!(f, "it does not begin with the line {FIRST:?}"),
-            Self::Damaged => f.write_str("it is cut short or changed: its last 16 bytes are no digest of the others"),
+            Self::Damaged => {
+                f.write_str("it is cut short or changed: its last 16 bytes are no digest of the others")
+            }
             Self::Line(line, begin) => write!(f, "its line {line} is no line {begin:?} with a value"),
             Self::Sections => f.write_str("its sections do not end where its digest begins"),
         }
@@ -79,6 +81,7 @@ pub fn put(to: &mut Vec<u8>, mut number: u64) {
 }
 
 /// Takes a number that [`put`] has written from the beginning of `bytes`.
+#[inline]
 pub(crate) fn take(bytes: &mut &[u8]) -> Option<u64> {
     let (mut number, mut shift) = (0_u64, 0);
     loop {
@@ -155,7 +158,8 @@ pub fn read(bytes: &[u8]) -> Result<File<'_>, Fault> {
     };
     let mut sections = Vec::new();
     while !rest.is_empty() {
-        let length = take(&mut rest).and_then(|length| usize::try_from(length).ok()).ok_or(Fault::Sections)?;
+        let length =
+            take(&mut rest).and_then(|length| usize::try_from(length).ok()).ok_or(Fault::Sections)?;
         sections.push(rest.split_off(..length).ok_or(Fault::Sections)?);
     }
     Ok(File { header, sections, digest })

@@ -7,6 +7,10 @@
 //! starts where the model starts, and makes each step. `docs/certificates.md` says why a clause holds whose certificate
 //! is accepted.
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod check;
 mod file;
 mod model;

@@ -37,8 +37,18 @@ pub trait Model: Sync {
     /// Who has something left to do in `state`, a bit each.
     fn awake(&self, state: &Self::State) -> u16;
 
-    /// Writes what tells `state` from every other one.
-    fn tell(&self, state: &Self::State, to: &mut impl Hasher);
+    /// The number of parts of `state`, by which it is told from every other one: as many as every other state has.
+    fn parts(&self, _: &Self::State) -> usize {
+        1
+    }
+
+    /// The parts that may differ in two states, a bit each; those from 64 on are always among them.
+    fn differing(&self, _: &Self::State, _: &Self::State) -> u64 {
+        u64::MAX
+    }
+
+    /// Writes what tells this part of `state` from every other one in this place.
+    fn tell(&self, state: &Self::State, part: usize, to: &mut impl Hasher);
 }
 
 /// A step.
@@ -74,6 +84,7 @@ impl Answers {
 }
 
 impl Oracle for Answers {
+    #[inline]
     fn pick(&mut self, below: u32) -> u32 {
         if self.asked == self.given.len() {
             self.given.push((0, below));

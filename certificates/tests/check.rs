@@ -51,7 +51,7 @@ impl Model for Walk {
         0b11
     }
 
-    fn tell(&self, state: &u8, to: &mut impl Hasher) {
+    fn tell(&self, state: &u8, _: usize, to: &mut impl Hasher) {
         to.write_u8(*state);
     }
 }
@@ -96,7 +96,10 @@ fn what_is_not_so_is_refused_where_it_is_not() {
     for (changes, refusal) in cases {
         assert_eq!(checked(WALK, &with(&changes)), Err(refusal), "{changes:?}");
     }
-    assert_eq!(checked(Walk { broken_step: Some(2), ..WALK }, &with(&[])), Err(Refusal::Breaks(2, 0, "it".into())));
+    assert_eq!(
+        checked(Walk { broken_step: Some(2), ..WALK }, &with(&[])),
+        Err(Refusal::Breaks(2, 0, "it".into()))
+    );
     assert_eq!(checked(Walk { may_stay_in: 9, ..WALK }, &with(&[])), Err(Refusal::Ends(3, "an end".into())));
     assert_eq!(checked(Walk { acting: 0b11, ..WALK }, &with(&[])), Err(Refusal::Endless(0, 0)));
 }

@@ -6,8 +6,8 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 
-use crate::engine::smallest::Certificate;
 use crate::engine::model::Started;
+use crate::engine::smallest::Certificate;
 use crate::engine::states::{self, AnySystem, Limits, MemoryLimit, Step, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};

@@ -13,10 +13,11 @@ use tempfile::NamedTempFile;
 
 use crate::diagnostic::{Diagnostic, Halt};
 
-/// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages, ITF traces,
-/// recordings, tables.
-const OURS: [&[u8]; 7] = [
+/// How the files begin that this program writes: stored runs and kept hunts, certificates, pictures, pages, manual
+/// pages, ITF traces, recordings, tables.
+const OURS: [&[u8]; 8] = [
     b"{\"format\":\"tautline ",
+    b"tautline certificate ",
     SVG_HEAD.as_bytes(),
     HTML_HEAD.as_bytes(),
     MAN_HEAD.as_bytes(),

@@ -71,7 +71,8 @@ where
     }
 
     fn owed(&self, state: &S::State) -> u16 {
-        let asked = self.system.broken_by_endless_runs().filter(|&demand| (self.is_asked)(&self.system, demand));
+        let asked =
+            self.system.broken_by_endless_runs().filter(|&demand| (self.is_asked)(&self.system, demand));
         asked.map_or(0, |_| self.system.owed(state))
     }
 
@@ -79,8 +80,19 @@ where
         self.system.awake(state)
     }
 
-    fn tell(&self, state: &S::State, to: &mut impl Hasher) {
-        (0..self.system.places(state)).for_each(|place| self.system.part(state, place).hash(to));
+    /// A state of no parts is told by its bytes.
+    fn parts(&self, state: &S::State) -> usize {
+        self.system.places(state).max(1)
+    }
+
+    fn differing(&self, one: &S::State, other: &S::State) -> u64 {
+        self.system.differing(one, other)
+    }
+
+    fn tell(&self, state: &S::State, part: usize, to: &mut impl Hasher) {
+        if self.system.places(state) > 0 {
+            return self.system.part(state, part).hash(to);
+        }
         let mut bytes = Vec::new();
         self.system.write(state, &mut bytes);
         to.write(&bytes);

@@ -9,9 +9,11 @@ use super::small::StateOf;
 use super::team::{Demand, Demands, Series, Team, Turns};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation};
-use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems};
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::decide::{
+    Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+};
 use crate::engine::model::Started;
+use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{AnySystem, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, Case};

@@ -5,9 +5,11 @@ use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use super::world::{Demand, Event, Setting, World};
-use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems};
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::decide::{
+    self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
+};
 use crate::engine::model::Started;
+use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{AnySystem, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, Floor, frontier as judge};

@@ -6,9 +6,11 @@ use tautline_kernel::kit::Rule;
 
 use super::counterexample::Counterexample;
 use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
-use crate::decide::{self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems};
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::decide::{
+    self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
+};
 use crate::engine::model::Started;
+use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{AnySystem, END, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::AnyCase;

@@ -43,12 +43,18 @@ impl fmt::Display for Misfit {
         match self {
             Self::File(fault) => write!(f, "it is no certificate: {fault}"),
             Self::Program(said) => write!(f, "it is a certificate of {said:?}, and this is {PROGRAM}"),
-            Self::Clause(said) => write!(f, "it is a certificate of the clause {said:?}, which is not known here"),
-            Self::Check(clause, number) => write!(f, "it is a certificate of check {number} of {clause}, which it has not"),
+            Self::Clause(said) => {
+                write!(f, "it is a certificate of the clause {said:?}, which is not known here")
+            }
+            Self::Check(clause, number) => {
+                write!(f, "it is a certificate of check {number} of {clause}, which it has not")
+            }
             Self::Rule { said, found } => {
                 write!(f, "it is a certificate of the rule {said:?}, and the check is about {found:?}")
             }
-            Self::Claim => f.write_str("it claims something else than the check: its sentence, bound or engine differs"),
+            Self::Claim => {
+                f.write_str("it claims something else than the check: its sentence, bound or engine differs")
+            }
             Self::Count => f.write_str("it has not as many states, or sections, as it should"),
             Self::Method(why) => write!(f, "its check has no certificate: {why}"),
         }
@@ -116,7 +122,8 @@ pub fn examine(bytes: &[u8], clauses: impl IntoIterator<Item = &'static Clause>)
         (None, false) => return Err(Misfit::Check(id, number)),
     };
     // A clause may stand there twice, within other bounds.
-    let clause = with_check.find(|clause| claim(clause, number) == claimed);
+    let is_it = |clause: &&Clause| claim(clause, number) == claimed && clause.checks[number].rule() == rule;
+    let clause = with_check.find(is_it);
     let clause = clause.ok_or_else(|| match first.checks[number].rule() {
         found if found == rule => Misfit::Claim,
         found => Misfit::Rule { said: rule, found },

@@ -8,7 +8,9 @@ use super::chart::chart;
 use super::space::{self, Ending, Refutation};
 use super::state::{Action, Message, place};
 use super::{Demand, Faults, Setting, Subject};
-use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems};
+use crate::decide::{
+    Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+};
 use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, ScriptError, Until};

@@ -10,9 +10,11 @@ use super::Subject;
 pub use super::shapes::SMALL;
 use super::shapes::shapes;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
-use crate::decide::{Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems};
-use crate::engine::smallest::{Certificate, Searched};
+use crate::decide::{
+    Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+};
 use crate::engine::model::Started;
+use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::{AnySystem, Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::world::{Turn, World, any_of, picked};
@@ -339,9 +341,8 @@ impl Method<Subject> for Networks {
     }
 
     fn systems(&self, observed: &Subject) -> Result<Systems, MethodError> {
-        let started = |case| -> Box<dyn AnySystem> {
-            Box::new(Started::new(case, |case: &Case| vec![case.start()]))
-        };
+        let started =
+            |case| -> Box<dyn AnySystem> { Box::new(Started::new(case, |case: &Case| vec![case.start()])) };
         Ok(self.cases(observed).map(started).collect())
     }
 

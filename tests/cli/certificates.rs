@@ -1,0 +1,70 @@
+//! Certificates on the command line: written by `prove`, examined by `check`.
+
+use std::fs;
+
+use insta::assert_snapshot;
+use tautline_certificates::digest;
+
+use super::{folder, json, names, printed, ran, refused};
+
+/// The bytes of a certificate in which `one` stands once, and `other` in its place, with the digest made anew.
+fn changed(bytes: &[u8], one: &[u8], other: &[u8]) -> Vec<u8> {
+    let content = &bytes[..bytes.len() - 16];
+    let place = content.windows(one.len()).position(|part| part == one).expect("it stands there");
+    let mut changed = [&content[..place], other, &content[place + one.len()..]].concat();
+    let digest = digest(&changed);
+    changed.extend(digest.to_le_bytes());
+    changed
+}
+
+#[test]
+fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_changed() {
+    let folder = folder();
+    let folder = folder.path();
+    let proved = ran(folder, &["prove", "KIT-5", "--certificate", "certificates"]);
+    assert_eq!((proved.status.code(), &*proved.stderr), (Some(0), &b""[..]));
+    let files = ["kit-5-published-states.cert", "kit-5-repaired-states.cert", "kit-5-robust-states.cert"];
+    assert_eq!(names(&folder.join("certificates")), files);
+    let paths = files.map(|file| format!("certificates/{file}"));
+    assert_snapshot!(printed(folder, &["check", &paths[0], &paths[1]], 0), @"");
+    let told = json(folder, &["check", &paths[1]], 0);
+    assert_eq!(told["certificates"][0]["accepted"]["states"], 2_327);
+
+    let bytes = fs::read(folder.join(&paths[0])).expect("a certificate");
+    let said = |change: Vec<u8>| {
+        fs::write(folder.join("changed.cert"), change).expect("a file");
+        refused(folder, &["check", "changed.cert"])
+    };
+    let mut damaged = bytes.clone();
+    damaged[bytes.len() / 2] ^= 1;
+    let words = [
+        said(damaged),
+        said(bytes[..bytes.len() / 2].to_vec()),
+        said(b"a text".to_vec()),
+        said(changed(&bytes, b"clause KIT-5", b"clause KIT-6")),
+        said(changed(&bytes, b"rule published", b"rule printed")),
+        said(changed(&bytes, b"tautline 0", b"tautline 9")),
+        refused(folder, &["check", "nowhere.cert"]),
+    ];
+    assert_snapshot!(words.join("\n"), @"");
+
+    // The states of the published rule are not those of the repaired one.
+    let other = fs::read(folder.join(&paths[1])).expect("a certificate");
+    let header = |bytes: &[u8]| {
+        let end = bytes.windows(8).position(|part| part == b"\nstates ").expect("a line") + 1;
+        end + bytes[end..].iter().position(|&byte| byte == b'\n').expect("its end") + 1
+    };
+    let mixed = [&other[..header(&other)], &bytes[header(&bytes)..bytes.len() - 16], &[0; 16]].concat();
+    fs::write(folder.join("mixed.cert"), changed(&mixed, b"clause", b"clause")).expect("a file");
+    assert_snapshot!(printed(folder, &["check", "mixed.cert"], 1), @"");
+}
+
+#[test]
+fn what_holds_without_a_search_over_all_states_is_told_to_get_no_certificate() {
+    let folder = folder();
+    let folder = folder.path();
+    let proved = ran(folder, &["prove", "KIT-9", "--certificate", "certificates"]);
+    assert_eq!(proved.status.code(), Some(0));
+    assert_snapshot!(String::from_utf8_lossy(&proved.stderr), @"");
+    assert_eq!(names(&folder.join("certificates")), [""; 0]);
+}
