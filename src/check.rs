@@ -104,7 +104,7 @@ impl CertificateJson {
 
 impl Check {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let check = |file: &PathBuf| {
+        let check = |file: &PathBuf| -> Result<CertificateJson, Diagnostic> {
             let clauses = ledger::clauses().chain(tautline_library::clauses());
             let examined = examine(&bytes(file, MOST_BYTES)?, clauses).map_err(|misfit| {
                 let remedy =
@@ -113,7 +113,7 @@ impl Check {
             })?;
             Ok(CertificateJson::of(file, examined))
         };
-        let certificates = self.files.iter().map(check).collect::<Result<Vec<_>, Diagnostic>>()?;
+        let certificates = self.files.iter().map(check).collect::<Result<Vec<_>, _>>()?;
         let is_refused = certificates.iter().any(|one| one.refused.is_some());
         match self.format.format {
             Format::Text => certificates.iter().try_for_each(|one| out.text(one.text()))?,

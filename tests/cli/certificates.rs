@@ -2,7 +2,6 @@
 
 use std::fs;
 
-use insta::assert_snapshot;
 use tautline_certificates::digest;
 
 use super::{folder, json, names, printed, ran, refused};
@@ -26,7 +25,14 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
     let files = ["kit-5-published-states.cert", "kit-5-repaired-states.cert", "kit-5-robust-states.cert"];
     assert_eq!(names(&folder.join("certificates")), files);
     let paths = files.map(|file| format!("certificates/{file}"));
-    assert_snapshot!(printed(folder, &["check", &paths[0], &paths[1]], 0), @"");
+    let accepted = printed(folder, &["check", &paths[0], &paths[1]], 0);
+    for words in [
+        "certificates/kit-5-published-states.cert: accepted: 1166 states, ",
+        "certificates/kit-5-repaired-states.cert: accepted: 2327 states, ",
+        " in 1 system\n  KIT-5 as repaired: ",
+    ] {
+        assert!(accepted.contains(words), "{accepted}");
+    }
     let told = json(folder, &["check", &paths[1]], 0);
     assert_eq!(told["certificates"][0]["accepted"]["states"], 2_327);
 
@@ -37,16 +43,24 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
     };
     let mut damaged = bytes.clone();
     damaged[bytes.len() / 2] ^= 1;
-    let words = [
-        said(damaged),
-        said(bytes[..bytes.len() / 2].to_vec()),
-        said(b"a text".to_vec()),
-        said(changed(&bytes, b"clause KIT-5", b"clause KIT-6")),
-        said(changed(&bytes, b"rule published", b"rule printed")),
-        said(changed(&bytes, b"tautline 0", b"tautline 9")),
-        refused(folder, &["check", "nowhere.cert"]),
+    let cases = [
+        (said(damaged), "its last 16 bytes are no digest of the others"),
+        (said(bytes[..bytes.len() / 2].to_vec()), "it is cut short or changed"),
+        (said(b"a text".to_vec()), "it does not begin with the line \"tautline certificate 1\""),
+        (
+            said(changed(&bytes, b"clause KIT-5", b"clause KIT-999")),
+            "the clause \"KIT-999\", which is not known here",
+        ),
+        (
+            said(changed(&bytes, b"rule published", b"rule printed")),
+            "the rule \"printed\", and the check is about \"published\"",
+        ),
+        (said(changed(&bytes, b"tautline 0", b"tautline 9")), "it is a certificate of \"tautline 9"),
+        (refused(folder, &["check", "nowhere.cert"]), "nowhere.cert"),
     ];
-    assert_snapshot!(words.join("\n"), @"");
+    for (words, part) in cases {
+        assert!(words.contains(part), "{part}: {words}");
+    }
 
     // The states of the published rule are not those of the repaired one.
     let other = fs::read(folder.join(&paths[1])).expect("a certificate");
@@ -54,9 +68,10 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
         let end = bytes.windows(8).position(|part| part == b"\nstates ").expect("a line") + 1;
         end + bytes[end..].iter().position(|&byte| byte == b'\n').expect("its end") + 1
     };
-    let mixed = [&other[..header(&other)], &bytes[header(&bytes)..bytes.len() - 16], &[0; 16]].concat();
+    let mixed = [&other[..header(&other)], &bytes[header(&bytes)..bytes.len() - 16], &[0; 16][..]].concat();
     fs::write(folder.join("mixed.cert"), changed(&mixed, b"clause", b"clause")).expect("a file");
-    assert_snapshot!(printed(folder, &["check", "mixed.cert"], 1), @"");
+    let mixed = printed(folder, &["check", "mixed.cert"], 1);
+    assert!(mixed.starts_with("mixed.cert: refused: section 1, "), "{mixed}");
 }
 
 #[test]
@@ -65,6 +80,9 @@ fn what_holds_without_a_search_over_all_states_is_told_to_get_no_certificate() {
     let folder = folder.path();
     let proved = ran(folder, &["prove", "KIT-9", "--certificate", "certificates"]);
     assert_eq!(proved.status.code(), Some(0));
-    assert_snapshot!(String::from_utf8_lossy(&proved.stderr), @"");
+    let said = String::from_utf8_lossy(&proved.stderr);
+    let why =
+        "KIT-9 as repaired gets no certificate: the engine exhaustive does not search all states of a system";
+    assert!(said.contains(why), "{said}");
     assert_eq!(names(&folder.join("certificates")), [""; 0]);
 }
