@@ -78,12 +78,19 @@ pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Ha
 
 /// The setup of the run in a refutation that `prove` or `library` has stored.
 pub(super) fn stored(file: &Path) -> Result<Setup, Halt> {
-    let Refutation { clause, check, evidence } =
-        refutation::replay(file, &tautline_library::clauses().collect::<Vec<_>>())?;
-    run(clause, check, &evidence)?.ok_or_else(|| {
-        let what = "this refutation is no run of a team in a layout";
-        Diagnostic::in_file(file, what, "draw it with `tautline replay`").into()
-    })
+    let Refutation { clause, check, evidence } = read(file)?;
+    run(clause, check, &evidence)?.ok_or_else(|| no_run(file).into())
+}
+
+/// The refutation that `prove` or `library` has stored, played again.
+pub(super) fn read(file: &Path) -> Result<Refutation<'static>, Diagnostic> {
+    refutation::replay(file, &tautline_library::clauses().collect::<Vec<_>>())
+}
+
+/// The fault of a file with a refutation of another kind.
+pub(super) fn no_run(file: &Path) -> Diagnostic {
+    let what = "this refutation is no run of a team in a layout";
+    Diagnostic::in_file(file, what, "draw it with `tautline replay`")
 }
 
 /// The clause that anyone sees a run break.

@@ -37,7 +37,7 @@ impl Format {
     }
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Copy, Debug, Args)]
 pub(super) struct FormatArgs {
     /// How the result is printed.
     #[arg(long, value_enum, default_value = "text")]

@@ -1,15 +1,22 @@
-//! `tautline library`: published rules of other people, listed and decided.
+//! `tautline library`: published rules of other people, listed, decided, and hunted by random runs.
+
+mod dealt;
+pub(super) mod hunted;
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use clap::Args;
 use tautline_library::{Entry, RULES};
 use tautline_proofs::clause::Clause;
+use tautline_proofs::decide::RandomRuns;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 
+pub(super) use self::dealt::rows;
 use super::output::Output;
 use super::prove::{Deciding, Detail};
-use super::{Exit, needless};
+use super::shards::Scope;
+use super::{Exit, needless, number, whole};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -17,7 +24,13 @@ Examples:
   tautline library pibt
   tautline library pibt rmf-lane --out refutations
   tautline library all --format json
-  tautline library alpha --larger";
+  tautline library alpha --larger
+  tautline library pibt --larger --runs 100000 --out found
+  tautline library all --plan plan.json --shards 8
+  tautline library --plan plan.json --shard 1";
+
+/// Most moves of a random run, unless the user says otherwise.
+const MAX_MOVES: u32 = 1000;
 
 /// The word for every rule.
 const ALL: &str = "all";
@@ -32,44 +45,89 @@ pub(super) struct Library {
     /// Decide the larger bounds, which take minutes and gigabytes. Some rules have none.
     #[arg(long)]
     larger: bool,
+    /// Hunt: in place of all states, make at most N random runs for each check, until one breaks its promise. Of mutants
+    /// none are made.
+    #[arg(long, value_name = "N", value_parser = number::<u64>)]
+    #[arg(conflicts_with_all = ["html", "certificate", "memory", "patience"])]
+    runs: Option<u64>,
+    /// The seed of the random runs, 0 unless this says otherwise.
+    #[arg(long, value_name = "SEED", value_parser = number::<u64>, requires = "runs")]
+    seed: Option<u64>,
+    /// Most moves of a random run, 1000 unless this says otherwise.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "runs")]
+    max_moves: Option<u32>,
+    /// The plan: with --shards it is stored in FILE, with --shard it is read from there.
+    #[arg(long, value_name = "FILE")]
+    plan: Option<PathBuf>,
+    /// Decide nothing yet, but deal the checks and their mutants out among N shards, each to be run on any machine.
+    #[arg(long, value_name = "N", value_parser = whole::<u32>, requires = "plan")]
+    #[arg(conflicts_with_all = ["shard", "runs", "out", "html", "certificate", "memory", "patience"])]
+    shards: Option<u32>,
+    /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
+    #[arg(conflicts_with_all = ["rules", "larger", "runs", "out", "html", "certificate", "memory", "patience", "force"])]
+    shard: Option<u32>,
     #[command(flatten)]
     how: Deciding,
 }
 
 impl Library {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let (folder, replaceable, format) = self.how.files();
+        let scope = Scope::of(self.plan.as_deref(), self.shards, self.shard)?;
+        if let Scope::Shard(path, shard) = scope {
+            return dealt::run(path, shard, format.plain()?, out);
+        }
         if self.rules.is_empty() {
-            if self.larger {
-                return Err(needless("--larger", "without a name nothing is decided").into());
+            let wanted =
+                [("--larger", self.larger), ("--runs", self.runs.is_some()), ("--plan", self.plan.is_some())];
+            if let Some((option, _)) = wanted.into_iter().find(|(_, is_given)| *is_given) {
+                return Err(needless(option, "without a name nothing is decided").into());
             }
             self.how.nothing_is_decided()?;
             out.text(list())?;
             return Ok(Exit::Expected);
         }
-        let rules = self.chosen()?;
-        let clauses: Vec<&'static Clause> = if self.larger {
-            rules.iter().flat_map(|rule| rule.larger()).collect()
-        } else {
-            rules.iter().flat_map(|rule| rule.clauses()).collect()
-        };
+        let rules = chosen(&self.rules)?;
+        let clauses = clauses(&rules, self.larger);
         if clauses.is_empty() {
             return Err(needless("--larger", "these rules have no larger bound").into());
         }
-        self.how.decide(&clauses, Detail::Rows, out)
-    }
-
-    fn chosen(&self) -> Result<Vec<&'static Entry>, Diagnostic> {
-        if self.rules == [ALL] {
-            return Ok(RULES.to_vec());
+        match (scope, self.runs) {
+            (Scope::Plan(path, shards), _) => {
+                dealt::plan((path, shards), (&rules, self.larger), (self.how.force(), format.plain()?), out)
+            }
+            (_, Some(runs)) => {
+                let (seed, most_moves) = (self.seed.unwrap_or(0), self.max_moves.unwrap_or(MAX_MOVES));
+                let runs = RandomRuns { runs, seed, most_moves };
+                hunted::hunt(&clauses, &runs, (folder, &replaceable), format, out)
+            }
+            (_, None) => self.how.decide(&clauses, Detail::Rows, out),
         }
-        let find = |name: &String| {
-            RULES.iter().copied().find(|rule| rule.name.eq_ignore_ascii_case(name)).ok_or_else(|| {
-                let known: Vec<&str> = RULES.iter().map(|rule| rule.name).collect();
-                let remedy = format!("the rules are {}; or give {ALL} alone", known.join(", "));
-                Diagnostic::usage(format_args!("there is no rule {name:?}"), remedy)
-            })
-        };
-        self.rules.iter().map(find).collect()
+    }
+}
+
+/// The rules of these names.
+fn chosen(names: &[String]) -> Result<Vec<&'static Entry>, Diagnostic> {
+    if names == [ALL] {
+        return Ok(RULES.to_vec());
+    }
+    let find = |name: &String| {
+        RULES.iter().copied().find(|rule| rule.name.eq_ignore_ascii_case(name)).ok_or_else(|| {
+            let known: Vec<&str> = RULES.iter().map(|rule| rule.name).collect();
+            let remedy = format!("the rules are {}; or give {ALL} alone", known.join(", "));
+            Diagnostic::usage(format_args!("there is no rule {name:?}"), remedy)
+        })
+    };
+    names.iter().map(find).collect()
+}
+
+/// The promises of these rules.
+fn clauses(rules: &[&'static Entry], larger: bool) -> Vec<&'static Clause> {
+    if larger {
+        rules.iter().flat_map(|rule| rule.larger()).collect()
+    } else {
+        rules.iter().flat_map(|rule| rule.clauses()).collect()
     }
 }
 

@@ -6,6 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_proofs::decide::MethodError;
+use tautline_proofs::engine::Choices;
+use tautline_proofs::engine::states::{Limits, MemoryLimit};
+use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
 
 use super::explore::Wanted;
@@ -13,7 +17,7 @@ use super::output::Output;
 use super::replay::draw;
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, evidence, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
-use tautline_sim::counterexample::refutation;
+use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
 use tautline_sim::trace::{Trace, lines, store};
@@ -28,11 +32,12 @@ Examples:
 ///
 /// Of the minimal run no robot, column, row, blocked cell, wall or missed sensor can go: taken alone, without any one of
 /// them the clause is not broken. It ends with the team move that breaks it. Where a search has chosen what happens in
-/// which order, every smaller team and layout is searched.
+/// which order, every smaller team and layout is searched. Of a run over states, as `library` stores it, a shortest one
+/// from the same start is left.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Minimise {
-    /// A file that `explore --trace`, `hunt` or `prove --out` wrote.
+    /// A file that `explore --trace`, `hunt`, `prove --out` or `library --out` wrote.
     file: PathBuf,
     /// The clause that is to stay broken. Without it, the one that the file is a counterexample to, or else the first
     /// that the run breaks.
@@ -62,11 +67,71 @@ pub(super) struct MinimiseJson {
     file: Option<String>,
 }
 
+/// A run over states that was made shorter.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct ShortenedJson {
+    clause: &'static str,
+    rule: &'static str,
+    bound: String,
+    before: RunLength,
+    after: RunLength,
+    /// Whether no run from the same start gets there sooner; else more states were led to than may be looked at.
+    shortest: bool,
+    /// Where it is stored, unless it was left out.
+    file: Option<String>,
+}
+
+/// The moves of a run over states.
+#[derive(Clone, Copy, JsonSchema, Serialize)]
+struct RunLength {
+    moves: usize,
+    /// Those that come again for ever.
+    again: usize,
+}
+
+impl RunLength {
+    /// The first choice is the start.
+    fn of(Choices { once, again }: &Choices) -> Self {
+        Self { moves: once.len().saturating_sub(1), again: again.len() }
+    }
+}
+
+impl ShortenedJson {
+    /// The words for people.
+    fn told(&self, name: &str) -> String {
+        let Self { clause, rule, bound, before, after, shortest, .. } = self;
+        let why = if *shortest {
+            "No run from the same start gets there sooner."
+        } else {
+            "More states are led to than may be looked at: nothing but detours was taken out."
+        };
+        format!(
+            "{clause} as {rule}: {name}\n{}\n               before   after\nmoves        {:>8}{:>8}\nfor ever     {:>8}{:>8}\n\n\
+             {why}\n\n",
+            indented(2, bound),
+            before.moves,
+            after.moves,
+            before.again,
+            after.again
+        )
+    }
+}
+
+/// Steps that are made to make a run over states shorter.
+const MOST_STEPS: u64 = 20_000_000;
+
+/// Memory that they may take.
+const MOST_BYTES: u64 = 1 << 31;
+
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         hunt::make_folder(&self.out)?;
         let (setup, clause) = if lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
-            (evidence::stored(&self.file)?, self.clause)
+            let found = evidence::read(&self.file)?;
+            match evidence::run(found.clause, found.check, &found.evidence)? {
+                Some(setup) => (setup, self.clause),
+                None => return self.shorten(&found, out),
+            }
         } else {
             let trace = Trace::open(&self.file, CATALOGUE)?;
             let run = (trace.setup.clone(), self.clause.or(trace.clause));
@@ -99,6 +164,50 @@ impl Minimise {
                 draw(&minimal.setup, &report, &Wanted::Last(1..=report.steps), out)?;
                 if let Some(file) = &minimised.file {
                     out.text(format_args!("\n{}", hunt::again(file, &minimal.setup)))?;
+                }
+            }
+        }
+        Ok(Exit::Expected)
+    }
+
+    /// Looks for a shorter run over states from where this one starts.
+    fn shorten(&self, found: &Refutation<'_>, out: &mut Output) -> Result<Exit, Halt> {
+        let &Refutation { clause, check, ref evidence } = found;
+        if let Some(other) = self.clause.filter(|asked| asked.as_str() != clause.id) {
+            let what = format!("this is a counterexample to {}, not to {other}", clause.id);
+            return Err(Diagnostic::in_file(&self.file, what, "leave --clause out").into());
+        }
+        let room = MemoryLimit::of(MOST_BYTES, 1);
+        let limits = Limits { most_steps: MOST_STEPS, room: &room };
+        let bar = progress::spinner("minimising");
+        let shorter = check.shorten(&evidence.choices, limits);
+        bar.finish_and_clear();
+        let refused =
+            |why: MethodError| Diagnostic::in_file(&self.file, why, "draw it with `tautline replay`");
+        let Some((choices, shortest)) = shorter.map_err(refused)? else {
+            return Err(evidence::no_run(&self.file).into());
+        };
+        let played = check.replay(&choices).map_err(|unfit| refused(MethodError::new(unfit)))?;
+        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
+        let path = self.out.join(format!("{stem}-minimal.jsonl"));
+        let replaceable = self.force.replaceable([self.file.clone()]);
+        let stored = refutation::store(&path, clause, check, &played.evidence, &replaceable)?;
+        let minimised = ShortenedJson {
+            clause: clause.id,
+            rule: check.rule(),
+            bound: check.bound(),
+            before: RunLength::of(&evidence.choices),
+            after: RunLength::of(&choices),
+            shortest,
+            file: hunt::keep(stored, out),
+        };
+        match self.format.format {
+            Format::Json => out.json(&minimised)?,
+            Format::Text => {
+                let story = evidence::story(clause, check, &played.evidence)?;
+                out.text(minimised.told(&self.file.display().to_string()) + &story)?;
+                if let Some(file) = &minimised.file {
+                    out.text(format_args!("\nreplay it with: tautline replay {file}\n"))?;
                 }
             }
         }

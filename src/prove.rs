@@ -219,6 +219,21 @@ impl Deciding {
         }
     }
 
+    /// Of what was decided elsewhere.
+    pub(super) const fn elsewhere(out: Option<PathBuf>, force: ForceArgs, format: FormatArgs) -> Self {
+        Self { out, html: None, certificate: None, memory: None, patience: PATIENCE, force, format }
+    }
+
+    /// The folder for counterexamples, the files that may be replaced, and the format.
+    pub(super) fn files(&self) -> (Option<&Path>, Replaceable, Format) {
+        (self.out.as_deref(), self.force.replaceable([]), self.format.format)
+    }
+
+    /// Whether files of others may be replaced.
+    pub(super) const fn force(&self) -> &ForceArgs {
+        &self.force
+    }
+
     /// Decides `clauses`, and tells of it.
     pub(super) fn decide(
         &self,
@@ -267,20 +282,31 @@ impl Deciding {
         })?;
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
+        self.tell((&rows, room), (detail, page), &replaceable, out)
+    }
+
+    /// Tells of what was decided in this memory, and stores what is to be stored.
+    pub(super) fn tell(
+        &self,
+        (rows, room): (&[Row], &MemoryLimit),
+        (detail, page): (Detail, Option<AtomicFile>),
+        replaceable: &Replaceable,
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
         let mut files = Vec::new();
-        for row in &rows {
+        for row in rows {
             let (rule, engine) = (row.check.rule(), row.check.engine());
             tracing::info!("{} {rule} {engine}: {:.1} s", row.clause.id, row.seconds);
             files.push(match &self.out {
-                Some(folder) => stored(row, folder, &replaceable, out)?,
+                Some(folder) => stored(row, folder, replaceable, out)?,
                 None => None,
             });
             if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds)
             {
-                certify((row, room), folder, &replaceable, out);
+                certify((row, room), folder, replaceable, out);
             }
         }
-        let unfinished = unfinished(&rows, room);
+        let unfinished = unfinished(rows, room);
         let as_registered = rows.iter().all(Row::is_as_registered);
         let ledger = || -> Result<Ledger, Halt> {
             let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
@@ -288,14 +314,14 @@ impl Deciding {
             Ok(Ledger { clauses, as_registered, out_of_memory, unended })
         };
         if let Some(mut page) = page {
-            page.draw(html::report(&rows, &ledger()?))?;
+            page.draw(html::report(rows, &ledger()?))?;
             out.keep(page);
         }
         match (self.format.format, detail) {
             (Format::Json, _) => out.json(&ledger()?)?,
             (Format::Text, detail) => {
                 if detail != Detail::Screen {
-                    out.text(table(&rows))?;
+                    out.text(table(rows))?;
                     for (row, file) in rows.iter().zip(&files) {
                         out.text(story(row, file.as_deref())?)?;
                     }
@@ -304,18 +330,18 @@ impl Deciding {
                     out.text("\n")?;
                 }
                 if detail != Detail::Rows {
-                    out.text(screen::screen(&rows))?;
+                    out.text(screen::screen(rows))?;
                     // Nobody may be there any more to read it.
-                    let _ = writeln!(io::stderr(), "{}", screen::slowest(&rows));
+                    let _ = writeln!(io::stderr(), "{}", screen::slowest(rows));
                 }
-                out.text(last_line(&rows))?;
+                out.text(last_line(rows))?;
                 out.text(&unfinished)?;
             }
             (Format::Github, _) => {
-                let last = last_line(&rows) + &unfinished;
-                out.text(findings::github(&findings(&rows, room)?, &last))?;
+                let last = last_line(rows) + &unfinished;
+                out.text(findings::github(&findings(rows, room)?, &last))?;
             }
-            (Format::Junit, _) => out.text(findings::junit("prove", &findings(&rows, room)?))?,
+            (Format::Junit, _) => out.text(findings::junit("prove", &findings(rows, room)?))?,
         }
         Ok(match (unfinished.is_empty(), as_registered) {
             (false, _) => Exit::Unfinished,
@@ -401,7 +427,7 @@ fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
 }
 
 /// Stores what refutes the clause of a row in `folder`: the place of the file.
-fn stored(
+pub(super) fn stored(
     row: &Row,
     folder: &Path,
     replaceable: &Replaceable,
@@ -446,7 +472,7 @@ fn certify((row, room): (&Row, &MemoryLimit), folder: &Path, replaceable: &Repla
 }
 
 /// The story of a counterexample, and where it is stored.
-fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
+pub(super) fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
     let Some(evidence) = &row.decision.counterexample else { return Ok(String::new()) };
     let story = evidence::story(row.clause, row.check, evidence)?;
     let file = file.map(|file| format!("\nreplay it with: tautline replay {file}\n"));

@@ -351,8 +351,7 @@ impl Replay {
                 "leave out --moves and --svg, or name a run of a team; a refutation has a page, with --html";
             return Err(Diagnostic::usage(what, remedy).into());
         }
-        let Refutation { clause, check, evidence } =
-            refutation::replay(&self.file, &tautline_library::clauses().collect::<Vec<_>>())?;
+        let Refutation { clause, check, evidence } = evidence::read(&self.file)?;
         let is_judged = self.is_judged(clause, check, &evidence)?;
         let (rule, engine, bound) = (check.rule(), check.engine(), check.bound());
         let story = story(clause, check, &evidence)?;

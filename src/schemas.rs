@@ -11,7 +11,7 @@ use tautline_sim::trace::Summary;
 
 use super::output::Versioned;
 use super::{
-    check, conform, hunt, judge, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show,
+    check, conform, hunt, judge, library, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show,
 };
 
 /// The command that writes the schemas anew.
@@ -40,10 +40,10 @@ fn schemas() -> Vec<(String, Value)> {
         (
             "plan",
             printed::<shards::PlanJson<'_, Either<hunt::PlanFacts<'_>, reproduce::PlanFacts>>>(
-                "tautline hunt or reproduce with --shards",
+                "tautline hunt, library or reproduce with --shards",
             ),
         ),
-        ("shard", printed::<shards::ShardJson>("tautline hunt or reproduce with --shard")),
+        ("shard", printed::<shards::ShardJson>("tautline hunt, library or reproduce with --shard")),
         ("explore", printed::<Summary<'_>>("tautline explore")),
         (
             "replay",
@@ -62,7 +62,13 @@ fn schemas() -> Vec<(String, Value)> {
             of::<conform::Answer>("a line that tautline conform reads from a program").to_value(),
         ),
         ("judge", printed::<judge::told::JudgeJson<'_>>("tautline judge")),
-        ("minimise", printed::<minimise::MinimiseJson>("tautline minimise")),
+        (
+            "minimise",
+            printed::<Either<minimise::MinimiseJson, minimise::ShortenedJson>>(
+                "tautline minimise of a run of a team, or of a run over states",
+            ),
+        ),
+        ("library-hunt", printed::<library::hunted::HuntedJson>("tautline library with --runs")),
         ("rescue", printed::<rescue::RescueJson<'_>>("tautline rescue, and tautline replay of a rescue")),
         ("locate", printed::<Either<locate::TrialsJson<'_>, locate::FixesJson<'_>>>("tautline locate")),
         ("show", printed::<show::LayoutJson<'_>>("tautline show")),

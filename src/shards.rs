@@ -10,13 +10,16 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 #[cfg(feature = "papers")]
 use tautline_papers::shards::{merge_table, restored};
+use tautline_proofs::engine::states::MemoryLimit;
 use tautline_sim::checkpoint::{Checkpoint, Facts, Part};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::shards::{Gap, Plan, Work, hunted, merge_hunt};
 
 use super::findings::FormatArgs;
 use super::hunt::{self, make_folder, shown};
+use super::library;
 use super::output::Output;
+use super::prove::{Deciding, Detail};
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
 use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, progress, whole};
@@ -58,10 +61,24 @@ impl ShardArgs {
     /// # Errors
     /// A [`Diagnostic`] if a plan alone is given.
     pub(super) fn wanted(&self) -> Result<Scope<'_>, Diagnostic> {
-        match (&self.plan, self.shards, self.shard) {
-            (None, ..) => Ok(Scope::All),
-            (Some(plan), Some(shards), _) => Ok(Scope::Plan(plan, shards)),
-            (Some(plan), None, Some(shard)) => Ok(Scope::Shard(plan, shard)),
+        Scope::of(self.plan.as_deref(), self.shards, self.shard)
+    }
+}
+
+impl<'a> Scope<'a> {
+    /// The work that these options ask for.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if a plan alone is given.
+    pub(super) fn of(
+        plan: Option<&'a Path>,
+        shards: Option<u32>,
+        shard: Option<u32>,
+    ) -> Result<Self, Diagnostic> {
+        match (plan, shards, shard) {
+            (None, ..) => Ok(Self::All),
+            (Some(plan), Some(shards), _) => Ok(Self::Plan(plan, shards)),
+            (Some(plan), None, Some(shard)) => Ok(Self::Shard(plan, shard)),
             (Some(_), None, None) => {
                 let remedy =
                     "give --shards to make the plan, --shard to run a shard of it, or tautline merge it";
@@ -173,9 +190,9 @@ pub(super) struct Merge {
     plan: PathBuf,
     /// The files of its shards. Without one, those beside the plan.
     files: Vec<PathBuf>,
-    /// The folder for the counterexamples of a hunt.
-    #[arg(long, value_name = "DIR", default_value = ".")]
-    out: PathBuf,
+    /// The folder for the counterexamples. Without it those of a hunt are stored here, and those of the library are not.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
     #[cfg_attr(not(feature = "papers"), arg(skip))]
     #[cfg_attr(feature = "papers", arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2, value_parser = value_parser!(PathBuf)))]
@@ -220,18 +237,28 @@ impl Merge {
             }
         };
         let inputs = files.into_iter().chain([self.plan.clone()]);
+        if !matches!(plan.of, Work::Table { .. }) && (self.csv.is_some() || !self.pictures.is_empty()) {
+            let what = "only a table has --picture and --csv";
+            return Err(Diagnostic::usage(what, "leave them out").into());
+        }
         match plan.of {
+            Work::Library { .. } => {
+                self.out.as_deref().map(make_folder).transpose()?;
+                let (how, rows) = (
+                    Deciding::elsewhere(self.out.clone(), self.force, self.format),
+                    library::rows(&plan, &shards)?,
+                );
+                let replaceable = self.force.replaceable(inputs);
+                how.tell((&rows, MemoryLimit::any()), (Detail::Rows, None), &replaceable, out)
+            }
             Work::Hunt { .. } => {
-                if self.csv.is_some() || !self.pictures.is_empty() {
-                    return Err(
-                        Diagnostic::usage("a hunt has no --picture and no --csv", "leave them out").into()
-                    );
-                }
-                make_folder(&self.out)?;
+                let here = Path::new(".");
+                let folder = self.out.as_deref().unwrap_or(here);
+                make_folder(folder)?;
                 let asked = hunted(&plan, CATALOGUE)?;
                 let found = merge_hunt(&plan, &asked, &shards)?;
                 let replaceable = self.force.replaceable(inputs);
-                hunt::tell((&asked, &found), (&self.out, &replaceable), self.format.format, out)
+                hunt::tell((&asked, &found), (folder, &replaceable), self.format.format, out)
             }
             #[cfg(not(feature = "papers"))]
             Work::Table { .. } => {

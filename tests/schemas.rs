@@ -15,7 +15,7 @@ fn printed(folder: &Path, arguments: &str) -> Value {
 }
 
 /// The name of a schema, and commands, one a line, that print what it is of. Later ones read what earlier ones stored.
-const COMMANDS: [(&str, &str); 14] = [
+const COMMANDS: [(&str, &str); 15] = [
     (
         "schemes",
         "schemes
@@ -42,7 +42,8 @@ const COMMANDS: [(&str, &str); 14] = [
         "plan",
         "hunt --rule published --robots 3 --max-walls 2 --plan plan.json --shards 2
          hunt --scheme ants --size 2x2 --plan layouts.json --shards 2
-         reproduce repair-cost --runs 4 --plan table.json --shards 2",
+         reproduce repair-cost --runs 4 --plan table.json --shards 2
+         library rmf-lane --plan rules.json --shards 2",
     ),
     (
         "shard",
@@ -50,7 +51,8 @@ const COMMANDS: [(&str, &str); 14] = [
          hunt --plan plan.json --shard 2
          hunt --plan layouts.json --shard 1
          reproduce --plan table.json --shard 1
-         reproduce --plan table.json --shard 2",
+         reproduce --plan table.json --shard 2
+         library --plan rules.json --shard 1",
     ),
     ("hunt", "merge plan.json --force"),
     ("reproduce-repair-cost", "merge table.json"),
@@ -89,7 +91,12 @@ const COMMANDS: [(&str, &str); 14] = [
          replay refuted/bricks-5-published-states.jsonl
          replay refuted/kit-3-published-states.jsonl",
     ),
-    ("minimise", "minimise chain-13-published-n3.jsonl --force"),
+    ("library-hunt", "library rmf-lane --runs 9 --out hunted"),
+    (
+        "minimise",
+        "minimise chain-13-published-n3.jsonl --force
+         minimise hunted/lane-2-before-the-pull-request-states.jsonl",
+    ),
     (
         "rescue",
         "rescue --nodes 300 --seeds 3 --trace rescue.jsonl

@@ -5,6 +5,7 @@ mod model;
 
 mod bad_input;
 mod counts;
+mod hunts;
 
 use std::path::Path;
 use std::{env, fs};

@@ -6,9 +6,10 @@ use std::fmt;
 
 use crate::ambiguity::Paper;
 use crate::decide::{
-    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems, Verdict,
+    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, RandomRuns, RefutationPlay, Size, Systems,
+    Verdict,
 };
-use crate::engine::states::MemoryLimit;
+use crate::engine::states::{Limits, MemoryLimit};
 use crate::engine::tree::Watch;
 use crate::engine::{Choices, ScriptError, Until};
 use crate::judge::AnyCase;
@@ -294,6 +295,18 @@ pub trait AnyCheck: Sync {
     /// [`ScriptError`] if they are no refutation.
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 
+    /// The answer about its own rule by random runs: see [`Method::hunt`].
+    ///
+    /// # Errors
+    /// [`MethodError`] if its method cannot begin.
+    fn hunt(&self, runs: &RandomRuns) -> Result<Option<Answer>, MethodError>;
+
+    /// A shorter counterexample to its own rule: see [`Method::shorten`].
+    ///
+    /// # Errors
+    /// [`MethodError`] if its method cannot begin, or these choices make none.
+    fn shorten(&self, choices: &Choices, limits: Limits<'_>) -> Result<Option<(Choices, bool)>, MethodError>;
+
     /// A file that Rocq checks: see [`Method::certificate`].
     ///
     /// # Errors
@@ -382,6 +395,14 @@ impl<R: Sync> AnyCheck for Check<R> {
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         self.method.replay(&self.about.rule, choices)
+    }
+
+    fn hunt(&self, runs: &RandomRuns) -> Result<Option<Answer>, MethodError> {
+        self.method.hunt(&self.about.rule, runs)
+    }
+
+    fn shorten(&self, choices: &Choices, limits: Limits<'_>) -> Result<Option<(Choices, bool)>, MethodError> {
+        self.method.shorten(&self.about.rule, choices, limits)
     }
 
     fn certificate(&self) -> Option<Result<String, MethodError>> {

@@ -213,6 +213,17 @@ pub struct Context<'a, 'w> {
     pub room: &'a MemoryLimit,
 }
 
+/// Random runs of a rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct RandomRuns {
+    /// How many.
+    pub runs: u64,
+    /// The seed of all of them.
+    pub seed: u64,
+    /// Most moves of each.
+    pub most_moves: u32,
+}
+
 /// A way to decide a clause about rules of type `R`: a scheme's own, or a stranger's.
 pub trait Method<R>: Sync {
     /// The engine's name.
@@ -243,6 +254,24 @@ pub trait Method<R>: Sync {
     /// # Errors
     /// [`ScriptError`] if they are none.
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
+
+    /// The answer about `rule` by random runs in place of all cases, up to the first that is a counterexample; `None` if
+    /// the method makes none.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin.
+    fn hunt(&self, _: &R, _: &RandomRuns) -> Result<Option<Answer>, MethodError> {
+        Ok(None)
+    }
+
+    /// The counterexample to `rule` that these choices make, made as short as it can be from its start within `limits`,
+    /// and whether none from there is shorter; `None` if the method cannot tell.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin, or these choices make none.
+    fn shorten(&self, _: &R, _: &Choices, _: Limits<'_>) -> Result<Option<(Choices, bool)>, MethodError> {
+        Ok(None)
+    }
 
     /// A file that Rocq checks, with the theorem that the clause holds of `rule` beyond every bound; `None` if the method has
     /// none.

@@ -26,7 +26,7 @@ pub trait Protocol: Sized + Sync + 'static {
     /// The surroundings; their words are the bound.
     type Bound: Display + Sync;
     /// All that is. What is made of numbers, of words (`compact!`), of lists of them is [`Compact`].
-    type State: Clone + Eq + Compact + Debug + Send;
+    type State: Clone + Eq + Compact + Debug + Send + Sync;
 
     /// The demands.
     const DEMANDS: &'static [Demand<Self>];

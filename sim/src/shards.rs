@@ -36,6 +36,13 @@ pub enum Work {
         /// Its name.
         id: String,
     },
+    /// Checks of published rules.
+    Library {
+        /// The names of the rules.
+        rules: Vec<String>,
+        /// Whether within larger bounds.
+        larger: bool,
+    },
 }
 
 /// The first line of a plan.
@@ -303,7 +310,7 @@ pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<Asked<'static>, Diagn
     };
     let found = match &plan.of {
         Work::Hunt { scheme, rule } => known(scheme, rule),
-        Work::Table { .. } => None,
+        Work::Table { .. } | Work::Library { .. } => None,
     };
     found.ok_or_else(|| {
         Diagnostic::usage("this plan is none of a hunt", "run it with the command that planned it")

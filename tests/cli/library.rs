@@ -1,10 +1,11 @@
 //! Other people's rules on the command line.
 
 use std::fs;
+use std::path::Path;
 
 use insta::assert_snapshot;
 
-use super::{folder, json, printed, ran, refused};
+use super::{folder, json, names, printed, ran, refused};
 
 #[test]
 fn the_library_is_listed_with_what_comes_out() {
@@ -41,7 +42,70 @@ fn a_wrong_name_and_options_without_effect_are_refused() {
         ("library_unknown", &["library", "pbit"][..]),
         ("library_no_larger", &["library", "rmf-lane", "--larger"]),
         ("library_lists", &["library", "--format", "json"]),
+        ("library_seed", &["library", "rmf-lane", "--seed", "1"]),
+        ("library_runs", &["library", "--runs", "5"]),
+        ("library_plan", &["library", "rmf-lane", "--plan", "plan.json"]),
     ] {
         assert_snapshot!(name, refused(folder.path(), arguments));
     }
+}
+
+#[test]
+fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_minimised() {
+    let folder = folder();
+    let folder = folder.path();
+    let hunt = ["library", "ricart-agrawala", "--runs", "50", "--seed", "3"];
+    let told = printed(folder, &[&hunt[..], &["--out", "found"]].concat(), 1);
+    assert_snapshot!("library_hunt", told);
+    let stored = "found/mutex-2-published-states-2.jsonl";
+    assert_eq!(names(&folder.join("found")), [stored.strip_prefix("found/").expect("a name")]);
+    printed(folder, &["replay", stored], 1);
+    assert_snapshot!("library_minimise", printed(folder, &["minimise", stored], 0));
+    printed(folder, &["replay", "mutex-2-published-states-2-minimal.jsonl"], 1);
+    let minimised = json(folder, &["minimise", stored, "--out", "again"], 0);
+    assert_eq!(
+        (minimised["shortest"].as_bool(), minimised["after"]["moves"].as_u64()),
+        (Some(true), Some(4))
+    );
+    let hunted = json(folder, &hunt, 1);
+    let verdicts: Vec<_> =
+        hunted["checks"].as_array().expect("a list").iter().map(|check| &check["verdict"]).collect();
+    assert_eq!(verdicts, ["unrefuted", "unrefuted", "unrefuted", "refuted"]);
+    assert_eq!(json(folder, &hunt, 1), hunted);
+    let junit = printed(folder, &[&hunt[..], &["--format", "junit"]].concat(), 1);
+    assert!(junit.contains(r#"tests="4" skipped="0" failures="1""#), "{junit}");
+    assert!(
+        printed(folder, &["library", "pibt", "--larger", "--runs", "20"], 0)
+            .contains("not refuted by 20 runs")
+    );
+}
+
+#[test]
+fn the_shards_of_the_library_in_any_order_give_what_one_process_gives() {
+    let (one, many) = (folder(), folder());
+    let (one, many) = (one.path(), many.path());
+    let rules = ["library", "dijkstra", "rmf-swap"];
+    let whole = printed(one, &[&rules[..], &["--out", "found"]].concat(), 0);
+    printed(many, &[&rules[..], &["--plan", "plan.json", "--shards", "4"]].concat(), 0);
+    assert_eq!(ran(many, &["merge", "plan.json"]).status.code(), Some(4));
+    for shard in ["3", "1", "4", "2"] {
+        printed(many, &["library", "--plan", "plan.json", "--shard", shard], 0);
+    }
+    assert_eq!(printed(many, &["merge", "plan.json", "--out", "found"], 0), whole);
+    for run in names(&one.join("found")) {
+        let read = |folder: &Path| fs::read_to_string(folder.join("found").join(&run)).expect("a file");
+        assert_eq!(read(one), read(many), "{run}");
+    }
+    let path = many.join("plan-2.json");
+    let text = fs::read_to_string(&path).expect("a file");
+    let lines: Vec<&str> = text.lines().collect();
+    let changed = format!(
+        "{}\n{}\n",
+        lines[0],
+        lines[1].replacen("\"verdict\":\"refuted\"", "\"verdict\":\"sure\"", 1)
+    );
+    fs::write(&path, format!("{changed}{{\"crc32\":{}}}\n", crc32fast::hash(changed.as_bytes())))
+        .expect("a file");
+    assert!(refused(many, &["merge", "plan.json"]).contains("\"sure\" is no verdict"));
+    assert!(refused(many, &["hunt", "--plan", "plan.json", "--shard", "1"]).contains("none of a hunt"));
 }

@@ -16,6 +16,7 @@ mod rounds;
 mod search;
 mod tables;
 mod together;
+mod walk;
 
 use std::collections::VecDeque;
 use std::hash::Hash;
@@ -26,6 +27,7 @@ pub use exhausted::{AnySystem, NoCertificate};
 pub use limits::{Limits, MemoryLimit};
 pub use search::{search, watched};
 pub use together::search_together;
+pub use walk::{walk, without_detours};
 
 use super::bodies::Odometer;
 use super::script::Choices;

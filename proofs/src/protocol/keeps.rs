@@ -5,11 +5,13 @@ use std::ops::ControlFlow;
 use tautline_kernel::choice::Oracle;
 
 use super::{Compact, Demand, Move, Protocol, When, beside};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Systems};
+use crate::decide::{
+    Answer, Context, Depiction, Evidence, Method, MethodError, RandomRuns, RefutationPlay, Systems, Verdict,
+};
 use crate::engine::model::Started;
 use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
-use crate::engine::{Choices, Script, ScriptError, Until};
+use crate::engine::{Choices, Replay, Script, ScriptError, Stop, Until, sample};
 
 /// A check that the demand with this number is kept, in these surroundings.
 pub struct Keeps<P: Protocol>(
@@ -172,7 +174,8 @@ impl<P: Protocol> Playing<P> {
             let mut others = self.protocol.alike(&state).into_iter();
             if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
                 let [state, other] = [&state, &other].map(|state| self.protocol.words(state));
-                let reason = format_args!("the states {state} and {other} are taken for one, and are not alike");
+                let reason =
+                    format_args!("the states {state} and {other} are taken for one, and are not alike");
                 return Err(MethodError::new(reason));
             }
         }
@@ -202,11 +205,19 @@ impl<P: Protocol> Playing<P> {
         states::Run { steps, ending, ..run }
     }
 
-    /// The findings of a search that can be believed.
-    fn searched(&self, limits: Limits<'_>, workers: usize) -> Result<Findings<&'static str>, MethodError> {
+    /// Whether what is found can be believed, as far as the first few states tell.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot.
+    fn is_sound(&self) -> Result<(), MethodError> {
         states::repeats(self, self.protocol.starts()).map_err(MethodError::new)?;
         self.comes_back()?;
-        self.is_symmetric()?;
+        self.is_symmetric()
+    }
+
+    /// The findings of a search that can be believed.
+    fn searched(&self, limits: Limits<'_>, workers: usize) -> Result<Findings<&'static str>, MethodError> {
+        self.is_sound()?;
         let mut found = states::search_together(self, self.protocol.starts(), limits, workers);
         for run in &mut found.broken {
             if let Some(start) = self.protocol.starts().nth(run.start) {
@@ -230,6 +241,22 @@ impl<P: Protocol> Playing<P> {
             let state = self.protocol.words(&state);
             Err(MethodError::new(format_args!("the state {state} does not come back from its bytes")))
         })
+    }
+
+    /// From how many each of these choices is made, and the run that they make, with its start.
+    fn play(
+        &self,
+        choices: &Choices,
+    ) -> Result<(Vec<u32>, P::State, states::Run<&'static str>), ScriptError> {
+        let mut script = Script::new(choices);
+        let number = script.choose(self.protocol.starts().count())?;
+        let start = self.protocol.starts().nth(number).ok_or(ScriptError::Unbroken)?;
+        let (of, run) = script.play(self, (number, start.clone()), |_| true)?;
+        Ok((of, start, run))
+    }
+
+    fn evidence(&self, start: &P::State, run: &states::Run<&'static str>) -> Evidence {
+        Evidence { choices: run.choices(), demand: run.demand, seen: self.story(start, run) }
     }
 
     /// The run, drawn state by state.
@@ -298,13 +325,10 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
         let playing = self.playing(rule)?;
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let found = playing.searched(limits, rayon::current_num_threads())?;
-        let evidence = found.broken.first().and_then(|run| {
-            Some(Evidence {
-                choices: run.choices(),
-                demand: run.demand,
-                seen: playing.story(&playing.protocol.starts().nth(run.start)?, run),
-            })
-        });
+        let evidence = found
+            .broken
+            .first()
+            .and_then(|run| Some(playing.evidence(&playing.protocol.starts().nth(run.start)?, run)));
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
         let is_whole = found.is_whole && is_covered && found.states > 0;
         Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
@@ -317,12 +341,47 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
 
     fn replay(&self, rule: &P::Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let playing = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
-        let mut script = Script::new(choices);
-        let number = script.choose(playing.protocol.starts().count())?;
-        let start = playing.protocol.starts().nth(number).ok_or(ScriptError::Unbroken)?;
-        let (of, run) = script.play(&playing, (number, start.clone()), |_| true)?;
-        let seen = playing.story(&start, &run);
-        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+        let (of, start, run) = playing.play(choices)?;
+        Ok(RefutationPlay { of, evidence: playing.evidence(&start, &run) })
+    }
+
+    /// A hunt over no start is open.
+    fn hunt(&self, rule: &P::Rule, runs: &RandomRuns) -> Result<Option<Answer>, MethodError> {
+        let playing = self.playing(rule)?;
+        playing.is_sound()?;
+        let starts: Vec<P::State> = playing.protocol.starts().collect();
+        if starts.is_empty() {
+            return Ok(Some(Answer::open()));
+        }
+        let made = |oracle: &mut dyn Oracle| {
+            let number = oracle.pick(starts.len() as u32) as usize;
+            states::walk(&playing, (number, starts[number].clone()), runs.most_moves, oracle)
+        };
+        let tally = sample(runs.runs, runs.seed, |oracle| match made(oracle) {
+            Some(run) => Err(Stop::Violated(run.demand)),
+            None => Ok("a run"),
+        });
+        let again = tally.violation.as_ref().and_then(|(choices, _)| made(&mut Replay::new(choices)));
+        let evidence = again.map(|run| playing.evidence(&starts[run.start], &run));
+        Ok(Some(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases)))
+    }
+
+    fn shorten(
+        &self,
+        rule: &P::Rule,
+        choices: &Choices,
+        limits: Limits<'_>,
+    ) -> Result<Option<(Choices, bool)>, MethodError> {
+        let playing = self.playing(rule)?;
+        let (_, start, run) = playing.play(choices).map_err(MethodError::new)?;
+        let found = states::search_together(&playing, [start.clone()], limits, rayon::current_num_threads());
+        let shortest = found.broken.into_iter().next();
+        let shortest =
+            shortest.map(|found| playing.unfolded(&start, states::Run { start: run.start, ..found }));
+        Ok(Some(match shortest {
+            Some(run) => (run.choices(), true),
+            None => (states::without_detours(&playing, &start, &run).choices(), false),
+        }))
     }
 }
 

@@ -1,0 +1,164 @@
+//! Random runs of the rules, for bounds with more states than a search can keep.
+
+use std::path::Path;
+use std::time::Instant;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use tautline_proofs::clause::{Clause, Decision};
+use tautline_proofs::decide::{Answer, RandomRuns, Verdict};
+use tautline_proofs::ledger::{self, Row, indented};
+use tautline_proofs::plural::counted;
+use tautline_sim::atomic_file::Replaceable;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
+
+use crate::evidence::{EvidenceJson, shown};
+use crate::findings::{self, Case, Format, Outcome};
+use crate::hunt::make_folder;
+use crate::output::Output;
+use crate::prove::{stored, story};
+use crate::{Exit, progress};
+
+/// Moves of a run that is drawn as it is found.
+const DRAWN: usize = 24;
+
+/// The JSON of a hunt.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct HuntedJson {
+    runs: u64,
+    seed: u64,
+    max_moves: u32,
+    checks: Vec<CheckJson>,
+}
+
+/// A check, and its first run that breaks the promise.
+#[derive(JsonSchema, Serialize)]
+struct CheckJson {
+    clause: &'static str,
+    rule: &'static str,
+    bound: String,
+    verdict: &'static str,
+    /// Runs that were made, the one that breaks the promise being the last.
+    runs: u64,
+    counterexample: Option<EvidenceJson>,
+    /// Where it is stored, if it is.
+    file: Option<String>,
+}
+
+/// Makes random runs for each check of `clauses`, and tells of those that break a promise, which are stored in a folder
+/// if there is one.
+///
+/// # Errors
+/// [`Halt`] if a check cannot begin, or nothing can be printed.
+pub(super) fn hunt(
+    clauses: &[&'static Clause],
+    runs: &RandomRuns,
+    (folder, replaceable): (Option<&Path>, &Replaceable),
+    format: Format,
+    out: &mut Output,
+) -> Result<Exit, Halt> {
+    folder.map(make_folder).transpose()?;
+    let spinner = progress::spinner("hunting");
+    let mut rows = Vec::new();
+    for (clause, number) in ledger::checks(clauses) {
+        let (check, start) = (clause.checks[number], Instant::now());
+        spinner.set_message(format!("{} as {}", clause.id, check.rule()));
+        let answer = check
+            .hunt(runs)
+            .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
+        let decision = Decision::of(answer.unwrap_or_else(Answer::open));
+        rows.push(Row {
+            clause,
+            number,
+            check,
+            decision,
+            undecided: None,
+            seconds: start.elapsed().as_secs_f64(),
+        });
+    }
+    spinner.finish_and_clear();
+    let file = |row: &Row| folder.map_or(Ok(None), |folder| stored(row, folder, replaceable, &mut *out));
+    let files = rows.iter().map(file).collect::<Result<Vec<_>, _>>()?;
+    let told = || rows.iter().zip(&files);
+    match format {
+        Format::Json => {
+            let &RandomRuns { runs, seed, most_moves: max_moves } = runs;
+            let checks = told().map(|(row, file)| json(row, file)).collect::<Result<_, _>>()?;
+            out.json(&HuntedJson { runs, seed, max_moves, checks })?;
+        }
+        Format::Text => {
+            let text = told().map(|(row, file)| words(row, runs, file.as_deref()));
+            out.text(text.collect::<Result<Vec<_>, Halt>>()?.join("\n"))?;
+        }
+        Format::Github => out.text(findings::github(&cases(&rows, runs)?, &last(&rows)))?,
+        Format::Junit => out.text(findings::junit("library", &cases(&rows, runs)?))?,
+    }
+    let is = |verdict| rows.iter().any(|row| row.decision.verdict == verdict);
+    Ok(match (is(Verdict::Open), is(Verdict::Refuted)) {
+        (true, _) => Exit::Unfinished,
+        (false, true) => Exit::Violation,
+        (false, false) => Exit::Expected,
+    })
+}
+
+fn json(row: &Row, file: &Option<String>) -> Result<CheckJson, Halt> {
+    let Row { clause, check, ref decision, .. } = *row;
+    Ok(CheckJson {
+        clause: clause.id,
+        rule: check.rule(),
+        bound: check.bound(),
+        verdict: decision.verdict.word(),
+        runs: decision.cases,
+        counterexample: decision.counterexample.as_ref().map(|found| shown(check, found)).transpose()?,
+        file: file.clone(),
+    })
+}
+
+/// The outcome in a line.
+fn outcome(row: &Row, runs: &RandomRuns) -> String {
+    let (cases, most) = (row.decision.cases, counted(runs.most_moves as usize, "move"));
+    match row.decision.verdict {
+        Verdict::Refuted => format!("refuted by run {cases} of {}", runs.runs),
+        Verdict::Open => "open, since there is no start".to_owned(),
+        Verdict::Holds | Verdict::Unrefuted => format!("not refuted by {cases} runs of at most {most}"),
+    }
+}
+
+/// What came of a check, and the run that breaks it: drawn if it is short.
+fn words(row: &Row, runs: &RandomRuns, file: Option<&str>) -> Result<String, Halt> {
+    let Row { clause, check, ref decision, .. } = *row;
+    let head =
+        format!("{} as {}: {}\n{}", clause.id, check.rule(), outcome(row, runs), indented(2, &check.bound()));
+    let Some(found) = &decision.counterexample else { return Ok(head) };
+    // The first choice is the start.
+    let moves = found.choices.all().count().saturating_sub(1);
+    let told = if moves <= DRAWN {
+        story(row, file)?
+    } else {
+        let file = file.map(|file| format!("replay it with: tautline replay {file}\n")).unwrap_or_default();
+        format!("\nNot so: {}, after {}.\n{file}", found.demand, counted(moves, "move"))
+    };
+    let shorter = file.map(|file| format!("shorten it with: tautline minimise {file}\n")).unwrap_or_default();
+    Ok(head + &told + &shorter)
+}
+
+fn cases(rows: &[Row], runs: &RandomRuns) -> Result<Vec<Case>, Halt> {
+    let case = |row: &Row| {
+        Ok(Case {
+            class: row.clause.scheme().to_owned(),
+            name: format!("{} as {}: {}", row.clause.id, row.check.rule(), row.check.bound()),
+            outcome: match row.decision.verdict {
+                Verdict::Refuted => Outcome::Broken(outcome(row, runs), words(row, runs, None)?),
+                Verdict::Open => Outcome::Unfinished(outcome(row, runs)),
+                Verdict::Holds | Verdict::Unrefuted => Outcome::Expected,
+            },
+            seconds: Some(row.seconds),
+        })
+    };
+    rows.iter().map(case).collect()
+}
+
+fn last(rows: &[Row]) -> String {
+    let refuted = rows.iter().filter(|row| row.decision.verdict == Verdict::Refuted).count();
+    format!("{refuted} of {} are refuted by random runs", counted(rows.len(), "check"))
+}
