@@ -33,7 +33,7 @@ use tautline_sim::layout::generate::Probability;
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
 use tautline_sim::trace::{Summary, Trace, lines};
 use tautline_sim::value_parser::probability;
-use tautline_sim::{draw, trace};
+use tautline_sim::{draw, objects, trace};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -91,7 +91,7 @@ pub(super) struct Explore {
     /// The drawing to print. Without it the outcome is drawn, if the area is small.
     #[arg(long, value_enum)]
     draw: Option<Draw>,
-    /// Store the drawing as a picture: the order, or with `--draw moves` every team move.
+    /// Store the drawing as a picture: the order, or with `--draw moves` every team move, or with `--draw map` the map.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
@@ -179,6 +179,8 @@ enum Draw {
     Order,
     /// Every team move.
     Moves,
+    /// What robots have mapped, objects among it.
+    Map,
 }
 
 /// The scheme that is taken where nobody says which.
@@ -227,6 +229,9 @@ impl Explore {
         if let Some(mut picture) = picture {
             match self.draw {
                 Some(Draw::Moves) => picture.draw(svg::team_moves(&setup, &report, &(1..=report.steps)))?,
+                Some(Draw::Map) => {
+                    picture.append(svg::picture(&setup.title(), &[svg::map(&setup, &report)]));
+                }
                 Some(Draw::Order) | None => {
                     let order = svg::order(&setup, &report.chart);
                     picture.append(svg::picture(&setup.title(), &[order]));
@@ -288,7 +293,7 @@ impl Explore {
         }
         asked.miss = self.miss.or(asked.miss);
         if self.told.options != Options::default() {
-            asked.options = self.told.options;
+            asked.options = self.told.options.clone();
         }
         asked.limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
         asked
@@ -300,10 +305,10 @@ impl Explore {
             Some(Draw::Moves) => {
                 draw_moves(setup, report, &Wanted::All(1..=report.steps), draw::Pose::Before, out)?;
             }
-            None if report.chart.area().width() <= SMALL_COLUMNS => {
+            Some(Draw::Map) | None if report.chart.area().width() <= SMALL_COLUMNS => {
                 out.text(format_args!("\n{}", draw::outcome(setup, &report.chart, &report.team)))?;
             }
-            None => {}
+            Some(Draw::Map) | None => {}
         }
         Ok(())
     }
@@ -383,6 +388,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     if let Some(faults) = &report.faults {
         text.push_str(&failed(faults));
     }
+    text += &objects::table(&report.objects);
     match run.setup().scheme.knowledge {
         None => {}
         Some(Knowledge::None) => {

@@ -1,6 +1,7 @@
 //! The map that a team has made, as ROS has it: an occupancy grid of one pixel for each cell, which `explore` reads again.
 
-use tautline_kernel::ground::{Cell, Side};
+use tautline_kernel::ground::Cell;
+use tautline_sim::draw::svg::known;
 use tautline_sim::explore::{Report, Setup};
 
 /// The shades of a map: of cells that are free, occupied and unknown.
@@ -14,18 +15,14 @@ pub(super) fn description(image: &str) -> String {
     )
 }
 
-/// The image: a cell that a robot was in is free, and a blocked one beside such a cell is occupied.
+/// The image.
 pub(super) fn image(setup: &Setup, report: &Report) -> Vec<u8> {
     let area = report.chart.area();
-    let is_explored = |cell| report.chart.step(cell).is_some();
     let [free, occupied, unknown] = SHADES;
-    let shade = |cell: Cell| {
-        let is_met = || Side::ALL.iter().any(|&side| is_explored(cell.beyond(side)));
-        match (is_explored(cell), setup.layout.is_free(cell)) {
-            (true, _) => free,
-            (false, false) if is_met() => occupied,
-            (false, _) => unknown,
-        }
+    let shade = |cell: Cell| match known(setup, report, cell) {
+        Some(true) => free,
+        Some(false) => occupied,
+        None => unknown,
     };
     let mut image = format!("P5\n{} {}\n255\n", area.width(), area.height()).into_bytes();
     image.extend(area.cells().map(shade));

@@ -231,7 +231,10 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         ("bricks", &["cells:9x9:0.1", "--robots", "3", "--rule", "tree"]),
         ("bricks-ants", &["cells:9x9:0.1", "--robots", "3", "--miss", "0.1"]),
         ("kit", &["walls:7x7:0.1", "--robots", "3"]),
-        ("frontier", &["cells:9x9:0.1", "--robots", "3", "--range", "4", "--loss", "0.2"]),
+        (
+            "frontier",
+            &["cells:9x9:0.1", "--robots", "3", "--range", "4", "--noise-db", "1", "--objects", "4"],
+        ),
         ("frontier", &["cells:9x9:0.1", "--robots", "3", "--rule", "hungarian"]),
         ("helpers", &["cells:9x9:0.1", "--robots", "3", "--miss", "0.1"]),
     ];

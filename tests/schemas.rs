@@ -72,7 +72,7 @@ const COMMANDS: [(&str, &str); 15] = [
          explore cells:6x6:0.1 --scheme mdfs --rule published --robots 2
          explore cells:6x6:0.1 --scheme helpers --robots 2
          explore walls:5x5:0.1 --scheme kit --robots 2 --trace kit.jsonl
-         explore cells:6x6:0.1 --scheme frontier --robots 2 --loss 0.1 --noise-db 1
+         explore cells:6x6:0.1 --scheme frontier --robots 2 --loss 0.1 --noise-db 1 --objects 3
          explore cells:6x6:0.1 --scheme pack --robots 2",
     ),
     (

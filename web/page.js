@@ -1,4 +1,3 @@
-"use strict";
 // A page to draw on, with the engine inside. Everything that is shown comes from the engine as data: nothing here knows
 // a scheme. A game is its settings and the answers that were given; a step back, another answer, a link and a file are
 // made of these two.
@@ -253,6 +252,7 @@ function apply(frame) {
   for (const [side, isWall] of frame.walls ?? []) put(walls, side, isWall ? 1 : 0);
   for (const layer of frame.clear ?? []) for (const key of [...values[layer].keys()]) write(values[layer], key, 0);
   for (const [layer, robot, place, value] of frame.put ?? []) write(values[layer], `${robot ?? ""}@${place}`, value);
+  for (const [layer, thing, value, figures] of frame.marks ?? []) write(values[layer], thing, { value, figures });
   undo.push(back);
 }
 
@@ -351,7 +351,7 @@ const STYLE = `text{font:600 9px system-ui,sans-serif;fill:var(--name);text-anch
 .cursor{fill:none;stroke:var(--accent);stroke-width:3}.asked{stroke:var(--accent);stroke-width:6;stroke-opacity:.6;stroke-linecap:round}
 .start{fill:none;stroke:var(--base);stroke-width:2}.refused{stroke:var(--bad);stroke-width:2;fill:none}
 .c-open{fill:var(--open)}.c-wall{fill:var(--ink)}.c-barred{fill:var(--barred)}.c-aim{fill:var(--aim)}.c-goal{fill:var(--aim)}.c-closing{fill:var(--closing)}.c-closed{fill:var(--closed)}.c-sealed{fill:var(--sealed)}
-.s{fill:none;stroke-width:2.5}.s-open{stroke:var(--open)}.s-wall{stroke:var(--ink);stroke-width:4}.s-barred{stroke:var(--barred);stroke-dasharray:3 2;stroke-width:3.5}.s-aim,.s-goal{stroke:var(--aim);stroke-dasharray:6 2}.s-closing,.s-closed,.s-sealed{stroke:var(--sealed)}`;
+.s{fill:none;stroke-width:2.5}.s-open{stroke:var(--open)}.s-wall{stroke:var(--ink);stroke-width:4}.s-barred{stroke:var(--barred);stroke-dasharray:3 2;stroke-width:3.5}.s-aim,.s-goal{stroke:var(--aim);stroke-dasharray:6 2}.s-closing,.s-closed,.s-sealed{stroke:var(--sealed)}.s.m{stroke-width:.8}`;
 
 /** A path over all cells that are so, whole rows of them at a time. */
 function cellsPath(is) {
@@ -402,7 +402,7 @@ const isShown = layer => !hidden.has(board.layers[layer].name);
 const hidden = new Set(["radio circle", "messages"]);
 
 function drawLayers(cells, spots) {
-  let below = "", above = "";
+  let below = "", above = "", over = "";
   board.layers.forEach((layer, number) => {
     if (!isShown(number)) return;
     const own = layer.each ? `${Math.min(followed, cells.length - 1)}@` : "@";
@@ -417,13 +417,16 @@ function drawLayers(cells, spots) {
     });
     if (layer.shape === "sides") layer.values.forEach((value, i) => { above += path(`s s-${value.ink}`, [...of(i + 1)].map(sidePath).join("")); });
     if (layer.shape === "circle") for (const spot of spots) if (spot) above += `<circle class="circle" cx="${spot[0]}" cy="${spot[1]}" r="${layer.radius * CELL / 1000}"/>`;
+    if (layer.shape === "marks") for (const { value, figures } of values[number].values()) {
+      over += `<path class="s m s-${layer.values[value - 1].ink}" d="${markPath(figures, (x, y) => [x * CELL, y * CELL], CELL)}"/>`;
+    }
     if (layer.shape === "links") above += drawLinks(layer, cells, spots);
     if (layer.shape === "messages") for (const [of, kind, from, to] of frames[at].say ?? []) {
       if (of !== number) continue;
       for (const robot of to ?? cells.keys()) if (robot !== from && spots[robot] && spots[from]) above += `<path class="said k${kind}" d="M${spots[from][0]} ${spots[from][1]}L${spots[robot][0]} ${spots[robot][1]}"/>`;
     }
   });
-  return [below, above];
+  return [below, above, over];
 }
 
 function drawLinks(layer, cells, spots) {
@@ -460,7 +463,7 @@ function drawing(isAlone = false) {
     inside += path("explored", cellsPath(cell => explored[cell] && !blocked[cell]));
   }
   const frame = frames[at], cells = frame?.cells ?? [], spots = places(cells);
-  const [below, above] = board ? drawLayers(cells, spots) : ["", ""];
+  const [below, above, over] = board ? drawLayers(cells, spots) : ["", "", ""];
   inside += below + path("blocked", cellsPath(cell => blocked[cell]));
   let lines = "";
   if (columns * rows <= 10000) {
@@ -481,9 +484,9 @@ function drawing(isAlone = false) {
   spots.forEach((spot, robot) => {
     if (!spot) return;
     const [x, y, r] = spot, kind = dead.has(robot) ? "dead" : kindOf(robot, cells.length);
-    inside += kind === "base" ? `<rect class="base" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}" rx="2"/>` : `<circle class="${kind}" cx="${x}" cy="${y}" r="${r}"/>`;
+    inside += kind === "base" ? `<rect class="base" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}" rx="2"/>` : `<circle class="${kind}" cx="${x}" cy="${y}" r="${r}"${over ? ` fill-opacity=".4"` : ""}/>`;
     if (isBroken) inside += `<circle class="bad" cx="${x}" cy="${y}" r="${r + 2}"/>`;
-    inside += `<text x="${x}" y="${y}" font-size="${r > 6 ? 9 : 7}">${nameOf(robot)}</text>`;
+    inside += `<text x="${x}" y="${y}" font-size="${r > 6 ? 9 : 7}"${over ? ` style="fill:var(--ink)"` : ""}>${nameOf(robot)}</text>`;
     const letter = frame.tried[robot];
     if (letter && "eswn".includes(letter)) {
       const [dx, dy] = { e: [1, 0], s: [0, 1], w: [-1, 0], n: [0, -1] }[letter];
@@ -491,6 +494,7 @@ function drawing(isAlone = false) {
       inside += `<path class="bump" d="M${tx - 6 * Math.abs(dy)} ${ty - 6 * Math.abs(dx)}L${tx + 6 * Math.abs(dy)} ${ty + 6 * Math.abs(dx)}"/>`;
     }
   });
+  inside += over;
   if (question?.side !== undefined && question) inside += path("asked", sidePath(question.side));
   for (const { robot, to } of refused?.refused ?? []) {
     const [x, y] = centre(cells[robot]), [tx, ty] = centre(to), mx = (x + 2 * tx) / 3, my = (y + 2 * ty) / 3;
@@ -807,7 +811,7 @@ function layers() {
       item.append(number);
     }
     const key = (layer.values ?? []).map(({ name, ink }) => {
-      const swatch = layer.shape === "cells" ? `<rect class="c-${ink}" width="22" height="14"/>` : `<path class="s s-${ink}" d="M0 7h22"/>`;
+      const swatch = layer.shape === "marks" ? `<path class="s m s-${ink}" d="${markPath(MARK_KEY[ink] ?? MARK_KEY.guess, (x, y) => [x * 14 + 4, y * 14], 42)}"/>` : layer.shape === "cells" ? `<rect class="c-${ink}" width="22" height="14"/>` : `<path class="s s-${ink}" d="M0 7h22"/>`;
       const line = make("span");
       line.innerHTML = `<svg viewBox="0 0 22 14" aria-hidden="true"><style>${STYLE}</style>${swatch}</svg> `;
       line.append(name);

@@ -37,7 +37,9 @@ pub use self::run::{
     End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Surroundings, Survey, Team, TeamMove,
     Violation, Watcher, run,
 };
-pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Refusal, Scene, Shape, Value, Zone};
+pub use self::scene::{
+    Change, Hearers, Ink, Joins, Kind, Layer, Mark, Place, Refusal, Scene, Shape, Value, Zone,
+};
 pub use self::setup::{Asked, Play, Setup, explore, team};
 
 /// The schemes of this library. A program may have others, too.

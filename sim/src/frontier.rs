@@ -17,6 +17,8 @@ mod waves;
 pub use allowance::Allowance;
 pub use assigned::{Assigned, Assignment};
 pub use chart::Chart;
+pub(crate) use radio::Dice;
+pub use radio::cell_at;
 pub use team::Explorers;
 
 use tautline_kernel::chain::Kind;

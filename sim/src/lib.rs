@@ -14,6 +14,7 @@ pub mod kit;
 pub mod layout;
 pub mod named_values;
 pub mod noise;
+pub mod objects;
 pub mod options;
 pub mod schema;
 pub mod shards;

@@ -13,11 +13,12 @@ use tautline_kernel::position::{Odometry, Signal};
 use crate::failures::{Appearing, Failure, Going};
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
+use crate::objects::Objects;
 use crate::value_parser::{probability, real, whole};
 
 /// The options that a run is told, if its scheme can be told them. The default is an option of which nobody says
 /// anything.
-#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
     /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those
@@ -39,6 +40,18 @@ pub struct Options {
     /// How far the wheels of robots err; without it, where positions have noise, 2 % of the way and 1° a turn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub odometry: Option<Wheels>,
+    /// The objects that robots look for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objects: Option<Objects>,
+    /// How likely it is that an anchor is heard fainter at a stop, by 10 dB.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outliers: Option<Probability>,
+    /// Whether robots find their fixes by a swarm, as in the paper; without it by least squares.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub swarm: bool,
+    /// How likely it is that an obstacle that is smaller than a cell stands between two cells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub small: Option<Probability>,
     /// The threshold T of the occupancy probability, from 0 to 1.
     pub threshold: f64,
     /// How fast robots that keep in touch drive, in metres a second; without it 0.3.
@@ -68,6 +81,10 @@ impl Options {
         readings: None,
         anchors: None,
         odometry: None,
+        objects: None,
+        outliers: None,
+        swarm: false,
+        small: None,
         threshold: 0.5,
         speed_mps: None,
         spread: None,
@@ -301,6 +318,57 @@ impl Extra {
         ..Self::new("threshold")
     };
 
+    /// Which objects robots look for.
+    pub const OBJECTS: &'static Self = &Self {
+        takes: Takes::Real("COUNT|COLUMN:ROW,…"),
+        about: "How many objects robots look for, each somewhere in a cell that they can reach, or where the objects are: \
+                a cell's column and row are its midpoint, as in 1.5:2,3:4",
+        read: |text, options| put(text.parse().map(Some), &mut options.objects),
+        typed: |options| words(options.objects.as_ref()),
+        wrong: |options, _, layout| options.objects.as_ref()?.wrong(layout),
+        ..Self::new("objects")
+    };
+
+    /// How likely a level is an outlier.
+    pub const OUTLIERS: &'static Self = &Self {
+        takes: Takes::Real("PROBABILITY"),
+        about: "How likely it is at each stop that an anchor is heard 10 dB fainter, as behind a wall, from 0 to 1. \
+                Without it 0",
+        read: |text, options| put(probability(text).map(Some), &mut options.outliers),
+        typed: |options| words(options.outliers),
+        wrong: |options, _, _| {
+            let is_right = options.outliers.is_none() || options.noise_db > 0.0;
+            unless(is_right, "positions without noise have no outliers", "give `noise-db` as well")
+        },
+        assumed: Self::NOISE.assumed,
+        ..Self::new("outliers")
+    };
+
+    /// How robots find their positions.
+    pub const SWARM: &'static Self = &Self {
+        about: "Robots find each position by a swarm of particles, as in the paper, in place of least squares",
+        read: |_, options| {
+            options.swarm = true;
+            Ok(())
+        },
+        typed: |options| options.swarm.then(String::new),
+        wrong: |options, _, _| {
+            let is_right = !options.swarm || options.noise_db > 0.0;
+            unless(is_right, "positions without noise need no swarm", "give `noise-db` as well")
+        },
+        ..Self::new("swarm")
+    };
+
+    /// How likely small obstacles are.
+    pub const SMALL: &'static Self = &Self {
+        takes: Takes::Real("PROBABILITY"),
+        about: "How likely it is that an obstacle that is smaller than a cell stands between two cells, from 0 to 1: a robot \
+                goes round it, which takes it a team move. Without it 0",
+        read: |text, options| put(probability(text).map(Some), &mut options.small),
+        typed: |options| words(options.small),
+        ..Self::new("small")
+    };
+
     /// How fast robots drive.
     pub const SPEED: &'static Self = &Self {
         takes: Takes::Real("METRES"),
@@ -385,7 +453,7 @@ impl Extra {
     };
 
     /// All of them.
-    pub const ALL: [&'static Self; 13] = [
+    pub const ALL: [&'static Self; 17] = [
         Self::RANGE,
         Self::SIGHT,
         Self::LOSS,
@@ -394,6 +462,10 @@ impl Extra {
         Self::ANCHORS,
         Self::ODOMETRY,
         Self::THRESHOLD,
+        Self::OBJECTS,
+        Self::OUTLIERS,
+        Self::SWARM,
+        Self::SMALL,
         Self::SPEED,
         Self::SPREAD,
         Self::FAIL,

@@ -455,7 +455,7 @@ fn header(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Diagnostic>
         starts: setup.starts.clone(),
         miss: Some(setup.miss).filter(|miss| !miss.is_never()),
         missed: setup.missed.clone(),
-        options: Some(setup.options).filter(|options| *options != Options::default()),
+        options: Some(setup.options.clone()).filter(|options| *options != Options::default()),
         choices: setup.choices.clone(),
         limits: setup.limits,
         clause: clause.map(|clause| clause.to_string()),

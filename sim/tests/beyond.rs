@@ -135,7 +135,7 @@ fn frontier(rule: Cells, runs: u64, is_lossy: bool) -> Counted {
         let loss = one_of(oracle, &["0.05", "0.2", "0.5", "0.8"]).parse().expect("a probability");
         let options = if is_lossy { Options { loss, ..usual } } else { usual };
         let seed = u64::from(oracle.pick(u32::MAX));
-        let mut team = Explorers::new(rule, &layout, &starts, options, seed);
+        let mut team = Explorers::new(rule, &layout, &starts, options.clone(), seed);
         let floor = floor(&layout);
         let mut judge = Frontier::new(&floor, &places(&starts));
         let mut moves = 0;
@@ -259,7 +259,8 @@ fn reel(rule: RuleId, runs: u64) -> Counted {
             options.going = Going::OneByOne;
         }
         let seed = u64::from(oracle.pick(u32::MAX));
-        let setup = Setup { options, seed, ..Setup::new(&CHAIN, rule, robots, layout, base) };
+        let setup =
+            Setup { options: options.clone(), seed, ..Setup::new(&CHAIN, rule, robots, layout, base) };
         // A wall outside of the layout is refused.
         setup.check().ok()?;
         let floor = floor(&setup.layout);

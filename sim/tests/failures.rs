@@ -23,7 +23,7 @@ fn failure(robot: u16, step: u32) -> Failure {
 fn lost_bytes_delay_a_run_and_change_nothing_of_it() {
     let lossy = Options { loss: Probability::new(0.3).expect("a probability"), ..Options::USUAL };
     for seed in 0..6 {
-        let (whole, lost) = (ran(REEL, 6, 0.1, seed, Options::USUAL), ran(REEL, 6, 0.1, seed, lossy));
+        let (whole, lost) = (ran(REEL, 6, 0.1, seed, Options::USUAL), ran(REEL, 6, 0.1, seed, lossy.clone()));
         let faults = lost.faults.expect("something was to fail");
         assert!(faults.lost_bytes > 0 && faults.rounds > u64::from(lost.steps), "{faults:?}");
         let same = |report: &Report| (report.steps, report.milestones, report.team.clone(), report.stopped);
@@ -39,7 +39,7 @@ fn broken_by_orders(runs: u64) -> [[usize; 5]; 3] {
     [REEL, UNHELD, RuleId::REPAIRED].map(|rule| {
         [0.01, 0.05, 0.1, 0.15, 0.2].map(|density| {
             let is_broken = |seed| {
-                let report = ran(rule, 8, density, seed, speeds);
+                let report = ran(rule, 8, density, seed, speeds.clone());
                 report.violations.iter().any(|broken| broken.clause == ANY_ORDER)
             };
             (0..runs).filter(|&seed| is_broken(seed)).count()

@@ -1,5 +1,7 @@
 //! Robots that go from frontier cell to frontier cell: hunts, their counterexamples as runs, and bad setups.
 
+use std::collections::BTreeMap;
+
 use crate::common::Unwatched;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, Rule};
@@ -8,9 +10,10 @@ use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::frontier::has_double;
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
-use tautline_sim::explore::{RuleId, Setup, Stopped, explore};
+use tautline_sim::explore::{Change, RuleId, Scene, Setup, Stopped, explore};
 use tautline_sim::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
 use tautline_sim::layout::{Generator, Layout, Size};
+use tautline_sim::objects::Objects;
 use tautline_sim::options::{Options, Wheels};
 
 fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Asked<'static> {
@@ -93,13 +96,13 @@ fn a_repaired_team_explores_an_open_area_and_knows_it() {
 
 /// Of so many runs in 12×14 cells with noise of 2 dB, how many are clean: nothing is noted that is not so, no two robots are in one
 /// cell, and the team ends and knows it.
-fn clean_runs(rule: Rule, options: Options, runs: u64) -> usize {
+fn clean_runs(rule: Rule, options: &Options, runs: u64) -> usize {
     let is_clean = |seed: &u64| {
         let generator: Generator = "cells:12x14:0.1".parse().expect("a generator");
         let mut layout = generator.generate(*seed).expect("a layout");
         let base = Setup::choose_base(&mut layout, None).expect("a base");
         let starts = FRONTIER.default_starts(RuleId::REPAIRED, &layout, base, 4).expect("starts");
-        let mut team = Explorers::new(rule, &layout, &starts, options, *seed);
+        let mut team = Explorers::new(rule, &layout, &starts, options.clone(), *seed);
         loop {
             match team.advance() {
                 Err(ended) => return ended == Ended::Known,
@@ -114,21 +117,91 @@ fn clean_runs(rule: Rule, options: Options, runs: u64) -> usize {
 #[test]
 fn with_noise_of_two_decibels_a_repaired_team_breaks_nothing_and_its_mutants_do() {
     let noisy = Options { noise_db: 2.0, ..Options::default() };
-    assert!(clean_runs(Rule::REPAIRED, noisy, 20) >= 19);
+    assert!(clean_runs(Rule::REPAIRED, &noisy, 20) >= 19);
     let fixes_alone = Rule::REPAIRED.without(Condition::Fuse).without(Condition::Sure);
-    assert!(clean_runs(fixes_alone, noisy, 20) < 10);
+    assert!(clean_runs(fixes_alone, &noisy, 20) < 10);
     let unsure = Rule::REPAIRED.without(Condition::Sure);
-    assert!(clean_runs(unsure, noisy, 20) < 19);
-    assert!(clean_runs(unsure, Options { readings: Some(0), ..noisy }, 20) < 10);
+    assert!(clean_runs(unsure, &noisy, 20) < 19);
+    assert!(clean_runs(unsure, &Options { readings: Some(0), ..noisy }, 20) < 10);
 }
 
 #[test]
 fn wheels_that_err_need_fixes_and_fixes_without_noise_are_enough() {
     let wheels = Options { odometry: Some(Wheels { share: 0.02, turn_degrees: 1.0 }), ..Options::default() };
-    assert_eq!(clean_runs(Rule::REPAIRED, wheels, 5), 5);
+    assert_eq!(clean_runs(Rule::REPAIRED, &wheels, 5), 5);
     // With eight anchors the best three are near, and few beacons do.
     let near = Options { noise_db: 1.0, anchors: Some(8), readings: Some(25), ..Options::default() };
-    assert_eq!(clean_runs(Rule::REPAIRED, near, 5), 5);
+    assert_eq!(clean_runs(Rule::REPAIRED, &near, 5), 5);
+}
+
+#[test]
+fn outliers_make_a_team_without_its_gate_err_and_a_team_with_it_not() {
+    let outliers = Some("0.05".parse().expect("a probability"));
+    let behind_walls = Options { noise_db: 0.5, outliers, ..Options::default() };
+    let [gated, open] = [Rule::REPAIRED, Rule::REPAIRED.without(Condition::Gate)]
+        .map(|rule| clean_runs(rule, &behind_walls, 20));
+    assert!(gated >= 19 && open < 10, "{gated}, {open}");
+}
+
+#[test]
+fn a_team_whose_fixes_come_from_a_swarm_breaks_nothing() {
+    let swarm = Options { noise_db: 1.0, swarm: true, ..Options::default() };
+    assert!(clean_runs(Rule::REPAIRED, &swarm, 5) >= 4);
+}
+
+#[test]
+fn each_small_obstacle_on_its_way_takes_a_robot_a_team_move() {
+    let mut setup = setup(1, (6, 1));
+    let moves = |setup: &Setup| explore(setup, &mut |_| Ok(())).expect("a run");
+    let plain = moves(&setup);
+    setup.options = Options { small: Some("1".parse().expect("a probability")), ..Options::default() };
+    let around = moves(&setup);
+    assert_eq!((around.explored, around.steps), (6, 2 * plain.steps));
+    setup.options.noise_db = 1.0;
+    assert!(moves(&setup).violations.is_empty());
+}
+
+#[test]
+fn objects_are_found_where_they_are_and_one_that_nobody_reaches_is_not() {
+    let mut setup = setup(4, (7, 6));
+    let shut = Cell::new(6, 5);
+    for cell in [Cell::new(5, 5), Cell::new(6, 4)] {
+        setup.layout.block(cell);
+    }
+    let places = vec![[f64::from(setup.base.x), f64::from(setup.base.y)], [1.25, 2.5], [6.0, 5.0]];
+    setup.options = Options { noise_db: 1.0, objects: Some(Objects::At(places)), ..Options::default() };
+    let report = explore(&setup, &mut |_| Ok(())).expect("a run");
+    let [at_start, on_a_rim, behind] = &report.objects[..] else { panic!("three objects") };
+    assert!(behind.found.is_none() && setup.layout.is_free(shut), "{behind:?}");
+    for object in [at_start, on_a_rim] {
+        let found = object.found.as_ref().expect("it is found");
+        let expected = found.deviations[0].hypot(found.deviations[1]);
+        assert!(found.error < 4.0 * expected && expected < 0.3, "{object:?}");
+    }
+}
+
+#[test]
+fn marks_of_a_page_say_where_robots_and_objects_are_and_are_taken_to_be() {
+    let mut setup = setup(2, (4, 3));
+    setup.options = Options { noise_db: 1.0, objects: Some(Objects::Count(3)), ..Options::default() };
+    let mut marks = BTreeMap::new();
+    explore(&setup, &mut |made| {
+        let layers = made.team.layers();
+        let mut scene = Scene::default();
+        made.team.show(made.before, &mut scene);
+        for change in scene.changes() {
+            let Change::Mark { layer, mark } = change else { continue };
+            marks.insert((layers[*layer].name, mark.number), (mark.value, mark.figures.len()));
+        }
+        Ok(())
+    })
+    .expect("a run");
+    let of = |name: &str| {
+        marks.iter().filter(|((layer, _), _)| *layer == name).map(|(_, &mark)| mark).collect::<Vec<_>>()
+    };
+    assert_eq!(of("beliefs"), [(1, 7), (1, 7), (2, 2), (2, 2)]);
+    assert_eq!(of("fixes"), [(1, 5); 2]);
+    assert_eq!(of("objects"), [(1, 5), (1, 5), (1, 5), (2, 2), (2, 2), (2, 2)]);
 }
 
 #[test]
@@ -156,20 +229,20 @@ fn what_does_not_fit_is_refused() {
     let full = "5 robots do not find room: from the base 4 cells can be reached";
     assert_eq!(wrong(setup(5, (2, 2))), refused("robots", full));
     let with = |options| wrong(Setup { options, ..setup(2, (3, 3)) });
-    let usual = Options::default();
-    assert_eq!(with(usual), Ok(()));
+    let usual = Options::default;
+    assert_eq!(with(usual()), Ok(()));
     let no_threshold = refused("threshold", "a threshold of the occupancy probability is from 0 to 1");
-    assert_eq!(with(Options { threshold: 1.5, ..usual }), no_threshold);
-    assert_eq!(with(Options { threshold: f64::NAN, ..usual }), no_threshold);
+    assert_eq!(with(Options { threshold: 1.5, ..usual() }), no_threshold);
+    assert_eq!(with(Options { threshold: f64::NAN, ..usual() }), no_threshold);
     let no_noise = refused("noise-db", "a standard deviation of noise is from 0 to 100 dB");
-    assert_eq!(with(Options { noise_db: -1.0, ..usual }), no_noise);
+    assert_eq!(with(Options { noise_db: -1.0, ..usual() }), no_noise);
     let no_wheels = |share, turn_degrees| {
-        with(Options { odometry: Some(Wheels { share, turn_degrees }), ..usual }).expect_err("wheels").0
+        with(Options { odometry: Some(Wheels { share, turn_degrees }), ..usual() }).expect_err("wheels").0
     };
     assert_eq!(no_wheels(-0.1, 1.0), Some("odometry"));
     assert_eq!(no_wheels(0.02, f64::NAN), Some("odometry"));
     let no_anchors = refused("anchors", "a position takes three anchors, and there is room for 8");
-    assert_eq!(with(Options { anchors: Some(2), ..usual }), no_anchors);
+    assert_eq!(with(Options { anchors: Some(2), ..usual() }), no_anchors);
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
     assert_eq!(wrong(together), refused("starts", "two robots start in the cell 0,0"));

@@ -1,12 +1,14 @@
 //! Frontier cells on the command line: what is refused, with what would be right.
 
-use super::{folder, names, printed, refused};
+use std::fs;
+
+use super::{folder, json, names, printed, refused};
 
 #[test]
 fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
     let folder = folder();
     let folder = folder.path();
-    let wrong: [(&[&str], &str); 18] = [
+    let wrong: [(&[&str], &str); 28] = [
         (&["explore", "cells:3x3:0", "--threshold", "1.5"], "--threshold a number from 0 to 1"),
         (&["explore", "cells:3x3:0", "--threshold", "nan"], "--threshold a number from 0 to 1"),
         (&["explore", "cells:3x3:0", "--robots", "10"], "--robots a number up to 9"),
@@ -18,6 +20,25 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
         (&["explore", "cells:3x3:0", "--readings", "x"], "whole number"),
         (&["explore", "open:60x60", "--noise-db", "4"], "a smaller floor, less --noise-db"),
         (&["explore", "open:6x6", "--noise-db", "1", "--odometry", "0.02:5"], "--odometry smaller errors"),
+        (&["explore", "cells:3x3:0", "--objects", "0"], "--objects 1 to 1000 of them"),
+        (&["explore", "cells:3x3:0", "--objects", "-3"], "write a whole number, or columns and rows"),
+        (&["explore", "cells:3x3:0", "--objects", "1:2,3"], "columns and rows such as 1.5:2,3:4"),
+        (
+            &["explore", "cells:3x3:0", "--objects", "1:2,3:1"],
+            "columns from -0.5 to 2.5 and rows from -0.5 to 2.5",
+        ),
+        (
+            &["explore", "cells:3x3:0", "--objects", "-0.6:0"],
+            "columns from -0.5 to 2.5 and rows from -0.5 to 2.5",
+        ),
+        (
+            &["explore", "cells:3x3:0", "--objects", "nan:0"],
+            "columns from -0.5 to 2.5 and rows from -0.5 to 2.5",
+        ),
+        (&["explore", "shut.txt", "--objects", "2.1:0"], "--objects places in free cells"),
+        (&["explore", "cells:3x3:0", "--outliers", "0.1"], "--noise-db as well"),
+        (&["explore", "cells:3x3:0", "--small", "1.1"], "from 0 to 1"),
+        (&["explore", "cells:3x3:0", "--swarm"], "--noise-db as well"),
         (&["explore", "cells:3x3:0", "--loss", "2"], "from 0 to 1"),
         (&["explore", "cells:3x3:0", "--range", "x"], "whole number"),
         (&["hunt", "--robots", "7", "--size", "3x2"], "--robots a number from 1 to 3"),
@@ -26,11 +47,13 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
         (&["hunt", "--error", "0.3"], "sixteenths from 0 to 1"),
         (&["hunt", "--robots", "2", "--error", "0.25"], "--robots 1, or --error 1"),
     ];
+    fs::write(folder.join("shut.txt"), "tautline layout 1\n+--+--+--+\n|      ##|\n+--+--+--+\n")
+        .expect("room");
     for (arguments, right) in wrong {
         let said = refused(folder, &[arguments, &["--scheme", "frontier"]].concat());
         assert!(said.contains(right), "{arguments:?}: {said}");
     }
-    assert!(names(folder).is_empty());
+    assert_eq!(names(folder), ["shut.txt"]);
 }
 
 #[test]
@@ -43,4 +66,21 @@ fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
     let again = ["explore", "map.yaml", "--scheme", "frontier", "--robots", "2"];
     assert!(printed(folder, &again, 0).contains(&format!("{cells} explored")), "{told}");
     assert_eq!(names(folder), ["map.pgm", "map.yaml"]);
+}
+
+#[test]
+fn the_objects_that_robots_find_are_told_with_their_errors_and_drawn_on_the_map() {
+    let folder = folder();
+    let folder = folder.path();
+    let run = ["explore", "open:4x3", "--scheme", "frontier", "--robots", "2", "--noise-db", "1"];
+    let objects = ["--objects", "1.25:2,3:0.5", "--draw", "map", "--svg", "map.svg"];
+    let told = printed(folder, &[&run[..], &objects].concat(), 0);
+    assert!(told.contains("2 of 2 objects found; off by 0."), "{told}");
+    let found = json(folder, &[&run[..], &objects[..2]].concat(), 0)["objects"].clone();
+    for (object, at) in found.as_array().expect("objects").iter().zip([[1.25, 2.0], [3.0, 0.5]]) {
+        assert_eq!(object["at"], serde_json::json!(at));
+        assert!(object["found"]["error"].as_f64().expect("an error") < 0.5, "{object}");
+    }
+    let picture = fs::read_to_string(folder.join("map.svg")).expect("a picture");
+    assert_eq!(picture.matches("<circle class=\"found\"").count(), 2);
 }

@@ -12,7 +12,7 @@ fn told(scheme: &Profile) -> Vec<Vec<String>> {
         By::Miss => "--miss 0.2".to_owned(),
         By::Told(extra) => match extra.field {
             "speeds" => "--speeds".to_owned(),
-            "loss" => "--loss 0.3".to_owned(),
+            field @ ("loss" | "small") => format!("--{field} 0.3"),
             "odometry" => "--odometry 0.3:20".to_owned(),
             field => format!("--{field} 6"),
         },

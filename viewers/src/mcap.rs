@@ -210,6 +210,7 @@ fn links(layers: &[Layer]) -> Option<(Joins, &'static [Zone])> {
         | Shape::CellsOfEach(_)
         | Shape::SidesOfEach(_)
         | Shape::Circle(_)
+        | Shape::Marks(_)
         | Shape::Messages(_)
         | Shape::Reports => None,
     })

@@ -84,6 +84,9 @@ pub(crate) struct Delta {
     /// Layer, robot, place and value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) put: Vec<(usize, Option<usize>, u32, u8)>,
+    /// Layer, thing, value, and the figures of where it is.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) marks: Vec<(usize, usize, u8, Vec<i32>)>,
     /// Layer, kind, who says it, and who hears it; all if nobody is named.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) say: Vec<(usize, usize, usize, Option<Vec<usize>>)>,

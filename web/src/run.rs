@@ -125,6 +125,9 @@ impl Delta {
                     };
                     self.put.extend(at.map(|at| (layer, robot, at, value)));
                 }
+                Change::Mark { layer, mark } => {
+                    self.marks.push((*layer, mark.number, mark.value, mark.figures.clone()));
+                }
                 &Change::Know { side: edge, is_open } => {
                     self.known.extend(side(area, edge).map(|at| (at, is_open)));
                 }

@@ -22,6 +22,28 @@ fn settings(scheme: &Value, rule: &Value) -> Value {
 }
 
 #[test]
+fn a_step_under_noise_marks_where_robots_and_objects_are_and_are_taken_to_be() {
+    let options = json!({ "noise-db": "2", "readings": "20", "objects": "3" });
+    let settings = json!({
+        "scheme": "frontier", "rule": "repaired", "robots": 2, "ground": ["7a", "2a2b3a", "7a", "7a"], "options": options,
+        "base": [3, 3],
+    });
+    let opened = ask(&mut Page::default(), &json!({ "do": "open", "settings": settings, "steps": 9 }));
+    let layer = |name: &str| {
+        let layers = opened["board"]["layers"].as_array().expect("a list");
+        layers.iter().position(|layer| layer["name"] == name).expect("the layer")
+    };
+    let marks = opened["made"][8]["made"]["marks"].as_array().expect("marks");
+    for (name, guesses, figures) in [("beliefs", 2, 7), ("fixes", 2, 5)] {
+        let is_guess = |mark: &&Value| mark[0] == layer(name) && mark[2] == 1;
+        let of: Vec<&Value> = marks.iter().filter(is_guess).collect();
+        assert_eq!(of.len(), guesses, "{name}");
+        assert!(of.iter().all(|mark| mark[3].as_array().is_some_and(|all| all.len() == figures)), "{of:?}");
+    }
+    assert!(marks.iter().filter(|mark| mark[0] == layer("objects")).count() >= 3);
+}
+
+#[test]
 fn every_rule_of_every_scheme_is_played_and_made_again() {
     let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
     let schemes = list["schemes"].as_array().expect("a list");

@@ -159,16 +159,25 @@ impl Belief {
         Some(x * by_x + y * by_y)
     }
 
-    /// Corrects the belief by ranges, whose levels have the noise of `signal`: by the most likely position near the believed place.
-    /// Its covariance is the bound at the believed place. At the fix it would go with the error: a fix that errs towards an anchor
-    /// would say that it is more exact than it is.
+    /// A fix by ranges, whose levels have the noise of `signal`: the most likely position near the believed place; `None` where they
+    /// tell none. Its covariance is the bound at the believed place. At the fix it would go with the error: a fix that errs towards
+    /// an anchor would say that it is more exact than it is.
+    ///
+    /// # Errors
+    /// [`Refusal`] as for [`locate_from`].
+    pub fn fix(&self, ranges: &[Range], signal: &Signal) -> Result<Option<Sighting>, Refusal> {
+        let at = locate_from(self.at, ranges, Residual::Decibels, signal, None)?.at;
+        let precision = bound(ranges.iter().map(|range| range.anchor), self.at, signal);
+        Ok(precision.map(|known| Sighting { at, covariance: known.covariance }))
+    }
+
+    /// Corrects the belief by the [fix](Self::fix) of ranges.
     ///
     /// # Errors
     /// [`Refusal`] as for [`locate_from`].
     pub fn located(&mut self, ranges: &[Range], signal: &Signal, gate: Gate) -> Result<Correction, Refusal> {
-        let fix = locate_from(self.at, ranges, Residual::Decibels, signal, None)?;
-        let precision = bound(ranges.iter().map(|range| range.anchor), self.at, signal);
-        Ok(precision.map_or(Correction::Nothing, |known| self.corrected(fix.at, known.covariance, gate)))
+        let fix = self.fix(ranges, signal)?;
+        Ok(fix.map_or(Correction::Nothing, |fix| self.corrected(fix.at, fix.covariance, gate)))
     }
 
     /// Corrects the belief by a fix with its covariance, in m².
@@ -226,7 +235,7 @@ pub struct SightError {
     pub distance_m: f64,
 }
 
-/// Where an object is, with the covariance of its place: the error ellipse.
+/// Where an object or a robot is, with the covariance of its place: the error ellipse.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sighting {

@@ -2,10 +2,8 @@
 //! and each other, and map what they find, with the noise of signals and of wheels. A run is clean if nothing is noted that is not
 //! so, no two robots are in one cell, and every cell within reach is explored. Mutants stand beside the rule.
 
-use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Condition, Rule, midpoint};
+use tautline_kernel::frontier::{Condition, Rule};
 use tautline_kernel::ground::{Area, Cell};
-use tautline_kernel::position;
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
@@ -13,6 +11,7 @@ use super::sentences::below;
 use tautline_sim::explore::frontier::{FRONTIER, has_double};
 use tautline_sim::explore::{RuleId, Setup};
 use tautline_sim::frontier::{Allowance, Ended, Explorers};
+use tautline_sim::objects::scattered;
 use tautline_sim::options::{Options, Wheels};
 
 /// The whole paper under noise.
@@ -198,13 +197,7 @@ impl Table for LocateExplore {
         let starts = starts.unwrap_or_else(|| vec![base]);
         let due = layout.reachable(&starts);
         let mut oracle = SeededOracle::new(seed, 0);
-        let objects: Vec<position::Point> = (0..OBJECTS)
-            .map(|_| {
-                let cell = midpoint(due[oracle.pick(due.len() as u32) as usize]);
-                let mut off = || f64::from(oracle.pick(1 << 16)) / f64::from(1 << 16) - 0.5;
-                position::Point::new(cell.x_m + off(), cell.y_m + off())
-            })
-            .collect();
+        let objects = scattered(&due, 1.0, OBJECTS, &mut oracle);
         let cases =
             RULES.iter().flat_map(|rule| settings.noise_db.iter().map(move |&noise_db| (rule, noise_db)));
         let outcome = |(&(_, rule, readings), noise_db): (&(&str, Rule, Option<u16>), f64)| {

@@ -19,7 +19,7 @@ use self::film::{Board, EndBreach, Film, Share, again, notes, outcome};
 use super::story;
 use crate::atomic_file::AtomicFile;
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::{Change, Hearers, Layer, Look, Place, Play, Report, Scene, Survey, TeamMove};
+use crate::explore::{Change, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove};
 
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
@@ -239,13 +239,22 @@ struct Line {
     known: BTreeMap<u32, bool>,
     /// The value that a place of a layer has, by layer, robot and place.
     values: BTreeMap<(usize, Option<usize>, u32), u8>,
+    /// By layer and number, where a thing is.
+    marks: BTreeMap<(usize, usize), Mark>,
     milliseconds: u64,
     is_new: bool,
 }
 
 impl Line {
     const fn new(area: Area) -> Self {
-        Self { area, known: BTreeMap::new(), values: BTreeMap::new(), milliseconds: 0, is_new: true }
+        Self {
+            area,
+            known: BTreeMap::new(),
+            values: BTreeMap::new(),
+            marks: BTreeMap::new(),
+            milliseconds: 0,
+            is_new: true,
+        }
     }
 
     /// Whether no team move was told yet.
@@ -281,7 +290,8 @@ impl Line {
         for (&(layer, robot, place), &value) in self.values.iter().filter(|&(_, &value)| value > 0) {
             puts.add(layer, robot, place, value);
         }
-        text + &puts.text()
+        text += &puts.text();
+        self.marks.iter().fold(text, |text, (&(layer, _), mark)| text + &marked(layer, mark))
     }
 
     /// A team move.
@@ -341,6 +351,11 @@ impl Line {
                     };
                     if before.unwrap_or(0) != value {
                         puts.add(layer, robot, place, value);
+                    }
+                }
+                Change::Mark { layer, mark } => {
+                    if self.marks.insert((*layer, mark.number), mark.clone()).as_ref() != Some(mark) {
+                        said += &marked(*layer, mark);
                     }
                 }
                 &Change::Know { side, is_open } => {
@@ -452,6 +467,18 @@ pub fn base36(text: &mut String, number: i64) {
 /// A word with a blank before it; nothing if there are no numbers.
 fn listed(name: &str, numbers: &[u32]) -> String {
     if numbers.is_empty() { String::new() } else { format!(" {}", word(name, numbers)) }
+}
+
+/// The word of a thing that is somewhere from now on.
+fn marked(layer: usize, mark: &Mark) -> String {
+    let mut text = format!(" e{layer}.{}@{}:", mark.value, mark.number);
+    for (place, &figure) in mark.figures.iter().enumerate() {
+        if place > 0 {
+            text.push(',');
+        }
+        base36(&mut text, figure.into());
+    }
+    text
 }
 
 fn known(is_open: bool, places: &[u32]) -> String {

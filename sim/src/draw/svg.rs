@@ -1,6 +1,7 @@
 //! Pictures as SVG, for light and dark pages: layouts, the environments of a cell, the order of exploration, team
 //! moves. Every text is escaped by being made of numbers and our own words.
 
+mod map;
 mod moment;
 
 use std::fmt::Write;
@@ -15,6 +16,7 @@ use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{Look, Play, Report, Setup, Survey, TeamMove};
 use crate::layout::Layout;
 
+pub use map::{known, map};
 pub use moment::moment;
 
 /// The side of a cell.

@@ -19,8 +19,9 @@ use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
-use crate::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
+use crate::frontier::{Allowance, Assigned, Assignment, Dice, Ended, Explorers};
 use crate::layout::Layout;
+use crate::objects::ObjectReport;
 use crate::options::{Extra, Options};
 
 /// The run ends, and a cell in reach is unexplored.
@@ -92,11 +93,17 @@ pub static FRONTIER: Profile = Profile {
         Extra::ANCHORS,
         Extra::ODOMETRY,
         Extra::THRESHOLD,
+        Extra::OBJECTS,
+        Extra::OUTLIERS,
+        Extra::SWARM,
+        Extra::SMALL,
     ],
     drawn: &[
         Drawn { what: "which messages are lost", by: By::Told(Extra::LOSS) },
         Drawn { what: "how far off each position is", by: By::Told(Extra::NOISE) },
         Drawn { what: "how far off each move is", by: By::Told(Extra::ODOMETRY) },
+        Drawn { what: "where small obstacles are", by: By::Told(Extra::SMALL) },
+        Drawn { what: "where objects are, and are seen", by: By::Told(Extra::OBJECTS) },
         Drawn { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
         Drawn { what: "where a robot wanders", by: By::Rule(WANDERS) },
     ],
@@ -134,7 +141,12 @@ fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
         return scripted::start(setup, rule);
     }
     allowed(setup, &rule)?;
-    let robots = Explorers::new(rule, &setup.layout, &setup.starts(), setup.options, setup.seed);
+    let (starts, options) = (setup.starts(), setup.options.clone());
+    let mut dice = Dice::new(setup.seed, *b"objects ");
+    let objects =
+        options.objects.as_ref().map(|objects| objects.places(&setup.layout.reachable(&starts), &mut dice));
+    let robots = Explorers::new(rule, &setup.layout, &starts, options, setup.seed);
+    let robots = robots.among(objects.unwrap_or_default()).looked_around();
     Ok(team(setup, Who::Robots(Box::new(robots))))
 }
 
@@ -248,6 +260,15 @@ impl Team for FrontierTeam {
             .into_iter()
             .flatten()
             .collect()
+    }
+
+    fn objects(&self) -> Vec<ObjectReport> {
+        match &self.who {
+            Who::Robots(robots) => {
+                robots.objects().iter().map(|(at, known)| ObjectReport::new(*at, known.as_ref())).collect()
+            }
+            Who::Assigned(_) => Vec::new(),
+        }
     }
 
     fn layers(&self) -> Vec<Layer> {

@@ -20,6 +20,7 @@ use crate::diagnostic::Halt;
 use crate::failures::Failures;
 use crate::layout::Layout;
 use crate::named_values::NamedValues;
+use crate::objects::ObjectReport;
 
 /// The questions that a run asks of a team. Only where its robots are and how they make a team move is required.
 pub trait Team {
@@ -101,6 +102,11 @@ pub trait Team {
     /// The failures so far, in a run in which something is to fail.
     fn faults(&self) -> Option<Failures> {
         None
+    }
+
+    /// The objects that it has looked for, if it was to.
+    fn objects(&self) -> Vec<ObjectReport> {
+        Vec::new()
     }
 
     /// The layers that a page can show of the team beside its robots and the cells that they enter.
@@ -324,7 +330,7 @@ pub struct TeamMove<'a> {
 pub type Watcher<'a> = dyn FnMut(&TeamMove<'_>) -> Result<(), Halt> + 'a;
 
 /// The outcome of a run.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Report {
     /// Team moves, backtracks included.
     pub steps: u32,
@@ -348,6 +354,8 @@ pub struct Report {
     pub milliseconds: Option<u64>,
     /// The failures, in a run in which something was to fail.
     pub faults: Option<Failures>,
+    /// The objects that the team has looked for.
+    pub objects: Vec<ObjectReport>,
 }
 
 impl Report {
@@ -381,6 +389,7 @@ impl Report {
             components: Vec::new(),
             milliseconds: None,
             faults: None,
+            objects: Vec::new(),
         };
         report.note(team.cells(), team.seen(), &[]);
         report
@@ -406,7 +415,7 @@ impl Report {
     pub(super) fn end(&mut self, stopped: Stopped, team: &dyn Team) {
         self.stopped = stopped;
         (self.team, self.components) = (team.cells().to_vec(), team.components().to_vec());
-        (self.milliseconds, self.faults) = (team.milliseconds(), team.faults());
+        (self.milliseconds, self.faults, self.objects) = (team.milliseconds(), team.faults(), team.objects());
     }
 }
 

@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_kernel::position::{Point, SymmetricMatrix};
 
 /// A layer of a page, which can be shown or hidden.
 #[derive(Clone, Debug)]
@@ -30,6 +31,8 @@ pub enum Shape {
     Links(Joins, &'static [Zone]),
     /// A circle round each robot, its radius in thousandths of a cell's side.
     Circle(u32),
+    /// Places that [`Scene::mark`] gives one of these values, wherever in a cell they are.
+    Marks(&'static [Value]),
     /// The messages that [`Scene::say`] tells, by their kinds.
     Messages(&'static [Kind]),
     /// After each team move every robot tells all others what it tried and what came of it.
@@ -134,6 +137,47 @@ pub enum Place {
     Side(Edge),
 }
 
+/// Where something is, or is taken to be, in whole numbers.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Mark {
+    /// The number of the thing in its layer.
+    pub number: usize,
+    /// Its value, by its number from 1.
+    pub value: u8,
+    /// Its place, in thousandths of a cell's side; if it is a guess, the standard deviations of both coordinates and their correlation
+    /// in thousandths; with a heading, that and its standard deviation in milliradians.
+    pub figures: Vec<i32>,
+}
+
+impl Mark {
+    /// A thing that is at `at`, in sides of a cell.
+    pub fn exact(number: usize, value: u8, at: Point) -> Self {
+        Self { number, value, figures: [at.x_m, at.y_m].map(thousandths).to_vec() }
+    }
+
+    /// A thing that is taken to be at `at`.
+    #[must_use]
+    pub fn guess(number: usize, value: u8, at: Point, covariance: SymmetricMatrix) -> Self {
+        let deviations = [covariance.xx, covariance.yy].map(f64::sqrt);
+        let both = deviations[0] * deviations[1];
+        let correlation = if both > 0.0 { covariance.xy / both } else { 0.0 };
+        let mut mark = Self::exact(number, value, at);
+        mark.figures.extend([deviations[0], deviations[1], correlation].map(thousandths));
+        mark
+    }
+
+    /// The same thing, which heads there.
+    #[must_use]
+    pub fn heading(mut self, radians: f64, variance: f64) -> Self {
+        self.figures.extend([radians, variance.sqrt()].map(thousandths));
+        self
+    }
+}
+
+fn thousandths(number: f64) -> i32 {
+    (1000.0 * number).round() as i32
+}
+
 /// Who hears a message.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Hearers {
@@ -161,6 +205,13 @@ pub enum Change {
         place: Place,
         /// The value.
         value: u8,
+    },
+    /// A thing is here from now on, or is taken to be.
+    Mark {
+        /// The layer.
+        layer: usize,
+        /// The thing.
+        mark: Mark,
     },
     /// The team knows a side without having tried it.
     Know {
@@ -223,6 +274,11 @@ impl Scene {
     /// A place has a value for this robot.
     pub fn put_for(&mut self, layer: usize, robot: usize, place: Place, value: u8) {
         self.note(Change::Put { layer, robot: Some(robot), place, value });
+    }
+
+    /// A thing of a layer is here from now on, or is taken to be.
+    pub fn mark(&mut self, layer: usize, mark: Mark) {
+        self.note(Change::Mark { layer, mark });
     }
 
     /// A robot says something of this kind.

@@ -1,13 +1,16 @@
 //! The radio as robots have it: which messages they hear, and where they take themselves to be.
 
+use std::collections::BTreeSet;
+use std::f64::consts::FRAC_PI_2;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Condition, Place, Rule, SIDE, clamped, midpoint};
-use tautline_kernel::ground::{Area, Cell};
+use tautline_kernel::frontier::{Condition, HALF, Place, Rule, SIDE, clamped, midpoint};
+use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_kernel::position::{
-    self, Belief, Gate, Odometry, Point, Range, Residual, SightError, Sighting, Signal, SymmetricMatrix,
-    best_three, locate,
+    self, Belief, Gate, Odometry, Parameters, Particle, Point, Range, Residual, SightError, Sighting, Signal,
+    Swarm, SymmetricMatrix, best_three, linear, locate,
 };
 
 use crate::layout::generate;
@@ -20,13 +23,15 @@ pub(super) struct Pose {
     pub(super) at: Point,
     heading_rad: f64,
     pub(super) belief: Belief,
+    /// Its last fix.
+    pub(super) fixed: Option<Sighting>,
 }
 
 impl Pose {
     /// A robot that is known to be in the middle of `cell`, and heads east.
     pub(super) fn start(cell: Cell) -> Self {
         let at = midpoint(cell);
-        Self { at, heading_rad: 0.0, belief: Belief::known(at, 0.0) }
+        Self { at, heading_rad: 0.0, belief: Belief::known(at, 0.0), fixed: None }
     }
 
     /// Where it takes itself to be.
@@ -35,10 +40,21 @@ impl Pose {
     }
 }
 
+/// The cell that a place is in, in sides of a cell.
+pub fn cell_at(at: Point) -> Cell {
+    cell_of(place_of(at))
+}
+
 /// A place in whole units.
 pub(super) fn place_of(at: Point) -> Place {
     let units = |sides: f64| libm::round(sides * f64::from(SIDE)) as i32;
     Place::new(units(at.x_m), units(at.y_m))
+}
+
+/// The cell that a place is in.
+pub(super) fn cell_of(place: Place) -> Cell {
+    let line = |coordinate: i32| (coordinate + HALF).div_euclid(SIDE) as i16;
+    Cell::new(line(place.x), line(place.y))
 }
 
 /// The radio of a run.
@@ -57,7 +73,14 @@ pub(super) struct Radio {
 
 /// A seeded oracle.
 #[derive(Clone, Debug)]
-pub(super) struct Dice(ChaCha8Rng);
+pub(crate) struct Dice(ChaCha8Rng);
+
+impl Dice {
+    /// The dice of whatever `tag` names.
+    pub(crate) fn new(seed: u64, tag: [u8; 8]) -> Self {
+        Self(generate::source(seed, tag))
+    }
+}
 
 impl Oracle for Dice {
     fn pick(&mut self, below: u32) -> u32 {
@@ -74,8 +97,8 @@ impl Radio {
         let (signal, averaged) =
             options.signals().map_or((None, None), |[one, mean]| (Some(one), Some(mean)));
         let averaged = averaged.filter(|_| options.readings() > 0);
-        let (dice, odometry) = (Dice(generate::source(seed, *b"frontier")), options.odometry());
-        Self { options, dice, anchors: anchors(area, options.anchors()), rim, signal, averaged, odometry }
+        let (dice, odometry) = (Dice::new(seed, *b"frontier"), options.odometry());
+        Self { dice, anchors: anchors(area, options.anchors()), options, rim, signal, averaged, odometry }
     }
 
     /// How far messages are heard, if not everywhere.
@@ -110,17 +133,41 @@ impl Radio {
     /// The pose of a robot after it has turned to where it takes the midpoint of `to` to be, and after it has gone there.
     pub(super) fn driven(&mut self, pose: &Pose, to: Cell) -> [Pose; 2] {
         let (turn, way) = pose.belief.towards(midpoint(to));
-        let (mut turned, dice) = (*pose, &mut self.dice);
-        turned.belief.turned(turn, &self.odometry);
-        if turn != 0.0 {
-            turned.heading_rad += turn + deviation(self.odometry.turn_rad(), dice);
-        }
+        let mut turned = *pose;
+        self.turn(&mut turned, turn);
         let mut arrived = turned;
-        arrived.belief.driven(way, &self.odometry);
-        let way = way * (1.0 + deviation(self.odometry.share(), dice));
-        let (x, y) = (libm::cos(arrived.heading_rad), libm::sin(arrived.heading_rad));
-        arrived.at = Point::new(pose.at.x_m + way * x, pose.at.y_m + way * y);
+        self.drive(&mut arrived, way);
         [turned, arrived]
+    }
+
+    fn turn(&mut self, pose: &mut Pose, turn: f64) {
+        pose.belief.turned(turn, &self.odometry);
+        if turn != 0.0 {
+            pose.heading_rad += turn + deviation(self.odometry.turn_rad(), &mut self.dice);
+        }
+    }
+
+    fn drive(&mut self, pose: &mut Pose, way: f64) {
+        pose.belief.driven(way, &self.odometry);
+        let way = way * (1.0 + deviation(self.odometry.share(), &mut self.dice));
+        let (x, y) = (libm::cos(pose.heading_rad), libm::sin(pose.heading_rad));
+        pose.at = Point::new(pose.at.x_m + way * x, pose.at.y_m + way * y);
+    }
+
+    /// A robot on its way to `to` goes round an obstacle that is smaller than a cell, as the paper has it: it turns by 90°, takes five
+    /// steps and turns back.
+    pub(super) fn detour(&mut self, pose: &mut Pose, to: Cell) {
+        let (turn, _) = pose.belief.towards(midpoint(to));
+        self.turn(pose, turn + FRAC_PI_2);
+        self.drive(pose, FIVE_STEPS);
+        self.turn(pose, -FRAC_PI_2);
+    }
+
+    /// The sides of `area` with an obstacle that is smaller than a cell.
+    pub(super) fn small(&self, area: Area, seed: u64) -> BTreeSet<Edge> {
+        let Some(share) = self.options.small else { return BTreeSet::new() };
+        let mut dice = Dice::new(seed, *b"detours ");
+        area.edges().filter(|_| share.happens(&mut dice.0)).collect()
     }
 
     /// The place where a robot takes an object to be that is at `object`: it sees the bearing and the distance.
@@ -129,6 +176,18 @@ impl Radio {
         let bearing = pose.heading_rad - libm::atan2(y, x) + deviation(SIGHT.bearing_rad, &mut self.dice);
         let far = pose.at.distance_m(object) + deviation(SIGHT.distance_m, &mut self.dice);
         pose.belief.sees(bearing, far, &SIGHT)
+    }
+
+    /// The fix of a robot, if distances make one: by least squares, or by a swarm as in the paper.
+    fn fix(&mut self, belief: &Belief, ranges: &[Range], mean: &Signal) -> Option<Sighting> {
+        let fix = belief.fix(ranges, mean).ok()??;
+        if !self.options.swarm {
+            return Some(fix);
+        }
+        let (around, mut particles) = (linear(ranges).ok()?, [Particle::UNUSED; PARTICLES]);
+        let swarm =
+            Swarm::start(ranges, around, Parameters::CONTRACTING, &mut particles, &mut self.dice).ok()?;
+        Some(Sighting { at: swarm.run(&mut self.dice), ..fix })
     }
 
     /// A robot that counts itself to be in `counted` stands and takes a fix.
@@ -153,14 +212,22 @@ impl Radio {
         let each_db = mean.noise_db() * f64::from(draws).sqrt();
         let ranges = anchors.map(|anchor| {
             let sum: f64 = (0..draws).map(|_| deviation(each_db, dice)).sum();
-            let level_db = one.level_db(pose.at.distance_m(anchor)) + sum / f64::from(draws);
+            let outliers = self.options.outliers.unwrap_or_default();
+            let lost_db =
+                if !outliers.is_never() && outliers.happens(&mut dice.0) { OUTLIER_DB } else { 0.0 };
+            let level_db = one.level_db(pose.at.distance_m(anchor)) + sum / f64::from(draws) - lost_db;
             Range::new(anchor, one.distance_m(level_db))
         });
         if rule.has(Condition::Fuse) {
             // Distances that make no position leave the belief as it is.
-            let _ = pose.belief.located(&ranges, &mean, rule.gate());
+            if let Some(fix) = self.fix(&pose.belief, &ranges, &mean) {
+                pose.belief.corrected(fix.at, fix.covariance, rule.gate());
+                pose.fixed = Some(fix);
+            }
         } else if let Ok(fix) = locate(&ranges, Residual::Decibels, &mean, self.rim) {
-            let fix = place_of(fix.best().at);
+            let best = fix.best();
+            pose.fixed = best.precision.map(|known| Sighting { at: best.at, covariance: known.covariance });
+            let fix = place_of(best.at);
             let fix = if rule.has(Condition::Track) { clamped(counted, fix) } else { fix };
             let sides = |units: i32| f64::from(units) / f64::from(SIDE);
             pose.belief = Belief::known(Point::new(sides(fix.x), sides(fix.y)), pose.belief.heading_rad());
@@ -173,6 +240,15 @@ const SIGHT: SightError = SightError { bearing_rad: core::f64::consts::PI / 90.0
 
 /// The mean of many beacons is drawn as that of so many, whose errors are as great together: it is normal, with its tails.
 const MOST_DRAWS: u16 = 8;
+
+/// Five steps, in sides of a cell. This value is ours; half a side would lead to the rim of the next cell.
+const FIVE_STEPS: f64 = 0.25;
+
+/// The particles of a swarm.
+const PARTICLES: usize = 30;
+
+/// An outlier is heard fainter by so much, as behind a wall of concrete. This value is ours.
+const OUTLIER_DB: f64 = 10.0;
 
 /// The variance of a fix without noise, so small that it counts for nothing.
 const EXACT: f64 = 1e-18;

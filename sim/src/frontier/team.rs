@@ -1,15 +1,16 @@
 //! A team of the kernel's robots in a layout.
 
+use std::collections::BTreeSet;
+
 use tautline_kernel::frontier::{
-    Condition, HALF, Map, Next, Other, Place, Robot, Rule, SIDE, Seeker, Sight, Slot, Status, Ties, View,
-    taken_for,
+    Condition, Map, Next, Other, Place, Robot, Rule, Seeker, Sight, Slot, Status, Ties, View, taken_for,
 };
-use tautline_kernel::ground::{Area, Cell, Side};
-use tautline_kernel::position::{Point, Sighting};
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_kernel::position::{Belief, Point, Sighting};
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
-use super::radio::{Pose, Radio, place_of};
+use super::radio::{Pose, Radio, cell_at, cell_of, place_of};
 use super::waves::{Knowledge, Waves};
 use super::{Ended, Moves, PATIENCE};
 use crate::layout::Layout;
@@ -39,6 +40,10 @@ pub struct Explorers {
     stands: usize,
     /// Who has stood for it in the last team move.
     unsure: Vec<usize>,
+    /// The sides with an obstacle that is smaller than a cell.
+    small: BTreeSet<Edge>,
+    /// By robot, on its way through which side it has gone round one.
+    detours: Vec<Option<Edge>>,
     /// Objects, and where the robots that were in their cells take them to be, together.
     objects: Vec<(Point, Option<Sighting>)>,
     /// The cells that a robot was in.
@@ -68,6 +73,7 @@ impl Explorers {
         }
         let heard = robots.iter().map(|robot| robot.map().len()).collect();
         let radio = Radio::new(options, area, seed);
+        let small = radio.small(area, seed);
         let knowledge = if radio.is_whole() { Knowledge::Common } else { Knowledge::Own };
         Self {
             rule,
@@ -85,6 +91,8 @@ impl Explorers {
             idle: 0,
             stands: 0,
             unsure: Vec::new(),
+            small,
+            detours: vec![None; starts.len()],
             objects: Vec::new(),
             entered,
             is_wrong: false,
@@ -114,15 +122,46 @@ impl Explorers {
         self.unsure.iter().map(|&robot| self.cells[robot])
     }
 
-    /// How far robots are from where they take themselves to be, in sides of a cell.
-    pub fn errors(&self) -> impl Iterator<Item = f64> {
-        self.poses.iter().map(|pose| pose.at.distance_m(pose.belief.at()))
+    /// By robot where it is and where it takes itself to be, in sides of a cell, and its last fix.
+    pub fn poses(&self) -> impl Iterator<Item = (Point, &Belief, Option<Sighting>)> {
+        self.poses.iter().map(|pose| (pose.at, &pose.belief, pose.fixed))
     }
 
-    /// This team among objects at these places, in sides of a cell: a robot sees those in the cell that it has entered.
+    /// Whether there are obstacles that are smaller than a cell.
+    pub fn has_small(&self) -> bool {
+        !self.small.is_empty()
+    }
+
+    /// The sides on their way through which robots have gone round an obstacle that is smaller than a cell.
+    pub fn detours(&self) -> impl Iterator<Item = Edge> {
+        self.detours.iter().copied().flatten()
+    }
+
+    /// How far robots are from where they take themselves to be, in sides of a cell.
+    pub fn errors(&self) -> impl Iterator<Item = f64> {
+        self.poses().map(|(at, belief, _)| at.distance_m(belief.at()))
+    }
+
+    /// This team among objects at these places, in sides of a cell: a robot sees those in each cell that it enters.
     #[must_use]
     pub fn among(mut self, objects: impl IntoIterator<Item = Point>) -> Self {
         self.objects = objects.into_iter().map(|object| (object, None)).collect();
+        self
+    }
+
+    /// A robot sees the objects in the cell that it is in.
+    fn look_around(&mut self, robot: usize) {
+        let Self { objects, radio, poses, cells, .. } = self;
+        for (object, known) in objects.iter_mut().filter(|(object, _)| cell_at(*object) == cells[robot]) {
+            let seen = radio.sees(&poses[robot], *object);
+            *known = Some(known.map_or(seen, |known| known.merged(seen)));
+        }
+    }
+
+    /// This team after each robot has looked around in its start.
+    #[must_use]
+    pub fn looked_around(mut self) -> Self {
+        (0..self.robots.len()).for_each(|robot| self.look_around(robot));
         self
     }
 
@@ -192,6 +231,14 @@ impl Explorers {
                 stands[robot] = true;
                 continue;
             }
+            let edge = Edge::new(self.robots[robot].at(), side);
+            if self.small.contains(&edge) && self.detours[robot] != Some(edge) {
+                self.detours[robot] = Some(edge);
+                if self.radio.is_noisy() {
+                    self.radio.detour(&mut self.poses[robot], to);
+                }
+                continue;
+            }
             self.robots[robot].tries(side, aim);
             if self.rule.has(Condition::Claim) {
                 self.tell(robot);
@@ -222,18 +269,13 @@ impl Explorers {
                 self.radio.takes_fix(&self.rule, &mut self.poses[robot], at);
             }
             let Some((cell, pose)) = to else { continue };
-            (self.cells[robot], self.poses[robot]) = (cell, pose);
+            (self.cells[robot], self.poses[robot], self.detours[robot]) = (cell, pose, None);
             self.entered.explore(cell);
             if self.radio.is_noisy() {
                 let counted = self.robots[robot].entering();
                 self.radio.takes_fix(&self.rule, &mut self.poses[robot], counted);
             }
-            for (object, known) in &mut self.objects {
-                if cell_of(place_of(*object)) == cell {
-                    let seen = self.radio.sees(&self.poses[robot], *object);
-                    *known = Some(known.map_or(seen, |known| known.merged(seen)));
-                }
-            }
+            self.look_around(robot);
             let fix = self.poses[robot].fix();
             self.robots[robot].arrived(&self.rule, taken_for(self.area, fix));
             self.note(robot, self.robots[robot].at());
@@ -363,12 +405,6 @@ impl Explorers {
     }
 }
 
-/// The cell that a place is in.
-fn cell_of(place: Place) -> Cell {
-    let line = |coordinate: i32| (coordinate + HALF).div_euclid(SIDE) as i16;
-    Cell::new(line(place.x), line(place.y))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -415,9 +451,9 @@ mod tests {
         let usual = Options::USUAL;
         let loss: Probability = "0.3".parse().expect("a probability");
         [
-            usual,
-            Options { range_cells: Some(3), ..usual },
-            Options { loss, ..usual },
+            usual.clone(),
+            Options { range_cells: Some(3), ..usual.clone() },
+            Options { loss, ..usual.clone() },
             Options { noise_db: 0.5, ..usual },
         ]
     }

@@ -11,6 +11,7 @@ use crate::explore::floor::Component;
 use crate::explore::{Knowledge, Milestone, Play, Report, Setup, Stopped, Violation};
 use crate::failures::Failures;
 use crate::layout::generate::Probability;
+use crate::objects::ObjectReport;
 use crate::schema::CellWritten;
 
 /// The JSON of a run.
@@ -34,6 +35,9 @@ pub struct Summary<'a> {
     /// The failures, where something was to fail.
     #[serde(skip_serializing_if = "Option::is_none")]
     faults: Option<Failures>,
+    /// The objects that the team has looked for, in sides of a cell.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    objects: &'a [ObjectReport],
     violations: Vec<StoredViolation>,
 }
 
@@ -106,7 +110,7 @@ impl<'a> FloorSummary<'a> {
 
 impl<'a> Summary<'a> {
     /// That of a run which came out as `report`, in the layout that is called `layout`.
-    pub fn new(run: &'a dyn Play, layout: &'a str, report: &Report) -> Self {
+    pub fn new(run: &'a dyn Play, layout: &'a str, report: &'a Report) -> Self {
         let setup = run.setup();
         let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
         Self {
@@ -123,6 +127,7 @@ impl<'a> Summary<'a> {
             milestones: milestones.into(),
             stopped: report.stopped,
             faults: report.faults,
+            objects: &report.objects,
             violations: report.violations.iter().map(|violation: &Violation| violation.into()).collect(),
         }
     }

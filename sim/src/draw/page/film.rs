@@ -16,7 +16,7 @@ use crate::layout::Layout;
 use crate::options::{Extra, Takes};
 
 const TEMPLATE: &str = include_str!("page.html");
-const SCRIPT: &str = include_str!("page.js");
+const SCRIPT: &str = concat!(include_str!("marks.js"), include_str!("page.js"));
 const TOLD: &str = include_str!("told.html");
 
 /// The part of a page that stands still.
@@ -194,6 +194,7 @@ pub fn layer(layer: &Layer) -> LayerJson {
             ..plain
         },
         Shape::Circle(radius) => LayerJson { shape: "circle", radius: Some(radius), ..plain },
+        Shape::Marks(values) => LayerJson { shape: "marks", values, ..plain },
         Shape::Messages(kinds) => LayerJson { shape: "messages", kinds, ..plain },
         Shape::Reports => LayerJson { shape: "reports", ..plain },
     }

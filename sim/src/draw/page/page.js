@@ -1,4 +1,3 @@
-"use strict";
 // Plays a stored run on a canvas. The data stand beside this script: `film` is what stands still, `lines` is one line for each
 // step with what changes in it (docs/formats.md says how). Nothing here knows a scheme: layers say by their shapes how they are drawn.
 
@@ -39,7 +38,7 @@ function eachStep(text, tell) {
 /** A line in its parts. */
 function read(text) {
   const tab = text.indexOf("\t");
-  const line = { steps: "", back: false, later: 0, unseen: [], lost: [], explored: [], known: [], puts: [], clears: [], said: [], takes: [], failed: [], dead: [], share: null };
+  const line = { steps: "", back: false, later: 0, unseen: [], lost: [], explored: [], known: [], puts: [], clears: [], marks: [], said: [], takes: [], failed: [], dead: [], share: null };
   Object.assign(line, tab < 0 ? {} : JSON.parse(text.slice(tab + 1)));
   const words = (tab < 0 ? text : text.slice(0, tab)).split(" ");
   line.steps = words[0];
@@ -61,6 +60,11 @@ function read(text) {
       case "p": {
         const [, layer, value, robots] = /^(\d+)\.(\d+)(?:@(.*))?$/.exec(name);
         line.puts.push([+layer, +value, robots ? robots.split(",").map(Number) : [0], numbers(rest)]);
+        break;
+      }
+      case "e": {
+        const [, layer, value, number] = /^(\d+)\.(\d+)@(\d+)$/.exec(name);
+        line.marks.push([+layer, +number, { value: +value, figures: rest.split(",").map(part => parseInt(part, 36)) }]);
         break;
       }
       case "s": {
@@ -186,6 +190,11 @@ function load() {
       layer.used = true;
       for (const robot of robots) for (const place of places) put(layer.start + robot * layer.width + place, value);
     }
+    for (const [number, thing, mark] of line.marks) {
+      const layer = film.layers[number];
+      layer.used = true;
+      ((layer.marks ??= [])[thing] ??= []).push({ i, ...mark });
+    }
     for (const { layer } of line.said) film.layers[layer].used = true;
     if (line.share !== null) share = line.share;
     shares[i] = share;
@@ -293,7 +302,7 @@ const shapes = shape => film.layers.filter(layer => layer.shape === shape && lay
 
 function keysOf(layer) {
   switch (layer.shape) {
-    case "cells": case "sides": return layer.values.map(value => [value.ink + "-" + layer.shape, value.name]);
+    case "cells": case "sides": case "marks": return layer.values.map(value => [value.ink + "-" + layer.shape, value.name]);
     case "links": return [...layer.zones.map((zone, k) => [`link${k}`, `${zone.name}: ${zone.about}`]), ...layer.joins === "next" ? [["lost", "lost"]] : []];
     case "circle": return [["circle", layer.about]];
     case "messages": return layer.kinds.map(kind => [kind.heard ? "message" : "deaf", kind.name]);
@@ -624,6 +633,20 @@ function drawPlan() {
   stroke(pen, ink.bad, Math.max(s * .05, 1), [s * .15, s * .12]);
 }
 
+/** Where things are, and are taken to be, after the line. */
+function drawMarks() {
+  for (const layer of shapes("marks")) for (const list of layer.marks) {
+    const mark = list?.[latest(list, one => one.i, shown)];
+    if (mark) strokeMark(pen, layer.values[mark.value - 1].ink, mark.figures, (x, y) => [px(x), py(y)], view.scale);
+  }
+}
+
+function strokeMark(to, name, figures, place, unit) {
+  const path = new Path2D(markPath(figures, place, unit)), thick = Math.max(unit * .03, 1);
+  to.setLineDash(name === "barred" ? [2 * thick, 2 * thick] : []);
+  to.strokeStyle = ink[name]; to.lineWidth = thick; to.stroke(path); to.setLineDash([]);
+}
+
 const CORNERS = [[-.23, -.23], [.23, -.23], [-.23, .23], [.23, .23]];
 
 function drawRobots(at) {
@@ -637,13 +660,15 @@ function drawRobots(at) {
     pen.beginPath();
     if (isBase) pen.roundRect(x - r, y - r, 2 * r, 2 * r, r * .35); else pen.arc(x, y, r, 0, 7);
     pen.fillStyle = isBase ? ink.base : isLeader ? ink.leader : ink.robot;
+    // What is known of places is drawn over robots.
+    if (shapes("marks").length) pen.globalAlpha = .4;
     if (gone.has(robot)) { stroke(pen, ink.bad, 2); pen.globalAlpha = .35; }
     pen.fill();
     pen.globalAlpha = 1;
     if (isLeader) { pen.beginPath(); pen.arc(x, y, r + Math.max(r * .2, 1.5), 0, 7); stroke(pen, ink.leader, Math.max(r * .13, 1)); }
     if (robot === followed) { pen.beginPath(); pen.arc(x, y, r * 1.35 + 2, 0, 7); stroke(pen, ink.accent, 2.5); }
     if (r < 5.5) return;
-    pen.fillStyle = ink.name;
+    pen.fillStyle = shapes("marks").length ? ink.ink : ink.name;
     pen.font = `600 ${Math.min(r * (text.length > 2 ? .85 : 1.15), 22 * (devicePixelRatio || 1))}px system-ui, sans-serif`;
     pen.textAlign = "center"; pen.textBaseline = "middle";
     pen.fillText(text, x, y + r * .07);
@@ -767,7 +792,7 @@ function draw(now = performance.now()) {
   if (!isStill) drawStill();
   pen.drawImage(still, 0, 0);
   if (inCells) { drawSigns(); drawSides(); drawLinks(at); drawMissed(); }
-  drawCircles(at); drawWays(); drawCallers(); drawMessages(at); drawPlan(); drawRobots(at);
+  drawCircles(at); drawWays(); drawCallers(); drawMessages(at); drawPlan(); drawRobots(at); drawMarks();
   drawCurve();
   if (moved < 1) drawSoon();
 }
@@ -1009,7 +1034,8 @@ function key(name) {
   const ownPen = made.getContext("2d");
   const line = (colour, thick, dash) => { ownPen.beginPath(); ownPen.moveTo(1, h / 2); ownPen.lineTo(w - 1, h / 2); stroke(ownPen, colour, thick * unit, dash); };
   const [kind, shape] = name.split("-"), fill = { explored: ink.explored, blocked: ink.blocked, frontier: ink.frontier, closing: ink.closing, closed: ink.closed, sealed: ink.sealed }[kind];
-  if (shape === "sides" || ["wall", "known", "bump", "trail", "lost", "link0", "link1", "circle", "arrow", "missed"].includes(name)) {
+  if (shape === "marks") strokeMark(ownPen, kind, MARK_KEY[kind] ?? MARK_KEY.guess, (x, y) => [w / 2 + (x - .5) * h, h / 2 + (y - .5) * h], 3 * h);
+  else if (shape === "sides" || ["wall", "known", "bump", "trail", "lost", "link0", "link1", "circle", "arrow", "missed"].includes(name)) {
     const colour = { wall: ink.unknown, known: ink.wall, bump: ink.bad, trail: ink.trail, lost: ink.bad, link0: ink.link, link1: ink.link, circle: ink.link, arrow: ink.ink, missed: ink.bad }[name] ?? ink[kind];
     line(colour, { link1: 2, circle: 1.5, arrow: 1.5, missed: 1.5 }[name] ?? 3, { lost: [6, 4], link1: [2, 3], circle: [5, 4], missed: [3, 2] }[name] ?? (kind === "barred" ? [4, 3].map(part => part * unit) : []));
   } else if (fill || shape === "cells") {

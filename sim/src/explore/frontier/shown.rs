@@ -1,10 +1,11 @@
 //! The layers of a page of robots that explore cells: each robot's repository, the cells that they have claimed, how
-//! far they are heard, who misses what they say, and who stands to take another fix; of rivals the obstacles that all
+//! far they are heard, who misses what they say, who stands to take another fix, and where robots and objects are and are taken
+//! to be; of rivals the obstacles that all
 //! know, and who is assigned to which cell.
 
 use tautline_kernel::frontier::Status;
 
-use crate::explore::{Change, Hearers, Ink, Kind, Layer, Place, Scene, Shape, Value};
+use crate::explore::{Change, Hearers, Ink, Kind, Layer, Mark, Place, Scene, Shape, Value};
 use crate::frontier::{Assigned, Explorers};
 
 /// The places among the layers.
@@ -16,6 +17,17 @@ const KINDS: &[Kind] = &[Kind::heard("tells what it knows"), Kind::lost("is not 
 
 const EXPLORED: u8 = 1;
 const OBSTACLE: u8 = 2;
+
+/// The names of layers that only some teams have.
+const STANDING: &str = "unsure";
+const BELIEFS: &str = "beliefs";
+const FIXES: &str = "fixes";
+const OBJECTS: &str = "objects";
+const SMALL: &str = "small obstacles";
+
+/// The values of a thing that is taken to be somewhere, and is there.
+const GUESSED: u8 = 1;
+const REAL: u8 = 2;
 
 const UNSURE: &[Value] = &[Value { name: "takes another fix", ink: Ink::Goal }];
 
@@ -74,8 +86,32 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
         });
     }
     if robots.is_noisy() {
+        const BELIEF: &[Value] = &[
+            Value { name: "takes itself to be here and to head there, with 95 %", ink: Ink::Aim },
+            Value { name: "is here", ink: Ink::Wall },
+        ];
+        const FIX: &[Value] = &[Value { name: "its last fix, with 95 %", ink: Ink::Barred }];
         let about = "robots that stand in this team move to take another fix, since they are not sure to stay in the next cell";
-        layers.push(layer("unsure", about, Shape::Cells(UNSURE)));
+        layers.push(layer(STANDING, about, Shape::Cells(UNSURE)));
+        let about = "where robots are, and where they take themselves to be by wheels and fixes";
+        layers.push(layer(BELIEFS, about, Shape::Marks(BELIEF)));
+        layers.push(layer(FIXES, "the places that robots were told last by anchors", Shape::Marks(FIX)));
+    }
+    if robots.has_small() {
+        const DETOUR: &[Value] = &[Value { name: "a robot has gone round one", ink: Ink::Barred }];
+        layers.push(layer(
+            SMALL,
+            "obstacles between cells that are smaller than a cell",
+            Shape::Sides(DETOUR),
+        ));
+    }
+    if !robots.objects().is_empty() {
+        const OBJECT: &[Value] = &[
+            Value { name: "an object is taken to be here, with 95 %", ink: Ink::Open },
+            Value { name: "is here", ink: Ink::Wall },
+        ];
+        let about = "objects, and where the robots that have seen them take them to be";
+        layers.push(layer(OBJECTS, about, Shape::Marks(OBJECT)));
     }
     layers
 }
@@ -96,10 +132,33 @@ pub(super) fn show(robots: &Explorers, scene: &mut Scene) {
     for cell in robots.claims() {
         scene.put(CLAIMS, Place::Cell(cell), 1);
     }
-    if robots.is_noisy() {
-        let unsure = if robots.range_cells().is_some() { MESSAGES + 2 } else { MESSAGES + 1 };
+    let layers = layers(robots);
+    let layer = |name: &str| layers.iter().position(|layer| layer.name == name);
+    if let (Some(unsure), Some(beliefs), Some(fixes)) = (layer(STANDING), layer(BELIEFS), layer(FIXES)) {
         scene.note(Change::Clear { layer: unsure });
         robots.unsure().for_each(|cell| scene.put(unsure, Place::Cell(cell), 1));
+        let count = robots.cells().len();
+        for (robot, (at, belief, fix)) in robots.poses().enumerate() {
+            let guess = Mark::guess(robot, GUESSED, belief.at(), belief.covariance());
+            let [.., variance] = belief.heading_covariance();
+            scene.mark(beliefs, guess.heading(belief.heading_rad(), variance));
+            scene.mark(beliefs, Mark::exact(count + robot, REAL, at));
+            if let Some(fix) = fix {
+                scene.mark(fixes, Mark::guess(robot, GUESSED, fix.at, fix.covariance));
+            }
+        }
+    }
+    if let Some(small) = layer(SMALL) {
+        robots.detours().for_each(|edge| scene.put(small, Place::Side(edge), 1));
+    }
+    if let Some(objects) = layer(OBJECTS) {
+        let count = robots.objects().len();
+        for (number, (at, known)) in robots.objects().iter().enumerate() {
+            scene.mark(objects, Mark::exact(count + number, REAL, *at));
+            if let Some(known) = known {
+                scene.mark(objects, Mark::guess(number, GUESSED, known.at, known.covariance));
+            }
+        }
     }
     for (from, deaf) in robots.told() {
         scene.say(MESSAGES, 0, from, Hearers::All);
