@@ -62,13 +62,17 @@ const SECTION: [u64; 18] = [1, 3, 0, 0, 1, 1, 0, 0, 3, 2, 2, 3, 0, 1, 0, 0, 0, 0
 
 fn section(numbers: &[u64]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    numbers.iter().for_each(|&number| put(&mut bytes, number));
+    for &number in numbers {
+        put(&mut bytes, number);
+    }
     bytes
 }
 
 fn with(changes: &[(usize, u64)]) -> Vec<u8> {
     let mut numbers = SECTION;
-    changes.iter().for_each(|&(place, number)| numbers[place] = number);
+    for &(place, number) in changes {
+        numbers[place] = number;
+    }
     section(&numbers)
 }
 

@@ -55,7 +55,9 @@ fn numbers(section: &[u8]) -> Vec<u64> {
 
 fn section(numbers: &[u64]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    numbers.iter().for_each(|&number| put(&mut bytes, number));
+    for &number in numbers {
+        put(&mut bytes, number);
+    }
     bytes
 }
 
