@@ -71,6 +71,12 @@ impl Robots {
         turns.iter().map(go).collect()
     }
 
+    /// Whether nothing tells one robot from another. Then robot 0 stands for each of them: what can be owed to another
+    /// one for ever is owed to robot 0 in the run in which the two have changed places.
+    fn are_alike(&self) -> bool {
+        self.1.moves == Moves::Together
+    }
+
     /// The swarm as seen from robot 0.
     fn seen(&self, robots: &[Robot]) -> Vec<Robot> {
         let (column, row, ..) = robots[0];
@@ -87,7 +93,8 @@ impl Protocol for Robots {
     const DEMANDS: &'static [Demand<Self>] =
         &[Demand::again_and_again("every robot is connected", |swarm, robots: &Vec<Robot>| {
             let is_lost = |&me: &usize| swarm.near(robots, me) < swarm.1.alpha;
-            set((0..robots.len()).filter(is_lost))
+            let watched = if swarm.are_alike() { 1 } else { robots.len() };
+            set((0..watched).filter(is_lost))
         })];
 
     fn new(&rule: &Conditions, bound: &&'static Swarm) -> Result<Self, MethodError> {
@@ -113,10 +120,17 @@ impl Protocol for Robots {
         self.1.moves.sets(robots.len()).flat_map(act).collect()
     }
 
-    /// The floor in its quarter turns: the rule knows no direction.
+    /// The floor in its quarter turns, as the rule knows no direction; and the robots but robot 0 in one order.
     fn alike(&self, robots: &Vec<Robot>) -> Vec<Vec<Robot>> {
         let turn = |&(x, y, heading, misses): &Robot| (-y, x, (heading + 1) % 4, misses);
-        turned(robots, |robots| self.seen(&robots.iter().map(turn).collect::<Vec<_>>()))
+        let mut all = turned(robots, |robots| self.seen(&robots.iter().map(turn).collect::<Vec<_>>()));
+        if self.are_alike() {
+            all.push(robots.clone());
+            for robots in &mut all {
+                robots[1..].sort_unstable();
+            }
+        }
+        all
     }
 
     fn draw(&self, robots: &Vec<Robot>) -> String {

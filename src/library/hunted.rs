@@ -83,7 +83,7 @@ pub(super) fn hunt(
     match format {
         Format::Json => {
             let &RandomRuns { runs, seed, most_moves: max_moves } = runs;
-            let checks = told().map(|(row, file)| json(row, file)).collect::<Result<_, _>>()?;
+            let checks = told().map(json).collect::<Result<_, _>>()?;
             out.json(&HuntedJson { runs, seed, max_moves, checks })?;
         }
         Format::Text => {
@@ -101,7 +101,7 @@ pub(super) fn hunt(
     })
 }
 
-fn json(row: &Row, file: &Option<String>) -> Result<CheckJson, Halt> {
+fn json((row, file): (&Row, &Option<String>)) -> Result<CheckJson, Halt> {
     let Row { clause, check, ref decision, .. } = *row;
     Ok(CheckJson {
         clause: clause.id,

@@ -27,6 +27,9 @@ struct Playing<P: Protocol> {
     demand: &'static Demand<P>,
 }
 
+/// From how many each choice is made, the start, and the run from it.
+type Played<P> = (Vec<u32>, <P as Protocol>::State, states::Run<&'static str>);
+
 impl<P: Protocol> World for Playing<P> {
     type State = P::State;
     type Plan = Vec<Move<P::State>>;
@@ -244,10 +247,7 @@ impl<P: Protocol> Playing<P> {
     }
 
     /// From how many each of these choices is made, and the run that they make, with its start.
-    fn play(
-        &self,
-        choices: &Choices,
-    ) -> Result<(Vec<u32>, P::State, states::Run<&'static str>), ScriptError> {
+    fn play(&self, choices: &Choices) -> Result<Played<P>, ScriptError> {
         let mut script = Script::new(choices);
         let number = script.choose(self.protocol.starts().count())?;
         let start = self.protocol.starts().nth(number).ok_or(ScriptError::Unbroken)?;
