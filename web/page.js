@@ -350,8 +350,8 @@ const STYLE = `text{font:600 9px system-ui,sans-serif;fill:var(--name);text-anch
 .circle{fill:var(--robot);fill-opacity:.06;stroke:var(--robot);stroke-opacity:.4}.said{stroke:var(--aim);stroke-width:2.5;stroke-dasharray:3 3;fill:none}.k1{stroke:var(--soft);stroke-width:1;stroke-dasharray:none}.k2{stroke:var(--open);stroke-width:4;stroke-dasharray:none;stroke-opacity:.45}
 .cursor{fill:none;stroke:var(--accent);stroke-width:3}.asked{stroke:var(--accent);stroke-width:6;stroke-opacity:.6;stroke-linecap:round}
 .start{fill:none;stroke:var(--base);stroke-width:2}.refused{stroke:var(--bad);stroke-width:2;fill:none}
-.c-open{fill:var(--open)}.c-wall{fill:var(--ink)}.c-barred{fill:var(--barred)}.c-aim{fill:var(--aim)}.c-goal{fill:var(--aim)}.c-closing{fill:var(--closing)}.c-closed{fill:var(--closed)}.c-sealed{fill:var(--sealed)}
-.s{fill:none;stroke-width:2.5}.s-open{stroke:var(--open)}.s-wall{stroke:var(--ink);stroke-width:4}.s-barred{stroke:var(--barred);stroke-dasharray:3 2;stroke-width:3.5}.s-aim,.s-goal{stroke:var(--aim);stroke-dasharray:6 2}.s-closing,.s-closed,.s-sealed{stroke:var(--sealed)}.s.m{stroke-width:.8}`;
+.c-open{fill:var(--open);fill-opacity:.3}.c-wall{fill:var(--ink)}.c-barred{fill:var(--barred)}.c-aim{fill:var(--aim)}.c-goal{fill:var(--aim)}.c-closing{fill:var(--closing)}.c-closed{fill:var(--closed)}.c-sealed{fill:var(--sealed)}
+.s{fill:none;stroke-width:2.5}.s-open{stroke:var(--open)}.s-wall{stroke:var(--ink);stroke-width:4}.s-barred{stroke:var(--barred);stroke-dasharray:3 2;stroke-width:3.5}.s-aim,.s-goal{stroke:var(--aim);stroke-dasharray:6 2}.s-closing,.s-closed,.s-sealed{stroke:var(--sealed)}.s.m{stroke-width:.8}.m.s-aim{stroke-dasharray:none}`;
 
 /** A path over all cells that are so, whole rows of them at a time. */
 function cellsPath(is) {

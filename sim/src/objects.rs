@@ -161,7 +161,7 @@ pub fn table(objects: &[ObjectReport]) -> String {
     let mut text = format!("{} of {} found", errors.len(), counted(objects.len(), "object"));
     let share = |part: usize| errors.get((errors.len() * part).div_ceil(100).saturating_sub(1));
     if let (Some(median), Some(most)) = (share(50), share(95)) {
-        text += &format!("; off by {median:.3} of a cell's side in the median, {most:.3} at 95 %");
+        text.extend([format!("; off by {median:.3} of a cell's side in the median, {most:.3} at 95 %")]);
     }
     let mut table = TextTable::new([Column::left(Width::Fit); 4]);
     table.row(["  object", "taken to be", "off by", "standard deviations"]);
