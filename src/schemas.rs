@@ -11,7 +11,8 @@ use tautline_sim::trace::Summary;
 
 use super::output::Versioned;
 use super::{
-    check, conform, hunt, judge, library, locate, minimise, prove, replay, reproduce, rescue, schemes, shards, show,
+    check, conform, hunt, judge, library, locate, minimise, prove, replay, reproduce, rescue, schemes,
+    shards, show,
 };
 
 /// The command that writes the schemas anew.
