@@ -7,7 +7,7 @@ From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Cover
 From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie.
+  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -106,6 +106,14 @@ Check Pack.PACK_1.
 Print Assumptions Pack.PACK_1.
 Check Pack.PACK_2.
 Print Assumptions Pack.PACK_2.
+Check Trees.BRICKS_2.
+Print Assumptions Trees.BRICKS_2.
+Check Trees.BRICKS_4.
+Print Assumptions Trees.BRICKS_4.
+Check Trees.BRICKS_8.
+Print Assumptions Trees.BRICKS_8.
+Check Trees.BRICKS_9.
+Print Assumptions Trees.BRICKS_9.
 
 (** What each condition is needed for. *)
 Check Mutants.published_breaks_CHAIN_1.
@@ -218,6 +226,8 @@ Check PackTie.pack_answers_agree.
 Print Assumptions PackTie.pack_answers_agree.
 Check PackTie.kernel_runs_are_runs.
 Print Assumptions PackTie.kernel_runs_are_runs.
+Check TreesTie.kernel_trees_run.
+Print Assumptions TreesTie.kernel_trees_run.
 
 (** Any local rule. *)
 Check Local.every_N.

@@ -24,6 +24,8 @@ mod runs;
 mod tan;
 #[path = "rocq/term.rs"]
 mod term;
+#[path = "rocq/trees.rs"]
+mod trees;
 
 use std::env;
 use std::fs;
@@ -103,6 +105,11 @@ fn ants_go_as_the_proofs_have_it() {
 #[test]
 fn packs_stay_connected_as_the_proofs_have_it() {
     is_up_to_date("PackAnswers.v", &pack::terms());
+}
+
+#[test]
+fn agents_search_in_trees_as_the_proofs_have_it() {
+    is_up_to_date("TreesAnswers.v", &trees::terms());
 }
 
 #[test]
