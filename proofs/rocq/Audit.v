@@ -178,6 +178,8 @@ Check ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Print Assumptions ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Check Pack.published_breaks_PACK_1.
 Print Assumptions Pack.published_breaks_PACK_1.
+Check Trees.without_Childless_breaks_BRICKS_2.
+Print Assumptions Trees.without_Childless_breaks_BRICKS_2.
 
 (** The tie to the kernel. *)
 Check ChainTie.chain_answers_agree.

@@ -348,3 +348,42 @@ Proof.
   apply (had_open _ _ _ _ _ _ G l p); [apply (got_had _ _ _ _ _ _ G _ _ _ X) |
     exact (parent_left _ _ _ _ _ _ G c l p E)].
 Qed.
+
+(** What is needed: in a row of three cells the middle one is the parent of the others. If it were marked though it has
+    children, the others would not be connected. *)
+Definition in_a_row (a b : nat) : Prop := (b = S a \/ a = S b) /\ a < 3 /\ b < 3.
+Definition put (f : floor nat) (c : nat) (n : note nat) : floor nat := fun d => if d =? c then n else f d.
+
+Lemma put_becomes : forall f c n, becomes nat f c n (put f c n).
+Proof.
+  intros f c n; split; unfold put; [now rewrite Nat.eqb_refl|]. intros d D; now rewrite (proj2 (Nat.eqb_neq d c) D).
+Qed.
+
+Theorem without_Childless_breaks_BRICKS_2 : exists f used g, run nat in_a_row f used /\ f 1 = Open nat 0 None
+  /\ (forall d, in_a_row 1 d -> f d = Open nat 0 (Some 1)) /\ becomes nat f 1 (Visited nat None) g
+  /\ ~ Marking.connected nat in_a_row (accessible nat g).
+Proof.
+  set (f0 := fun c => match c with 1 => Explored nat | 0 | 2 => Unexplored nat | _ => Wall nat end).
+  set (f1 := put (put (put f0 0 (Explored nat)) 2 (Explored nat)) 1 (Open nat 0 None)).
+  set (f := put (put f1 0 (Open nat 0 (Some 1))) 2 (Open nat 0 (Some 1))).
+  exists f, [0], (put f 1 (Visited nat None)). split; [|split; [reflexivity|split; [|split; [apply put_becomes|]]]].
+  - assert (run nat in_a_row f0 []) as R.
+    { apply starts; [intros [|[|[|c]]]; cbn; auto|]. intros a b A B.
+      assert (a < 3 /\ b < 3) as [La Lb]
+        by (destruct a as [|[|[|a]]], b as [|[|[|b]]]; cbn in A, B; lia || contradiction).
+      assert (forall c, c < 3 -> Marking.way nat in_a_row (accessible nat f0) c 1
+        /\ Marking.way nat in_a_row (accessible nat f0) 1 c) as W.
+      { intros [|[|[|c]]] L; try lia; split; try (constructor; exact I).
+        all: eapply Marking.onward; [exact I | | constructor; exact I]; unfold in_a_row; lia. }
+      eapply Marking.way_trans; [apply W, La | apply W, Lb]. }
+    eapply goes_on in R; [|apply enters with (c := 0); [reflexivity | apply put_becomes]].
+    eapply goes_on in R; [|apply enters with (c := 2); [reflexivity | apply put_becomes]].
+    eapply goes_on in R; [|apply founds with (c := 1) (m := 0); [reflexivity | intros [] | apply put_becomes]].
+    eapply goes_on in R; [|apply joins with (c := 0) (p := 1) (m := 0) (q := None);
+      [reflexivity | unfold in_a_row; lia | reflexivity | apply put_becomes]].
+    eapply goes_on in R; [exact R|]. apply joins with (c := 2) (p := 1) (m := 0) (q := None);
+      [reflexivity | unfold in_a_row; lia | reflexivity | apply put_becomes].
+  - intros d [[->|E] [_ L]]; [reflexivity|]. assert (d = 0) as -> by lia. reflexivity.
+  - intros C; specialize (C 0 2 I I). inversion C as [|? b ? _ B W]; subst. destruct B as [[B|B] _]; [subst b | lia].
+    assert (accessible nat (put f 1 (Visited nat None)) 1) as A by (clear - W; inversion W; assumption). exact A.
+Qed.
