@@ -36,6 +36,10 @@ Section Floor.
   Definition enter (r : rule) (s : state) (i : nat) (v : V) (read : nat) : state :=
     {| count := set (count s) v (says r (count s (at_ s i)) (count s v) read); at_ := put (at_ s) i v |}.
 
+  (** Where an ant goes of the cells [near], in their order: the first of those that read least. *)
+  Definition least (read : V -> nat) (near : list V) : option V :=
+    hd_error (filter (fun v => forallb (fun x => read v <=? read x) near) near).
+
   Variables (cells : list V) (N : nat) (first : V -> nat).
 
   (** Runs of so many actions, of which so many missed a sensor. *)
@@ -351,6 +355,61 @@ Theorem ANTS_1 : forall V same beside cells N first D M C0, is_floor V same besi
   forall w, In w cells -> count V s w <> 0.
 Proof. intros; eapply every_cell_is_entered; eauto. Qed.
 
+Lemma least_of_some : forall V (read : V -> nat) near, near <> [] ->
+  exists v, In v near /\ forall x, In x near -> read v <= read x.
+Proof.
+  induction near as [|y near IH]; intros E; [contradiction|]. destruct near as [|z near].
+  - exists y; split; [now left|]. now intros x [<-|[]].
+  - destruct IH as [v [I L]]; [discriminate|]. destruct (le_lt_dec (read y) (read v)) as [Q|Q].
+    + exists y; split; [now left|]. intros x [<-|X]; [lia | specialize (L x X); lia].
+    + exists v; split; [now right|]. intros x [<-|X]; [lia | now apply L].
+Qed.
+
+Lemma first_of_filter : forall V (p : V -> bool) l v, hd_error (filter p l) = Some v ->
+  p v = true /\ exists before after, l = before ++ v :: after /\ forall x, In x before -> p x = false.
+Proof.
+  induction l as [|y l IH]; intros v E; [discriminate|]. cbn in E; destruct (p y) eqn:P.
+  - injection E as <-; split; [exact P|]. exists [], l; split; [reflexivity | intros x []].
+  - destruct (IH v E) as [Pv [b [a [-> B]]]]; split; [exact Pv|]. exists (y :: b), a; split; [reflexivity|].
+    intros x [<-|X]; auto.
+Qed.
+
+(** ANTS-2, of an ant whose cell has the neighbours [near] in the order of the compass, and sees all their sensors. It
+    stays only where it has none. An entry adds one to what its cell counts, and changes no other cell. *)
+Theorem ANTS_2 : forall V same, (forall a b, same a b = true <-> a = b) -> forall (s : state V) i near,
+  (least V (count V s) near = None <-> near = [])
+  /\ forall v, least V (count V s) near = Some v ->
+    (exists before after, near = before ++ v :: after /\ (forall x, In x before -> count V s v < count V s x)
+      /\ forall x, In x after -> count V s v <= count V s x)
+    /\ forall x, count V (enter V same Lost s i v (reads V (fun _ => false) s v)) x
+                 = if same x v then S (count V s x) else count V s x.
+Proof.
+  intros V same SS s i near; split; [|intros v E; split].
+  - split; [|intros ->; reflexivity]. intros E; destruct near as [|y near]; [reflexivity|]; exfalso.
+    destruct (least_of_some V (count V s) (y :: near) ltac:(discriminate)) as [v [I L]].
+    unfold least in E; destruct (filter _ (y :: near)) as [|z l] eqn:X; [|discriminate].
+    assert (In v []) as []; rewrite <- X; apply filter_In; split; [exact I|].
+    apply forallb_forall; intros x Ix; now apply Nat.leb_le, L.
+  - apply first_of_filter in E; destruct E as [L [b [a [E B]]]]. rewrite forallb_forall in L.
+    exists b, a; split; [exact E|]; split.
+    + intros x X; specialize (B x X). assert (In x near) as I by (rewrite E; apply in_or_app; now left).
+      destruct (le_lt_dec (count V s x) (count V s v)) as [W|W]; [|exact W].
+      rewrite <- not_true_iff_false in B; destruct B; apply forallb_forall; intros y Y.
+      apply Nat.leb_le; pose proof (proj1 (Nat.leb_le _ _) (L y Y)); lia.
+    + intros x X; apply Nat.leb_le, L; rewrite E; apply in_or_app; right; now right.
+  - intros x; unfold enter, reads, set; cbn [count]. destruct (same x v) eqn:X; [|reflexivity].
+    apply SS in X; subst; now destruct (count V s v).
+Qed.
+
+(** ANTS-3: whatever is missed, where a missed sensor stays beside the new one or is counted on. *)
+Theorem ANTS_3 : forall V same, (forall a b, same a b = true <-> a = b) -> forall r, r = Beside \/ r = Counted ->
+  forall (s : state V) i v missed x, count V s x <= count V (enter V same r s i v (reads V missed s v)) x.
+Proof.
+  intros V same SS r R s i v missed x; cbn [enter count]; unfold set. destruct (same x v) eqn:X; [|reflexivity].
+  apply SS in X; subst; pose proof (Nat.le_max_l (count V s v) 1).
+  destruct R as [-> | ->], (reads V missed s v); cbn [says]; lia.
+Qed.
+
 (** What is needed: an ant in a row of four cells, 0 to 3, that starts in cell 1. *)
 Definition row (c : nat) : list nat := match c with 0 => [1] | 1 => [0; 2] | 2 => [1; 3] | 3 => [2] | _ => [] end.
 Definition row_run : rule -> nat -> nat -> state nat -> Prop :=
@@ -401,4 +460,17 @@ Proof.
   - do 2 eexists; split; [apply row_start | cbn; auto].
   - destruct A as [A|A]; do 2 eexists; (split;
       [apply (row_act r m k s (fun _ => true) _ (3 - at_ nat s 0) R A)|]); unfold reads; rewrite ?A; cbn; auto.
+Qed.
+
+Ltac near_by := cbn; intuition; subst; cbn; auto.
+(** A new sensor says 1, and what the missed one counted is lost: an ant comes back from cell 2 to cell 1. *)
+Theorem published_breaks_ANTS_3 : exists m k s, row_run Lost m k s
+  /\ row_run Lost (S m) (S k) (enter nat Nat.eqb Lost s 0 1 0)
+  /\ count nat (enter nat Nat.eqb Lost s 0 1 0) 1 < count nat s 1.
+Proof.
+  pose proof (row_act Lost 0 0 _ (fun _ => false) 1 0 (row_start Lost) eq_refl ltac:(near_by) ltac:(near_by)) as A.
+  pose proof (row_act Lost 0 1 _ (fun _ => false) 0 1 A eq_refl ltac:(near_by) ltac:(near_by)) as B.
+  pose proof (row_act Lost 0 2 _ (fun _ => false) 1 2 B eq_refl ltac:(near_by) ltac:(near_by)) as C.
+  pose proof (row_act Lost 0 3 _ (fun _ => true) 2 1 C eq_refl ltac:(near_by) ltac:(near_by)) as D.
+  do 3 eexists; split; [exact C|]; split; [exact D | cbn; auto].
 Qed.

@@ -21,9 +21,9 @@ Definition asked (q : list nat) (own : nat) : state nat := {| count := counted q
 (** The first of the least, and four times what the cell counts then: 0 if the ant stays. *)
 Definition goes (r : rule) (own : nat) (q : list nat) : nat :=
   let read := reads nat (is_missed q) (asked q own) in
-  match filter (fun v => forallb (fun x => read v <=? read x) (asked_beside q 0)) (asked_beside q 0) with
-  | [] => 0
-  | v :: _ => v + 4 * count nat (enter nat Nat.eqb r (asked q own) 0 v (read v)) v
+  match least nat read (asked_beside q 0) with
+  | None => 0
+  | Some v => v + 4 * count nat (enter nat Nat.eqb r (asked q own) 0 v (read v)) v
   end.
 
 (** The ant's own cell counts 1, or 3. *)

@@ -102,6 +102,10 @@ Check Explorers.FRONTIER_5.
 Print Assumptions Explorers.FRONTIER_5.
 Check Ants.ANTS_1.
 Print Assumptions Ants.ANTS_1.
+Check Ants.ANTS_2.
+Print Assumptions Ants.ANTS_2.
+Check Ants.ANTS_3.
+Print Assumptions Ants.ANTS_3.
 Check Pack.PACK_1.
 Print Assumptions Pack.PACK_1.
 Check Pack.PACK_2.
@@ -174,6 +178,8 @@ Check Ants.counting_is_needed.
 Print Assumptions Ants.counting_is_needed.
 Check Ants.an_end_of_misses_is_needed.
 Print Assumptions Ants.an_end_of_misses_is_needed.
+Check Ants.published_breaks_ANTS_3.
+Print Assumptions Ants.published_breaks_ANTS_3.
 Check ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Print Assumptions ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Check Pack.published_breaks_PACK_1.
