@@ -7,7 +7,7 @@ From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Cover
 From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie.
+  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie Fixes.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -22,6 +22,10 @@ Check CHAIN_3.
 Print Assumptions CHAIN_3.
 Check CHAIN_3_towards_a_wall.
 Print Assumptions CHAIN_3_towards_a_wall.
+Check CHAIN_5.
+Print Assumptions CHAIN_5.
+Check marking_is_enough.
+Print Assumptions marking_is_enough.
 Check CHAIN_6.
 Print Assumptions CHAIN_6.
 Check backtrack_meets_no_wall.
@@ -100,6 +104,10 @@ Check Explorers.FRONTIER_4.
 Print Assumptions Explorers.FRONTIER_4.
 Check Explorers.FRONTIER_5.
 Print Assumptions Explorers.FRONTIER_5.
+Check Fixes.FRONTIER_6.
+Print Assumptions Fixes.FRONTIER_6.
+Check Fixes.FRONTIER_7.
+Print Assumptions Fixes.FRONTIER_7.
 Check Ants.ANTS_1.
 Print Assumptions Ants.ANTS_1.
 Check Ants.ANTS_2.
@@ -110,6 +118,8 @@ Check Pack.PACK_1.
 Print Assumptions Pack.PACK_1.
 Check Pack.PACK_2.
 Print Assumptions Pack.PACK_2.
+Check Pack.PACK_6_one_step_at_most.
+Print Assumptions Pack.PACK_6_one_step_at_most.
 Check Trees.BRICKS_2.
 Print Assumptions Trees.BRICKS_2.
 Check Trees.BRICKS_4.
@@ -184,6 +194,10 @@ Check ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Print Assumptions ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Check Pack.published_breaks_PACK_1.
 Print Assumptions Pack.published_breaks_PACK_1.
+Check Fixes.without_its_bound_FRONTIER_6_breaks.
+Print Assumptions Fixes.without_its_bound_FRONTIER_6_breaks.
+Check Fixes.without_its_bound_FRONTIER_7_breaks.
+Print Assumptions Fixes.without_its_bound_FRONTIER_7_breaks.
 Check Trees.without_Childless_breaks_BRICKS_2.
 Print Assumptions Trees.without_Childless_breaks_BRICKS_2.
 

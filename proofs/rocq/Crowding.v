@@ -4,7 +4,7 @@
     one has just come there as planned (Distinct); the others were there, and then it would have found the cell
     full. *)
 From Coq Require Import ZArith Lia Bool List Arith.
-From Tautline Require Import Lattice Rule Team Contact.
+From Tautline Require Import Lattice Rule Team Contact Base.
 Import ListNotations.
 
 Section Crowding.
@@ -113,4 +113,68 @@ Proof.
   destruct (IN i) as [Li Pi]; [cbn; auto|]. destruct (IN j) as [Lj Pj]; [cbn; auto|]. destruct (IN k) as [Lk Pk];
     [cbn; auto|].
   apply NB; rewrite <- Pi; apply U with (j := j) (k := k); auto; try congruence; intuition.
+Qed.
+
+(** The kernel looks at each planned cell once: it goes along the robots, marks the cells, and refuses a plan that
+    comes to a marked cell. *)
+Fixpoint marks_none_twice (base : cell) (marked planned : list cell) : bool :=
+  match planned with
+  | [] => true
+  | c :: planned => if cell_eqb c base then marks_none_twice base marked planned
+      else negb (existsb (cell_eqb c) marked) && marks_none_twice base (c :: marked) planned
+  end.
+
+Lemma marks_none_twice_spec : forall base f n k marked,
+  marks_none_twice base marked (map f (seq k n)) = true <->
+  (forall i, k <= i < k + n -> f i <> base -> ~ In (f i) marked)
+  /\ (forall i j, k <= i < k + n -> k <= j < k + n -> i <> j -> f i = f j -> f i = base).
+Proof.
+  induction n as [|n IH]; intros k marked; cbn [seq map marks_none_twice].
+  - split; [split; intros; lia | reflexivity].
+  - assert (existsb (cell_eqb (f k)) marked = true <-> In (f k) marked) as X.
+    { rewrite existsb_exists; split; [intros [x [I E]]; apply cell_eqb_spec in E; now rewrite E|].
+      intros I; exists (f k); split; [exact I | now apply cell_eqb_spec]. }
+    destruct (cell_eqb (f k) base) eqn:B.
+    + apply cell_eqb_spec in B; rewrite IH; split; intros [M D]; (split; [intros i I; destruct (Nat.eq_dec i k) as [->|];
+        [try contradiction; try (apply M; lia) | apply M; lia]|]).
+      * intros i j I J U E; destruct (Nat.eq_dec i k) as [->|], (Nat.eq_dec j k) as [->|]; try congruence.
+        apply (D i j); auto; lia.
+      * intros i j I J; apply D; lia.
+    + assert (f k <> base) as B' by (intros Y; apply cell_eqb_spec in Y; congruence).
+      rewrite andb_true_iff, negb_true_iff, <- not_true_iff_false, X, IH; split.
+      * intros [N [M D]]; split.
+        -- intros i I U; destruct (Nat.eq_dec i k) as [->|]; [exact N|]. intros Y; apply (M i); auto; [lia | now right].
+        -- intros i j I J U E; destruct (Nat.eq_dec i k) as [->|], (Nat.eq_dec j k) as [->|]; try congruence.
+           ++ destruct (cell_dec (f j) base) as [|V]; [congruence|]. exfalso; apply (M j); auto; [lia | left; congruence].
+           ++ destruct (cell_dec (f i) base) as [|V]; [congruence|]. exfalso; apply (M i); auto; [lia | left; congruence].
+           ++ apply (D i j); auto; lia.
+      * intros [M D]; split; [apply M; auto; lia|]. split.
+        -- intros i I U [Y|Y]; [apply B'; apply (D k i); auto; lia | apply (M i); auto; lia].
+        -- intros i j I J; apply D; lia.
+Qed.
+
+(** A plan of which the base stays passes if and only if every robot has a cell of its own, the base excepted. *)
+Theorem marking_is_enough : forall N base st pl, 1 <= N -> planned st pl 0 = base ->
+  (marks_none_twice base [] (map (planned st pl) (seq 1 (pred N))) = true <->
+   forall i j, i < N -> j < N -> i <> j -> planned st pl i = planned st pl j -> planned st pl i = base).
+Proof.
+  intros N base st pl L Z; rewrite marks_none_twice_spec; split.
+  - intros [_ D] i j I J U E; destruct i as [|i]; [exact Z|]. destruct j as [|j]; [congruence|]. apply (D (S i) (S j)); auto; lia.
+  - intros D; split; [auto|]. intros i j I J; apply D; lia.
+Qed.
+
+(** In an admitted plan every robot has a cell of its own, the base excepted: the kernel's pass finds nothing. *)
+Theorem CHAIN_5 : forall N rl base wall st pl, 1 <= N -> distinct rl = true -> reachable N rl base wall st ->
+  admitted N rl base st pl = true ->
+  (forall i j, i < N -> j < N -> i <> j -> planned st pl i = planned st pl j -> planned st pl i = base)
+  /\ marks_none_twice base [] (map (planned st pl) (seq 1 (pred N))) = true.
+Proof.
+  intros N rl base wall st pl L D R A; assert (planned st pl 0 = base) as Z.
+  { destruct R as [past R]; destruct (CHAIN_6 N rl base wall past st L R) as [F S]; specialize (S pl A).
+    unfold planned, to, as_move; cbn; rewrite S; cbn.
+    destruct (composition N rl base wall (fun _ => True) (fun _ _ => True)) with (past := past) (st := st)
+      as [_ [E _]]; auto. apply explains_inv in E; apply E. }
+  assert (forall i j, i < N -> j < N -> i <> j -> planned st pl i = planned st pl j -> planned st pl i = base) as O
+    by (intros; eapply admitted_distinct; eauto).
+  split; [exact O | now apply marking_is_enough].
 Qed.

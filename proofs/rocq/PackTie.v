@@ -33,12 +33,16 @@ Section Replay.
   Definition step_by (l : list cell) (i : nat) (s : side) : option (list cell) :=
     let c := beyond (at_ l i) s in
     if (i <? length l) && forallb (fun d => negb (cell_eqb d c)) l && is_connected (moved l i c) then Some (moved l i c) else None.
-  Fixpoint in_order (order : list nat) (steps : list nat) (l : list cell) : option (list cell) :=
+  (** Those of [order] take their steps, [gone] having taken theirs. *)
+  Fixpoint in_order (gone order : list nat) (steps : list nat) (l : list cell) : option (list cell) :=
     match order with
     | [] => Some l
     | i :: order => match nth (nth i steps 4) all_steps Stay with
-        | Stay => in_order order steps l
-        | Cross s => match step_by l i s with Some m => in_order order steps m | None => None end
+        | Stay => in_order gone order steps l
+        | Cross s => match step_by l i s with
+            | Some m => if is_in i gone then None else in_order (i :: gone) order steps m
+            | None => None
+            end
         end
     end.
   Fixpoint orders (l : list nat) : list (list nat) :=
@@ -47,7 +51,7 @@ Section Replay.
     | x :: l => flat_map (fun o => map (fun k => firstn k o ++ x :: skipn k o) (seq 0 (S (length o)))) (orders l)
     end.
   Definition in_some_order (steps : list nat) (l : list cell) : option (list cell) :=
-    fold_left (fun found o => match found with Some m => Some m | None => in_order o steps l end) (orders (robots l)) None.
+    fold_left (fun found o => match found with Some m => Some m | None => in_order [] o steps l end) (orders (robots l)) None.
 
   (** Where the steps lead, whoever may take them. *)
   Definition all_after (l : list cell) (steps : list nat) : list cell :=
@@ -103,28 +107,30 @@ Section Replay.
   Qed.
   Lemma moved_length : forall l i c, length (moved l i c) = length l.
   Proof. intros; unfold moved, robots; now rewrite map_length, seq_length. Qed.
-  Lemma in_order_goes : forall order steps t l m, goes link (length l) t (at_ l) -> in_order order steps l = Some m ->
-    length m = length l /\ goes link (length l) t (at_ m).
+  Lemma in_order_goes : forall order gone steps t l m, goes link (length l) t gone (at_ l) ->
+    in_order gone order steps l = Some m -> length m = length l /\ exists gone, goes link (length l) t gone (at_ m).
   Proof.
-    induction order as [|i order IH]; intros steps t l m G E; cbn [in_order] in E; [injection E as <-; auto|].
+    induction order as [|i order IH]; intros gone steps t l m G E; cbn [in_order] in E; [injection E as <-; eauto|].
     destruct (nth _ all_steps Stay) as [s|]; [|eauto]. destruct (step_by l i s) as [x|] eqn:S; [|discriminate].
+    destruct (is_in i gone) eqn:O; [discriminate|].
     unfold step_by in S; destruct (_ && _) eqn:C; [|discriminate]; injection S as <-.
     rewrite !andb_true_iff, Nat.ltb_lt, forallb_forall in C; destruct C as [[I F] C].
     apply is_connected_spec in C; rewrite moved_length in C.
-    assert (goes link (length l) t (at_ (moved l i (beyond (at_ l i) s)))) as G'.
-    { eapply goes_on; [exact G | exact I | | | exact C].
+    assert (goes link (length l) t (i :: gone) (at_ (moved l i (beyond (at_ l i) s)))) as G'.
+    { eapply goes_on; [exact G | exact I | | | | exact C].
+      - intros X; rewrite <- not_true_iff_false in O; apply O, existsb_exists; exists i; split; [exact X | apply Nat.eqb_refl].
       - intros j J X; assert (In (at_ l j) l) as Y by now apply nth_In. apply F in Y; rewrite X in Y.
         apply negb_true_iff in Y; rewrite (proj2 (cell_eqb_spec _ _) eq_refl) in Y; discriminate.
       - intros j J; now apply moved_at. }
-    specialize (IH steps t (moved l i (beyond (at_ l i) s)) m); rewrite moved_length in IH; auto.
+    specialize (IH (i :: gone) steps t (moved l i (beyond (at_ l i) s)) m); rewrite moved_length in IH; auto.
   Qed.
   Lemma in_some_order_goes : forall steps l m, in_some_order steps l = Some m ->
-    length m = length l /\ goes link (length l) (at_ l) (at_ m).
+    length m = length l /\ exists gone, goes link (length l) (at_ l) gone (at_ m).
   Proof.
     intros steps l m; unfold in_some_order.
-    assert (forall os found, (forall x, found = Some x -> length x = length l /\ goes link (length l) (at_ l) (at_ x)) ->
-      fold_left (fun found o => match found with Some m => Some m | None => in_order o steps l end) os found = Some m ->
-      length m = length l /\ goes link (length l) (at_ l) (at_ m)) as G.
+    assert (forall os found, (forall x, found = Some x -> length x = length l /\ exists gone, goes link (length l) (at_ l) gone (at_ x)) ->
+      fold_left (fun found o => match found with Some m => Some m | None => in_order [] o steps l end) os found = Some m ->
+      length m = length l /\ exists gone, goes link (length l) (at_ l) gone (at_ m)) as G.
     { induction os as [|o os IH]; intros found F E; cbn in E; [auto|]. eapply IH; [|exact E].
       intros x X; destruct found as [y|]; [auto|]. eapply in_order_goes; [apply goes_not | exact X]. }
     apply G; discriminate.
@@ -137,7 +143,7 @@ Section Replay.
     - destruct past as [|u past]; [discriminate|]. destruct (same_cells u _); [|discriminate].
       inversion F as [|x y Lu Fp]; subst. rewrite <- Lu in *; eapply IH; [| |exact E]; [exact Fp | eapply run_back; exact R].
     - destruct (in_some_order steps l) as [u|] eqn:O; [|discriminate]. destruct (same_cells u _); [|discriminate].
-      apply in_some_order_goes in O; destruct O as [Lu G]; rewrite <- Lu in F, R, G |- *; eapply IH; [| |exact E].
+      apply in_some_order_goes in O; destruct O as [Lu [gone G]]; rewrite <- Lu in F, R, G |- *; eapply IH; [| |exact E].
       + constructor; [now symmetry | exact F].
       + cbn [map]; eapply run_move; [exact R | exact G].
   Qed.
