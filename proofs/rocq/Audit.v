@@ -7,7 +7,7 @@ From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Cover
 From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie Fixes.
+  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie Fixes FixesTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -118,8 +118,8 @@ Check Pack.PACK_1.
 Print Assumptions Pack.PACK_1.
 Check Pack.PACK_2.
 Print Assumptions Pack.PACK_2.
-Check Pack.PACK_6_one_step_at_most.
-Print Assumptions Pack.PACK_6_one_step_at_most.
+Check Pack.PACK_6.
+Print Assumptions Pack.PACK_6.
 Check Trees.BRICKS_2.
 Print Assumptions Trees.BRICKS_2.
 Check Trees.BRICKS_4.
@@ -238,6 +238,8 @@ Check KitTie.every_drive_is_in_the_table.
 Print Assumptions KitTie.every_drive_is_in_the_table.
 Check ExplorersTie.kernel_runs_are_runs.
 Print Assumptions ExplorersTie.kernel_runs_are_runs.
+Check FixesTie.fix_answers_agree.
+Print Assumptions FixesTie.fix_answers_agree.
 Check AntsTie.ants_answers_agree.
 Print Assumptions AntsTie.ants_answers_agree.
 Check AntsTie.kernel_ants_run.

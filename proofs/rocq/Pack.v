@@ -1,6 +1,7 @@
 (** A pack: robots on cells that explore together and stay connected, for every number of robots, every R_c, every layout
     and every run. In a team move robots take one step each, or none, in any order and for any reason, each only if links
-    join the whole team then and no robot is in the next cell; or the last team move is taken back. *)
+    join the whole team then, and into a cell that is known to be free and has no robot; or the last team move is taken
+    back. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice.
 Import ListNotations.
@@ -19,7 +20,7 @@ Definition team := nat -> cell.
 Definition put (t : team) (i : nat) (c : cell) : team := fun j => if j =? i then c else t j.
 
 Section Pack.
-  Variables (link : cell -> cell -> bool) (N : nat).
+  Variables (free : cell -> Prop) (link : cell -> cell -> bool) (N : nat).
 
   (** Links join two robots. *)
   Inductive joined (t : team) (i : nat) : nat -> Prop :=
@@ -29,21 +30,23 @@ Section Pack.
   Definition single (t : team) : Prop := forall i j, i < N -> j < N -> t i = t j -> i = j.
 
   (** Steps of a team move, who has gone by then, and where the team is: nothing is said of robots that there are not. *)
-  Inductive goes (t : team) : list nat -> team -> Prop :=
-  | goes_not : goes t [] t
-  | goes_on : forall gone u i s v, goes t gone u -> i < N -> ~ In i gone -> (forall j, j < N -> u j <> beyond (u i) s) ->
+  Inductive goes (known : cell -> Prop) (t : team) : list nat -> team -> Prop :=
+  | goes_not : goes known t [] t
+  | goes_on : forall gone u i s v, goes known t gone u -> i < N -> ~ In i gone -> known (beyond (u i) s) -> (forall j, j < N -> u j <> beyond (u i) s) ->
       (forall j, j < N -> v j = put u i (beyond (u i) s) j) -> connected v ->
-      goes t (i :: gone) v.
-  (** A run, with where the team was before those team moves that can be taken back. *)
+      goes known t (i :: gone) v.
+  (** A run, with where the team was before those team moves that can be taken back. What robots know to be free is
+      so; that may be any cells. *)
   Inductive run : list team -> team -> Prop :=
-  | run_start : forall t, connected t -> single t -> run [] t
-  | run_move : forall past t gone u, run past t -> goes t gone u -> run (t :: past) u
+  | run_start : forall t, connected t -> single t -> (forall i, i < N -> free (t i)) -> run [] t
+  | run_move : forall past t (known : cell -> Prop) gone u, run past t -> (forall c, known c -> free c) -> goes known t gone u ->
+      run (t :: past) u
   | run_back : forall past t u, run (u :: past) t -> run past u.
 
   Definition good (t : team) : Prop := connected t /\ single t.
-  Lemma goes_good : forall t gone u, good t -> goes t gone u -> good u.
+  Lemma goes_good : forall known t gone u, good t -> goes known t gone u -> good u.
   Proof.
-    intros t gone u [C S] G; induction G as [|gone u i s v G [_ S'] I O E A D]; [split; assumption|]; split; [exact D|].
+    intros known t gone u [C S] G; induction G as [|gone u i s v G [_ S'] I O K' E A D]; [split; assumption|]; split; [exact D|].
     intros j k J K; rewrite !A by assumption; unfold put; intros X.
     destruct (j =? i) eqn:Ej, (k =? i) eqn:Ek; try apply Nat.eqb_eq in Ej; try apply Nat.eqb_eq in Ek; subst; auto.
     - exfalso; exact (E k K (eq_sym X)).
@@ -51,7 +54,7 @@ Section Pack.
   Qed.
   Lemma run_good : forall past t, run past t -> good t /\ Forall good past.
   Proof.
-    intros past t R; induction R as [t C S | past t gone u R [G F] M | past t u R [_ F]].
+    intros past t R; induction R as [t C S _ | past t known gone u R [G F] K M | past t u R [_ F]].
     - split; [split|]; auto.
     - split; [eapply goes_good; eauto | auto].
     - inversion F; auto.
@@ -59,11 +62,11 @@ Section Pack.
 
   (** No robot is more than a step from where it was. *)
   Definition one_step (t u : team) : Prop := forall i, i < N -> exists s, u i = after (t i) s.
-  Lemma goes_one_step : forall t gone u, goes t gone u -> one_step t u.
+  Lemma goes_one_step : forall known t gone u, goes known t gone u -> one_step t u.
   Proof.
-    intros t gone u G; enough (forall j, j < N -> (~ In j gone -> u j = t j) /\ exists s, u j = after (t j) s) as H.
+    intros known t gone u G; enough (forall j, j < N -> (~ In j gone -> u j = t j) /\ exists s, u j = after (t j) s) as H.
     { intros j J; apply (H j J). }
-    induction G as [|gone u i s v G IH I O E A D]; intros j J; [split; [auto | now exists Stay]|]. rewrite A by exact J; unfold put.
+    induction G as [|gone u i s v G IH I O K E A D]; intros j J; [split; [auto | now exists Stay]|]. rewrite A by exact J; unfold put.
     destruct (Nat.eqb_spec j i) as [->|X]; [|split; [intros U; apply IH; [exact J | intros Y; apply U; now right] | now apply IH]].
     split; [intros U; destruct U; now left|]. exists (Cross s); cbn; f_equal; now apply IH.
   Qed.
@@ -71,28 +74,41 @@ Section Pack.
     match past with [] => True | u :: past => one_step u t /\ by_steps past u end.
   Lemma run_by_steps : forall past t, run past t -> by_steps past t.
   Proof.
-    intros past t R; induction R as [|past t gone u R IH G | past t u R [_ IH]]; [exact I | | exact IH].
+    intros past t R; induction R as [|past t known gone u R IH K G | past t u R [_ IH]]; [exact I | | exact IH].
     split; [eapply goes_one_step; eauto | exact IH].
+  Qed.
+
+  Definition all_free (t : team) : Prop := forall i, i < N -> free (t i).
+  Lemma run_free : forall past t, run past t -> all_free t /\ Forall all_free past.
+  Proof.
+    intros past t R; induction R as [t C S F | past t known gone u R [F P] K G | past t u R [_ F]].
+    - auto.
+    - split; [|auto]. induction G as [|gone u i s v G IH I O Y E A D]; [exact F|]. intros j J; rewrite A by exact J; unfold put.
+      destruct (j =? i); [now apply K | now apply IH].
+    - inversion F; auto.
   Qed.
 End Pack.
 
 (** After every team move links join all robots. *)
-Theorem PACK_1 : forall range N past t, run (links range) N past t -> connected (links range) N t.
-Proof. intros range N past t R; apply run_good in R; apply R. Qed.
+Theorem PACK_1 : forall free range N past t, run free (links range) N past t -> connected (links range) N t.
+Proof. intros free range N past t R; apply run_good in R; apply R. Qed.
 (** Nor are two robots in one cell, by whatever links. *)
-Theorem PACK_2 : forall link N past t, run link N past t -> single N t.
-Proof. intros link N past t R; apply run_good in R; apply R. Qed.
+Theorem PACK_2 : forall free link N past t, run free link N past t -> single N t.
+Proof. intros free link N past t R; apply run_good in R; apply R. Qed.
 
-(** In a team move each robot goes one step at most: from [u] to [t], and back if it is taken back. *)
-Theorem PACK_6_one_step_at_most : forall link N past t u, run link N (u :: past) t -> forall i, i < N ->
-  exists s, t i = after (u i) s /\ u i = after (t i) (reverse s).
+(** Each robot is in a free cell, and in a team move goes one step at most: from [u], where it was, and back if the move is
+    taken back. *)
+Theorem PACK_6 : forall free link N past t, run free link N past t -> forall i, i < N ->
+  free (t i) /\ forall u older, past = u :: older -> exists s, t i = after (u i) s /\ u i = after (t i) (reverse s).
 Proof.
-  intros link N past t u R i I; apply run_by_steps in R; destruct R as [R _]; destruct (R i I) as [s E].
+  intros free link N past t R i I; split; [now apply run_free in R; apply R|]. intros u older ->.
+  apply run_by_steps in R; destruct R as [R _]; destruct (R i I) as [s E].
   exists s; split; [exact E|]. rewrite E; symmetry; apply after_reverse.
 Qed.
 
 (** By midpoints a step is admitted that parts robots. *)
-Theorem published_breaks_PACK_1 : exists past t, run (links_published 4) 2 past t /\ ~ connected (links 4) 2 t.
+Theorem published_breaks_PACK_1 : exists past t,
+  run (fun _ => True) (links_published 4) 2 past t /\ ~ connected (links 4) 2 t.
 Proof.
   set (at_ := fun (c : cell) (i : nat) => if i =? 0 then (0, 0)%Z else c).
   assert (forall c, links_published 4 (0, 0)%Z c = true -> links_published 4 c (0, 0)%Z = true ->
@@ -101,8 +117,9 @@ Proof.
       (eapply joined_over; [apply joined_self | lia | assumption]). }
   exists [at_ (2, 2)%Z], (at_ (3, 2)%Z); split.
   - eapply run_move.
-    + apply run_start; [now apply Two|]. intros [|[|i]] [|[|j]] I J E; try lia; discriminate.
-    + apply goes_on with (u := at_ (2, 2)%Z) (i := 1) (s := East); [apply goes_not | lia | intros [] | | | now apply Two].
+    + apply run_start; [now apply Two | | auto]. intros [|[|i]] [|[|j]] I J E; try lia; discriminate.
+    + intros c K; exact K.
+    + apply goes_on with (u := at_ (2, 2)%Z) (i := 1) (s := East); [apply goes_not | lia | intros [] | exact I | | | now apply Two].
       * intros [|[|j]] J; try lia; discriminate.
       * intros [|[|j]] J; try lia; reflexivity.
   - intros C; specialize (C 0 1 ltac:(lia) ltac:(lia)).

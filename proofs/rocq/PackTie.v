@@ -14,7 +14,7 @@ Definition links_agree (link : Z -> cell -> cell -> bool) (tables : list (Z * N)
   forallb (fun t => KitTie.same_bits (map (link (fst t) (0, 0)%Z) offsets) (snd t)) tables.
 
 Section Replay.
-  Variable range : Z.
+  Variables (range : Z) (free : cell -> bool).
   Notation link := (links range).
 
   Definition at_ (l : list cell) : team := fun i => nth i l (0, 0)%Z.
@@ -32,7 +32,7 @@ Section Replay.
   (** A robot takes a step, if it may. *)
   Definition step_by (l : list cell) (i : nat) (s : side) : option (list cell) :=
     let c := beyond (at_ l i) s in
-    if (i <? length l) && forallb (fun d => negb (cell_eqb d c)) l && is_connected (moved l i c) then Some (moved l i c) else None.
+    if (i <? length l) && free c && forallb (fun d => negb (cell_eqb d c)) l && is_connected (moved l i c) then Some (moved l i c) else None.
   (** Those of [order] take their steps, [gone] having taken theirs. *)
   Fixpoint in_order (gone order : list nat) (steps : list nat) (l : list cell) : option (list cell) :=
     match order with
@@ -71,7 +71,7 @@ Section Replay.
         end
     end.
   Definition may_start (l : list cell) : bool :=
-    is_connected l && forallb (fun i => forallb (fun j => (i =? j) || negb (cell_eqb (at_ l i) (at_ l j))) (robots l)) (robots l).
+    is_connected l && forallb free l && forallb (fun i => forallb (fun j => (i =? j) || negb (cell_eqb (at_ l i) (at_ l j))) (robots l)) (robots l).
 
   Lemma links_sym : forall a b, link a b = true -> link b a = true.
   Proof.
@@ -107,37 +107,37 @@ Section Replay.
   Qed.
   Lemma moved_length : forall l i c, length (moved l i c) = length l.
   Proof. intros; unfold moved, robots; now rewrite map_length, seq_length. Qed.
-  Lemma in_order_goes : forall order gone steps t l m, goes link (length l) t gone (at_ l) ->
-    in_order gone order steps l = Some m -> length m = length l /\ exists gone, goes link (length l) t gone (at_ m).
+  Lemma in_order_goes : forall order gone steps t l m, goes link (length l) (fun c => free c = true) t gone (at_ l) ->
+    in_order gone order steps l = Some m -> length m = length l /\ exists gone, goes link (length l) (fun c => free c = true) t gone (at_ m).
   Proof.
     induction order as [|i order IH]; intros gone steps t l m G E; cbn [in_order] in E; [injection E as <-; eauto|].
     destruct (nth _ all_steps Stay) as [s|]; [|eauto]. destruct (step_by l i s) as [x|] eqn:S; [|discriminate].
     destruct (is_in i gone) eqn:O; [discriminate|].
     unfold step_by in S; destruct (_ && _) eqn:C; [|discriminate]; injection S as <-.
-    rewrite !andb_true_iff, Nat.ltb_lt, forallb_forall in C; destruct C as [[I F] C].
+    rewrite !andb_true_iff, Nat.ltb_lt, forallb_forall in C; destruct C as [[[I Y] F] C].
     apply is_connected_spec in C; rewrite moved_length in C.
-    assert (goes link (length l) t (i :: gone) (at_ (moved l i (beyond (at_ l i) s)))) as G'.
-    { eapply goes_on; [exact G | exact I | | | | exact C].
+    assert (goes link (length l) (fun c => free c = true) t (i :: gone) (at_ (moved l i (beyond (at_ l i) s)))) as G'.
+    { eapply goes_on; [exact G | exact I | | exact Y | | | exact C].
       - intros X; rewrite <- not_true_iff_false in O; apply O, existsb_exists; exists i; split; [exact X | apply Nat.eqb_refl].
-      - intros j J X; assert (In (at_ l j) l) as Y by now apply nth_In. apply F in Y; rewrite X in Y.
-        apply negb_true_iff in Y; rewrite (proj2 (cell_eqb_spec _ _) eq_refl) in Y; discriminate.
+      - intros j J X; assert (In (at_ l j) l) as Z by now apply nth_In. apply F in Z; rewrite X in Z.
+        apply negb_true_iff in Z; rewrite (proj2 (cell_eqb_spec _ _) eq_refl) in Z; discriminate.
       - intros j J; now apply moved_at. }
     specialize (IH (i :: gone) steps t (moved l i (beyond (at_ l i) s)) m); rewrite moved_length in IH; auto.
   Qed.
   Lemma in_some_order_goes : forall steps l m, in_some_order steps l = Some m ->
-    length m = length l /\ exists gone, goes link (length l) (at_ l) gone (at_ m).
+    length m = length l /\ exists gone, goes link (length l) (fun c => free c = true) (at_ l) gone (at_ m).
   Proof.
     intros steps l m; unfold in_some_order.
-    assert (forall os found, (forall x, found = Some x -> length x = length l /\ exists gone, goes link (length l) (at_ l) gone (at_ x)) ->
+    assert (forall os found, (forall x, found = Some x -> length x = length l /\ exists gone, goes link (length l) (fun c => free c = true) (at_ l) gone (at_ x)) ->
       fold_left (fun found o => match found with Some m => Some m | None => in_order [] o steps l end) os found = Some m ->
-      length m = length l /\ exists gone, goes link (length l) (at_ l) gone (at_ m)) as G.
+      length m = length l /\ exists gone, goes link (length l) (fun c => free c = true) (at_ l) gone (at_ m)) as G.
     { induction os as [|o os IH]; intros found F E; cbn in E; [auto|]. eapply IH; [|exact E].
       intros x X; destruct found as [y|]; [auto|]. eapply in_order_goes; [apply goes_not | exact X]. }
     apply G; discriminate.
   Qed.
   Lemma replay_runs : forall moves past l m, Forall (fun u => length u = length l) past ->
-    run link (length l) (map at_ past) (at_ l) -> replay past l moves = Some m ->
-    length m = length l /\ exists past, run link (length l) past (at_ m).
+    run (fun c => free c = true) link (length l) (map at_ past) (at_ l) -> replay past l moves = Some m ->
+    length m = length l /\ exists past, run (fun c => free c = true) link (length l) past (at_ m).
   Proof.
     induction moves as [|[[] steps] moves IH]; intros past l m F R E; cbn in E; [injection E as <-; eauto| |].
     - destruct past as [|u past]; [discriminate|]. destruct (same_cells u _); [|discriminate].
@@ -145,37 +145,44 @@ Section Replay.
     - destruct (in_some_order steps l) as [u|] eqn:O; [|discriminate]. destruct (same_cells u _); [|discriminate].
       apply in_some_order_goes in O; destruct O as [Lu [gone G]]; rewrite <- Lu in F, R, G |- *; eapply IH; [| |exact E].
       + constructor; [now symmetry | exact F].
-      + cbn [map]; eapply run_move; [exact R | exact G].
+      + cbn [map]; eapply run_move; [exact R | intros c K; exact K | exact G].
   Qed.
-  Lemma may_start_runs : forall l, may_start l = true -> run link (length l) [] (at_ l).
+  Lemma may_start_runs : forall l, may_start l = true -> run (fun c => free c = true) link (length l) [] (at_ l).
   Proof.
-    intros l S; unfold may_start in S; rewrite andb_true_iff, forallb_forall in S; destruct S as [C S].
-    apply run_start; [now apply is_connected_spec|]. intros i j I J E.
+    intros l S; unfold may_start in S; rewrite !andb_true_iff, !forallb_forall in S; destruct S as [[C F] S].
+    apply run_start; [now apply is_connected_spec | | intros i I; now apply F, nth_In]. intros i j I J E.
     assert (In i (robots l)) as X by (apply in_seq; lia). apply S in X; rewrite forallb_forall in X.
     assert (In j (robots l)) as Y by (apply in_seq; lia). apply X in Y; apply orb_true_iff in Y; destruct Y as [Y|Y]; [now apply Nat.eqb_eq|].
     rewrite E, (proj2 (cell_eqb_spec _ _) eq_refl) in Y; discriminate.
   Qed.
 End Replay.
 
-Definition run_of_kernel : Type := Z * list cell * list (bool * list nat).
+Definition run_of_kernel : Type := Z * list cell * list cell * list (bool * list nat).
+(** A floor: the cells from 0,0 on, without the obstacles. *)
+Definition is_free (obstacles : list cell) (c : cell) : bool :=
+  (0 <=? fst c)%Z && (fst c <? width)%Z && (0 <=? snd c)%Z && (snd c <? width)%Z && negb (existsb (cell_eqb c) obstacles).
 (** Where the robots are at last by their steps. *)
 Definition last_cells (r : run_of_kernel) : list cell :=
-  let '(_, starts, moves) := r in fold_left (fun l m => all_after l (snd m)) moves starts.
+  let '(_, starts, _, moves) := r in fold_left (fun l m => all_after l (snd m)) moves starts.
 Definition is_run (r : run_of_kernel) : bool :=
-  let '(range, starts, moves) := r in
-  may_start range starts && match replay range [] starts moves with Some l => same_cells l (last_cells r) | None => false end.
+  let '(range, starts, obstacles, moves) := r in
+  may_start range (is_free obstacles) starts && match replay range (is_free obstacles) [] starts moves with Some l => same_cells l (last_cells r) | None => false end.
+
+(** The run with obstacles where its robots stand at last: it is none. *)
+Definition barred (r : run_of_kernel) : run_of_kernel :=
+  let '(range, starts, _, moves) := r in (range, starts, last_cells r, moves).
 
 Theorem pack_answers_agree : links_agree links links_REPAIRED = true /\ links_agree links_published links_PUBLISHED = true
-  /\ links_agree links links_PUBLISHED = false /\ forallb is_run runs = true.
+  /\ links_agree links links_PUBLISHED = false /\ forallb is_run runs = true /\ existsb is_run (map barred runs) = false.
 Proof. repeat split; vm_compute; reflexivity. Qed.
 
-Theorem kernel_runs_are_runs : forall range starts moves, In (range, starts, moves) runs ->
-  exists past t, run (links range) (length starts) past t
-    /\ forall i, i < length starts -> t i = nth i (last_cells (range, starts, moves)) (0, 0)%Z.
+Theorem kernel_runs_are_runs : forall range starts obstacles moves, In (range, starts, obstacles, moves) runs ->
+  exists past t, run (fun c => is_free obstacles c = true) (links range) (length starts) past t
+    /\ forall i, i < length starts -> t i = nth i (last_cells (range, starts, obstacles, moves)) (0, 0)%Z.
 Proof.
-  intros range starts moves I; destruct pack_answers_agree as [_ [_ [_ A]]]; rewrite forallb_forall in A; apply A in I.
-  unfold is_run in I; apply andb_true_iff in I; destruct I as [S I]; destruct (replay _ _ _ _) as [l|] eqn:E; [|discriminate].
-  apply (replay_runs range moves [] starts l) in E; [|constructor | now apply may_start_runs]; destruct E as [L [past R]].
+  intros range starts obstacles moves I; destruct pack_answers_agree as [_ [_ [_ [A _]]]]; rewrite forallb_forall in A; apply A in I.
+  unfold is_run in I; apply andb_true_iff in I; destruct I as [S I]; destruct (replay _ _ _ _ _) as [l|] eqn:E; [|discriminate].
+  apply (replay_runs range _ moves [] starts l) in E; [|constructor | now apply may_start_runs]; destruct E as [L [past R]].
   exists past, (at_ l); split; [exact R|]. unfold same_cells in I; apply andb_true_iff in I; destruct I as [Ln I].
   apply Nat.eqb_eq in Ln; intros i Li.
   assert (forall (l m : list cell) i, length l = length m -> forallb (fun p => cell_eqb (fst p) (snd p)) (combine l m) = true ->

@@ -6,6 +6,8 @@
 mod ants;
 #[path = "rocq/chain.rs"]
 mod chain;
+#[path = "rocq/fixes.rs"]
+mod fixes;
 #[path = "rocq/frontier.rs"]
 mod frontier;
 #[path = "rocq/kit.rs"]
@@ -95,6 +97,11 @@ fn robots_keep_in_touch_as_the_proofs_have_it() {
 #[test]
 fn robots_explore_cells_as_the_proofs_have_it() {
     is_up_to_date("FrontierRuns.v", &frontier::terms());
+}
+
+#[test]
+fn fixes_are_taken_as_the_proofs_have_it() {
+    is_up_to_date("FixAnswers.v", &fixes::terms());
 }
 
 #[test]

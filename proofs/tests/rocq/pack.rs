@@ -8,6 +8,8 @@ use super::term::{at, bits, cell, definition, everywhere, list, offsets};
 
 /// Columns and rows up to which links are asked for.
 const REACH: i16 = 6;
+/// How many columns and rows the floors have.
+const WIDTH: i16 = 5;
 /// R_c of the tables.
 const RANGES: [u16; 3] = [3, 4, 5];
 
@@ -43,16 +45,17 @@ pub(super) fn terms() -> String {
     let mut text = definition("reach", "Z", &REACH.to_string());
     text += &definition("links_REPAIRED", "list (Z * N)", &links(Rule::REPAIRED));
     text += &definition("links_PUBLISHED", "list (Z * N)", &links(Rule::PUBLISHED));
+    text += &definition("width", "Z", &WIDTH.to_string());
     let (mut draw, mut kinds) = (Draw(2013), [0; 2]);
     let runs: Vec<String> = (0..30).filter_map(|number| run(2 + number % 3, &mut draw, &mut kinds)).collect();
     assert!(runs.len() > 5 && kinds.iter().all(|&times| times > 2), "{} {kinds:?}", runs.len());
-    text + &definition("runs", "list (Z * list (Z * Z) * list (bool * list nat))", &list(runs))
+    text + &definition("runs", "list (Z * list (Z * Z) * list (Z * Z) * list (bool * list nat))", &list(runs))
 }
 
-/// R_c, the starts, and of each team move whether one was taken back, and the step of each robot; `None` if the robots are no
-/// pack. Counts the team moves that were led or marched, and those that were taken back.
+/// R_c, the starts, the obstacles, and of each team move whether one was taken back, and the step of each robot; `None` if
+/// the robots are no pack. Counts the team moves that were led or marched, and those that were taken back.
 fn run(robots: usize, draw: &mut Draw, kinds: &mut [usize; 2]) -> Option<String> {
-    let area = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("an area");
+    let area = Area::new(Cell::new(0, 0), Cell::new(WIDTH - 1, WIDTH - 1)).expect("an area");
     let mut cells: Vec<Cell> = area.cells().collect();
     let mut drawn = || cells.swap_remove(draw.below(cells.len() as u64) as usize);
     let obstacles: Vec<Cell> = (0..6).map(|_| drawn()).collect();
@@ -79,6 +82,6 @@ fn run(robots: usize, draw: &mut Draw, kinds: &mut [usize; 2]) -> Option<String>
             |step: &Step| Step::ALL.iter().position(|other| other == step).expect("a step").to_string();
         moves.push(format!("({is_back},{}%nat)", list(steps[..robots].iter().map(number))));
     }
-    let starts = list(starts.into_iter().map(cell));
-    Some(format!("\n (3%Z,{starts}%Z,\n  {})", list(moves)))
+    let [starts, obstacles] = [starts, obstacles].map(|cells| list(cells.into_iter().map(cell)));
+    Some(format!("\n (3%Z,{starts}%Z,{obstacles}%Z,\n  {})", list(moves)))
 }
