@@ -58,6 +58,8 @@ Check Notice.NOTICE_2.
 Print Assumptions Notice.NOTICE_2.
 Check Spread.NOTICE_3.
 Print Assumptions Spread.NOTICE_3.
+Check Spread.NOTICE_4.
+Print Assumptions Spread.NOTICE_4.
 Check Spread.NOTICE_5.
 Print Assumptions Spread.NOTICE_5.
 Check Spread.NOTICE_6.
@@ -84,10 +86,16 @@ Check Ways.MRC_11.
 Print Assumptions Ways.MRC_11.
 Check Records.MRC_12.
 Print Assumptions Records.MRC_12.
+Check Asking.MRC_13.
+Print Assumptions Asking.MRC_13.
+Check Records.MRC_14.
+Print Assumptions Records.MRC_14.
 Check Homing.TAN_1.
 Print Assumptions Homing.TAN_1.
 Check Homing.TAN_2.
 Print Assumptions Homing.TAN_2.
+Check Homing.TAN_4.
+Print Assumptions Homing.TAN_4.
 Check Kit.KIT_1.
 Print Assumptions Kit.KIT_1.
 Check Kit.KIT_3.
@@ -156,6 +164,8 @@ Check Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
 Print Assumptions Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
 Check Spread.k_of_one_breaks_NOTICE_5.
 Print Assumptions Spread.k_of_one_breaks_NOTICE_5.
+Check Spread.published_breaks_NOTICE_4.
+Print Assumptions Spread.published_breaks_NOTICE_4.
 Check MrcMutants.without_ChoiceStands_breaks_MRC_1.
 Print Assumptions MrcMutants.without_ChoiceStands_breaks_MRC_1.
 Check MrcMutants.without_Epochs_breaks_MRC_2.
@@ -220,6 +230,8 @@ Check NoticeTie.notice_answers_agree.
 Print Assumptions NoticeTie.notice_answers_agree.
 Check SpreadTie.spread_agrees.
 Print Assumptions SpreadTie.spread_agrees.
+Check SpreadTie.numbered_agrees.
+Print Assumptions SpreadTie.numbered_agrees.
 Check MrcTie.mrc_answers_agree.
 Print Assumptions MrcTie.mrc_answers_agree.
 Check MachinesTie.machine_answers_agree.
@@ -232,6 +244,8 @@ Check Refined.wfrs_are_refined.
 Print Assumptions Refined.wfrs_are_refined.
 Check HomingTie.homing_answers_agree.
 Print Assumptions HomingTie.homing_answers_agree.
+Check HomingTie.guide_answers_agree.
+Print Assumptions HomingTie.guide_answers_agree.
 Check KitTie.kit_answers_agree.
 Print Assumptions KitTie.kit_answers_agree.
 Check KitTie.every_drive_is_in_the_table.

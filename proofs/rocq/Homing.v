@@ -1,5 +1,6 @@
 (** TAN-1 and TAN-2: a robot on its way through a tree, as kernel/src/tan/homing.rs has it, that hears any signals in
-    any order, of any nodes in any trees. Where nodes are, and how strong they are heard, is left out: [outcomes] has
+    any order, of any nodes in any trees. TAN-4: a node that guides robots. Where nodes are, and how strong they are
+      heard, is left out: [outcomes] has
     whatever a measurement may bring about. HomingTie.v shows that what the kernel's robots do is in these lists. *)
 From Coq Require Import List Bool Arith Lia.
 Import ListNotations.
@@ -191,3 +192,73 @@ Proof.
   - right; now left.
   - now left.
 Qed.
+
+(** ** TAN-4 *)
+
+(** A node that guides. [Requested w n own]: a robot asks node [n] for the way to WFR [w], in whose tree this node has
+    the place [own], if it has one. [Passes]: T_x has passed. *)
+Inductive conduct := Idle | Signals (v : nav) | KeepsSilent.
+Inductive guide_input := Requested (w n : nat) (own : option nav) | Overhears | Passes.
+
+Section Guide.
+  (** Its number. *)
+  Variable me : nat.
+
+  (** The place under which it is asked. *)
+  Definition asked (i : guide_input) : option nav :=
+    match i with
+    | Requested w n (Some v) => if (n =? me) && (node v =? me) && (root v =? w) then Some v else None
+    | Requested _ _ None | Overhears | Passes => None
+    end.
+
+  Definition guide_step (x : conduct) (i : guide_input) : conduct :=
+    match i, asked i, x with
+    | Passes, _, _ => Idle
+    | _, Some v, (Idle | Signals _) => Signals v
+    | _, Some _, KeepsSilent => KeepsSilent
+    | _, None, Signals v => Signals v
+    | _, None, (Idle | KeepsSilent) => KeepsSilent
+    end.
+
+  Definition guide_after (l : list guide_input) : conduct := fold_left guide_step l Idle.
+
+  (** The last place under which it was asked. *)
+  Definition asked_last (l : list guide_input) (v : nav) : Prop :=
+    exists before i later, l = before ++ i :: later /\ asked i = Some v /\ forall j, In j later -> asked j = None.
+
+  (** Since T_x has passed: a node that nobody has asked, nor made to keep silent, is idle; one that was asked first
+      signals, as it was asked last; and one that had to keep silent first keeps silent. *)
+  Theorem TAN_4 : forall before since, before = [] \/ (exists l, before = l ++ [Passes]) -> ~ In Passes since ->
+    match since with
+    | [] => guide_after (before ++ since) = Idle
+    | i :: _ =>
+        match asked i with
+        | Some _ => exists v, guide_after (before ++ since) = Signals v /\ asked_last since v
+        | None => guide_after (before ++ since) = KeepsSilent
+        end
+    end.
+  Proof.
+    intros before since B N.
+    assert (guide_after (before ++ since) = guide_after since) as ->.
+    { unfold guide_after; rewrite fold_left_app; f_equal. destruct B as [->|[l ->]]; [reflexivity|].
+      now rewrite fold_left_app. }
+    clear before B; induction since as [|j since IH] using rev_ind; [reflexivity|].
+    assert (~ In Passes since /\ j <> Passes) as [N' J].
+    { split; [intros I; apply N, in_or_app; now left | intros ->; apply N, in_or_app; right; now left]. }
+    specialize (IH N'). unfold guide_after in *; rewrite fold_left_app; cbn [fold_left].
+    destruct since as [|i since]; cbn [app] in *.
+    - cbn [fold_left]. destruct (asked j) as [v|] eqn:A.
+      + exists v; split; [unfold guide_step; destruct j; rewrite ?A; (reflexivity || congruence || discriminate)|].
+        exists [], j, []; repeat split; [exact A | intros i []].
+      + unfold guide_step; destruct j; rewrite ?A; (reflexivity || congruence || discriminate).
+    - destruct (asked i).
+      + destruct IH as [v [-> [before [m [later [E [A L]]]]]]]. destruct (asked j) as [u|] eqn:U.
+        * exists u; split; [unfold guide_step; destruct j; rewrite ?U; (reflexivity || congruence || discriminate)|].
+          exists (i :: since), j, []; repeat split; [exact U | intros g []].
+        * exists v; split; [unfold guide_step; destruct j; rewrite ?U; (reflexivity || congruence || discriminate)|].
+          exists before, m, (later ++ [j]); rewrite app_comm_cons, E, <- app_assoc; repeat split; [exact A|].
+          intros g I; apply in_app_or in I; destruct I as [I|[<-|[]]]; auto.
+      + rewrite IH; unfold guide_step. destruct j as [w n own| |]; [destruct (asked (Requested w n own)) | |];
+        (reflexivity || congruence).
+  Qed.
+End Guide.

@@ -19,3 +19,13 @@ Definition homing_agrees (goal : nat) : bool :=
 Theorem homing_answers_agree : homing_agrees 0 = true /\ homing_agrees 9 = false
   /\ (100 <=? changes homing_answers) = true.
 Proof. repeat split; vm_compute; reflexivity. Qed.
+
+Definition eq_conduct (x y : conduct) : {x = y} + {x <> y}.
+Proof. repeat decide equality. Defined.
+
+(** What the kernel's node [me] that guides has done, in every conduct, [guide_step] does. *)
+Definition guides_agree (me : nat) : bool :=
+  forallb (fun '(x, i, y) => if eq_conduct (guide_step me x i) y then true else false) guides.
+
+Theorem guide_answers_agree : guides_agree 1 = true /\ guides_agree 2 = false.
+Proof. split; vm_compute; reflexivity. Qed.

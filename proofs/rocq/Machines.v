@@ -25,6 +25,9 @@ Definition without_AnswersAgain : rule := Build_rule true true true true true fa
 Definition without_Epochs : rule := Build_rule true true true true true true false true true true true 1.
 Definition without_Repetition : rule := Build_rule true true true true true true true true true true false 1.
 
+(** The repaired rule with so many repeats. *)
+Definition repeating (n : nat) : rule := Build_rule true true true true true true true true true true true n.
+
 Definition repeats_of (rl : rule) : nat := if repetition rl then repeats rl else 0.
 
 (** What comes after a list of inputs. *)

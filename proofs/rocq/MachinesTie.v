@@ -3,7 +3,8 @@
 
     The tables have every state of a repaired robot with room for one record and for two, and of a published one,
     that a call of one WFR and two of another lead to, from two distances; every state of a WFR with room for one
-    robot and for two, up to its third call; and what a path node with room for one way and for four answers after
+    robot and for two, and of one that repeats twice, up to its third call; and what a path node with room for one way
+      and for four answers after
     any three of 13 messages. *)
 From Coq Require Import ZArith NArith List Bool Arith.
 From Tautline Require Import Machines.
@@ -71,6 +72,10 @@ Theorem machine_answers_agree :
   /\ robots_agree PUBLISHED 2 published_states published_inputs published_says published_answers = true
   /\ wfrs_agree REPAIRED 1 wfr_1_states wfr_1_inputs wfr_1_says wfr_1_answers = true
   /\ wfrs_2_agree REPAIRED = true
+  /\ robots_agree (repeating 2) 2 robot_full_states robot_full_inputs robot_full_says robot_full_answers = true
+  /\ wfrs_agree (repeating 2) 1 wfr_patient_states wfr_patient_inputs wfr_patient_says wfr_patient_answers = true
+  /\ robots_agree REPAIRED 2 robot_full_states robot_full_inputs robot_full_says robot_full_answers = false
+  /\ wfrs_agree REPAIRED 1 wfr_patient_states wfr_patient_inputs wfr_patient_says wfr_patient_answers = false
   /\ existsb robots_2_agree [PUBLISHED; without_NearestCall; without_LeastIdentity; without_Epochs;
     without_Repetition] = false
   /\ existsb wfrs_2_agree [without_NearestRobot; without_LeastIdentity; without_ChoiceStands; without_AnswersAgain;

@@ -1,5 +1,5 @@
-(** MRC-6, MRC-10 and MRC-12, repaired, of a robot that hears anything in any order: what it records, and what it is
-    done with. *)
+(** MRC-6, MRC-10, MRC-12 and MRC-14, repaired, of a robot that hears anything in any order: what it records, and what
+    it is done with. *)
 From Coq Require Import List Bool Arith Lia.
 From Tautline Require Import Machines Robots.
 Import ListNotations.
@@ -268,6 +268,75 @@ Proof.
     + intros [_ [[c [=]]|[_ D]]]. fold x in D; now rewrite D.
   - refine (Bits None _ H). intros p P; split; [discriminate|]. intros S; now apply Not in S.
   - refine (Bits None _ H). intros p P; split; [discriminate|]. intros S; now apply Not in S.
+Qed.
+
+(** ** MRC-14 *)
+
+(** It is done with the WFR of a record, whose lease it does not hold. *)
+Definition may_go (x : robot) (p : request) : Prop := served p = true /\ forall e, doing x <> Leased (about p) e.
+
+Lemma gives_way_first : forall own q l,
+  (exists before p later, l = before ++ p :: later /\ served p = true /\ own (about p) = false
+     /\ (forall r, In r before -> served r = true -> own (about r) = true) /\ gives_way own q l = before ++ q :: later)
+  \/ ((forall r, In r l -> served r = true -> own (about r) = true) /\ gives_way own q l = l).
+Proof.
+  intros own q l; induction l as [|p l IH]; cbn [gives_way]; [right; split; [contradiction | reflexivity]|].
+  destruct (served p && negb (own (about p))) eqn:E.
+  - apply andb_true_iff in E; destruct E as [S O]; apply negb_true_iff in O.
+    left; exists [], p, l; repeat split; auto; contradiction.
+  - assert (served p = true -> own (about p) = true) as P.
+    { intros S; rewrite S in E; now apply negb_false_iff in E. }
+    destruct IH as [[before [r [later [-> [S [O [B ->]]]]]]]|[B ->]].
+    + left; exists (p :: before), r, later; repeat split; auto. intros r' [<-|I]; auto.
+    + right; split; [|reflexivity]. intros r [<-|I]; auto.
+Qed.
+
+(** A robot whose records are full, and that has none of WFR [w], puts it in the place of the first that may go. If
+    there is none, it is as if it had not heard of it. *)
+Theorem MRC_14 : forall me room ins w e h s,
+  room <= length (requests (robot_after REPAIRED me room ins)) -> record_of (robot_after REPAIRED me room ins) w = None
+    ->
+  forall y out, robot_step REPAIRED me room (robot_after REPAIRED me room ins) (Notice w e h s) = (y, out) ->
+  (exists before p later, requests (robot_after REPAIRED me room ins) = before ++ p :: later
+     /\ may_go (robot_after REPAIRED me room ins) p
+     /\ (forall q, In q before -> ~ may_go (robot_after REPAIRED me room ins) q)
+     /\ requests y = before ++ {| about := w; epoch := e; served := false; hops := S h; parent := s |} :: later)
+  \/ ((forall q, In q (requests (robot_after REPAIRED me room ins)) -> ~ may_go (robot_after REPAIRED me room ins) q)
+      /\ y = robot_after REPAIRED me room ins /\ out = None).
+Proof.
+  intros me room ins w e h s Full New y out H. pose proof (inv_always REPAIRED me room ins) as V.
+  set (x := robot_after REPAIRED me room ins) in *. clearbody x.
+  set (heard := {| about := w; epoch := e; served := false; hops := S h; parent := s |}) in *.
+  assert (forall q, In q (requests x) -> served q = true -> (is_own (doing x) (about q) = true <-> ~ may_go x q)) as
+    Own.
+  { intros q I S; unfold may_go; destruct (doing x) as [|v f k|v f] eqn:D; cbn [is_own].
+    - split; [discriminate|]. intros M; exfalso; apply M; split; [exact S | discriminate].
+    - destruct (asks_open _ _ V _ _ _ D) as [p [P [U _]]]. destruct (Nat.eqb_spec v (about q)) as [->|N].
+      + unfold record_of in P; rewrite (one_record _ _ (once _ _ V) I) in P; congruence.
+      + split; [discriminate|]. intros M; exfalso; apply M; split; [exact S | discriminate].
+    - destruct (Nat.eqb_spec v (about q)) as [->|N].
+      + split; [|reflexivity]. intros _ [_ M]; now apply (M f).
+      + split; [discriminate|]. intros M; exfalso; apply M; split; [exact S | intros g; congruence]. }
+  assert (requests y = gives_way (is_own (doing x)) heard (requests x)) as Y.
+  { replace y with (fst (robot_step REPAIRED me room x (Notice w e h s))) by now rewrite H.
+    rewrite requests_after; fold heard; unfold notes; change (about heard) with w; rewrite New; cbn [requests]. unfold
+      adds.
+    now replace (length (requests x) <? room) with false by (symmetry; now apply Nat.ltb_ge). }
+  destruct (gives_way_first (is_own (doing x)) heard (requests x)) as [[before [p [later [E [S [O [B G]]]]]]]|[B G]].
+  - left; exists before, p, later; rewrite Y, G. repeat split; [exact E | exact S | | ].
+    + intros f D; rewrite D in O; cbn in O; now rewrite Nat.eqb_refl in O.
+    + intros q I M; assert (In q (requests x)) as J by (rewrite E; apply in_or_app; now left).
+      destruct M as [T M]; apply (Own q J T); [now apply B | now split].
+  - right. assert (forall q, In q (requests x) -> ~ may_go x q) as None_.
+    { intros q I M; destruct M as [T M]; apply (Own q I T); [now apply B | now split]. }
+    split; [exact None_|].
+    assert (notes REPAIRED room x heard = x) as Same.
+    { unfold notes; change (about heard) with w; rewrite New; unfold adds.
+      replace (length (requests x) <? room) with false by (symmetry; now apply Nat.ltb_ge). rewrite G; now destruct x. }
+    cbn [robot_step] in H; fold heard in H; rewrite Same in H. unfold asks in H.
+    destruct (doing x) eqn:D; try (now injection H as <- <-).
+    destruct (nearest REPAIRED (requests x)) as [q|] eqn:Q; [|now injection H as <- <-].
+    apply nearest_in in Q; destruct Q as [I U]. rewrite (free_done _ _ V D q I) in U; discriminate.
 Qed.
 
 (** ** What is needed *)

@@ -1,4 +1,5 @@
-(** NOTICE-3, NOTICE-5 and NOTICE-6: k-FNF as the kernel has it, kernel/src/notice/node.rs, in any network, also an
+(** NOTICE-3, NOTICE-5, NOTICE-6 and, of several events, NOTICE-4: k-FNF as the kernel has it,
+    kernel/src/notice/node.rs, in any network, also an
     infinite one, whatever is late, lost or repeated. One event of one source; the waits of the nodes are over in any
     order, so that k = ∞ is flooding, too. SpreadTie.v compares [hears] with what the kernel's nodes make of
     NOTICEs. *)
@@ -292,4 +293,61 @@ Proof.
     + intros n; do 4 (destruct n as [|n]; [vm_compute; discriminate|]); vm_compute; discriminate.
   - apply (linked _ _ 1); [apply (linked _ _ 0); [apply itself|] |]; unfold square; cbn; auto 12.
   - reflexivity.
+Qed.
+
+(** ** NOTICE-4 *)
+
+(** A node, the number of the latest event of its source that it has heard of, and how far it is with that one. Events
+    are counted from 1. *)
+Record listener := { latest : nat; with_it : node }.
+
+Inductive happening := Comes (e s h : nat) | Waited.
+
+(** What comes of the NOTICE of sender [s] with hop count [h] of event [e], and of the end of its wait; as published,
+    too, without [numbers] of events. *)
+Definition notes (numbers : bool) (k : option nat) (me : nat) (x : listener) (i : happening) : listener :=
+  match i with
+  | Comes e s h =>
+      if (latest x <? e) && (numbers || (latest x =? 0)) then {| latest := e; with_it := hears k (unaware me) s h |}
+      else if (e =? 0) || (numbers && (e <? latest x)) then x
+      else {| latest := latest x; with_it := hears k (with_it x) s h |}
+  | Waited =>
+      match stage (with_it x) with
+      | Waiting => {| latest := latest x; with_it := forwards (with_it x) |}
+      | Unaware | Silent | Forwarded => x
+      end
+  end.
+
+Definition after (numbers : bool) (k : option nat) (me : nat) (l : list happening) : listener :=
+  fold_left (notes numbers k me) l {| latest := 0; with_it := unaware me |}.
+
+(** The first NOTICE of an event that is newer than all of which a node has heard: the node waits, its parent is the
+    sender, and from then on it is as one that has heard of no event before. *)
+Theorem NOTICE_4 : forall k me before e s h, 0 < e -> (forall f t g, In (Comes f t g) before -> f < e) ->
+  after true k me (before ++ [Comes e s h])
+    = {| latest := e; with_it := {| stage := Waiting; parent := s; hops := S h; heard := [s] |} |}
+  /\ forall later, after true k me (before ++ Comes e s h :: later) = after true k me (Comes e s h :: later).
+Proof.
+  intros k me before e s h P Older.
+  assert (latest (after true k me before) < e) as New.
+  { revert Older; induction before as [|i before IH] using rev_ind; intros Older; [exact P|].
+    unfold after; rewrite fold_left_app; fold (after true k me before); cbn [fold_left].
+    assert (latest (after true k me before) < e) as L.
+    { apply IH; intros f t g I; apply (Older f t g), in_or_app; now left. }
+    destruct i as [f t g|]; cbn [notes].
+    - assert (f < e) by (apply (Older f t g), in_or_app; right; now left).
+      destruct (_ && _); [assumption|]. destruct (_ || _); exact L.
+    - destruct (stage _); exact L. }
+  assert (forall x, latest x < e -> notes true k me x (Comes e s h)
+    = {| latest := e; with_it := hears k (unaware me) s h |}) as First.
+  { intros x L; cbn [notes]. apply Nat.ltb_lt in L; now rewrite L. }
+  unfold after in *; split; [|intros later]; rewrite fold_left_app; cbn [fold_left]; rewrite First by exact New;
+    [reflexivity | now rewrite (First {| latest := 0; with_it := unaware me |} P)].
+Qed.
+
+(** As published it is deaf to the next event when it is through with one. *)
+Theorem published_breaks_NOTICE_4 : exists before, (forall f t g, In (Comes f t g) before -> f < 2)
+  /\ after false None 9 (before ++ [Comes 2 1 0]) = after false None 9 before.
+Proof.
+  exists [Comes 1 1 0; Waited]; split; [|reflexivity]. intros f t g [[= <- _ _]|[[=]|[]]]; auto.
 Qed.

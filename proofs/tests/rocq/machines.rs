@@ -1,6 +1,6 @@
 //! The answers of a robot and a WFR in every state that they can come to, as they are: with hop counts, parents and
 //! what is still repeated; and those of a path node. A robot hears of a call of one WFR and two of another, and has
-//! room for one record or two; a WFR hears two robots, and has room for one or two; a path node has room for one way or
+//! room for one record or two; one that repeats twice hears of three WFRs, and has room for two; a WFR hears two robots, and has room for one or two; a path node has room for one way or
 //! four.
 
 use std::collections::HashMap;
@@ -17,6 +17,9 @@ const ME: RobotId = RobotId(1);
 const OTHER: RobotId = RobotId(2);
 const LAST: Epoch = Epoch(2);
 
+/// More repeats than the rule's own.
+const PATIENT: u8 = 2;
+
 /// What is heard, and in what state it leaves a machine, and what that sends.
 type Answer<S> = (String, S, String);
 
@@ -26,6 +29,8 @@ const fn call(wfr: u32, epoch: u32) -> Call {
 
 /// The calls that a robot hears of, and those that a WFR hears MOVEs for.
 const HEARD: [Call; 3] = [call(1, 1), call(2, 1), call(2, 2)];
+/// WFRs of which a robot has not room for all.
+const TOO_MANY: [Call; 3] = [call(1, 1), call(2, 1), call(3, 1)];
 const ANSWERED: [Call; 3] = [call(1, 1), call(1, 2), call(2, 1)];
 
 fn of(call: Call) -> String {
@@ -114,13 +119,16 @@ fn robot_term<const ROOM: usize>(robot: &Robot<ROOM>) -> String {
     format!("Build_robot [{}] {task}", requests.collect::<Vec<_>>().join("; "))
 }
 
-fn robot_answers<const ROOM: usize>(robot: &Robot<ROOM>) -> Vec<Answer<Robot<ROOM>>> {
+fn robot_answers<const ROOM: usize>(
+    robot: &Robot<ROOM>,
+    (calls, ways): (&[Call], &[(u16, u32)]),
+) -> Vec<Answer<Robot<ROOM>>> {
     let mut all = Vec::new();
     let mut add = |input: String, (after, sent): (Robot<ROOM>, Option<Upward>)| {
         all.push((input, after, option(sent.map(upward))));
     };
-    for call in HEARD {
-        for (hops, sender) in [(1, 5), (1, 6), (0, 6)] {
+    for &call in calls {
+        for &(hops, sender) in ways {
             let notice = Notice { call, hops, sender: NodeId(sender) };
             add(format!("Notice {} {hops} {sender}", of(call)), robot.receive(Downward::Notice(notice)));
         }
@@ -140,7 +148,11 @@ fn robot_answers<const ROOM: usize>(robot: &Robot<ROOM>) -> Vec<Answer<Robot<ROO
 
 fn robot_table<const ROOM: usize>(name: &str, rule: Rule) -> String {
     let first = Robot::<ROOM>::new(rule, ME);
-    table((name, "robot", "None"), first, robot_term, robot_answers, |_| true)
+    let heard: (&[Call], &[(u16, u32)]) = match rule.repeats {
+        PATIENT => (&TOO_MANY, &[(1, 5)]),
+        _ => (&HEARD, &[(1, 5), (1, 6), (0, 6)]),
+    };
+    table((name, "robot", "None"), first, robot_term, |robot| robot_answers(robot, heard), |_| true)
 }
 
 fn wfr_term<const ROOM: usize>(wfr: &Wfr<ROOM>) -> String {
@@ -191,8 +203,8 @@ fn wfr_answers<const ROOM: usize>(wfr: &Wfr<ROOM>) -> Vec<Answer<Wfr<ROOM>>> {
     all
 }
 
-fn wfr_table<const ROOM: usize>(name: &str) -> String {
-    let first = Wfr::<ROOM>::new(Rule::REPAIRED, NodeId(1));
+fn wfr_table<const ROOM: usize>(name: &str, rule: Rule) -> String {
+    let first = Wfr::<ROOM>::new(rule, NodeId(1));
     table((name, "wfr", "[]"), first, wfr_term, wfr_answers, |wfr| wfr.call().epoch <= LAST)
 }
 
@@ -245,8 +257,11 @@ pub(super) fn terms() -> String {
     text += &robot_table::<1>("robot_1", Rule::REPAIRED);
     text += &robot_table::<2>("robot_2", Rule::REPAIRED);
     text += &robot_table::<2>("published", Rule::PUBLISHED);
-    text += &wfr_table::<1>("wfr_1");
-    text += &wfr_table::<2>("wfr_2");
+    text += &wfr_table::<1>("wfr_1", Rule::REPAIRED);
+    text += &wfr_table::<2>("wfr_2", Rule::REPAIRED);
+    let patient = Rule { repeats: PATIENT, ..Rule::REPAIRED };
+    text += &robot_table::<2>("robot_full", patient);
+    text += &wfr_table::<1>("wfr_patient", patient);
     let passings = passings();
     let passing = |&(message, from): &(Upward, Hop)| {
         let from = match from {

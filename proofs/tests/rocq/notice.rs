@@ -115,6 +115,36 @@ fn spread() -> Vec<String> {
     codes
 }
 
+/// How far a node is after any [`HEARD`] of these: a NOTICE of one of two events by one of three senders, and the end of
+/// its wait. The number of its event, and as in [`spread`]. With numbered events and without, under k = 1 and ∞.
+fn numbered() -> Vec<String> {
+    let mut codes = Vec::new();
+    for conditions in [Conditions::REPAIRED, Conditions::PUBLISHED] {
+        for k in [Count::new(1), None] {
+            let rule = Rule { conditions, ..Rule::new(Scheme::Farthest { k }, RANGE, 1) };
+            for number in 0..7_u32.pow(HEARD as u32) {
+                let mut node = Node::new(NodeId(ME), SOURCE);
+                for place in (0..HEARD as u32).rev() {
+                    let happening = number / 7_u32.pow(place) % 7;
+                    if happening == 6 {
+                        node.expire(u64::MAX);
+                        continue;
+                    }
+                    let (epoch, sender) = (Epoch(1 + happening / 3), NodeId(1 + happening % 3));
+                    let message =
+                        Notice { call: Call { wfr: SOURCE, epoch }, hops: (happening % 3) as u16, sender };
+                    let heard = Reception { message, distance_um: RANGE.get(), now_ns: 0 };
+                    node.receive(&rule, heard, Surroundings::none, &mut AtOnce);
+                }
+                let (stage, parent, hops) = state(&node);
+                let event = node.event().map_or(0, |event| event.0 as usize);
+                codes.push((256 * event + 64 * stage + 4 * parent as usize + usize::from(hops)).to_string());
+            }
+        }
+    }
+    codes
+}
+
 pub(super) fn terms() -> String {
     let mut rows = Rows::default();
     let repaired = Conditions::REPAIRED;
@@ -144,6 +174,7 @@ pub(super) fn terms() -> String {
     // Only what forwarded nodes make of it differs.
     thawed.heard.retain(|row| !rows.heard.contains(row));
     text += &definition("spread", "list N", &format!("{}%N", list(spread())));
+    text += &definition("numbered", "list N", &format!("{}%N", list(numbered())));
     text + &definition(
         "heard_without_FrozenOnceForwarded",
         "list ((nat * nat * nat) * (nat * nat) * (nat * nat * nat))",

@@ -1,9 +1,11 @@
-//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths.
+//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths. A node that
+//! guides: every conduct, and what comes of it.
 
 use tautline_kernel::net::{NodeId, RobotId, Strength};
-use tautline_kernel::tan::{Heading, Homing, Nav, Nearness, Stage};
+use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, ReqNav, Stage};
 
 use super::mrc::{Answers, explore, table};
+use super::term::{definition, list};
 
 const GOAL: NodeId = NodeId(0);
 const NEARNESS: Nearness = Nearness { near: Strength(100), closer: 10, times: 1 };
@@ -75,11 +77,42 @@ fn answers(state: &State) -> Vec<(String, State, String)> {
     all
 }
 
+/// What a node makes of requests, to it and to others, with any place in the tree and none, and of signals and the end of T_x:
+/// its conduct before, what happens, its conduct after.
+fn guides() -> Vec<String> {
+    const NODE: NodeId = NodeId(1);
+    let conduct = |guide: Guide| match guide.conduct {
+        Conduct::Idle => "Idle".to_owned(),
+        Conduct::Signals(of) => format!("(Signals {})", nav(of)),
+        Conduct::Silent => "KeepsSilent".to_owned(),
+    };
+    let signals = navs().into_iter().map(Conduct::Signals);
+    let mut rows = Vec::new();
+    for guide in [Conduct::Idle, Conduct::Silent].into_iter().chain(signals).map(|conduct| Guide { conduct })
+    {
+        let mut add =
+            |input: &str, after| rows.push(format!("({},{input},{})", conduct(guide), conduct(after)));
+        for (wfr, node) in [0, 9].into_iter().flat_map(|wfr| [1, 2].map(|node| (wfr, node))) {
+            let request = ReqNav { wfr: NodeId(wfr), robot: RobotId(1), node: NodeId(node) };
+            for own in navs().into_iter().map(Some).chain([None]) {
+                let place = own.map_or("None".to_owned(), |own| format!("(Some {})", nav(own)));
+                add(&format!("Requested {wfr} {node} {place}"), guide.request(request, NODE, own));
+            }
+        }
+        add("Overhears", guide.overhear());
+        add("Passes", guide.expire());
+    }
+    rows
+}
+
 pub(super) fn terms() -> String {
     let mut found = Answers::new();
     for hops in [1, 2, 3] {
         let first = Homing::new(GOAL, RobotId(1), NodeId(1), hops, NEARNESS, TRIES);
         explore((first, None), term, answers, |_| true, &mut found);
     }
-    "From Tautline Require Import Mrc Homing.\n\n".to_owned() + &table("homing", "homing", "input", &found)
+    let guides = definition("guides", "list (conduct * guide_input * conduct)", &list(guides()));
+    "From Tautline Require Import Mrc Homing.\n\n".to_owned()
+        + &table("homing", "homing", "input", &found)
+        + &guides
 }
