@@ -1,6 +1,7 @@
 //! The answers of a robot and a WFR in every state that they can come to, as they are: with hop counts, parents and
 //! what is still repeated; and those of a path node. A robot hears of a call of one WFR and two of another, and has
-//! room for one record or two; one that repeats twice hears of three WFRs, and has room for two; a WFR hears two robots, and has room for one or two; a path node has room for one way or
+//! room for one record or two; one that repeats twice hears of three WFRs, and has room for two; a WFR hears two
+//! robots, and has room for one or two; a path node has room for one way or
 //! four.
 
 use std::collections::HashMap;

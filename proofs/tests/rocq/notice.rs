@@ -115,8 +115,9 @@ fn spread() -> Vec<String> {
     codes
 }
 
-/// How far a node is after any [`HEARD`] of these: a NOTICE of one of two events by one of three senders, and the end of
-/// its wait. The number of its event, and as in [`spread`]. With numbered events and without, under k = 1 and ∞.
+/// How far a node is after any [`HEARD`] NOTICEs of two events by three senders, and ends of its wait, with numbered
+/// events and without, under k = 1 and ∞: 256 times the number of its event, 64 times its stage, four times its
+/// parent, and its hops.
 fn numbered() -> Vec<String> {
     let mut codes = Vec::new();
     for conditions in [Conditions::REPAIRED, Conditions::PUBLISHED] {

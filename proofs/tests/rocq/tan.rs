@@ -1,5 +1,5 @@
-//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths. A node that
-//! guides: every conduct, and what comes of it.
+//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths. A node
+//! that guides: every conduct, and its answers.
 
 use tautline_kernel::net::{NodeId, RobotId, Strength};
 use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, ReqNav, Stage};
@@ -77,8 +77,8 @@ fn answers(state: &State) -> Vec<(String, State, String)> {
     all
 }
 
-/// What a node makes of requests, to it and to others, with any place in the tree and none, and of signals and the end of T_x:
-/// its conduct before, what happens, its conduct after.
+/// The conducts of a node, each with a request to it or to another, a signal or the end of T_x, and the conduct after
+/// it. Requests come with any place in the tree, and with none.
 fn guides() -> Vec<String> {
     const NODE: NodeId = NodeId(1);
     let conduct = |guide: Guide| match guide.conduct {
