@@ -161,7 +161,7 @@ enum Command {
     Prove(prove::Prove),
     Library(library::Library),
     Schemes(schemes::Schemes),
-    Explore(explore::Explore),
+    Explore(Box<explore::Explore>),
     Hunt(hunt::Hunt),
     Minimise(minimise::Minimise),
     Rescue(rescue::Rescue),

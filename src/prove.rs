@@ -451,15 +451,12 @@ pub(super) fn stored(
 fn certify((row, room): (&Row, &MemoryLimit), folder: &Path, replaceable: &Replaceable, out: &mut Output) {
     let Row { clause, number, check, .. } = *row;
     let limits = states::Limits { room, ..states::Limits::NONE };
-    let (path, content) = match check.certificate() {
-        Some(terms) => {
-            let name = format!("{}_{}.v", clause.id.replace('-', "_"), check.rule());
-            (folder.join(name), terms.map(String::into_bytes))
-        }
-        None => {
-            let path = refutation::path(folder, clause, number).with_extension("cert");
-            (path, ledger::certificate(clause, number, limits))
-        }
+    let (path, content) = if let Some(terms) = check.certificate() {
+        let name = format!("{}_{}.v", clause.id.replace('-', "_"), check.rule());
+        (folder.join(name), terms.map(String::into_bytes))
+    } else {
+        let path = refutation::path(folder, clause, number).with_extension("cert");
+        (path, ledger::certificate(clause, number, limits))
     };
     match content {
         Err(why) => tracing::warn!("{} as {} gets no certificate: {why}", clause.id, check.rule()),

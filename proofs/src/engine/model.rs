@@ -42,7 +42,9 @@ where
 
     fn starts(&self) -> Vec<S::State> {
         let mut starts = (self.starts)(&self.system);
-        starts.iter_mut().for_each(|state| self.system.make_canonical(state));
+        for state in &mut starts {
+            self.system.make_canonical(state);
+        }
         starts
     }
 

@@ -53,7 +53,9 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
     let starts: [Cell; ROBOTS] = std::array::from_fn(|_| drawn());
     let obstacles = [drawn(), drawn()];
     let mut given = TinyMap::new(setting.area).expect("a small area");
-    obstacles.iter().for_each(|&cell| given.block(cell));
+    for cell in obstacles {
+        given.block(cell);
+    }
     let setting = Setting { given: Some(given), max_losses: 3, max_wrong: 1, ..setting };
 
     let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();

@@ -24,7 +24,9 @@ impl Past for Moves {
 
     fn pop(&mut self, steps: &mut [Step]) -> bool {
         let last = self.0.pop();
-        last.iter().for_each(|last| steps.copy_from_slice(last));
+        if let Some(last) = &last {
+            steps.copy_from_slice(last);
+        }
         last.is_some()
     }
 

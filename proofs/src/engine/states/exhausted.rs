@@ -149,13 +149,17 @@ impl<S: System> Search<'_, S> {
                 }
             }
             let idle = if has_steps { (is_awake & !acting).trailing_zeros() } else { 0 };
-            component.iter().for_each(|&node| ranks[node] = level * RANKS + idle);
+            for &node in component {
+                ranks[node] = level * RANKS + idle;
+            }
         }
         let mut all: Vec<u32> = ranks.clone();
         all.sort_unstable();
         all.dedup();
         let dense: FxHashMap<u32, u32> = all.into_iter().zip(0..).collect();
-        ranks.iter_mut().for_each(|rank| *rank = dense[rank]);
+        for rank in &mut ranks {
+            *rank = dense[rank];
+        }
         Ok(ranks)
     }
 }
@@ -220,7 +224,9 @@ impl Links {
                 let way = place[to] - place[node];
                 put(&mut section, if is_new { 0 } else { 1 + (way << 1 ^ way >> 63) as u64 });
             }
-            ranks.iter().for_each(|ranks| put(&mut section, ranks[node].into()));
+            for ranks in ranks {
+                put(&mut section, ranks[node].into());
+            }
         }
         section
     }
