@@ -368,10 +368,13 @@ fn clauses_are_decided_by_name() {
                composition: machine-checked
     CHAIN-5    published  search      25742  holds    -
                all layouts, N = 4, at most 3 walls
+               composition: machine-checked in part (admitted plans)
     CHAIN-5    repaired   search      25724  holds    1/1
                all layouts, N = 4, at most 3 walls
+               composition: machine-checked in part (admitted plans)
     CHAIN-5    reel       search      26389  holds    -
                all layouts, N = 4, at most 3 walls
+               composition: machine-checked in part (admitted plans)
 
     All 4 verdicts are the registered ones.
     "#);

@@ -38,9 +38,11 @@ impl RunOption {
                     "odometry" => "0.3:20",
                     "threshold" => "0.4",
                     "speed" | "spread" => "0.5",
+                    "small" | "outliers" => "0.3",
+                    "objects" => "3",
                     "fail" => "3@9",
                     "wall" => "3,3,E@9",
-                    "speeds" => "",
+                    "speeds" | "swarm" => "",
                     field => panic!("no value for {field}"),
                 };
                 (extra.read)(word, &mut asked.options).expect("a value");
@@ -62,7 +64,10 @@ fn run(scheme: Scheme, rule: &Rule, told: RunOption, layout: &Layout, seed: u64)
         Ok(())
     });
     let report = report.ok()?;
-    let seen = format!("{moves:?} {:?} {:?} {:?}", report.violations, report.faults, report.milliseconds);
+    let seen = format!(
+        "{moves:?} {:?} {:?} {:?} {:?}",
+        report.violations, report.faults, report.milliseconds, report.objects
+    );
     Some((scheme.draws(&setup), seen))
 }
 

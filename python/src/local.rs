@@ -78,6 +78,11 @@ impl LocalScript {
             let remedy = format!("give the rule 1 to {MAX_STATES} states, or one, such as None");
             return Err(error(py, Kind::Input, format_args!("{} states", listed.len()), remedy));
         }
+        let reach: i16 = attribute(rule, "reach", "a reach, a number of cells")?;
+        if reach < 0 {
+            let remedy = "give the rule a reach of 0 cells or more";
+            return Err(error(py, Kind::Input, format_args!("a reach of {reach}"), remedy));
+        }
         let of_module = |name: &str| Ok::<_, PyErr>(py.import("pytautline._local")?.getattr(name)?.unbind());
         let of_rule = |name: &str| attribute::<Bound<'_, PyAny>>(rule, name, name).map(Bound::unbind);
         let mut written = Self {
@@ -89,30 +94,34 @@ impl LocalScript {
             plan: of_module("LocalPlan")?,
             states: Vec::new(),
             acts: OnceLock::new(),
-            reach: attribute(rule, "reach", "a reach, a number of cells")?,
+            reach,
             far: if is_far_fine { Far::Fine } else { Far::Broken },
             is_in_a_row: attribute(rule, "in_a_row", "in_a_row, True or False")?,
         };
         for state in &listed {
-            let state = written.state(py, "states", state, listed.len() == 1)?;
-            if !written.states.contains(&state) {
-                written.states.push(state);
+            let number = written.script.number(py, "states", state)?;
+            if number as usize == written.states.len() {
+                // The only one is not worth a word.
+                let words = if listed.len() == 1 { "()" } else { kept(&shown(state)) };
+                written.states.push(State { number, words });
             }
         }
         Ok(written)
     }
 
-    /// A state that Python names; one that is the only one has no words.
-    fn state(&self, py: Python<'_>, what: &str, state: &Bound<'_, PyAny>, is_only: bool) -> PyResult<State> {
+    /// A state that a function of the rule returns: one of those that the rule names.
+    fn named(&self, py: Python<'_>, what: &str, state: &Bound<'_, PyAny>) -> PyResult<State> {
         let number = self.script.number(py, what, state)?;
-        Ok(State { number, words: if is_only && number == 0 { "()" } else { kept(&shown(state)) } })
+        self.states.iter().find(|known| known.number == number).copied().ok_or_else(|| {
+            let what = format!("{what} returned {}, which is none of the rule's states", shown(state));
+            error(py, Kind::Input, what, "give the rule states, a list of all that a robot may be in")
+        })
     }
 
     /// Asks the rule what robots can do.
     fn begin(&self, py: Python<'_>) -> PyResult<()> {
         let remedy = "return a list with a letter of E, S, W, N or . for each act, and with all that may come of it: \
                       whether the robot goes, and its next state";
-        let is_only = self.states.len() == 1;
         let acts_in = |state: &State| {
             let state = self.script.state(py, state.number);
             let answer = self.script.called(py, "acts", |rule| rule.call_method1("acts", (state,)))?;
@@ -122,7 +131,7 @@ impl LocalScript {
             let act = |(letter, ends): (char, Vec<(bool, Bound<'_, PyAny>)>)| {
                 let step = step(letter).filter(|_| !ends.is_empty()).ok_or_else(wrong)?;
                 let end = |(goes, next): (bool, Bound<'_, PyAny>)| {
-                    Ok((goes && step != Step::Stay, self.state(py, "acts", &next, is_only)?))
+                    Ok((goes && step != Step::Stay, self.named(py, "acts", &next)?))
                 };
                 let ends = ends.into_iter().map(end).collect::<PyResult<_>>()?;
                 Ok(Act { act: Letter(letter), step, ends, needs_open: false })
@@ -176,10 +185,7 @@ impl LocalScript {
             let what = format_args!("start returned {}", shown(&answer)).to_string();
             error(py, Kind::WrongType, what, "return a list with the cell and the state of each robot")
         })?;
-        let is_only = self.states.len() == 1;
-        told.iter()
-            .map(|(at, state)| Ok(Robot::new(cell(*at), self.state(py, "start", state, is_only)?)))
-            .collect()
+        told.iter().map(|(at, state)| Ok(Robot::new(cell(*at), self.named(py, "start", state)?))).collect()
     }
 }
 

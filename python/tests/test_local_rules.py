@@ -145,4 +145,4 @@ def test_a_leash_that_forgets_walls_is_refuted():
         in_a_row = True
 
     found = tautline.decide_every_number(Leash())
-    assert found.verdict == "refuted" and found.counterexample.count("wall") == 1
+    assert found.verdict == "refuted" and "wall" in found.counterexample
