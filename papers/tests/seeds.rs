@@ -30,16 +30,14 @@ impl RunOption {
             Self::Miss => asked.miss = Probability::new(0.3),
             Self::Extra(extra) => {
                 let word = match extra.field {
-                    "range" => "3",
+                    "range" | "objects" => "3",
                     "sight" => "2",
-                    "loss" => "0.3",
+                    "loss" | "small" | "outliers" => "0.3",
                     "noise-db" => "12",
                     "readings" | "anchors" => "5",
                     "odometry" => "0.3:20",
                     "threshold" => "0.4",
                     "speed" | "spread" => "0.5",
-                    "small" | "outliers" => "0.3",
-                    "objects" => "3",
                     "fail" => "3@9",
                     "wall" => "3,3,E@9",
                     "speeds" | "swarm" => "",
