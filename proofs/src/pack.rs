@@ -7,3 +7,5 @@ mod gains;
 pub mod local;
 mod played;
 mod rays;
+
+pub use played::Moves;

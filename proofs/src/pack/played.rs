@@ -96,21 +96,20 @@ impl Floor {
     }
 }
 
-/// The history of a pack.
-#[derive(Default)]
-struct Moves(Vec<Vec<Step>>);
+/// The history of a pack, a step for each robot and team move.
+#[derive(Clone, Debug, Default)]
+pub struct Moves(Vec<Step>);
 
 impl Past for Moves {
     fn push(&mut self, steps: &[Step]) {
-        self.0.push(steps.to_vec());
+        self.0.extend_from_slice(steps);
     }
 
     fn pop(&mut self, steps: &mut [Step]) -> bool {
-        let last = self.0.pop();
-        if let Some(last) = &last {
-            steps.copy_from_slice(last);
-        }
-        last.is_some()
+        let Some(kept) = self.0.len().checked_sub(steps.len()) else { return false };
+        steps.copy_from_slice(&self.0[kept..]);
+        self.0.truncate(kept);
+        true
     }
 
     fn clear(&mut self) {

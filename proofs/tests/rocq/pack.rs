@@ -1,7 +1,8 @@
 //! Links and runs of packs: which cells have a link, and what robots do on drawn floors, step by step.
 
 use tautline_kernel::ground::{Area, Cell, Step};
-use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Team};
+use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Rule, Scratch, Team};
+use tautline_proofs::pack::Moves;
 
 use super::runs::Draw;
 use super::term::{at, bits, cell, definition, everywhere, list, offsets};
@@ -12,28 +13,6 @@ const REACH: i16 = 6;
 const WIDTH: i16 = 5;
 /// R_c of the tables.
 const RANGES: [u16; 3] = [3, 4, 5];
-
-/// The history of a pack.
-#[derive(Default)]
-struct Moves(Vec<Vec<Step>>);
-
-impl Past for Moves {
-    fn push(&mut self, steps: &[Step]) {
-        self.0.push(steps.to_vec());
-    }
-
-    fn pop(&mut self, steps: &mut [Step]) -> bool {
-        let last = self.0.pop();
-        if let Some(last) = &last {
-            steps.copy_from_slice(last);
-        }
-        last.is_some()
-    }
-
-    fn clear(&mut self) {
-        self.0.clear();
-    }
-}
 
 pub(super) fn terms() -> String {
     let links = |rule: Rule| {

@@ -10,9 +10,9 @@ use std::collections::HashSet;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Circle, Step};
 use tautline_kernel::pack::{
-    Chart, End as Over, MAX_ROBOTS, MoveKind, Past, RangeError, Rule as Pack, Scratch, SetupError,
-    Team as Robots,
+    Chart, End as Over, MAX_ROBOTS, MoveKind, RangeError, Rule as Pack, Scratch, SetupError, Team as Robots,
 };
+use tautline_proofs::pack::Moves;
 use tautline_proofs::run::Frame;
 
 use super::catalogue::{Profile, Starts};
@@ -63,27 +63,6 @@ pub static PACK: Profile = Profile {
     ],
     ..Profile::named("pack")
 };
-
-/// The history of a pack, a step for each robot and team move.
-#[derive(Debug, Default)]
-struct Moves(Vec<Step>);
-
-impl Past for Moves {
-    fn push(&mut self, steps: &[Step]) {
-        self.0.extend_from_slice(steps);
-    }
-
-    fn pop(&mut self, steps: &mut [Step]) -> bool {
-        let Some(kept) = self.0.len().checked_sub(steps.len()) else { return false };
-        steps.copy_from_slice(&self.0[kept..]);
-        self.0.truncate(kept);
-        true
-    }
-
-    fn clear(&mut self) {
-        self.0.clear();
-    }
-}
 
 struct PackTeam {
     robots: Robots,

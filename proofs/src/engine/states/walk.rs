@@ -50,7 +50,7 @@ pub fn walk<S: System>(
 /// A state, as far as it is kept.
 type Kept<S> = (Vec<<S as System>::Part>, Vec<u8>);
 
-fn kept<S: System>(system: &S, state: &S::State) -> Kept<S> {
+pub(super) fn kept<S: System>(system: &S, state: &S::State) -> Kept<S> {
     let mut bytes = Vec::new();
     system.write(state, &mut bytes);
     ((0..system.places(state)).map(|place| system.part(state, place)).collect(), bytes)
