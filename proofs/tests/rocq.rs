@@ -10,6 +10,8 @@ mod chain;
 mod fixes;
 #[path = "rocq/frontier.rs"]
 mod frontier;
+#[path = "rocq/ground.rs"]
+mod ground;
 #[path = "rocq/kit.rs"]
 mod kit;
 #[path = "rocq/machines.rs"]

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::midpoint;
 use tautline_kernel::ground::Cell;
-use tautline_kernel::position::{Point, Sighting};
+use tautline_kernel::position::{Point, Sighting, SymmetricMatrix};
 use tautline_proofs::plural::counted;
 
 use crate::frontier::cell_at;
@@ -139,16 +139,23 @@ impl ObjectReport {
     pub fn new(at: Point, known: Option<&Sighting>) -> Self {
         let thousandths = |number: f64| (1000.0 * number).round() / 1000.0;
         let found = known.map(|Sighting { at: there, covariance }| {
-            let deviations = [covariance.xx, covariance.yy].map(f64::sqrt);
+            let (deviations, correlation) = spread(*covariance);
             Found {
                 at: [there.x_m, there.y_m].map(thousandths),
                 error: thousandths(at.distance_m(*there)),
                 deviations: deviations.map(thousandths),
-                correlation: thousandths(covariance.xy / (deviations[0] * deviations[1])),
+                correlation: thousandths(correlation),
             }
         });
         Self { at: [at.x_m, at.y_m].map(thousandths), found }
     }
+}
+
+/// The standard deviations of both coordinates, and their correlation.
+pub(crate) fn spread(covariance: SymmetricMatrix) -> ([f64; 2], f64) {
+    let deviations = [covariance.xx, covariance.yy].map(f64::sqrt);
+    let both = deviations[0] * deviations[1];
+    (deviations, if both > 0.0 { covariance.xy / both } else { 0.0 })
 }
 
 /// A table of objects; nothing if there are none.

@@ -1,13 +1,12 @@
 //! The answers of ants: where one goes and what the cell that it enters counts then, for all counts of the side
 //! neighbours up to 2, seen and missed; and runs on drawn floors where sensors are missed.
 
-use std::collections::{BTreeMap, HashSet};
-
 use tautline_kernel::ants::{Rule, carry_out, decide};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{COMPASS, Floor, Mark, Replaced, Scan, Sensor, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use super::ground::Ground;
 use super::runs::Draw;
 use super::term::{cell, definition, list};
 
@@ -22,14 +21,7 @@ const RULES: [(&str, Rule); 4] = [
 const NEIGHBOURS: [Option<(u32, bool)>; 6] =
     [None, Some((0, false)), Some((1, false)), Some((2, false)), Some((1, true)), Some((2, true))];
 
-/// Sensors, and walls between cells.
-#[derive(Default)]
-struct Ground {
-    sensors: BTreeMap<(i16, i16), Sensor>,
-    walls: HashSet<Edge>,
-}
-
-impl Ground {
+impl Ground<Sensor> {
     fn count(&self, cell: Cell) -> u32 {
         self.sensors.get(&(cell.x, cell.y)).map_or(0, |sensor| sensor.crossings)
     }
@@ -40,24 +32,6 @@ impl Ground {
             self.sensor(cell.beyond(side)).is_some() && self.is_open(Edge::new(cell, side))
         };
         COMPASS.into_iter().filter(comes)
-    }
-}
-
-impl Floor for Ground {
-    fn sensor(&self, cell: Cell) -> Option<Sensor> {
-        self.sensors.get(&(cell.x, cell.y)).copied()
-    }
-
-    fn put(&mut self, cell: Cell, sensor: Sensor) {
-        self.sensors.insert((cell.x, cell.y), sensor);
-    }
-
-    fn unpack(&mut self, _: Cell) -> u16 {
-        1
-    }
-
-    fn is_open(&self, edge: Edge) -> bool {
-        !self.walls.contains(&edge)
     }
 }
 

@@ -1,39 +1,15 @@
 //! Runs of agents that search in trees, on drawn floors: what each action does to the sensors.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::BTreeSet;
 
 use tautline_kernel::bricks::tree::{Agent, Label, Next, Note, Rule, State, act, settle};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::Floor;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use super::ground::Ground;
 use super::runs::Draw;
 use super::term::{cell, definition, list};
-
-/// Sensors, and walls between cells.
-#[derive(Clone, Default)]
-struct Ground {
-    sensors: BTreeMap<(i16, i16), Note>,
-    walls: HashSet<Edge>,
-}
-
-impl Floor<Note> for Ground {
-    fn sensor(&self, cell: Cell) -> Option<Note> {
-        self.sensors.get(&(cell.x, cell.y)).copied()
-    }
-
-    fn put(&mut self, cell: Cell, note: Note) {
-        self.sensors.insert((cell.x, cell.y), note);
-    }
-
-    fn unpack(&mut self, _: Cell) -> u16 {
-        1
-    }
-
-    fn is_open(&self, edge: Edge) -> bool {
-        !self.walls.contains(&edge)
-    }
-}
 
 /// No sensor is missed.
 struct Sees;
@@ -52,7 +28,7 @@ const fn said(note: Note) -> Said {
 }
 
 /// A floor of at most 5×4 cells, of which those that are connected with the first.
-fn floor(draw: &mut Draw) -> Ground {
+fn floor(draw: &mut Draw) -> Ground<Note> {
     let mut floor = Ground::default();
     let (width, height) = (2 + draw.below(4) as i16, 2 + draw.below(3) as i16);
     let all = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y)));

@@ -5,6 +5,8 @@ use serde::Serialize;
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::position::{Point, SymmetricMatrix};
 
+use crate::objects::spread;
+
 /// A layer of a page, which can be shown or hidden.
 #[derive(Clone, Debug)]
 pub struct Layer {
@@ -158,9 +160,7 @@ impl Mark {
     /// A thing that is taken to be at `at`.
     #[must_use]
     pub fn guess(number: usize, value: u8, at: Point, covariance: SymmetricMatrix) -> Self {
-        let deviations = [covariance.xx, covariance.yy].map(f64::sqrt);
-        let both = deviations[0] * deviations[1];
-        let correlation = if both > 0.0 { covariance.xy / both } else { 0.0 };
+        let (deviations, correlation) = spread(covariance);
         let mut mark = Self::exact(number, value, at);
         mark.figures.extend([deviations[0], deviations[1], correlation].map(thousandths));
         mark

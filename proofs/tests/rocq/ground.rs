@@ -1,0 +1,37 @@
+//! A floor on the heap: its sensors, and walls between cells.
+
+use std::collections::{BTreeMap, HashSet};
+
+use tautline_kernel::floor::Floor;
+use tautline_kernel::ground::{Cell, Edge};
+
+/// Sensors, and walls between cells.
+#[derive(Clone)]
+pub(super) struct Ground<S> {
+    pub(super) sensors: BTreeMap<(i16, i16), S>,
+    pub(super) walls: HashSet<Edge>,
+}
+
+impl<S> Default for Ground<S> {
+    fn default() -> Self {
+        Self { sensors: BTreeMap::new(), walls: HashSet::new() }
+    }
+}
+
+impl<S: Copy> Floor<S> for Ground<S> {
+    fn sensor(&self, cell: Cell) -> Option<S> {
+        self.sensors.get(&(cell.x, cell.y)).copied()
+    }
+
+    fn put(&mut self, cell: Cell, sensor: S) {
+        self.sensors.insert((cell.x, cell.y), sensor);
+    }
+
+    fn unpack(&mut self, _: Cell) -> u16 {
+        1
+    }
+
+    fn is_open(&self, edge: Edge) -> bool {
+        !self.walls.contains(&edge)
+    }
+}
