@@ -1,16 +1,13 @@
 //! The cost of a team move of the chain: against the plain recursion, in open areas of every size, and among random
 //! walls. Criterion follows each figure over time; the tables at the end relate them to one another.
 
-mod common;
-
 use criterion::{BenchmarkId, Criterion};
+use tautline_benches::{Cost, group, measure};
 use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
 use tautline_sim::heap_grid::HeapGrid;
 use tautline_sim::layout::{Generator, Layout};
-
-use self::common::{Cost, group, measure};
 
 /// The work of a run, or of several.
 #[derive(Clone, Copy, Default)]
@@ -20,7 +17,7 @@ struct Work {
     most_looked_at: u32,
 }
 
-impl common::Work for Work {
+impl tautline_benches::Work for Work {
     fn parts(&self) -> u32 {
         self.team_moves
     }

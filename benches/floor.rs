@@ -2,9 +2,8 @@
 //! cells.
 //! Criterion follows each figure over time; the table at the end relates them to one another.
 
-mod common;
-
 use criterion::{BenchmarkId, Criterion};
+use tautline_benches::{Cost, Group, group, measure};
 use tautline_kernel::bricks::tree;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
@@ -14,8 +13,6 @@ use tautline_sim::explore::agents::Agents;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Generator, Layout};
 
-use self::common::{Cost, Group, group, measure};
-
 /// The work of a run.
 #[derive(Clone, Copy, Default)]
 struct Work {
@@ -24,7 +21,7 @@ struct Work {
     agent_steps: u32,
 }
 
-impl common::Work for Work {
+impl tautline_benches::Work for Work {
     fn parts(&self) -> u32 {
         self.team_moves
     }

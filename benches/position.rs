@@ -3,8 +3,6 @@
 //! Gauss–Newton here also looks for a second minimum and tells the covariance, which levenberg-marquardt does not; one
 //! minimum alone, from the linear solution as for levenberg-marquardt, has a row of its own.
 
-mod common;
-
 use std::hint::black_box;
 
 use argmin::core::{CostFunction, Error, Executor};
@@ -12,6 +10,7 @@ use argmin::solver::particleswarm::ParticleSwarm;
 use criterion::{BenchmarkId, Criterion};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra_of_levenberg_marquardt::{Matrix3x2, Owned, U2, U3, Vector2, Vector3};
+use tautline_benches::{Work, group, measure};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
@@ -19,8 +18,6 @@ use tautline_kernel::position::{
     closed_form, linear, locate, locate_from,
 };
 use tautline_proofs::engine::SeededOracle;
-
-use self::common::{group, measure};
 
 const ANCHORS: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
 const PARTICLES: usize = 30;
@@ -31,7 +28,7 @@ const POSITIONS: u32 = 200;
 
 struct FixWork;
 
-impl common::Work for FixWork {
+impl Work for FixWork {
     fn parts(&self) -> u32 {
         POSITIONS
     }
@@ -205,7 +202,7 @@ fn main() {
 
     println!("\nMicroseconds for a position, the fastest of the samples");
     for (name, ours, crate_name, theirs) in rows {
-        let (micros, of) = (ours.micros, common::Work::parts(&ours.work));
+        let (micros, of) = (ours.micros, Work::parts(&ours.work));
         println!(
             "  {name:36} of {of}: tautline {micros:>6.2}   {crate_name} {theirs:>6.2}   {:>5.1} times",
             theirs / micros

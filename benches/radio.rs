@@ -2,19 +2,16 @@
 //! node for every sender, and by the number of nodes at one density. Criterion follows each figure over time; the
 //! tables at the end relate them to one another.
 
-mod common;
-
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::num::NonZeroU32;
 
 use criterion::{BenchmarkId, Criterion};
+use tautline_benches::{Cost, Work, group, measure};
 use tautline_field::radio::{Area, Channel, Faults, Field, Model, Network, Radio, broadcast};
 use tautline_kernel::net::{NodeId, Reception};
 use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Surroundings};
 use tautline_proofs::engine::SeededOracle;
-
-use self::common::{Cost, Work, group, measure};
 
 /// The work of a flood.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -2,12 +2,11 @@
 //! number of robots and the rule, and on two threads. Criterion follows the shorter searches over time; the tables at
 //! the end relate them to one another.
 
-mod common;
-
 use std::time::Instant;
 
 use criterion::{BenchmarkId, Criterion};
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use tautline_benches::{Cost, Work, group, measure};
 use tautline_kernel::chain::Rule;
 use tautline_kernel::ground::{Edge, Step};
 use tautline_proofs::chain::Subject;
@@ -16,8 +15,6 @@ use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
 use tautline_proofs::chain::search::{Bounds, search};
 use tautline_proofs::engine::tree::unwatched;
-
-use self::common::{Cost, Work, group, measure};
 
 /// The violations that all searches look for after every team move. None of them looks at how a run ends.
 const BREACHES: [Breach; 3] = [Breach::Contact, Breach::Crowding, Breach::Coverage];

@@ -12,26 +12,3 @@ pub(crate) fn sentence(id: &str) -> &'static str {
     let own = own::page().into_iter().flat_map(|page| page.sentences.iter().copied());
     own.chain(ours).find(|&(known, _)| known == id).map_or("", |(_, sentence)| sentence)
 }
-
-#[cfg(test)]
-mod tests {
-    use std::fmt::Write;
-    use std::{env, fs};
-
-    use tautline_proofs::ledger;
-
-    use super::SENTENCES;
-
-    #[test]
-    fn the_sentences_are_those_of_the_ledger() {
-        let mut all = String::new();
-        for clause in ledger::clauses() {
-            writeln!(all, "{}\t{}", clause.id, clause.sentence).expect("a string");
-        }
-        if env::var_os("TAUTLINE_RENEW").is_some() {
-            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/clauses.txt");
-            fs::write(path, &all).expect("a file");
-        }
-        assert!(all == SENTENCES, "renew it: TAUTLINE_RENEW=1 cargo test -p tautline-web");
-    }
-}

@@ -7,9 +7,11 @@ use std::time::{Duration, Instant};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
 
-pub(crate) type Group<'a> = BenchmarkGroup<'a, WallTime>;
+/// A group of benchmarks that measure wall time.
+pub type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
-pub(crate) fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
+/// A group of ten short samples of each benchmark.
+pub fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
     let mut group = criterion.benchmark_group(name);
     group.sampling_mode(SamplingMode::Flat).sample_size(10);
     group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_millis(1500));
@@ -17,30 +19,29 @@ pub(crate) fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
 }
 
 /// The amount of work done.
-pub(crate) trait Work {
+pub trait Work {
     /// Of how many parts it was: team moves, receptions.
     fn parts(&self) -> u32;
 }
 
 /// The cost of one part.
-pub(crate) struct Cost<W> {
-    pub(crate) work: W,
+pub struct Cost<W> {
+    /// The work of one run.
+    pub work: W,
     /// By the fastest sample; infinite if nothing was measured.
-    pub(crate) micros: f64,
+    pub micros: f64,
 }
 
 impl<W: Work> Cost<W> {
-    pub(crate) fn new(work: W, seconds: f64) -> Self {
+    /// The cost of a part of `work`, which took so long.
+    pub fn new(work: W, seconds: f64) -> Self {
         let micros = 1e6 * seconds / f64::from(work.parts());
         Self { work, micros }
     }
 }
 
-pub(crate) fn measure<W: Work>(
-    group: &mut Group<'_>,
-    id: BenchmarkId,
-    mut run: impl FnMut() -> W,
-) -> Cost<W> {
+/// Samples `run`, and relates its fastest sample to the work that it says it did.
+pub fn measure<W: Work>(group: &mut Group<'_>, id: BenchmarkId, mut run: impl FnMut() -> W) -> Cost<W> {
     let work = run();
     let mut fastest_seconds = f64::INFINITY;
     group.throughput(Throughput::Elements(work.parts().into()));
