@@ -4,7 +4,7 @@
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Heard Reach ChainEnds Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
+From Tautline Require Heard Reach ChainEnds Reel ReelTie Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
   Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie Fixes FixesTie.
@@ -42,6 +42,16 @@ Check Reach.CHAIN_13.
 Print Assumptions Reach.CHAIN_13.
 Check Reach.within_reach_is_reachable.
 Print Assumptions Reach.within_reach_is_reachable.
+Check Reel.CHAIN_7.
+Print Assumptions Reel.CHAIN_7.
+Check Reel.CHAIN_17.
+Print Assumptions Reel.CHAIN_17.
+Check Reel.CHAIN_18.
+Print Assumptions Reel.CHAIN_18.
+Check Reel.CHAIN_23.
+Print Assumptions Reel.CHAIN_23.
+Check ReelTie.each_habit_is_needed.
+Print Assumptions ReelTie.each_habit_is_needed.
 Check Hold.CHAIN_19.
 Print Assumptions Hold.CHAIN_19.
 Check Hold.hold_keeps_coverage.
@@ -226,6 +236,8 @@ Check Replayed.kernel_runs_are_heard.
 Print Assumptions Replayed.kernel_runs_are_heard.
 Check ChainEnds.kernel_runs_end.
 Print Assumptions ChainEnds.kernel_runs_end.
+Check ReelTie.kernel_reels_run.
+Print Assumptions ReelTie.kernel_reels_run.
 Check NoticeTie.notice_answers_agree.
 Print Assumptions NoticeTie.notice_answers_agree.
 Check SpreadTie.spread_agrees.

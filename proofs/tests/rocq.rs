@@ -22,6 +22,8 @@ mod mrc;
 mod notice;
 #[path = "rocq/pack.rs"]
 mod pack;
+#[path = "rocq/reel.rs"]
+mod reel;
 #[path = "rocq/runs.rs"]
 mod runs;
 #[path = "rocq/tan.rs"]
@@ -69,6 +71,11 @@ fn the_chain_answers_as_the_proofs_have_it() {
 #[test]
 fn chains_run_as_the_proofs_have_it() {
     is_up_to_date("Runs.v", &runs::terms());
+}
+
+#[test]
+fn reels_run_as_the_proofs_have_it() {
+    is_up_to_date("ReelRuns.v", &reel::terms());
 }
 
 #[test]
