@@ -4,7 +4,8 @@
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Heard Reach ChainEnds Reel ReelTie Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
+From Tautline Require Heard Reach ChainEnds Reel Scripts ReelTie Admission AdmissionTie Epochs EpochsTie Hold Marking
+  Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
   Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie Fixes FixesTie.
@@ -22,6 +23,10 @@ Check CHAIN_3.
 Print Assumptions CHAIN_3.
 Check CHAIN_3_towards_a_wall.
 Print Assumptions CHAIN_3_towards_a_wall.
+Check Admission.CHAIN_4.
+Print Assumptions Admission.CHAIN_4.
+Check Admission.admits_plan_spec.
+Print Assumptions Admission.admits_plan_spec.
 Check CHAIN_5.
 Print Assumptions CHAIN_5.
 Check marking_is_enough.
@@ -50,8 +55,14 @@ Check Reel.CHAIN_18.
 Print Assumptions Reel.CHAIN_18.
 Check Reel.CHAIN_23.
 Print Assumptions Reel.CHAIN_23.
-Check ReelTie.each_habit_is_needed.
-Print Assumptions ReelTie.each_habit_is_needed.
+Check Scripts.each_habit_is_needed.
+Print Assumptions Scripts.each_habit_is_needed.
+Check Epochs.CHAIN_7.
+Print Assumptions Epochs.CHAIN_7.
+Check Epochs.unfolding_arrives.
+Print Assumptions Epochs.unfolding_arrives.
+Check Epochs.epochs_must_gain.
+Print Assumptions Epochs.epochs_must_gain.
 Check Hold.CHAIN_19.
 Print Assumptions Hold.CHAIN_19.
 Check Hold.hold_keeps_coverage.
@@ -236,6 +247,10 @@ Check Replayed.kernel_runs_are_heard.
 Print Assumptions Replayed.kernel_runs_are_heard.
 Check ChainEnds.kernel_runs_end.
 Print Assumptions ChainEnds.kernel_runs_end.
+Check AdmissionTie.plans_are_accepted.
+Print Assumptions AdmissionTie.plans_are_accepted.
+Check EpochsTie.kernel_epochs_run.
+Print Assumptions EpochsTie.kernel_epochs_run.
 Check ReelTie.kernel_reels_run.
 Print Assumptions ReelTie.kernel_reels_run.
 Check NoticeTie.notice_answers_agree.

@@ -468,6 +468,13 @@ Section Falls.
     inversion F as [|? ? C _]; subst. specialize (C i L). cbn in C. apply in_ball; lia.
   Qed.
 
+  Lemma side_of : forall s, reachable N rl base (stands walls) (state_of s) ->
+    forall i side, i < N -> In (edge_of (team_of (places s) i) side) sides_of.
+  Proof.
+    intros s R i side L. apply in_flat_map; exists (team_of (places s) i). split; [now apply places_in_ball|].
+    apply in_map; destruct side; cbn; auto.
+  Qed.
+
   Definition unknown (m : chart) : nat :=
     List.length (filter (fun c => negb (is_in (seen m) c)) ball)
     + List.length (filter (fun e => negb (has (met m) e)) sides_of).
@@ -484,38 +491,43 @@ Section Falls.
   Lemma met_grows : forall m s t mv e, has (met m) e = true -> has (met (learns N walls m s t mv)) e = true.
   Proof. intros m s t mv e H; unfold learns; cbn [met]; rewrite has_fold, H; reflexivity. Qed.
 
-  Lemma gain_counts : forall x mv m y, runs x -> moves x mv m y ->
-    if gained y then unknown (chart_of y) < unknown (chart_of x) else chart_of y = chart_of x.
+  Lemma counts : forall m s mv t, reachable N rl base (stands walls) (state_of s) ->
+    next N rl base walls s mv = Some t ->
+    if explores m (places t) || finds N walls m s mv then unknown (learns N walls m s t mv) < unknown m
+    else learns N walls m s t mv = m.
   Proof.
-    intros x mv m y R M. destruct (runs_reachable _ R) as [RX _].
-    destruct (runs_reachable y ltac:(eapply runs_on; eauto)) as [RY LY].
-    destruct M as [t P X gain]; cbn [gained chart_of team_at] in *.
-    destruct gain eqn:Y; unfold gain in Y; [|apply orb_false_iff in Y; destruct Y; now apply map_kept].
-    unfold unknown. set (m' := learns N walls (chart_of x) (team_at x) t mv).
-    assert (forall c, negb (is_in (seen m') c) = true -> negb (is_in (seen (chart_of x)) c) = true) as A.
-    { intros c H; destruct (is_in (seen (chart_of x)) c) eqn:E; [|reflexivity].
+    intros m s mv t RX X. pose proof (next_reachable _ _ _ _ _ _ _ RX X) as RY. pose proof (next_length _ _ _ X) as LY.
+    destruct (_ || _) eqn:Y; [|apply orb_false_iff in Y; destruct Y; now apply map_kept].
+    unfold unknown. set (m' := learns N walls m s t mv).
+    assert (forall c, negb (is_in (seen m') c) = true -> negb (is_in (seen m) c) = true) as A.
+    { intros c H; destruct (is_in (seen m) c) eqn:E; [|reflexivity].
       unfold m' in H; rewrite seen_grows in H by exact E; discriminate. }
-    assert (forall e, negb (has (met m') e) = true -> negb (has (met (chart_of x)) e) = true) as B.
-    { intros e H; destruct (has (met (chart_of x)) e) eqn:E; [|reflexivity].
+    assert (forall e, negb (has (met m') e) = true -> negb (has (met m) e) = true) as B.
+    { intros e H; destruct (has (met m) e) eqn:E; [|reflexivity].
       unfold m' in H; rewrite met_grows in H by exact E; discriminate. }
     pose proof (filter_more _ _ _ ball A) as A'; pose proof (filter_more _ _ _ sides_of B) as B'. cbn beta in A', B'.
     apply orb_true_iff in Y; destruct Y as [Y|Y]; apply existsb_exists in Y; destruct Y as [c [I U]].
     - assert (List.length (filter (fun c => negb (is_in (seen m') c)) ball)
-        < List.length (filter (fun c => negb (is_in (seen (chart_of x)) c)) ball)); [|lia].
+        < List.length (filter (fun c => negb (is_in (seen m) c)) ball)); [|lia].
       apply Frontier.filter_less; [exact A|]. exists c; split; [|split; [exact U|]].
       + apply In_nth with (d := (0, 0)%Z) in I; destruct I as [i [L <-]]. rewrite LY in L.
         now apply places_in_ball.
       + apply negb_false_iff, is_in_spec, grow_spec; now right.
     - assert (List.length (filter (fun e => negb (has (met m') e)) sides_of)
-        < List.length (filter (fun e => negb (has (met (chart_of x)) e)) sides_of)); [|lia].
+        < List.length (filter (fun e => negb (has (met m) e)) sides_of)); [|lia].
       apply Frontier.filter_less; [exact B|]. exists c; split; [|split; [exact U|]].
       + unfold blocked in I; destruct mv as [pl|pl]; [|destruct I]. apply in_flat_map in I; destruct I as [i [I J]].
         apply in_seq in I. destruct (nth i pl Stay) as [side|]; [|destruct J]. destruct (stands walls _); [|destruct J].
-        destruct J as [<-|[]]. apply in_flat_map; exists (team_of (places (team_at x)) i).
-        split; [apply places_in_ball; [exact RX | lia]|].
-        apply in_map; destruct side; cbn; auto.
+        destruct J as [<-|[]]. apply side_of; [exact RX | lia].
       + apply negb_false_iff. unfold m', learns; cbn [met]. rewrite has_fold. apply orb_true_iff; right.
         apply existsb_exists; exists c; split; [exact I | now apply edge_eqb_spec].
+  Qed.
+
+  Lemma gain_counts : forall x mv m y, runs x -> moves x mv m y ->
+    if gained y then unknown (chart_of y) < unknown (chart_of x) else chart_of y = chart_of x.
+  Proof.
+    intros x mv m y R M. destruct (runs_reachable _ R) as [RX _]. destruct M as [t P X gain].
+    cbn [gained chart_of]. now apply counts.
   Qed.
 
   (** ** Every run ends: what is unknown, tasks, the history. *)

@@ -6,6 +6,8 @@
 mod ants;
 #[path = "rocq/chain.rs"]
 mod chain;
+#[path = "rocq/epochs.rs"]
+mod epochs;
 #[path = "rocq/fixes.rs"]
 mod fixes;
 #[path = "rocq/frontier.rs"]
@@ -22,6 +24,8 @@ mod mrc;
 mod notice;
 #[path = "rocq/pack.rs"]
 mod pack;
+#[path = "rocq/plans.rs"]
+mod plans;
 #[path = "rocq/reel.rs"]
 mod reel;
 #[path = "rocq/runs.rs"]
@@ -74,8 +78,18 @@ fn chains_run_as_the_proofs_have_it() {
 }
 
 #[test]
+fn plans_are_accepted_as_the_proofs_have_it() {
+    is_up_to_date("PlanAnswers.v", &plans::terms());
+}
+
+#[test]
 fn reels_run_as_the_proofs_have_it() {
     is_up_to_date("ReelRuns.v", &reel::terms());
+}
+
+#[test]
+fn epochs_end_as_the_proofs_have_it() {
+    is_up_to_date("EpochRuns.v", &epochs::terms());
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn runs(name: &str, rule: Rule) -> String {
 }
 
 /// Steps or messages as one number, those of R_2 in the lowest byte.
-fn number(bytes: impl DoubleEndedIterator<Item = u8> + ExactSizeIterator) -> String {
+pub(super) fn number(bytes: impl DoubleEndedIterator<Item = u8> + ExactSizeIterator) -> String {
     let digits = 2 * bytes.len();
     let number = bytes.rev().fold(0_u64, |number, byte| number << 8 | u64::from(byte));
     format!("0x{number:0digits$x}")
