@@ -8,7 +8,8 @@ From Tautline Require Heard Reach ChainEnds Reel Scripts ReelTie Admission Admis
   Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesTie Fixes FixesTie.
+  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesEnd TreesAlone TreesTie AloneTie
+  Labels Turns Children Fixes FixesTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -151,12 +152,26 @@ Check Pack.PACK_6.
 Print Assumptions Pack.PACK_6.
 Check Trees.BRICKS_2.
 Print Assumptions Trees.BRICKS_2.
+Check Turns.BRICKS_3.
+Print Assumptions Turns.BRICKS_3.
 Check Trees.BRICKS_4.
 Print Assumptions Trees.BRICKS_4.
 Check Trees.BRICKS_8.
 Print Assumptions Trees.BRICKS_8.
 Check Trees.BRICKS_9.
 Print Assumptions Trees.BRICKS_9.
+Check TreesEnd.BRICKS_5.
+Print Assumptions TreesEnd.BRICKS_5.
+Check TreesEnd.BRICKS_6.
+Print Assumptions TreesEnd.BRICKS_6.
+Check TreesEnd.BRICKS_11.
+Print Assumptions TreesEnd.BRICKS_11.
+Check TreesAlone.BRICKS_12.
+Print Assumptions TreesAlone.BRICKS_12.
+Check Children.BRICKS_13.
+Print Assumptions Children.BRICKS_13.
+Check Labels.BRICKS_14.
+Print Assumptions Labels.BRICKS_14.
 
 (** What each condition is needed for. *)
 Check Mutants.published_breaks_CHAIN_1.
@@ -231,6 +246,12 @@ Check Fixes.without_its_bound_FRONTIER_7_breaks.
 Print Assumptions Fixes.without_its_bound_FRONTIER_7_breaks.
 Check Trees.without_Childless_breaks_BRICKS_2.
 Print Assumptions Trees.without_Childless_breaks_BRICKS_2.
+Check TreesEnd.without_Exit_breaks_BRICKS_6.
+Print Assumptions TreesEnd.without_Exit_breaks_BRICKS_6.
+Check Turns.without_turns_breaks_BRICKS_3.
+Print Assumptions Turns.without_turns_breaks_BRICKS_3.
+Check Labels.too_few_bits_break_BRICKS_14.
+Print Assumptions Labels.too_few_bits_break_BRICKS_14.
 
 (** The tie to the kernel. *)
 Check ChainTie.chain_answers_agree.
@@ -293,6 +314,16 @@ Check PackTie.kernel_runs_are_runs.
 Print Assumptions PackTie.kernel_runs_are_runs.
 Check TreesTie.kernel_trees_run.
 Print Assumptions TreesTie.kernel_trees_run.
+Check AloneTie.kernel_helpers_alone.
+Print Assumptions AloneTie.kernel_helpers_alone.
+Check Labels.label_answers_agree.
+Print Assumptions Labels.label_answers_agree.
+Check Children.child_answers_agree.
+Print Assumptions Children.child_answers_agree.
+Check TreesTie.four_moves_are_not_enough.
+Print Assumptions TreesTie.four_moves_are_not_enough.
+Check TreesTie.two_moves_are_not_enough_for_brick_tree.
+Print Assumptions TreesTie.two_moves_are_not_enough_for_brick_tree.
 
 (** Any local rule. *)
 Check Local.every_N.

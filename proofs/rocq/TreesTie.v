@@ -1,9 +1,9 @@
-(** The tie between the kernel and Trees.v: the kernel's runs in generated/TreesAnswers.v,
-  of brick-tree and of helpers, are
-    runs of Trees.v, action by action; and whenever an agent is done, its cell is visited and stores no side. *)
+(** The tie between the kernel, Trees.v and TreesEnd.v: the kernel's runs in generated/TreesAnswers.v, of brick-tree, of
+    helpers and of careful ones that miss sensors, are runs of TreesEnd.v, turn by turn. Two more runs refute BRICKS-10,
+    and one BRICKS-12 of brick-tree. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Trees.
-From Tautline Require Marking.
+From Tautline Require Marking TreesEnd.
 From Tautline.generated Require Import TreesAnswers.
 Import ListNotations.
 
@@ -90,24 +90,55 @@ Section Replay.
     | change :: changes => match step fu change with Some next => steps next changes | None => None end
     end.
 
-  Definition action : Type := cell * list (cell * (nat * nat * nat)) * bool.
-  Fixpoint replay (fu : floor * list nat) (actions : list action) : option (floor * list nat) :=
+  (** A turn: whose, whether a sensor is missed, the side and 1 through which the agent goes,
+      5 if it stays and 0 if it is
+      done, its cell, and what is written. *)
+  Definition action : Type := nat * bool * nat * cell * list (cell * (nat * nat * nat)).
+  Definition goes (here : cell) (way : nat) : option cell :=
+    match way with 0 => None | 5 => Some here | S s => Some (beyond here (nth s all_sides East)) end.
+  Definition walk (f : floor) (c d : cell) : bool :=
+    match f c, f d with
+    | Open _ m _, Open _ l r => (l =? m) && same_exit r (Some c) || (m <? l)
+    | Visited _ e, _ => is_accessible f d || same_exit e (Some d)
+    | _, _ => false
+    end.
+  Definition is_last (f : floor) (c : cell) : bool := match f c with Visited _ None => true | _ => false end.
+
+  Definition state : Type := floor * list nat * (nat -> TreesEnd.place cell) * TreesEnd.history cell.
+  Definition take (n : nat) (s : state) (a : action) : option state :=
+    let '(f, used, w, past) := s in
+    let '(i, missed, way, here, changes) := a in
+    let next := goes here way in
+    let now g used' p := Some (g, used', TreesEnd.put cell w i p, (i, missed, next) :: past) in
+    match w i with
+    | Some (c, may) =>
+        if (i <? n) && cell_eqb c here then
+          match changes, next with
+          | [], Some d => if walk f c d || (may || missed) then now f used (Some (d, missed)) else None
+          | [], None => if is_last f c then now f used None else None
+          | _, _ =>
+              match steps (f, used) changes, next with
+              | Some (g, used'), Some d => now g used' (Some (d, true))
+              | Some (g, used'), None => if is_last g c then now g used' None else None
+              | None, _ => None
+              end
+          end
+        else None
+    | None => None
+    end.
+  Fixpoint replay (n : nat) (s : state) (actions : list action) : option state :=
     match actions with
-    | [] => Some fu
-    | (here, changes, done) :: actions =>
-        match steps fu changes with
-        | Some next =>
-            if negb done || match fst next here with Visited _ None => true | _ => false end
-            then replay next actions else None
-        | None => None
-        end
+    | [] => Some s
+    | a :: actions => match take n s a with Some next => replay n next actions | None => None end
     end.
 
   Definition start_floor (cells starts : list cell) : floor :=
     fun c => if is_in cells c then if is_in starts c then Explored cell else Unexplored cell else Wall cell.
-  Definition is_run (cells starts : list cell) (actions : list action) : bool :=
+  Definition start (cells starts : list cell) : state :=
+    (start_floor cells starts, [], fun i => Some (nth i starts (0, 0)%Z, false), []).
+  Definition ends_with (ok : state -> bool) (cells starts : list cell) (actions : list action) : bool :=
     all_joined (is_in cells) cells
-    && match replay (start_floor cells starts, []) actions with Some _ => true | None => false end.
+    && match replay (length starts) (start cells starts) actions with Some s => ok s | None => false end.
 
   (** All that is so checked is a run. *)
   Lemma put_becomes : forall f c n, becomes cell f c n (put f c n).
@@ -197,6 +228,9 @@ Section Replay.
     unfold own_label in J; destruct (f p) as [| | |l q|]; try discriminate. apply Nat.eqb_eq in J; subst; eauto.
   Qed.
 
+  Lemma same_exit_spec : forall q e, same_exit q e = true -> q = e.
+  Proof. intros [a|] [b|] S; try discriminate; [apply cell_eqb_spec in S; now subst | reflexivity]. Qed.
+
   Lemma leaf_spec : forall f c, leaf f c = true -> may_mark cell beside f c
     /\ forall d, beside c d -> accessible cell f d -> is_open cell f d.
   Proof.
@@ -205,11 +239,11 @@ Section Replay.
     unfold own_label in L; unfold is_open; destruct (f d); try discriminate; eauto.
   Qed.
 
-  Lemma brick_run : forall f used c e, run cell beside f used -> brick f c e = true ->
-    run cell beside (put f c (Visited cell e)) used.
+  Lemma brick_acts : forall f used c e, brick f c e = true ->
+    acts cell beside f used (put f c (Visited cell e)) used.
   Proof.
-    intros f used c e R B; unfold brick in B; rewrite !andb_true_iff in B; destruct B as [[[A M] J] X].
-    eapply goes_on; [exact R|]. apply marks_brick with (c := c) (exit := e);
+    intros f used c e B; unfold brick in B; rewrite !andb_true_iff in B; destruct B as [[[A M] J] X].
+    apply marks_brick with (c := c) (exit := e);
       [now apply accessible_spec | now apply may_spec | | | apply put_becomes].
     - intros a b Fa Fb Ba Bb. eapply all_joined_ways; [| | exact J | |].
       + intros d; unfold Marking.unmarked; rewrite andb_true_iff, accessible_spec, negb_true_iff.
@@ -227,78 +261,192 @@ Section Replay.
         assert (In d []) as []. rewrite <- E; now apply filter_In.
   Qed.
 
-  Lemma step_run : forall f used change g used', run cell beside f used -> step (f, used) change = Some (g, used') ->
-    run cell beside g used'.
+  Lemma step_writes : forall f used change g used', step (f, used) change = Some (g, used') ->
+    TreesEnd.writes cell beside f used g used'.
   Proof.
-    intros f used [c said] g used' R E; unfold step in E; cbn [fst snd] in E.
+    intros f used [c said] g used' E; unfold step in E; cbn [fst snd] in E.
     destruct (f c) as [| | |l r|] eqn:F; [discriminate | | | | discriminate];
       destruct (note_of c said) as [| | |m [p|]|e] eqn:N; try discriminate.
-    - injection E as <- <-; eapply goes_on; [exact R|]. eapply enters; [exact F | apply put_becomes].
+    - injection E as <- <-; apply TreesEnd.once. eapply enters; [exact F | apply put_becomes].
     - destruct (joins_to _ c p m) eqn:J; [|discriminate]; injection E as <- <-.
-      destruct (joins_spec _ _ _ _ J) as [B [q P]]. eapply goes_on.
-      + eapply goes_on; [exact R|]. eapply enters; [exact F | apply put_becomes].
+      destruct (joins_spec _ _ _ _ J) as [B [q P]]. eapply TreesEnd.again.
+      + apply TreesEnd.once. eapply enters; [exact F | apply put_becomes].
       + eapply joins; [apply put_becomes | exact B | exact P | apply put_twice].
     - destruct (joins_to f c p m) eqn:J; [|discriminate]; injection E as <- <-.
-      destruct (joins_spec _ _ _ _ J) as [B [q P]]. eapply goes_on; [exact R|].
+      destruct (joins_spec _ _ _ _ J) as [B [q P]]. apply TreesEnd.once.
       eapply joins; [exact F | exact B | exact P | apply put_becomes].
     - destruct (existsb (Nat.eqb m) used) eqn:U; [discriminate|]; injection E as <- <-.
-      eapply goes_on; [exact R|]. eapply founds; [exact F | | apply put_becomes].
+      apply TreesEnd.once. eapply founds; [exact F | | apply put_becomes].
       intros I; assert (existsb (Nat.eqb m) used = true); [|congruence]. apply existsb_exists; exists m.
       split; [exact I | apply Nat.eqb_refl].
-    - destruct (brick f c e) eqn:B; [injection E as <- <-; now apply brick_run|].
+    - destruct (brick f c e) eqn:B; [injection E as <- <-; now apply TreesEnd.once, brick_acts|].
       destruct e as [p|]; [|discriminate]. destruct (own_label f p) as [m|]; [|discriminate].
       destruct (joins_to f c p m && leaf _ c) eqn:J; [|discriminate]; injection E as <- <-.
       apply andb_true_iff in J; destruct J as [J L]. destruct (joins_spec _ _ _ _ J) as [B' [q P]].
-      destruct (leaf_spec _ _ L) as [M O]. eapply goes_on.
-      + eapply goes_on; [exact R|]. eapply joins; [exact F | exact B' | exact P | apply put_becomes].
+      destruct (leaf_spec _ _ L) as [M O]. eapply TreesEnd.again.
+      + apply TreesEnd.once. eapply joins; [exact F | exact B' | exact P | apply put_becomes].
       + eapply marks_leaf; [apply put_becomes | exact M | exact O | apply put_twice].
     - destruct (joins_to f c p m && _) eqn:J; [|discriminate]; injection E as <- <-.
       apply andb_true_iff in J; destruct J as [J L]; apply Nat.ltb_lt in L.
-      destruct (joins_spec _ _ _ _ J) as [B [q P]]. eapply goes_on; [exact R|].
+      destruct (joins_spec _ _ _ _ J) as [B [q P]]. apply TreesEnd.once.
       eapply adopted; [exact F | exact B | exact P | exact L | apply put_becomes].
-    - destruct (brick f c e) eqn:B; [injection E as <- <-; now apply brick_run|]. cbn [orb] in E.
+    - destruct (brick f c e) eqn:B; [injection E as <- <-; now apply TreesEnd.once, brick_acts|]. cbn [orb] in E.
       destruct (leaf f c && same_exit r e) eqn:L; [|discriminate]; injection E as <- <-.
       apply andb_true_iff in L; destruct L as [L X]. destruct (leaf_spec _ _ L) as [M O].
-      assert (r = e) as -> by (destruct r, e; try discriminate; [apply cell_eqb_spec in X; now subst | reflexivity]).
-      eapply goes_on; [exact R|]. eapply marks_leaf; [exact F | exact M | exact O | apply put_becomes].
+      apply same_exit_spec in X as ->. apply TreesEnd.once. eapply marks_leaf; [exact F | exact M | exact O |
+        apply put_becomes].
   Qed.
 
-  Lemma replay_run : forall actions f used g used', run cell beside f used ->
-    replay (f, used) actions = Some (g, used') -> run cell beside g used'.
+  Lemma steps_writes : forall changes f used g used', changes <> [] -> steps (f, used) changes = Some (g, used') ->
+    TreesEnd.writes cell beside f used g used'.
   Proof.
-    assert (forall changes f used g used', run cell beside f used -> steps (f, used) changes = Some (g, used') ->
-      run cell beside g used') as S.
-    { induction changes as [|change changes IH]; intros f used g used' R E; cbn [steps] in E;
-      [now injection E as <- <-|].
-      destruct (step _ _) as [[h u]|] eqn:X; [|discriminate]. eapply IH; [|exact E]. eapply step_run; eauto. }
-    induction actions as [|[[here changes] done] actions IH]; intros f used g used' R E; cbn [replay] in E;
-      [now injection E as <- <-|].
-    destruct (steps _ _) as [[h u]|] eqn:X; [|discriminate]. destruct (_ || _); [|discriminate].
-    eapply IH; [|exact E]. eapply S; eauto.
+    assert (forall f used g used' h used'', TreesEnd.writes cell beside f used g used' ->
+      TreesEnd.writes cell beside g used' h used'' -> TreesEnd.writes cell beside f used h used'') as T.
+    { intros f used g used' h used'' W V; induction V as [h used'' A | h used'' i used3 V IH A];
+        eapply TreesEnd.again; eauto. }
+    induction changes as [|change changes IH]; intros f used g used' N E; [contradiction|]. cbn [steps] in E.
+    destruct (step _ _) as [[h u]|] eqn:X; [|discriminate]. apply step_writes in X.
+    destruct changes as [|next changes]; [injection E as <- <-; exact X|]. eapply T; [exact X|].
+    apply IH; [discriminate | exact E].
+  Qed.
+
+  Lemma walk_spec : forall f c d, walk f c d = true -> TreesEnd.walks cell f c d.
+  Proof.
+    intros f c d W; unfold walk in W. destruct (f c) as [| | |m q|e] eqn:F; try discriminate.
+    - destruct (f d) as [| | |l r|] eqn:E; try discriminate. apply orb_true_iff in W; destruct W as [W|W].
+      + apply andb_true_iff in W; destruct W as [L X]; apply Nat.eqb_eq in L; apply same_exit_spec in X; subst.
+        eapply TreesEnd.to_child; eauto.
+      + apply Nat.ltb_lt in W; eapply TreesEnd.to_higher; eauto.
+    - apply orb_true_iff in W; destruct W as [W|W].
+      + eapply TreesEnd.leaves; [exact F | now apply accessible_spec].
+      + apply same_exit_spec in W as ->. now apply TreesEnd.follows.
+  Qed.
+
+  Lemma last_spec : forall f c, is_last f c = true -> f c = Visited cell None.
+  Proof. intros f c L; unfold is_last in L; destruct (f c) as [| | | |[e|]]; try discriminate; reflexivity. Qed.
+
+  Lemma take_run : forall cells n f used w past a g used' w' past', TreesEnd.run cell beside cells n f used w past ->
+    take n (f, used, w, past) a = Some (g, used', w', past') -> TreesEnd.run cell beside cells n g used' w' past'.
+  Proof.
+    intros cells n f used w past [[[[i missed] way] here] changes] g used' w' past' R E; unfold take in E.
+    destruct (w i) as [[c may]|] eqn:W; [|discriminate]. destruct ((i <? n) && cell_eqb c here) eqn:L; [|discriminate].
+    apply andb_true_iff in L; destruct L as [L _]; apply Nat.ltb_lt in L.
+    destruct changes as [|change changes].
+    - destruct (goes here way) as [d|] eqn:G.
+      + destruct (walk f c d || (may || missed)) eqn:K; [|discriminate]; injection E as <- <- <- <-.
+        apply (TreesEnd.then_ cell beside cells n f used w past i c may missed f used (Some (d, missed))); auto.
+        apply orb_true_iff in K; destruct K as [K|K]; [apply TreesEnd.walks_on, walk_spec,
+          K | now apply TreesEnd.strays].
+      + destruct (is_last f c) eqn:K; [|discriminate]; injection E as <- <- <- <-.
+        apply (TreesEnd.then_ cell beside cells n f used w past i c may missed f used None); auto.
+        now apply TreesEnd.ends, last_spec.
+    - destruct (steps (f, used) (change :: changes)) as [[h u]|] eqn:K; [|destruct (goes here way); discriminate].
+      apply steps_writes in K; [|discriminate]. destruct (goes here way) as [d|] eqn:G.
+      + injection E as <- <- <- <-.
+        apply (TreesEnd.then_ cell beside cells n f used w past i c may missed h u (Some (d, true))); auto.
+        now apply TreesEnd.goes_on.
+      + destruct (is_last h c) eqn:Z; [|discriminate]; injection E as <- <- <- <-.
+        apply (TreesEnd.then_ cell beside cells n f used w past i c may missed h u None); auto.
+        apply TreesEnd.writes_and_ends; [exact K | now apply last_spec].
+  Qed.
+
+  Lemma replay_run : forall cells n actions s f used w past,
+    (let '(f, used, w, past) := s in TreesEnd.run cell beside cells n f used w past) ->
+    replay n s actions = Some (f, used, w, past) -> TreesEnd.run cell beside cells n f used w past.
+  Proof.
+    intros cells n; induction actions as [|a actions IH]; intros [[[f used] w] past] g used' w' past' R E;
+      cbn [replay] in E; [injection E as <- <- <- <-; exact R|].
+    destruct (take _ _ _) as [[[[h u] x] p]|] eqn:T; [|discriminate]. eapply IH; [|exact E]. eapply take_run; eauto.
+  Qed.
+
+  Lemma started : forall cells starts, all_joined (is_in cells) cells = true ->
+    (forall c, start_floor cells starts c = Wall cell \/ start_floor cells starts c = Unexplored cell
+      \/ start_floor cells starts c = Explored cell)
+    /\ (forall c, start_floor cells starts c <> Wall cell -> In c cells)
+    /\ Marking.connected cell beside (accessible cell (start_floor cells starts)).
+  Proof.
+    intros cells starts C.
+    assert (forall c, is_in cells c = true <-> accessible cell (start_floor cells starts) c) as OK.
+    { intros c; unfold accessible, start_floor; destruct (is_in cells c); [destruct (is_in starts c)|]; split; auto;
+        discriminate || contradiction. }
+    split; [|split].
+    - intros c; unfold start_floor; destruct (is_in cells c); [destruct (is_in starts c)|]; auto.
+    - intros c N; unfold start_floor in N; apply is_in_spec; destruct (is_in cells c); [reflexivity | contradiction].
+    - intros a b Fa Fb; eapply all_joined_ways; [exact OK | | exact C | |]; try (now apply is_in_spec, OK).
+      intros c I0; now apply OK, is_in_spec.
+  Qed.
+
+  Lemma ends_with_spec : forall ok cells starts actions, ends_with ok cells starts actions = true ->
+    exists f used w past, replay (length starts) (start cells starts) actions = Some (f, used, w, past)
+      /\ ok (f, used, w, past) = true /\ TreesEnd.run cell beside cells (length starts) f used w past.
+  Proof.
+    intros ok cells starts actions A; apply andb_true_iff in A; destruct A as [C A].
+    destruct (replay _ _ _) as [[[[f used] w] past]|] eqn:E; [|discriminate]. exists f, used, w, past.
+    split; [reflexivity|]. split; [exact A|]. eapply replay_run; [|exact E].
+    destruct (started cells starts C) as [S [I J]]. apply TreesEnd.begins; auto. discriminate.
   Qed.
 End Replay.
 
 Definition recorded : Type := list cell * list edge * list cell * list action.
-Definition recorded_runs : list (list recorded) := [runs_tree; runs_helpers].
+Definition recorded_runs : list (list recorded) := [runs_tree; runs_helpers; runs_careful].
+Definition all_done (n : nat) (s : state) : bool :=
+  let '(_, _, w, _) := s in forallb (fun i => match w i with None => true | Some _ => false end) (seq 0 n).
 
 Lemma all_recorded : forallb (forallb (fun r : recorded =>
-  let '(cells, walls, first, actions) := r in is_run walls cells first actions)) recorded_runs = true.
+  let '(cells, walls, first, actions) := r in ends_with walls (all_done (length first)) cells first actions))
+    recorded_runs
+  = true.
 Proof. vm_compute; reflexivity. Qed.
 
-(** Every run of the kernel is one of Trees.v, action by action. *)
+(** Every run of the kernel is one of TreesEnd.v, turn by turn, until all agents are done; so it is one of Trees.v. *)
 Theorem kernel_trees_run : forall rs cells walls starts actions, In rs recorded_runs ->
   In (cells, walls, starts, actions) rs ->
-  exists f used, replay walls (start_floor cells starts, []) actions = Some (f, used) /\ run cell (beside walls) f used.
+  exists f used w past, replay walls (length starts) (start cells starts) actions = Some (f, used, w, past)
+    /\ TreesEnd.run cell (beside walls) cells (length starts) f used w past
+    /\ Trees.run cell (beside walls) f used /\ (forall i, i < length starts -> w i = None).
 Proof.
   intros rs cells walls starts actions I J; pose proof all_recorded as A.
   rewrite forallb_forall in A; specialize (A _ I); rewrite forallb_forall in A; specialize (A _ J).
-  cbn beta iota in A. apply andb_true_iff in A; destruct A as [C A].
-  destruct (replay _ _ _) as [[f used]|] eqn:E; [|discriminate]. exists f, used; split; [reflexivity|].
-  eapply replay_run; [|exact E]. apply Trees.starts.
-  - intros c; unfold start_floor; destruct (is_in cells c); [destruct (is_in starts c)|]; auto.
-  - assert (forall c, is_in cells c = true <-> accessible cell (start_floor cells starts) c) as OK.
-    { intros c; unfold accessible, start_floor; destruct (is_in cells c); [destruct (is_in starts c)|]; split; auto;
-        discriminate || contradiction. }
-    intros a b Fa Fb; eapply all_joined_ways; [exact OK | | exact C | |]; try (now apply is_in_spec, OK).
-    intros c I0; now apply OK, is_in_spec.
+  cbn beta iota in A. destruct (ends_with_spec _ _ _ _ _ A) as [f [used [w [past [E [D R]]]]]].
+  exists f, used, w, past. repeat split; [exact E | exact R | eapply TreesEnd.run_of_trees; exact R|].
+  intros i L; unfold all_done in D; rewrite forallb_forall in D. specialize (D i); destruct (w i); [|reflexivity].
+  discriminate D; apply in_seq; lia.
 Qed.
+
+(** How many moves an agent has made. *)
+Definition moves_of (i : nat) (past : TreesEnd.history cell) : nat :=
+  length (filter (fun t => (fst (fst t) =? i) && match snd t with Some _ => true | None => false end) past).
+Definition beyond_moves (most : nat) (cells : list cell) (s : state) : bool :=
+  let '(_, used, _, past) := s in (length used <=? 1) && (most * length cells <? moves_of 0 past).
+
+Lemma too_many : forall most rs, forallb (fun r : recorded => let '(cells, walls, first, actions) := r in
+    ends_with walls (beyond_moves most cells) cells first actions) rs = true ->
+  forall cells walls starts actions, In (cells, walls, starts, actions) rs ->
+  exists f used w past, replay walls (length starts) (start cells starts) actions = Some (f, used, w, past)
+    /\ TreesEnd.run cell (beside walls) cells (length starts) f used w past
+    /\ length used <= 1 /\ most * length cells < moves_of 0 past.
+Proof.
+  intros most rs A cells walls starts actions J. rewrite forallb_forall in A; specialize (A _ J).
+  cbn beta iota in A. destruct (ends_with_spec _ _ _ _ _ A) as [f [used [w [past [E [D R]]]]]].
+  exists f, used, w, past. apply andb_true_iff in D; destruct D as [D D']; apply Nat.leb_le in D;
+    apply Nat.ltb_lt in D'.
+  auto.
+Qed.
+
+(** BRICKS-10 does not hold of every floor: in these runs of the kernel, of two helpers and of two agents of
+    brick-tree in
+    twelve cells, the first makes more than four moves a cell, though there is one tree. *)
+Theorem four_moves_are_not_enough : length runs_of_many_moves = 2 /\
+  forall cells walls starts actions, In (cells, walls, starts, actions) runs_of_many_moves ->
+  exists f used w past, replay walls (length starts) (start cells starts) actions = Some (f, used, w, past)
+    /\ TreesEnd.run cell (beside walls) cells (length starts) f used w past
+    /\ length used <= 1 /\ 4 * length cells < moves_of 0 past.
+Proof. split; [reflexivity | apply too_many; vm_compute; reflexivity]. Qed.
+
+(** BRICKS-12 does not hold of brick-tree: in this run of the kernel an agent alone makes more than two moves a cell. *)
+Theorem two_moves_are_not_enough_for_brick_tree : length runs_of_a_brick_tree_alone = 1 /\
+  forall cells walls starts actions, In (cells, walls, starts, actions) runs_of_a_brick_tree_alone ->
+  exists f used w past, replay walls (length starts) (start cells starts) actions = Some (f, used, w, past)
+    /\ TreesEnd.run cell (beside walls) cells (length starts) f used w past
+    /\ length used <= 1 /\ 2 * length cells < moves_of 0 past.
+Proof. split; [reflexivity | apply too_many; vm_compute; reflexivity]. Qed.

@@ -36,6 +36,8 @@ mod tan;
 mod term;
 #[path = "rocq/trees.rs"]
 mod trees;
+#[path = "rocq/turns.rs"]
+mod turns;
 
 use std::env;
 use std::fs;

@@ -147,7 +147,7 @@ mod tests {
             Some("composition: machine-checked in part (marking)")
         );
         for (clause, rule) in
-            [("CHAIN-14", "repaired"), ("CHAIN-24", "reel"), ("BRICKS-6", "tree"), ("BRICKS-2", "careful")]
+            [("CHAIN-14", "repaired"), ("CHAIN-24", "reel"), ("BRICKS-6", "doubting"), ("BRICKS-2", "robust")]
         {
             assert_eq!(words(clause, rule, "search"), None, "{clause} {rule}");
         }

@@ -18,6 +18,15 @@ impl<S> Default for Ground<S> {
     }
 }
 
+impl<S: Copy> Ground<S> {
+    /// The cell and the eight around it alone.
+    pub(super) fn near(&self, here: Cell) -> Self {
+        let mut near = self.clone();
+        near.sensors.retain(|&(x, y), _| (x - here.x).abs() <= 1 && (y - here.y).abs() <= 1);
+        near
+    }
+}
+
 impl<S: Copy> Floor<S> for Ground<S> {
     fn sensor(&self, cell: Cell) -> Option<S> {
         self.sensors.get(&(cell.x, cell.y)).copied()
