@@ -10,7 +10,7 @@ use super::term::{cell, definition, list};
 
 const BASE: Cell = Cell::new(5, 5);
 const MOST: usize = 4;
-const RUNS: usize = 15;
+const RUNS: usize = 9;
 
 type Paper = Chain<MediumGrid, MOST>;
 
