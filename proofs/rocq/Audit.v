@@ -9,7 +9,8 @@ From Tautline Require Heard Reach ChainEnds Reel Scripts ReelTie Admission Admis
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
   Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants Pack PackTie Trees TreesEnd TreesAlone TreesTie AloneTie
-  Labels Turns Children Fixes FixesTie.
+  Labels Turns Children Fixes FixesTie
+  Sides Joint JointEnds JointTie Entering Fused FusedTie Patience PatienceTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -118,6 +119,10 @@ Check Homing.TAN_2.
 Print Assumptions Homing.TAN_2.
 Check Homing.TAN_4.
 Print Assumptions Homing.TAN_4.
+Check Patience.TAN_3.
+Print Assumptions Patience.TAN_3.
+Check Patience.the_first_of_the_strongest.
+Print Assumptions Patience.the_first_of_the_strongest.
 Check Kit.KIT_1.
 Print Assumptions Kit.KIT_1.
 Check Kit.KIT_3.
@@ -126,8 +131,26 @@ Check Kit.KIT_12.
 Print Assumptions Kit.KIT_12.
 Check Kit.arrivals_keep_admitted.
 Print Assumptions Kit.arrivals_keep_admitted.
+Check Sides.KIT_10.
+Print Assumptions Sides.KIT_10.
+Check Sides.covered_at_both_ends.
+Print Assumptions Sides.covered_at_both_ends.
+Check Joint.KIT_11.
+Print Assumptions Joint.KIT_11.
+Check Joint.KIT_14.
+Print Assumptions Joint.KIT_14.
+Check Joint.two_keep_in_touch.
+Print Assumptions Joint.two_keep_in_touch.
+Check JointEnds.KIT_6_drives.
+Print Assumptions JointEnds.KIT_6_drives.
+Check JointEnds.KIT_7_drives.
+Print Assumptions JointEnds.KIT_7_drives.
+Check JointEnds.KIT_8_knows.
+Print Assumptions JointEnds.KIT_8_knows.
 Check Explorers.FRONTIER_1.
 Print Assumptions Explorers.FRONTIER_1.
+Check Entering.FRONTIER_2.
+Print Assumptions Entering.FRONTIER_2.
 Check ExplorersEnd.FRONTIER_3.
 Print Assumptions ExplorersEnd.FRONTIER_3.
 Check Explorers.FRONTIER_4.
@@ -138,6 +161,10 @@ Check Fixes.FRONTIER_6.
 Print Assumptions Fixes.FRONTIER_6.
 Check Fixes.FRONTIER_7.
 Print Assumptions Fixes.FRONTIER_7.
+Check Fused.FRONTIER_10.
+Print Assumptions Fused.FRONTIER_10.
+Check Fused.no_two_in_one_cell.
+Print Assumptions Fused.no_two_in_one_cell.
 Check Ants.ANTS_1.
 Print Assumptions Ants.ANTS_1.
 Check Ants.ANTS_2.
@@ -224,12 +251,20 @@ Check Ways.without_room_breaks_MRC_11.
 Print Assumptions Ways.without_room_breaks_MRC_11.
 Check Homing.a_liar_breaks_TAN_2.
 Print Assumptions Homing.a_liar_breaks_TAN_2.
+Check Patience.other_numbers_break_TAN_3.
+Print Assumptions Patience.other_numbers_break_TAN_3.
 Check Kit.without_NextInReach_breaks_KIT_1.
 Print Assumptions Kit.without_NextInReach_breaks_KIT_1.
 Check Kit.without_FromInReach_breaks_KIT_1.
 Print Assumptions Kit.without_FromInReach_breaks_KIT_1.
 Check Kit.without_Apart_breaks_KIT_3.
 Print Assumptions Kit.without_Apart_breaks_KIT_3.
+Check Sides.without_Marked_breaks_KIT_10.
+Print Assumptions Sides.without_Marked_breaks_KIT_10.
+Check Sides.others_alone_break_KIT_10.
+Print Assumptions Sides.others_alone_break_KIT_10.
+Check Joint.any_path_breaks_KIT_11.
+Print Assumptions Joint.any_path_breaks_KIT_11.
 Check Ants.counting_is_needed.
 Print Assumptions Ants.counting_is_needed.
 Check Ants.an_end_of_misses_is_needed.
@@ -244,6 +279,12 @@ Check Fixes.without_its_bound_FRONTIER_6_breaks.
 Print Assumptions Fixes.without_its_bound_FRONTIER_6_breaks.
 Check Fixes.without_its_bound_FRONTIER_7_breaks.
 Print Assumptions Fixes.without_its_bound_FRONTIER_7_breaks.
+Check Fused.at_its_bound_FRONTIER_10_breaks.
+Print Assumptions Fused.at_its_bound_FRONTIER_10_breaks.
+Check Fused.beyond_its_bound_FRONTIER_10_breaks.
+Print Assumptions Fused.beyond_its_bound_FRONTIER_10_breaks.
+Check Fused.without_the_share_FRONTIER_10_breaks.
+Print Assumptions Fused.without_the_share_FRONTIER_10_breaks.
 Check Trees.without_Childless_breaks_BRICKS_2.
 Print Assumptions Trees.without_Childless_breaks_BRICKS_2.
 Check TreesEnd.without_Exit_breaks_BRICKS_6.
@@ -294,14 +335,24 @@ Check HomingTie.homing_answers_agree.
 Print Assumptions HomingTie.homing_answers_agree.
 Check HomingTie.guide_answers_agree.
 Print Assumptions HomingTie.guide_answers_agree.
+Check PatienceTie.kernel_walks_agree.
+Print Assumptions PatienceTie.kernel_walks_agree.
 Check KitTie.kit_answers_agree.
 Print Assumptions KitTie.kit_answers_agree.
 Check KitTie.every_drive_is_in_the_table.
 Print Assumptions KitTie.every_drive_is_in_the_table.
+Check JointTie.joint_runs_agree.
+Print Assumptions JointTie.joint_runs_agree.
+Check JointTie.kernel_runs_are_runs.
+Print Assumptions JointTie.kernel_runs_are_runs.
+Check JointTie.areas_are_closed.
+Print Assumptions JointTie.areas_are_closed.
 Check ExplorersTie.kernel_runs_are_runs.
 Print Assumptions ExplorersTie.kernel_runs_are_runs.
 Check FixesTie.fix_answers_agree.
 Print Assumptions FixesTie.fix_answers_agree.
+Check FusedTie.fused_answers_agree.
+Print Assumptions FusedTie.fused_answers_agree.
 Check AntsTie.ants_answers_agree.
 Print Assumptions AntsTie.ants_answers_agree.
 Check AntsTie.kernel_ants_run.

@@ -14,6 +14,8 @@ mod fixes;
 mod frontier;
 #[path = "rocq/ground.rs"]
 mod ground;
+#[path = "rocq/joint.rs"]
+mod joint;
 #[path = "rocq/kit.rs"]
 mod kit;
 #[path = "rocq/machines.rs"]
@@ -115,8 +117,18 @@ fn robots_on_their_way_answer_as_the_proofs_have_it() {
 }
 
 #[test]
+fn robots_walk_as_the_proofs_have_it() {
+    is_up_to_date("PatienceRuns.v", &tan::walks());
+}
+
+#[test]
 fn robots_keep_in_touch_as_the_proofs_have_it() {
     is_up_to_date("KitAnswers.v", &kit::terms());
+}
+
+#[test]
+fn robots_drive_paths_again_as_the_proofs_have_it() {
+    is_up_to_date("JointRuns.v", &joint::terms());
 }
 
 #[test]

@@ -1,10 +1,11 @@
-//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths. A node
-//! that guides: every conduct, and its answers.
+//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths; and runs with
+//! all that is heard. A node that guides: every conduct, and its answers.
 
 use tautline_kernel::net::{NodeId, RobotId, Strength};
-use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, ReqNav, Stage};
+use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
 
 use super::mrc::{Answers, explore, table};
+use super::runs::Draw;
 use super::term::{definition, list};
 
 const GOAL: NodeId = NodeId(0);
@@ -103,6 +104,84 @@ fn guides() -> Vec<String> {
         add("Passes", guide.expire());
     }
     rows
+}
+
+/// The steps of a robot that walks, at most.
+const STEPS: usize = 60;
+
+/// Runs of robots that ask and go nearer so many times at most: of each step what happens, what the robot does then, and its
+/// hops.
+pub(super) fn walks() -> String {
+    let mut draw = Draw(2011);
+    let numbers = (0..36).map(|number| (1 + number % 3, number / 3 % 3));
+    let runs: Vec<String> = numbers.map(|(tries, times)| walk(tries, times, &mut draw)).collect();
+    let count = |order: &str| runs.iter().map(|run| run.matches(order).count()).sum::<usize>();
+    let met = [",Ask ", ",Point ", ",Walk ", ",There,", ",Off,"].map(count);
+    assert!(met.iter().all(|&times| times > 3), "{met:?}");
+    let kind = "list (nat * nat * list (list input * order * nat))";
+    "From Tautline Require Import Homing Patience.\n\n".to_owned()
+        + &definition("turns", "nat", &Heading::COUNT.to_string())
+        + &definition("near", "Z", &NEARNESS.near.0.to_string())
+        + &definition("closer", "Z", &NEARNESS.closer.to_string())
+        + &definition("walks", kind, &list(runs))
+}
+
+fn walk(tries: u8, times: u8, draw: &mut Draw) -> String {
+    let mut robot = Homing::new(GOAL, RobotId(1), NodeId(2), 3, Nearness { times, ..NEARNESS }, tries);
+    let mut steps = Vec::new();
+    while robot.order() != Order::Stop && steps.len() < STEPS {
+        let (inputs, next) = happens(robot, draw);
+        robot = next;
+        let order = match (robot.order(), robot.stage()) {
+            (Order::Ask(request), _) => format!("Ask {}", request.node.0),
+            (Order::Point(heading), _) => format!("Point {}", heading.degrees() / 15),
+            (Order::Walk(heading), _) => format!("Walk {}", heading.degrees() / 15),
+            (Order::Stop, Stage::Arrived) => "There".to_owned(),
+            (Order::Stop, _) => "Off".to_owned(),
+        };
+        steps.push(format!("\n  ({inputs},{order},{}%nat)", robot.hops()));
+    }
+    format!("\n ({tries}%nat,{times}%nat,{})", list(steps))
+}
+
+/// What happens to a robot next, and the robot after it: a signal or none, a part of a scan, or a step of a walk.
+fn happens(robot: Homing, draw: &mut Draw) -> (String, Homing) {
+    // How strong the node is to be heard at most, in this scan or step.
+    let most = 96 + draw.below(20) as i32;
+    let measured = |robot: Homing, heard: &[Option<i32>]| {
+        let words =
+            heard.iter().map(|heard| heard.map_or("None".to_owned(), |heard| format!("Some {heard}")));
+        let next = heard.iter().fold(robot, |robot, &heard| robot.measure(heard.map(Strength)));
+        (format!("map Measures {}%Z", list(words)), next)
+    };
+    match robot.order() {
+        Order::Ask(request) => match draw.below(4) {
+            0 => ("[Waited]".to_owned(), robot.expire()),
+            1 => {
+                let stray = navs()[draw.below(navs().len() as u64) as usize];
+                (format!("[Hears {}]", nav(stray)), robot.hear(stray))
+            }
+            _ => {
+                let hops = robot.hops() - 1;
+                let parent = if hops > 1 { NodeId(1 + draw.below(3) as u32) } else { GOAL };
+                let due = Nav { wfr: GOAL, node: request.node, hops, parent };
+                (format!("[Hears {}]", nav(due)), robot.hear(due))
+            }
+        },
+        Order::Point(heading) => {
+            let left = u64::from(Heading::COUNT) - u64::from(heading.degrees() / 15);
+            let now = if draw.below(2) == 0 { left } else { 1 + draw.below(left) };
+            let is_heard = draw.below(5) > 0;
+            let mut heard = || (is_heard && draw.below(3) > 0).then(|| most - draw.below(6) as i32);
+            measured(robot, &(0..now).map(|_| heard()).collect::<Vec<_>>())
+        }
+        Order::Walk(_) => match draw.below(6) {
+            0 => ("[Bumps]".to_owned(), robot.bump()),
+            1 => measured(robot, &[None]),
+            _ => measured(robot, &[Some(most)]),
+        },
+        Order::Stop => unreachable!("it goes on"),
+    }
 }
 
 pub(super) fn terms() -> String {
