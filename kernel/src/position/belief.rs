@@ -1,8 +1,10 @@
 //! Where a robot takes itself to be: place and heading with their covariance, by an extended Kalman filter of its wheels and of
 //! fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7).
 
+use super::locate::check_residual;
+use super::normal::Normal;
 use super::range::is_told;
-use super::{Point, Range, Refusal, Residual, Signal, SymmetricMatrix, bound, locate_from};
+use super::{Point, Range, Refusal, Residual, Signal, SymmetricMatrix, bound};
 
 /// How far wheels err: each drive by a share of its way, each turn by an angle, as standard deviations.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -159,22 +161,26 @@ impl Belief {
         Some(x * by_x + y * by_y)
     }
 
-    /// A fix by ranges, whose levels have the noise of `signal`: the most likely position near the believed place; `None` where they
-    /// tell none. Its covariance is the bound at the believed place. At the fix it would go with the error: a fix that errs towards
-    /// an anchor would say that it is more exact than it is.
+    /// A fix by ranges, whose levels have the noise of `signal`: one step of Gauss and Newton from the believed place, with the bound
+    /// there as its covariance; `None` where they tell none. So each level counts as an extended Kalman filter would have it. The most
+    /// likely position is no better: its error bends with the circles as far as a fix alone is off, and a belief is off by less.
     ///
     /// # Errors
-    /// [`Refusal`] as for [`locate_from`].
+    /// [`Refusal`] as for [`locate`](super::locate).
     pub fn fix(&self, ranges: &[Range], signal: &Signal) -> Result<Option<Sighting>, Refusal> {
-        let at = locate_from(self.at, ranges, Residual::Decibels, signal, None)?.at;
+        check_residual(ranges, Residual::Decibels)?;
+        let normal = Normal::at(ranges, Residual::Decibels, self.at);
         let precision = bound(ranges.iter().map(|range| range.anchor), self.at, signal);
-        Ok(precision.map(|known| Sighting { at, covariance: known.covariance }))
+        Ok(precision.zip(normal.matrix.solve(normal.downhill)).map(|(known, (x, y))| Sighting {
+            at: Point::new(self.at.x_m + x, self.at.y_m + y),
+            covariance: known.covariance,
+        }))
     }
 
     /// Corrects the belief by the [fix](Self::fix) of ranges.
     ///
     /// # Errors
-    /// [`Refusal`] as for [`locate_from`].
+    /// [`Refusal`] as for [`locate`](super::locate).
     pub fn located(&mut self, ranges: &[Range], signal: &Signal, gate: Gate) -> Result<Correction, Refusal> {
         let fix = self.fix(ranges, signal)?;
         Ok(fix.map_or(Correction::Nothing, |fix| self.corrected(fix.at, fix.covariance, gate)))

@@ -177,7 +177,7 @@ pub fn locate_from(
 }
 
 /// Whether these residuals can be had of `ranges`.
-fn check_residual(ranges: &[Range], residual: Residual) -> Result<(), Refusal> {
+pub(super) fn check_residual(ranges: &[Range], residual: Residual) -> Result<(), Refusal> {
     check(ranges)?;
     if residual == Residual::Decibels
         && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
