@@ -1,6 +1,6 @@
 //! Frontier cells (Rajesh, Nagaraja and Suja 2024, 4, “Frontier Cell Selection” and “Moving to the Selected Frontier Cell”; 5, “Implementation”): robots
 //! that explore an area of equal square cells. Each keeps a repository, a [`Map`] of which cells are explored and which are
-//! obstacles, goes to an unexplored neighbour of its cell, and tells the others. Clauses: FRONTIER-1 … FRONTIER-11.
+//! obstacles, goes to an unexplored neighbour of its cell, and tells the others. Clauses: FRONTIER-1 … FRONTIER-12.
 //!
 //! A [`Robot`] is a plain value with three calls. [`Robot::next`] says what it does next; [`Robot::looked`] takes what it sees
 //! of the cell that it is about to enter; [`Robot::arrived`] ends the move. [`Robot::hears`] takes what another robot tells.
@@ -21,5 +21,7 @@ pub use map::{Map, Status, TinyMap};
 pub use pairs::{Pair, Scratch, Seeker};
 pub use place::{HALF, Occupancy, Place, SIDE, Threshold, clamped, taken_for};
 pub use robot::{Next, Other, Robot, Sight, Slot, Stance, View};
-pub use rule::{Basis, Condition, Conditions, Otherwise, Rule, SURE_DEVIATIONS, Ties, midpoint};
-pub use search::{SearchCell, Target};
+pub use rule::{
+    Basis, Condition, Conditions, DETOUR, FIVE_STEPS, Otherwise, Rule, SURE_DEVIATIONS, Ties, midpoint,
+};
+pub use search::{SearchCell, Target, Way};

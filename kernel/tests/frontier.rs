@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use proptest::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Basis, Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, Ties,
-    TinyMap, View,
+    Basis, Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Stance, Status,
+    Ties, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -130,6 +130,31 @@ fn robots_in_one_cell_count_as_one_of_which_the_first_has_a_say() {
         let two = Team { map, robots: vec![(here, Some(own.into())), (here, Some(others.into()))] };
         assert_eq!(aim_of_first(&two, 36), Some(own));
     }
+}
+
+#[test]
+fn a_robot_to_which_the_others_leave_no_cell_goes_to_the_nearest_or_stands_without_lapse() {
+    let team = team(explored_but(&[(3, 3)]), [(0, 3), (4, 3)]);
+    let next = |rule: Rule| next(&team, 0, &rule, 0);
+    assert!(matches!(next(Rule::REPAIRED), Next::Tries { aim, .. } if aim == (3, 3).into()));
+    assert_eq!(next(Rule::REPAIRED.without(Condition::Lapse)), Next::Waits);
+    assert_eq!(aim_of_first(&self::team(explored_but(&[]), [(0, 3), (4, 3)]), 36), None);
+}
+
+#[test]
+fn a_robot_goes_round_a_small_obstacle_with_its_claim_and_stores_it_only_without_detour() {
+    let (here, east) = (Cell::new(3, 3), Cell::new(4, 3));
+    let met = |rule: Rule| {
+        let mut robot = Robot::new(blank(), here, &[]);
+        for sight in [Sight::Robot, Sight::Small] {
+            robot.tries(Side::East, east);
+            robot.looked(&rule, sight);
+        }
+        (robot.stance(), robot.aim(), robot.waits(), robot.map().status(east))
+    };
+    assert_eq!(met(Rule::REPAIRED), (Stance::Stands, Some(east), false, Status::Unexplored));
+    let without = Rule::REPAIRED.without(Condition::Detour);
+    assert_eq!(met(without), (Stance::Stands, None, false, Status::Obstacle));
 }
 
 #[test]

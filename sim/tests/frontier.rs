@@ -163,6 +163,13 @@ fn each_small_obstacle_on_its_way_takes_a_robot_a_team_move() {
 }
 
 #[test]
+fn a_team_without_detour_takes_small_obstacles_for_cells_that_are_filled() {
+    let small = Options { small: Some("0.1".parse().expect("a probability")), ..Options::default() };
+    assert_eq!(clean_runs(Rule::REPAIRED, &small, 5), 5);
+    assert_eq!(clean_runs(Rule::REPAIRED.without(Condition::Detour), &small, 5), 0);
+}
+
+#[test]
 fn objects_are_found_where_they_are_and_one_that_nobody_reaches_is_not() {
     let mut setup = setup(4, (7, 6));
     let shut = Cell::new(6, 5);

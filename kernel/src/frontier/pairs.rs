@@ -7,7 +7,7 @@ use core::ops::ControlFlow;
 
 use super::map::{BY_NUMBER, Map, Status};
 use super::rule::{Condition, Rule};
-use super::search::{Search, SearchCell, Target, search};
+use super::search::{Search, SearchCell, Target, Way, search};
 use crate::ground::{Area, Cell, Side};
 
 /// A robot and an unexplored cell that it could go to. What is less goes first.
@@ -173,7 +173,7 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
     /// others'; `None` if it reaches none.
     ///
     /// Pairs that are farther come later, so that cells are looked at level by level, no farther than it takes.
-    pub(super) fn found(&mut self) -> Option<Target> {
+    pub(super) fn found(&mut self) -> Option<Way> {
         let robots = self.others.len() + 1;
         let each = (self.pairs.len() / robots).min(robots);
         let (mut first, mut level) = (None, 0);
@@ -181,14 +181,14 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
             let bounds = (level + 1, u32::MAX);
             let list = self.pairs.get_mut(..each)?;
             let Some(next) = fill(self.map, self.rule, self.own, bounds, &mut self.memory, list) else {
-                return first;
+                return first.map(Way::Taken);
             };
             first = first.or_else(|| list.first().copied().flatten().map(|pair| pair.found()));
             level = next;
             let filled = self.fill_others(each, level);
             let paired = self.paired(filled);
             if paired.is_some() {
-                return paired;
+                return paired.map(Way::Paired);
             }
         }
     }

@@ -6,7 +6,7 @@ use super::map::{BY_NUMBER, Map, Status};
 use super::pairs::{Pairing, Scratch, Seeker};
 use super::place::{Place, Threshold};
 use super::rule::{Basis, Condition, Otherwise, Rule, Ties};
-use super::search::{Target, search};
+use super::search::{Target, Way, search};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
@@ -28,8 +28,10 @@ pub enum Stance {
 pub enum Sight {
     /// Nothing is in the way.
     Open,
-    /// An obstacle, or the rim of the area.
+    /// An obstacle that fills the cell, or the rim of the area.
     Obstacle,
+    /// An obstacle that is smaller than a cell, so that there is a way beside it.
+    Small,
     /// Another robot, in the cell or entering it.
     Robot,
 }
@@ -45,7 +47,7 @@ pub enum Next {
         /// Where it is going in the end.
         aim: Cell,
     },
-    /// It waits for its slot.
+    /// It waits for its slot, or for what the others say.
     Waits,
     /// It has no candidate, and stops for good, not knowing whether anything is left.
     Stops,
@@ -157,20 +159,20 @@ impl<M: Map> Robot<M> {
         let way = match (rule.has(Condition::Route), rule.ties) {
             (false, _) => return self.candidate(rule, view, oracle),
             (true, Ties::Lowest) => self.preferred(rule, view, scratch),
-            (true, Ties::Any) => self.any_nearest(scratch, oracle),
+            (true, Ties::Any) => self.any_nearest(scratch, oracle).map(Way::Paired),
         };
-        self.follows(way, view.slot)
+        self.follows(rule, way, view.slot)
     }
 
-    /// The next action, if the robot stands, where `way` leads to the unexplored cell that it is paired with, or is
-    /// `None` if it reaches none: for a caller who knows the pairs of the whole team. [`Self::next`] finds them for one
-    /// robot.
-    pub const fn follows(&self, way: Option<Target>, slot: Slot) -> Next {
+    /// The next action, if the robot stands, where `way` leads to an unexplored cell, or is `None` if it reaches none: for
+    /// a caller who knows the pairs of the whole team. [`Self::next`] finds them for one robot.
+    pub const fn follows(&self, rule: &Rule, way: Option<Way>, slot: Slot) -> Next {
         match (way, slot) {
             (None, _) => Next::Done,
             (Some(_), Slot::Others) if self.waits => Next::Waits,
-            (Some(Target { cell: aim, first: side, .. }), Slot::Own | Slot::Others) => {
-                Next::Tries { side, aim }
+            (Some(Way::Taken(_)), _) if !rule.has(Condition::Lapse) => Next::Waits,
+            (Some(Way::Paired(to) | Way::Taken(to)), Slot::Own | Slot::Others) => {
+                Next::Tries { side: to.first, aim: to.cell }
             }
         }
     }
@@ -220,9 +222,9 @@ impl<M: Map> Robot<M> {
         self.threshold = Some(Threshold::mean(cells.map(|cell| self.occupancy(rule, others, cell))));
     }
 
-    /// The way to the unexplored cell that it is paired with. The nearest pair comes first: so the robot that is nearest to an
-    /// unexplored cell goes there, and none that stands can be in its way.
-    fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Target> {
+    /// The way to the unexplored cell that it is paired with, or to the one that comes first for it. The nearest pair comes first:
+    /// so the robot that is nearest to an unexplored cell goes there, and none that stands can be in its way.
+    fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Way> {
         let own = Seeker { cell: self.at, aim: self.aim };
         let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
         let others = others.iter().map(|other| Seeker { cell: other.cell, aim: other.aim });
@@ -257,7 +259,8 @@ impl<M: Map> Robot<M> {
         self.aim = Some(aim);
     }
 
-    /// It has looked into the cell that it was about to enter: it enters it, or stays.
+    /// It has looked into the cell that it was about to enter: it enters it, or stays. After a detour it is on its way still, and
+    /// keeps what it has claimed.
     pub fn looked(&mut self, rule: &Rule, sight: Sight) {
         let Stance::Tries(side) = self.stance else { return };
         let cell = self.at.beyond(side);
@@ -267,7 +270,12 @@ impl<M: Map> Robot<M> {
                 self.waits = false;
                 return;
             }
-            Sight::Obstacle => true,
+            Sight::Small if rule.has(Condition::Detour) => {
+                self.stance = Stance::Stands;
+                self.waits = false;
+                return;
+            }
+            Sight::Obstacle | Sight::Small => true,
             Sight::Robot => !rule.has(Condition::Tell),
         };
         if is_obstacle && rule.has(Condition::Record) {

@@ -1,13 +1,15 @@
 //! The rule of frontier cells as a set of named conditions, with what the paper leaves open as parameters.
 
+use core::f64::consts::FRAC_PI_2;
+
 use super::place::{Occupancy, Threshold};
 use crate::conditions;
 use crate::ground::Cell;
 use crate::position::{Belief, Gate, Odometry, Point};
 
 conditions! {
-    /// One condition of the rule, by the sentence it stands for. As published there is none but [`Condition::Record`],
-    /// and not even that one if the paper's avoidance of obstacles is taken literally.
+    /// One condition of the rule, by the sentence it stands for. As published there are none but [`Condition::Record`] and
+    /// [`Condition::Detour`], and not even the first one if the paper's avoidance of obstacles is taken literally.
     #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
@@ -30,8 +32,7 @@ conditions! {
         /// has the one cell that the sender has explored or found blocked.
         Share,
         /// Preference: robots and unexplored cells are paired, the nearest pair first, and a robot goes to the cell of
-        /// its pair: so it leaves to another robot a cell to which that one is nearer. A robot goes to the nearest cell
-        /// if all are the others'.
+        /// its pair: so it leaves to another robot a cell to which that one is nearer.
         Nearer,
         /// Preference: of pairs as near, the one comes first whose robot has claimed the cell: it keeps its aim.
         Claim,
@@ -45,6 +46,12 @@ conditions! {
         /// Repair: a robot moves only if by its belief it arrives within the next cell, with four standard deviations to
         /// spare along each axis. Otherwise it stands and takes another fix.
         Sure,
+        /// A robot goes round an obstacle that is smaller than a cell: it turns by 90°, takes five steps, turns back, and
+        /// goes on. Without it such an obstacle is stored as one that fills the cell beyond.
+        Detour,
+        /// Repair: what the others have told lapses for a robot to which they leave no cell, since it may be old: the robot
+        /// goes to the cell that comes first for it. Without it the robot stands until it hears more.
+        Lapse,
     }
 }
 
@@ -99,6 +106,14 @@ pub struct Rule {
     pub ties: Ties,
 }
 
+/// The five steps of a [`Condition::Detour`], in sides of a cell. This value is ours: half a side would lead to the rim of the
+/// next cell.
+pub const FIVE_STEPS: f64 = 0.25;
+
+/// A detour about an obstacle that is smaller than a cell, for a robot that heads for its destination: turns in radians, each with
+/// the way after it. The robot turns to its right, takes five steps, and turns back.
+pub const DETOUR: [(f64, f64); 2] = [(FRAC_PI_2, FIVE_STEPS), (-FRAC_PI_2, 0.0)];
+
 /// The standard deviations along each axis that a robot keeps between where it arrives and the rim of the cell.
 pub const SURE_DEVIATIONS: f64 = 4.0;
 
@@ -129,7 +144,7 @@ impl Rule {
     /// The rule as the paper publishes it, where unclear by the readings in its favour; a robot without a candidate
     /// stops.
     pub const PUBLISHED: Self = Self {
-        conditions: Conditions::of(&[Condition::Record]),
+        conditions: Conditions::of(&[Condition::Record, Condition::Detour]),
         occupancy: Occupancy::Corrected,
         threshold: Threshold::HALF,
         basis: Basis::Given,
@@ -149,9 +164,13 @@ impl Rule {
     /// With all repairs and preferences.
     pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
 
-    /// With all repairs, without preferences: of several nearest cells any may be taken.
+    /// With all repairs, without preferences and what they need: of several nearest cells any may be taken.
     pub const PLAIN: Self = Self {
         ties: Ties::Any,
-        ..Self::REPAIRED.without(Condition::Nearer).without(Condition::Claim).without(Condition::Corner)
+        ..Self::REPAIRED
+            .without(Condition::Nearer)
+            .without(Condition::Claim)
+            .without(Condition::Corner)
+            .without(Condition::Lapse)
     };
 }

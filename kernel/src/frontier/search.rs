@@ -40,6 +40,16 @@ pub struct Target {
     pub first: Side,
 }
 
+/// A robot's way to an unexplored cell, and whose that cell is as far as the others have told.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Way {
+    /// It is the cell of the robot's pair.
+    Paired(Target),
+    /// All cells are the others', and this one comes first for the robot.
+    Taken(Target),
+}
+
 /// Tells of the unexplored cells that are reached from `from` through explored ones in at most so many moves, the nearest first,
 /// until it is told to stop. Of ways as short the one counts whose first side leads to the lowest number.
 pub(super) fn search<M: Map>(

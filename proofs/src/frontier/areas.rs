@@ -26,6 +26,7 @@ pub(super) struct Areas<const ROBOTS: usize> {
     pub(super) sizes: &'static [Size],
     pub(super) max_losses: u8,
     pub(super) max_wrong: u8,
+    pub(super) max_small: u8,
     pub(super) demand: Demand,
     /// The situations that must occur.
     pub(super) covers: &'static [&'static str],
@@ -51,9 +52,9 @@ pub struct Counterexample<const ROBOTS: usize> {
 /// The teams of `rule` in one area.
 pub fn setting<const ROBOTS: usize>(rule: Rule, (width, height): Size) -> Option<Setting<ROBOTS>> {
     let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1))?;
-    let (max_obstacles, max_losses, max_wrong) = (TinyMap::CELLS as u8, 0, 0);
+    let (max_obstacles, max_losses, max_wrong, max_small) = (TinyMap::CELLS as u8, 0, 0, 0);
     let (demand, given) = (None, None);
-    Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, demand, given })
+    Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, max_small, demand, given })
 }
 
 /// The run with the fewest obstacles that breaks `demand` in the area of `setting`, in which it is broken by `run`.
@@ -105,8 +106,11 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
     }
 
     /// The choices that make the run in an area that has the obstacles that it met: the first two say how many messages are
-    /// lost and how many fixes are wrong at most.
+    /// lost and how many fixes are wrong at most. Obstacles that are smaller than a cell are in no layout.
     pub fn scripted(&self) -> Option<Scripted> {
+        if self.setting.max_small > 0 {
+            return None;
+        }
         let (start, ..) = self.steps()?;
         let (setting, steps) = self.given()?;
         let obstacles = setting.given?;
@@ -210,6 +214,9 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
             Some(match sight {
                 Sight::Open => format!("R{name} goes {side}"),
                 Sight::Obstacle => format!("R{name} finds an obstacle in the {side}{}", missed(lost)),
+                Sight::Small => {
+                    format!("R{name} meets an obstacle smaller than a cell in the {side}{}", missed(lost))
+                }
                 Sight::Robot => format!("R{name} meets a robot in the {side}{}", missed(lost)),
             })
         }
@@ -224,9 +231,9 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
 
 impl<const ROBOTS: usize> Areas<ROBOTS> {
     fn setting(&self, rule: &Rule, size: Size) -> Result<Setting<ROBOTS>, MethodError> {
-        let Self { max_losses, max_wrong, demand, .. } = *self;
+        let Self { max_losses, max_wrong, max_small, demand, .. } = *self;
         let setting = setting(*rule, size).ok_or_else(|| MethodError::new("the area is too large"))?;
-        Ok(Setting { max_losses, max_wrong, demand: Some(demand), ..setting })
+        Ok(Setting { max_losses, max_wrong, max_small, demand: Some(demand), ..setting })
     }
 
     /// Searches all areas for all demands, as far as nothing is broken.
@@ -270,12 +277,20 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
             1 => ", at most 1 fix off by one cell".to_owned(),
             wrong => format!(", at most {wrong} fixes off by one cell"),
         };
+        let small = match self.max_small {
+            0 => String::new(),
+            small => format!(", at most {} smaller than a cell", counted(small, "obstacle")),
+        };
         let robots = counted(ROBOTS as u64, "robot");
-        format!("all obstacles in {} cells, all starts, {robots}, every order{lost}{wrong}", sizes.join(", "))
+        format!(
+            "all obstacles in {} cells, all starts, {robots}, every order{lost}{wrong}{small}",
+            sizes.join(", ")
+        )
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {
-        Some(format!("{ROBOTS} {:?} {} {} {rule:?}", self.sizes, self.max_losses, self.max_wrong))
+        let Self { sizes, max_losses, max_wrong, max_small, .. } = self;
+        Some(format!("{ROBOTS} {sizes:?} {max_losses} {max_wrong} {max_small} {rule:?}"))
     }
 
     /// One search answers the checks of all demands, if it finds none of them broken. Else each demand has its own
@@ -285,7 +300,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         if until == Until::Exhausted {
-            let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, *rule);
+            let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, self.max_small, *rule);
             let all = desk.memory.recall(asked, |_| self.all(rule, limits))?;
             if !all.is_broken {
                 let is_covered = self.covers.iter().all(|situation| all.covered.contains(situation));
@@ -354,8 +369,8 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
 impl<const ROBOTS: usize> Areas<ROBOTS> {
     /// This demand on so many robots.
     const fn of<const OTHERS: usize>(other: &Areas<OTHERS>) -> Self {
-        let Areas { sizes, max_losses, max_wrong, demand, covers } = *other;
-        Self { sizes, max_losses, max_wrong, demand, covers }
+        let Areas { sizes, max_losses, max_wrong, max_small, demand, covers } = *other;
+        Self { sizes, max_losses, max_wrong, max_small, demand, covers }
     }
 
     /// The shortest run in a class that breaks the demand.

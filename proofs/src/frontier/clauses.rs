@@ -1,19 +1,20 @@
 //! The clauses of frontier cells, in the order of `SPEC.md`.
 
 use tautline_kernel::frontier::Condition::{
-    self, Claim, Corner, Fuse, Gate, Look, Nearer, Record, Route, Share, Sure, Tell, Track, Turn,
+    self, Claim, Corner, Detour, Fuse, Gate, Lapse, Look, Nearer, Record, Route, Share, Sure, Tell, Track,
+    Turn,
 };
-use tautline_kernel::frontier::{Basis, Occupancy, Otherwise, Rule};
+use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 
 use super::areas::{Areas, Size};
+use super::detour::{self, Round};
 use super::drift::{self, Drift, PARTS};
 use super::fused::{self, FusedBudget, Standing};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
+use super::readings::{PAPER, READINGS, adaptive};
 use super::world::Demand;
-use crate::ambiguity::Charity::{Charitable, Literal};
-use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{EveryAnswer, EveryState, Verdict};
 use crate::local::EveryNumber;
@@ -26,94 +27,9 @@ const PRINTED: NamedRule<Rule> = NamedRule::new("printed", Rule::PRINTED);
 const PLAIN: NamedRule<Rule> = NamedRule::new("plain", Rule::PLAIN);
 const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
 
-/// The readings of the published rule but for the main one: what a robot without a candidate does, how it avoids an
-/// obstacle, what equation (11) means, and whether the threshold follows from earlier probabilities of neighbours. Where
-/// those of the robot's own cells count as well, robots at midpoints decide as with a threshold of ½.
-const READINGS: [(&str, Rule); 15] = [
-    ("wanders", Rule::WANDERS),
-    ("literal", Rule::LITERAL),
-    ("wanders + literal", wandering(Rule::LITERAL)),
-    ("printed", Rule::PRINTED),
-    ("wanders + printed", wandering(Rule::PRINTED)),
-    ("literal + printed", Rule::PRINTED.without(Record)),
-    ("wanders + literal + printed", wandering(Rule::PRINTED.without(Record))),
-    ("adaptive", adaptive(Rule::PUBLISHED)),
-    ("wanders + adaptive", adaptive(Rule::WANDERS)),
-    ("literal + adaptive", adaptive(Rule::LITERAL)),
-    ("wanders + literal + adaptive", adaptive(wandering(Rule::LITERAL))),
-    ("printed + adaptive", adaptive(Rule::PRINTED)),
-    ("wanders + printed + adaptive", adaptive(wandering(Rule::PRINTED))),
-    ("literal + printed + adaptive", adaptive(Rule::PRINTED.without(Record))),
-    ("wanders + literal + printed + adaptive", adaptive(wandering(Rule::PRINTED.without(Record)))),
-];
-
-static PAPER: Paper = Paper {
-    ambiguities: &[
-        Ambiguity {
-            words: "nothing is said of a robot without a candidate",
-            interpretations: &[
-                Interpretation::new("stops", "a robot without a candidate stops", Literal),
-                Interpretation::new(
-                    "wanders",
-                    "a robot without a candidate goes to an explored side neighbour",
-                    Charitable,
-                ),
-            ],
-        },
-        Ambiguity {
-            words: "“takes 90° turn and move 5 steps forward and turn 90° again … continues moving until it reaches \
-                    the destination”",
-            interpretations: &[
-                Interpretation::new(
-                    "gives up",
-                    "a robot gives a cell that it cannot enter up as an obstacle",
-                    Charitable,
-                ),
-                Interpretation::new("literal", "a robot goes on until it is there", Literal),
-            ],
-        },
-        Ambiguity {
-            words: "“exactly at the midpoint of the cell, occupancy probability value will be 1”",
-            interpretations: &[
-                Interpretation::new(
-                    "corrected",
-                    "d_r in equation (11) is the distance to the rim of the circle",
-                    Charitable,
-                ),
-                Interpretation::new(
-                    "printed",
-                    "d_r in equation (11) is the distance to the midpoint",
-                    Literal,
-                ),
-            ],
-        },
-        Ambiguity {
-            words: "“threshold value is decided based on previous probability values”",
-            interpretations: &[
-                Interpretation::new(
-                    "fixed",
-                    "the threshold is ½, as it is where the robot's own cell counts",
-                    Charitable,
-                ),
-                Interpretation::new(
-                    "adaptive",
-                    "the threshold is the mean of the four neighbours' probabilities",
-                    Literal,
-                ),
-            ],
-        },
-    ],
-    excluded: &[],
-    repairs: &["plain", "repaired"],
-};
-
-const fn wandering(rule: Rule) -> Rule {
-    Rule { otherwise: Otherwise::Wanders, ..rule }
-}
-
-const fn adaptive(rule: Rule) -> Rule {
-    Rule { basis: Basis::Neighbours, ..rule }
-}
+/// Both among obstacles smaller than a cell, which no theorem of Rocq speaks of.
+const PLAIN_SMALL: NamedRule<Rule> = NamedRule::new("plain-S", Rule::PLAIN);
+const REPAIRED_SMALL: NamedRule<Rule> = NamedRule::new("repaired-S", Rule::REPAIRED);
 
 /// Robots that wander, whose threshold is the mean of the probabilities of all cells, and of the neighbours alone.
 const ALL_CELLS: NamedRule<Rule> = NamedRule::new("wanders-T", Rule { basis: Basis::Cells, ..Rule::WANDERS });
@@ -161,6 +77,8 @@ const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
         Fuse => "fixes are believed without covariance",
         Gate => "no gate",
         Sure => "unsure robots move",
+        Detour => "small obstacles fill cells",
+        Lapse => "stale claims",
     };
     NamedRule::new(name, rule.without(condition))
 }
@@ -190,7 +108,7 @@ const ALONE: [&str; 4] = ["a decision", "an open cell", "an obstacle", "an arriv
 const ALL: [&str; 6] = ["a decision", "an open cell", "an obstacle", "a robot", "an arrival", "a slot"];
 
 const fn smallest<const ROBOTS: usize>(demand: Demand) -> Areas<ROBOTS> {
-    Areas { sizes: &SMALLEST, max_losses: 0, max_wrong: 0, demand, covers: &[] }
+    Areas { sizes: &SMALLEST, max_losses: 0, max_wrong: 0, max_small: 0, demand, covers: &[] }
 }
 
 const fn one(demand: Demand) -> Areas<1> {
@@ -208,6 +126,11 @@ const fn three(demand: Demand) -> Areas<3> {
 /// These areas for a team of whose messages one may be lost.
 const fn lossy<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
     Areas { max_losses: 1, ..areas }
+}
+
+/// These areas with an obstacle that is smaller than a cell.
+const fn small<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
+    Areas { max_small: 1, covers: &["a small obstacle", "an arrival"], ..areas }
 }
 
 const fn two_repaired(demand: Demand) -> Areas<2> {
@@ -282,7 +205,7 @@ const OCCUPANCIES: [Reading<Occupancy>; 2] = readings(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 11] = [
+pub static CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
@@ -302,6 +225,13 @@ pub static CLAUSES: [Clause; 11] = [
             &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(two_repaired(Demand::Covers)), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(three(Demand::Covers)), Verdict::Holds, &[]),
+            &Check::new(PLAIN_SMALL, &small(one(Demand::Covers)), Verdict::Holds, &[plain(Detour)]),
+            &Check::new(
+                REPAIRED_SMALL,
+                &small(two_repaired(Demand::Covers)),
+                Verdict::Holds,
+                &[repaired(Detour)],
+            ),
         ],
     },
     Clause {
@@ -318,6 +248,12 @@ pub static CLAUSES: [Clause; 11] = [
             &Check::new(REPAIRED, &three(Demand::Alone), Verdict::Holds, &[repaired(Look)]),
             &Check::new(REPAIRED, &lossy(two_repaired(Demand::Alone)), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(three(Demand::Alone)), Verdict::Holds, &[]),
+            &Check::new(
+                REPAIRED_SMALL,
+                &small(two_repaired(Demand::Alone)),
+                Verdict::Holds,
+                &[repaired(Look)],
+            ),
             &Check::new(
                 NamedRule::new("plain", Alone::of(Rule::PLAIN)),
                 &EveryNumber::DEFAULT,
@@ -351,6 +287,12 @@ pub static CLAUSES: [Clause; 11] = [
             &Check::new(REPAIRED, &three(Demand::Ends), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(two_repaired(Demand::Ends)), Verdict::Holds, &[repaired(Share)]),
             &Check::new(REPAIRED, &lossy(three(Demand::Ends)), Verdict::Holds, &[]),
+            &Check::new(
+                REPAIRED_SMALL,
+                &small(two_repaired(Demand::Ends)),
+                Verdict::Holds,
+                &[repaired(Turn)],
+            ),
         ],
     },
     Clause {
@@ -367,8 +309,14 @@ pub static CLAUSES: [Clause; 11] = [
             &Check::new(REPAIRED, &one(Demand::Knows), Verdict::Holds, &[repaired(Route)]),
             &Check::new(REPAIRED, &two_repaired(Demand::Knows), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &three(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Knows)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(three(Demand::Knows)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Knows)), Verdict::Holds, &[repaired(Lapse)]),
+            &Check::new(REPAIRED, &lossy(three(Demand::Knows)), Verdict::Holds, &[repaired(Lapse)]),
+            &Check::new(
+                REPAIRED_SMALL,
+                &small(two_repaired(Demand::Knows)),
+                Verdict::Holds,
+                &[repaired(Route)],
+            ),
         ],
     },
     Clause {
@@ -392,6 +340,13 @@ pub static CLAUSES: [Clause; 11] = [
             &Check::new(REPAIRED, &three(Demand::Marks), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(two_repaired(Demand::Marks)), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &lossy(three(Demand::Marks)), Verdict::Holds, &[]),
+            &Check::new(PLAIN_SMALL, &small(one(Demand::Marks)), Verdict::Holds, &[plain(Detour)]),
+            &Check::new(
+                REPAIRED_SMALL,
+                &small(two_repaired(Demand::Marks)),
+                Verdict::Holds,
+                &[repaired(Detour)],
+            ),
         ],
     },
     Clause {
@@ -429,7 +384,7 @@ pub static CLAUSES: [Clause; 11] = [
             REPAIRED,
             &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
             Verdict::Holds,
-            &[repaired(Nearer), repaired(Claim), repaired(Corner)],
+            &[repaired(Nearer), repaired(Claim), repaired(Corner), repaired(Lapse)],
         )],
     },
     Clause {
@@ -464,6 +419,24 @@ pub static CLAUSES: [Clause; 11] = [
             &[
                 NamedRule::new(repaired(Sure).name, Standing::UNSURE),
                 NamedRule::new("wheels alone", Standing::WHEELS_ALONE),
+            ],
+        )],
+    },
+    Clause {
+        id: "FRONTIER-12",
+        sentence: "A robot whose place errs by at most E, with E + F < L/2 for the five steps F of a detour, MUST stay in its cell until it enters the next one through the side between both, and MUST pass the middle of that side at F/2 − (1 + F/L) E or more.",
+        checks: &[&Check::new(
+            NamedRule::new("repaired", Round::FIVE_STEPS),
+            &EveryAnswer {
+                body: detour::goes_round,
+                range: detour::errors,
+                covers: &["it passes an obstacle", "it may touch one"],
+            },
+            Verdict::Holds,
+            &[
+                NamedRule::new("E + F = L/2 is borne", Round::AT_MOST),
+                NamedRule::new("it does not turn", Round::STRAIGHT),
+                NamedRule::new("ten steps", Round::TEN_STEPS),
             ],
         )],
     },
@@ -503,6 +476,10 @@ mod tests {
         assert_eq!(told(&wrong(Demand::Marks), &Rule::PUBLISHED), (cells("2×1"), 2));
         let unshared = told(&lossy(two(Demand::Ends)), &plain(Share).rule);
         assert_eq!(unshared.0, cells("3×1"));
+        let stale = told(&lossy(two(Demand::Knows)), &repaired(Lapse).rule);
+        assert_eq!(stale, (cells("3×1"), 1));
+        let without_detour = told(&small(one(Demand::Marks)), &repaired(Detour).rule);
+        assert_eq!(without_detour, (cells("2×1"), 1));
     }
 
     /// States of larger areas than clauses search, by robots and lost messages: seconds with optimisation, the last one

@@ -81,6 +81,7 @@ impl Local for Alone {
                     act(Doing::Tries(side), Step::Stay, tries)
                 })
                 .to_vec(),
+            // A small obstacle leaves a robot in its cell as another robot does.
             Stance::Tries(_) => [Sight::Open, Sight::Obstacle, Sight::Robot]
                 .map(|sight| {
                     act(Doing::Looks(sight), Step::Stay, after(&|robot| robot.looked(&self.rule, sight)))

@@ -75,6 +75,9 @@ pub struct Setting<const ROBOTS: usize> {
     pub max_losses: u8,
     /// Most fixes in one run that are off by one cell.
     pub max_wrong: u8,
+    /// Most looks in one run that meet an obstacle smaller than a cell. Such an obstacle stands nowhere for good: a robot
+    /// that comes again may meet another one.
+    pub max_small: u8,
     /// The one demand that is looked at; all if there is none.
     pub demand: Option<Demand>,
     /// The obstacles, where they are given: then none is left to choose.
@@ -93,6 +96,7 @@ pub struct World<const ROBOTS: usize> {
     truth: TinyMap,
     lost: u8,
     wrong: u8,
+    small: u8,
     slot: u8,
     /// Robots that were under way when the slot began, a bit for each.
     old: u8,
@@ -210,7 +214,18 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let told = std::array::from_fn(|to| {
             std::array::from_fn(|from| (from != to && self.asks()).then(|| says(&robots[from])))
         });
-        Some(World { robots, cells, told, truth, lost: 0, wrong: 0, slot: 0, old: 0, has_tried: false })
+        Some(World {
+            robots,
+            cells,
+            told,
+            truth,
+            lost: 0,
+            wrong: 0,
+            small: 0,
+            slot: 0,
+            old: 0,
+            has_tried: false,
+        })
     }
 
     /// Whether what the others have told of themselves plays a part in a decision.
@@ -320,11 +335,13 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let cell = world.cells[robot].beyond(side);
         let met = if self.rule.has(Condition::Look) { world.inside(robot, cell, Rim::Counts) } else { 0 };
         let sight = match met {
+            _ if world.small < self.max_small && oracle.mishap() => Sight::Small,
             0 if self.is_obstacle(&mut after, cell, oracle) => Sight::Obstacle,
             0 => Sight::Open,
             _ => Sight::Robot,
         };
         after.robots[robot].looked(&self.rule, sight);
+        after.small += u8::from(sight == Sight::Small);
         let mut breaks = Vec::new();
         let mut missed = 0;
         match sight {
@@ -334,7 +351,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                     breaks.push(Demand::Alone);
                 }
             }
-            Sight::Obstacle => {
+            Sight::Small if self.rule.has(Condition::Detour) => {}
+            Sight::Obstacle | Sight::Small => {
                 let known = world.robots[robot].at().beyond(side);
                 missed = self.tell(&mut after, robot, (known, Status::Obstacle), u8::MAX, oracle);
             }

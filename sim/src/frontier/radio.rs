@@ -1,12 +1,11 @@
 //! The radio as robots have it: which messages they hear, and where they take themselves to be.
 
 use std::collections::BTreeSet;
-use std::f64::consts::FRAC_PI_2;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Condition, HALF, Place, Rule, SIDE, clamped, midpoint};
+use tautline_kernel::frontier::{Condition, DETOUR, HALF, Place, Rule, SIDE, clamped, midpoint};
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_kernel::position::{
     self, Belief, Gate, Odometry, Parameters, Particle, Point, Range, Residual, SightError, Sighting, Signal,
@@ -154,13 +153,16 @@ impl Radio {
         pose.at = Point::new(pose.at.x_m + way * x, pose.at.y_m + way * y);
     }
 
-    /// A robot on its way to `to` goes round an obstacle that is smaller than a cell, as the paper has it: it turns by 90°, takes five
-    /// steps and turns back.
+    /// A robot on its way to `to` goes round an obstacle that is smaller than a cell; without noise it stays at its midpoint.
     pub(super) fn detour(&mut self, pose: &mut Pose, to: Cell) {
-        let (turn, _) = pose.belief.towards(midpoint(to));
-        self.turn(pose, turn + FRAC_PI_2);
-        self.drive(pose, FIVE_STEPS);
-        self.turn(pose, -FRAC_PI_2);
+        if self.is_noisy() {
+            let (turn, _) = pose.belief.towards(midpoint(to));
+            self.turn(pose, turn);
+            for (turn, way) in DETOUR {
+                self.turn(pose, turn);
+                self.drive(pose, way);
+            }
+        }
     }
 
     /// The sides of `area` with an obstacle that is smaller than a cell.
@@ -240,9 +242,6 @@ const SIGHT: SightError = SightError { bearing_rad: core::f64::consts::PI / 90.0
 
 /// The mean of many beacons is drawn as that of so many, whose errors are as great together: it is normal, with its tails.
 const MOST_DRAWS: u16 = 8;
-
-/// Five steps, in sides of a cell. This value is ours; half a side would lead to the rim of the next cell.
-const FIVE_STEPS: f64 = 0.25;
 
 /// The particles of a swarm.
 const PARTICLES: usize = 30;

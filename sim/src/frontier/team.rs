@@ -231,14 +231,6 @@ impl Explorers {
                 stands[robot] = true;
                 continue;
             }
-            let edge = Edge::new(self.robots[robot].at(), side);
-            if self.small.contains(&edge) && self.detours[robot] != Some(edge) {
-                self.detours[robot] = Some(edge);
-                if self.radio.is_noisy() {
-                    self.radio.detour(&mut self.poses[robot], to);
-                }
-                continue;
-            }
             self.robots[robot].tries(side, aim);
             if self.rule.has(Condition::Claim) {
                 self.tell(robot);
@@ -250,9 +242,10 @@ impl Explorers {
                     moves.goes(robot, side);
                     entering[robot] = Some(to);
                 }
-                Sight::Obstacle | Sight::Robot => {
+                Sight::Small if self.rule.has(Condition::Detour) => self.poses[robot] = to.1,
+                Sight::Obstacle | Sight::Small | Sight::Robot => {
                     self.poses[robot] = to.1;
-                    if sight == Sight::Obstacle {
+                    if sight != Sight::Robot {
                         moves.bumps(robot, side);
                     }
                     self.note(robot, self.robots[robot].at().beyond(side));
@@ -308,7 +301,7 @@ impl Explorers {
         let own = &self.robots[robot];
         seekers[robot] = Seeker { cell: own.at(), aim: own.aim() };
         let way = self.waves.way(own.map(), &self.rule, robot, &seekers);
-        own.follows(way, self.slot(robot))
+        own.follows(&self.rule, way, self.slot(robot))
     }
 
     /// The next action of a robot by the rule of one robot.
@@ -331,7 +324,15 @@ impl Explorers {
     /// The sight that `robot` has as it goes through `side`, and where it gets to.
     fn look(&mut self, robot: usize, side: Side, entering: &[Option<(Cell, Pose)>]) -> (Sight, (Cell, Pose)) {
         let to = self.robots[robot].at().beyond(side);
-        let from = self.poses[robot];
+        let mut from = self.poses[robot];
+        let edge = Edge::new(self.robots[robot].at(), side);
+        if self.small.contains(&edge) && self.detours[robot] != Some(edge) {
+            if self.rule.has(Condition::Detour) {
+                self.detours[robot] = Some(edge);
+                self.radio.detour(&mut from, to);
+            }
+            return (Sight::Small, (self.cells[robot], from));
+        }
         let (cell, [turned, pose]) = if self.radio.is_noisy() {
             let poses = self.radio.driven(&from, to);
             (cell_of(place_of(poses[1].at)), poses)
@@ -467,7 +468,9 @@ mod tests {
             for options in radios() {
                 decisions += compared(Rule::REPAIRED, &layout, 1 + seed as usize % 9, options, seed);
             }
-            for condition in [Condition::Nearer, Condition::Claim, Condition::Corner, Condition::Tell] {
+            for condition in
+                [Condition::Nearer, Condition::Claim, Condition::Corner, Condition::Tell, Condition::Lapse]
+            {
                 let rule = Rule::REPAIRED.without(condition);
                 decisions += compared(rule, &layout, 1 + seed as usize % 5, Options::USUAL, seed);
             }

@@ -11,7 +11,7 @@
 //! bound stays in: so the cells that it finds, their distances and the first sides of the ways are those of a wave
 //! without a bound.
 
-use tautline_kernel::frontier::{Condition, Map, Pair, Rule, Seeker, Status, Target};
+use tautline_kernel::frontier::{Condition, Map, Pair, Rule, Seeker, Status, Target, Way};
 use tautline_kernel::ground::{Cell, Side};
 
 use super::chart::Chart;
@@ -165,20 +165,14 @@ impl Waves {
     /// The way of the robot `own` to the cell of its pair, or to the one that comes first for it if all cells are the
     /// others'; `None` if it reaches none. `chart` is its repository, and `seekers` are all robots, as far as it has
     /// heard of them.
-    pub(super) fn way(
-        &mut self,
-        chart: &Chart,
-        rule: &Rule,
-        own: usize,
-        seekers: &[Seeker],
-    ) -> Option<Target> {
+    pub(super) fn way(&mut self, chart: &Chart, rule: &Rule, own: usize, seekers: &[Seeker]) -> Option<Way> {
         let mut free = self.start(chart, rule, own, seekers);
         let (mut first, mut level, mut taken) = (None, 0, Vec::new());
         loop {
             let next =
                 |waves: &[Wave], robot: usize| waves[robot].beyond(level).first().map(|next| next.distance);
             if self.by_robot[own].is_over() && next(&self.by_robot, own).is_none() {
-                return first;
+                return first.map(Way::Taken);
             }
             let near = free.iter().filter_map(|&robot| next(&self.by_robot, robot)).min();
             // A level is settled when every wave has told what is there.
@@ -210,7 +204,7 @@ impl Waves {
                     continue;
                 }
                 if robot == own {
-                    return Some(found);
+                    return Some(Way::Paired(found));
                 }
                 taken.push(found.cell);
                 free.retain(|&other| other != robot);

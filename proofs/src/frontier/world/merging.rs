@@ -17,8 +17,8 @@ pub enum Part<const ROBOTS: usize> {
 }
 
 /// The situations that occur.
-const SITUATIONS: [&str; 6] =
-    ["a decision", "a robot", "a slot", "an arrival", "an obstacle", "an open cell"];
+const SITUATIONS: [&str; 7] =
+    ["a decision", "a robot", "a slot", "an arrival", "an obstacle", "an open cell", "a small obstacle"];
 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
@@ -68,6 +68,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
             Event::Arrives(..) => 1 << 3,
             Event::Looks(_, _, Sight::Obstacle, ..) => 1 << 4,
             Event::Looks(_, _, Sight::Open, ..) => 1 << 5,
+            Event::Looks(_, _, Sight::Small, ..) => 1 << 6,
         }
     }
 }

@@ -83,7 +83,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         match sight {
             Sight::Open => steps[robot] = Step::Cross(side),
             Sight::Obstacle => (steps[robot], blocked[robot]) = (Step::Cross(side), true),
-            Sight::Robot => {}
+            Sight::Robot | Sight::Small => {}
         }
         self.cells = self.script.state.cells().to_vec();
         Ok(Frame { kind: Kind::Advance, steps, blocked, cells: self.cells.clone() })
