@@ -9,9 +9,9 @@ use std::process::Command;
 use std::{env, fs};
 
 use stateright::{Checker, Model};
-use tautline_library::dijkstra::{Machines, Ring, Rule};
+use tautline_library::dijkstra::{Machines, Rule};
 use tautline_proofs::engine::states::Limits;
-use tautline_proofs::protocol::{Keeps, Protocol};
+use tautline_proofs::protocol::Keeps;
 
 use self::model::Counted;
 
@@ -38,11 +38,11 @@ fn peak() -> u64 {
 
 /// Searches by one of them, and prints states, milliseconds and kilobytes.
 fn search(who: &str, states: u8) {
-    let (rule, ring) = (Rule::Published, Ring(8, states));
+    let (rule, ring) = (Rule::Published, Machines::of(8, states));
     let count = if who == "ours" {
-        Keeps::<Machines>(ring, 1).search(&rule, Limits::NONE).expect("there is a ring").states
+        Keeps::<Rule>(ring, 1).search(&rule, Limits::NONE).expect("there is a ring").states
     } else {
-        let model = Counted(Machines::new(&rule, &ring).expect("there is a ring"));
+        let model = Counted(rule, ring);
         model.checker().threads(1).spawn_bfs().join().unique_state_count() as u64
     };
     println!("{count} {} {}", processor_time(), peak());

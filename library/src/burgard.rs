@@ -3,11 +3,12 @@
 //! and frontier is taken that is worth most, utility less cost; the utility of frontiers nearby goes down by how likely
 //! they are seen from the one that is taken. All assignments are made anew in every step.
 
-use crate::frontiers::{Crew, Exploration, Explorers, Team};
+use tautline_proofs::protocol::{Exploration, Explorers, Team};
+
 use crate::prelude::*;
 
 /// The weight of the utility against one step of the way, and how far a robot sees at its frontier.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 struct Burgard {
     weight: i32,
     range: i32,
@@ -17,7 +18,7 @@ struct Burgard {
 
 impl Explorers for Burgard {
     fn target(&self, team: &Team<'_>, robot: usize) -> Option<u8> {
-        let frontiers: Vec<u8> = team.frontiers().collect();
+        let frontiers: Vec<u8> = team.map.frontiers().collect();
         let costs: Vec<Vec<u8>> = team.cells.iter().map(|&cell| team.steps(cell)).collect();
         let mut utility = vec![self.weight * self.range; frontiers.len()];
         let mut left: Vec<usize> = (0..team.cells.len()).collect();
@@ -35,7 +36,7 @@ impl Explorers for Burgard {
             }
             left.retain(|&other| other != one);
             for (other, utility) in frontiers.iter().zip(&mut utility) {
-                let apart = i32::from(team.graph.steps(frontiers[place], *other));
+                let apart = i32::from(team.map.graph.steps(frontiers[place], *other));
                 *utility -= self.weight * (self.range - apart).max(0);
             }
         }
@@ -43,35 +44,23 @@ impl Explorers for Burgard {
     }
 }
 
-const CREW: Crew = Crew(Teams::within(Kind::Connected, 3, 3, 2));
+const CREW: Crew =
+    Crew { robots: 2, graphs: Graphs::within(Kind::Connected, 3, 3), moves: Moves::OneAtATime };
 const RULE: Burgard = Burgard { weight: 1, range: 2, is_near: true };
-const PUBLISHED: NamedRule<Burgard> = NamedRule::new("published", RULE);
-const FAR: NamedRule<Burgard> = NamedRule::new("farthest", Burgard { is_near: false, ..RULE });
-const NO_COST: NamedRule<Burgard> = NamedRule::new("hardly any cost", Burgard { weight: 100, ..RULE });
-const GREEDY: NamedRule<Burgard> = NamedRule::new("utility stays", Burgard { range: 0, ..RULE });
 
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "burgard",
-    title: "coordinated exploration",
-    source: "Burgard, Moors, Stachniss, Schneider, *Coordinated Multi-Robot Exploration*, IEEE Transactions on \
-             Robotics 21, 2005, Algorithm 1",
-    promises: &[
-        promise(
-            "ASSIGN-1",
-            "Every cell MUST come onto the map.",
-            &[
-                &Check::new(PUBLISHED, &Keeps::<Exploration<Burgard>>(CREW, 1), Holds, &[FAR]),
-                &Check::new(NO_COST, &Keeps::<Exploration<Burgard>>(CREW, 1), Holds, &[FAR]),
-            ],
-        ),
-        promise(
-            "ASSIGN-2",
-            "No two robots MUST set out for one frontier.",
-            &[
-                &Check::new(PUBLISHED, &Keeps::<Exploration<Burgard>>(CREW, 2), Refuted, &[]),
-                &Check::new(GREEDY, &Keeps::<Exploration<Burgard>>(CREW, 2), Refuted, &[]),
-            ],
-        ),
-    ],
-};
+entry! { Exploration<Burgard>: "burgard", "coordinated exploration", "ASSIGN",
+    "Burgard, Moors, Stachniss, Schneider, *Coordinated Multi-Robot Exploration*, IEEE Transactions on Robotics 21, \
+     2005, Algorithm 1";
+    PUBLISHED = "published", Exploration(RULE);
+    FAR = "farthest", Exploration(Burgard { is_near: false, ..RULE });
+    NO_COST = "hardly any cost", Exploration(Burgard { weight: 100, ..RULE });
+    GREEDY = "utility stays", Exploration(Burgard { range: 0, ..RULE });
+    1: "Every cell MUST come onto the map." {
+        Holds PUBLISHED within CREW, not FAR;
+        Holds NO_COST within CREW, not FAR;
+    }
+    2: "No two robots MUST set out for one frontier." {
+        Refuted PUBLISHED within CREW;
+        Refuted GREEDY within CREW;
+    }
+}

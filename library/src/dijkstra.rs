@@ -16,106 +16,70 @@ pub enum Rule {
     CountsOn,
 }
 
-/// Machines, and the states of each.
-#[derive(Clone, Copy, Debug)]
-pub struct Ring(pub usize, pub u8);
+bound! {
+    /// Machines of a ring, and the states of each.
+    pub Machines { machines: usize, states: u8 }
+    "{machines} machines of {states} states, all starts, one at a time in any order";
+    machines > 1 && states > 1, "a ring has at least two machines of two states"
+}
 
-impl fmt::Display for Ring {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} machines of {} states, all starts, one at a time in any order", self.0, self.1)
+/// The state of the left neighbour.
+fn left(ring: &[u8], machine: usize) -> u8 {
+    ring[(machine + ring.len() - 1) % ring.len()]
+}
+
+impl Rule {
+    fn has_privilege(self, ring: &[u8], machine: usize) -> bool {
+        (ring[machine] == left(ring, machine)) == (machine == 0 && self != Self::Uniform)
+    }
+
+    fn is_legitimate(self, ring: &[u8]) -> bool {
+        (0..ring.len()).filter(|&machine| self.has_privilege(ring, machine)).count() == 1
     }
 }
 
-/// The machines of a ring.
-#[derive(Debug)]
-pub struct Machines(Rule, usize, u8);
-
-impl Machines {
-    fn has_privilege(&self, ring: &[u8], machine: usize) -> bool {
-        let is_equal = ring[machine] == ring[(machine + self.1 - 1) % self.1];
-        is_equal == (machine == 0 && self.0 != Rule::Uniform)
-    }
-
-    fn privileges(&self, ring: &[u8]) -> usize {
-        (0..self.1).filter(|&machine| self.has_privilege(ring, machine)).count()
-    }
-}
-
-impl Protocol for Machines {
-    type Rule = Rule;
-    type Bound = Ring;
+impl Protocol for Rule {
+    type Bound = Machines;
     type State = Vec<u8>;
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always("one privilege stays one", |machines, before: &Vec<u8>, after: &Vec<u8>| {
-            machines.privileges(before) != 1 || machines.privileges(after) == 1
-        }),
-        Demand::eventually("there is one privilege", |machines, ring: &Vec<u8>| {
-            machines.privileges(ring) == 1
-        }),
-    ];
-
-    fn new(&rule: &Rule, &Ring(machines, states): &Ring) -> Result<Self, MethodError> {
-        MethodError::unless(machines > 1 && states > 1, "a ring has at least two machines of two states")?;
-        Ok(Self(rule, machines, states))
+    demands! {
+        always "one privilege stays one", |rule, _, old, new| !rule.is_legitimate(old) || rule.is_legitimate(new);
+        eventually "there is one privilege", |rule, _, ring| rule.is_legitimate(ring);
     }
 
-    fn starts(&self) -> impl Iterator<Item = Vec<u8>> {
-        combinations((0..self.1).map(|_| (0..self.2).collect()))
+    fn starts(&self, &Machines { machines, states }: &Machines) -> impl IntoIterator<Item = Vec<u8>> {
+        combinations(vec![(0..states).collect(); machines])
     }
 
     /// All machines are one actor: nobody need be fair to them.
-    fn moves(&self, ring: &Vec<u8>) -> Vec<Move<Vec<u8>>> {
-        let privileged = (0..self.1).filter(|&machine| self.has_privilege(ring, machine));
-        let act = |machine: usize| {
-            let left = ring[(machine + self.1 - 1) % self.1];
-            let mut next = ring.clone();
-            next[machine] = match self.0 {
-                Rule::CountsOn => (left + 1) % self.2,
-                Rule::Published if machine == 0 => (left + 1) % self.2,
-                Rule::Published | Rule::Uniform => left,
-            };
-            Move::of_all(1, "acts", next)
-        };
-        privileged.map(act).collect()
+    fn moves(&self, bound: &Machines, ring: &Vec<u8>) -> Vec<Move<Vec<u8>>> {
+        let counts_on = |machine| *self == Self::CountsOn || *self == Self::Published && machine == 0;
+        let next = |machine| (left(ring, machine) + u8::from(counts_on(machine))) % bound.states;
+        let act = |machine| Move::of_all(1, "acts", with(ring, machine, next(machine)));
+        (0..ring.len()).filter(|&machine| self.has_privilege(ring, machine)).map(act).collect()
     }
 
-    fn draw(&self, ring: &Vec<u8>) -> String {
+    fn draw(&self, _: &Machines, ring: &Vec<u8>) -> String {
         let mark = |machine: usize| if self.has_privilege(ring, machine) { '*' } else { ' ' };
-        ring.iter()
-            .enumerate()
-            .map(|(machine, state)| format!("{state}{}", mark(machine)))
-            .collect::<Vec<_>>()
-            .concat()
+        (0..ring.len()).map(|machine| format!("{}{}", ring[machine], mark(machine))).collect()
     }
 }
 
-const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::Published);
-const UNIFORM: NamedRule<Rule> = NamedRule::new("uniform", Rule::Uniform);
-const COUNTS_ON: NamedRule<Rule> = NamedRule::new("all count on", Rule::CountsOn);
-
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "dijkstra",
-    title: "K-state ring",
-    source: "Dijkstra, *Self-stabilizing Systems in Spite of Distributed Control*, Communications of the ACM 17, 1974; \
-             machines and states: Fokkink, Hoepman, Pang, *A Note on K-State Self-Stabilization in a Ring with K=N*, \
-             Nordic Journal of Computing 12, 2005",
-    promises: &[
-        promise(
-            "KSTATE-1",
-            "One privilege MUST stay one.",
-            &[&Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 5), 0), Holds, &[COUNTS_ON])],
-        ),
-        promise(
-            "KSTATE-2",
-            "There MUST be exactly one privilege at some time, whatever the start.",
-            &[
-                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 5), 1), Holds, &[UNIFORM]),
-                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 4), 1), Holds, &[UNIFORM]),
-                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(5, 3), 1), Refuted, &[]),
-                &Check::new(PUBLISHED, &Keeps::<Machines>(Ring(4, 2), 1), Refuted, &[]),
-            ],
-        )
-        .larger(&[&Check::new(PUBLISHED, &Keeps::<Machines>(Ring(7, 7), 1), Holds, &[UNIFORM])]),
-    ],
-};
+entry! { Rule: "dijkstra", "K-state ring", "KSTATE",
+    "Dijkstra, *Self-stabilizing Systems in Spite of Distributed Control*, Communications of the ACM 17, 1974; \
+     machines and states: Fokkink, Hoepman, Pang, *A Note on K-State Self-Stabilization in a Ring with K=N*, Nordic \
+     Journal of Computing 12, 2005";
+    PUBLISHED = "published", Rule::Published;
+    UNIFORM = "uniform", Rule::Uniform;
+    COUNTS_ON = "all count on", Rule::CountsOn;
+    1: "One privilege MUST stay one." {
+        Holds PUBLISHED within Machines::of(5, 5), not COUNTS_ON;
+    }
+    2: "There MUST be exactly one privilege at some time, whatever the start." {
+        Holds PUBLISHED within Machines::of(5, 5), not UNIFORM;
+        Holds PUBLISHED within Machines::of(5, 4), not UNIFORM;
+        Refuted PUBLISHED within Machines::of(5, 3);
+        Refuted PUBLISHED within Machines::of(4, 2);
+    } larger {
+        Holds PUBLISHED within Machines::of(7, 7), not UNIFORM;
+    }
+}

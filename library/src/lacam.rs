@@ -74,29 +74,17 @@ fn generated(graph: &Graph, now: &[u8], goals: &[u8], constraint: &[u8]) -> Opti
 }
 
 const SOLVABLE: Tasks = Tasks(Teams::within(Kind::Connected, 3, 2, 3), Only::Solvable);
-const LACAM: Lacam = Lacam { has_constraints: true, leaves_out_known: true };
-const PUBLISHED: NamedRule<Lacam> = NamedRule::new("published", LACAM);
-const BARE: NamedRule<Lacam> = NamedRule::new("no constraints", Lacam { has_constraints: false, ..LACAM });
 
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "lacam",
-    title: "LaCAM",
-    source: "Okumura, *LaCAM: Search-Based Algorithm for Quick Multi-Agent Pathfinding*, AAAI 2023, Algorithm 1 and \
-             Theorem 1",
-    promises: &[
-        promise(
-            "LACAM-1",
-            "No two robots MUST come into one cell, or change places.",
-            &[&Check::new(PUBLISHED, &Keeps::<Planned<Lacam>>(SOLVABLE, 0), Holds, &[])],
-        ),
-        promise(
-            "LACAM-2",
-            "A plan MUST be found if there is one.",
-            &[
-                &Check::new(PUBLISHED, &Keeps::<Planned<Lacam>>(SOLVABLE, 1), Holds, &[BARE]),
-                &Check::new(BARE, &Keeps::<Planned<Lacam>>(SOLVABLE, 1), Refuted, &[]),
-            ],
-        ),
-    ],
-};
+entry! { Planned<Lacam>: "lacam", "LaCAM", "LACAM",
+    "Okumura, *LaCAM: Search-Based Algorithm for Quick Multi-Agent Pathfinding*, AAAI 2023, Algorithm 1 and Theorem \
+     1";
+    PUBLISHED = "published", Planned(Lacam { has_constraints: true, leaves_out_known: true });
+    BARE = "no constraints", Planned(Lacam { has_constraints: false, leaves_out_known: true });
+    1: "No two robots MUST come into one cell, or change places." {
+        Holds PUBLISHED within SOLVABLE;
+    }
+    2: "A plan MUST be found if there is one." {
+        Holds PUBLISHED within SOLVABLE, not BARE;
+        Refuted BARE within SOLVABLE;
+    }
+}

@@ -2,12 +2,51 @@
 //! with one thing wrong that its checks must reject. The engines are Tautline's, and no room of Tautline knows the
 //! rules.
 
+/// A published rule: its type, its name on a command line and in a table, the word before the numbers of its promises,
+/// and its source; the rule and its variants, each with a name in tables; and the promises. A promise has the number of
+/// its demand, from 1 on, its sentence, and its checks: the verdict, the rule, the bound, and the rules that the check
+/// must reject. Checks within larger bounds stand apart.
+macro_rules! entry {
+    (
+        $rule:ty: $name:literal, $title:literal, $scheme:literal, $source:literal;
+        $($variant:ident = $words:literal, $value:expr;)+
+        $($number:literal: $sentence:literal { $($checks:tt)* } $(larger { $($larger:tt)* })?)+
+    ) => {
+        $(const $variant: NamedRule<$rule> = NamedRule::new($words, $value);)+
+
+        /// The rule.
+        pub(crate) static ENTRY: $crate::Entry = $crate::Entry {
+            name: $name,
+            title: $title,
+            source: $source,
+            promises: &[$($crate::Promise {
+                clause: entry!(@clause $rule, concat!($scheme, "-", $number), $number, $sentence; $($checks)*),
+                larger: entry!(@clause $rule, concat!($scheme, "-", $number), $number, $sentence; $($($larger)*)?),
+            }),+],
+        };
+    };
+    (
+        @clause $rule:ty, $id:expr, $number:literal, $sentence:literal;
+        $($verdict:ident $about:ident within $bound:expr $(, not $($mutant:ident),+)?;)*
+    ) => {
+        Clause {
+            id: $id,
+            sentence: $sentence,
+            checks: &[$(&Check::new(
+                $about,
+                &Keeps::<$rule>($bound, $number - 1),
+                Verdict::$verdict,
+                &[$($($mutant),+)?],
+            )),*],
+        }
+    };
+}
+
 mod aggregation;
 mod alpha;
 mod ba_star;
 mod burgard;
 pub mod dijkstra;
-mod frontiers;
 pub mod gathering;
 mod inheritance;
 mod lacam;
@@ -24,24 +63,27 @@ mod yamauchi;
 
 use std::iter;
 
-use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::team::Graph;
+use tautline_proofs::clause::Clause;
 
 pub use page::page;
 
 /// All that the file of a rule is made with.
 mod prelude {
-    pub(crate) use std::{fmt, iter};
+    pub(crate) use std::fmt;
 
-    pub(crate) use tautline_proofs::clause::{Check, NamedRule};
-    pub(crate) use tautline_proofs::compact;
-    pub(crate) use tautline_proofs::decide::MethodError;
-    pub(crate) use tautline_proofs::decide::Verdict::{Holds, Refuted};
+    pub(crate) use tautline_kernel::ground::Side;
+    pub(crate) use tautline_proofs::clause::{Check, Clause, NamedRule};
+    pub(crate) use tautline_proofs::decide::{MethodError, Verdict};
     pub(crate) use tautline_proofs::engine::states::Bits;
-    pub(crate) use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol, combinations, set};
-    pub(crate) use tautline_proofs::team::{Graph, Graphs, Kind, Moves, Teams};
+    pub(crate) use tautline_proofs::protocol::{
+        Bound, Keeps, Letter, Mail, Move, Protocol, Ring, Start, Walker, combinations, names, set, with,
+    };
+    pub(crate) use tautline_proofs::team::{
+        Crew, Deployed, Graph, Graphs, Kind, Known, Moves, Task, Teams, conflicts,
+    };
+    pub(crate) use tautline_proofs::{bound, compact, demands};
 
-    pub(crate) use crate::{APART, Entry, WAYS, arrows, conflicts, hang_together, promise, robots, turned};
+    pub(crate) use crate::{APART, WAYS, arrows, hang_together, turned};
 }
 
 /// A published rule.
@@ -101,34 +143,8 @@ pub fn clauses() -> impl Iterator<Item = &'static Clause> {
     smaller.chain(RULES.iter().flat_map(|rule| rule.larger()))
 }
 
-/// A promise with its checks.
-const fn promise(
-    id: &'static str,
-    sentence: &'static str,
-    checks: &'static [&'static dyn AnyCheck],
-) -> Promise {
-    Promise { clause: Clause { id, sentence, checks }, larger: Clause { id, sentence, checks: &[] } }
-}
-
-impl Promise {
-    /// The promise with these checks within larger bounds.
-    const fn larger(mut self, checks: &'static [&'static dyn AnyCheck]) -> Self {
-        self.larger.checks = checks;
-        self
-    }
-}
-
 /// The demand that no two robots are in conflict.
 const APART: &str = "no two robots are in one cell, or change places";
-
-/// Whether two robots come into one cell, or change places.
-fn conflicts(before: &[u8], after: &[u8]) -> bool {
-    let robots = 0..before.len();
-    robots.clone().any(|one| {
-        let is_swap = |other: usize| before[one] == after[other] && after[one] == before[other];
-        (0..one).any(|other| after[one] == after[other] || is_swap(other))
-    })
-}
 
 /// Whether the first of all is joined with each of them, from one to the next.
 fn hang_together<T: PartialEq>(all: &[T], is_joined: impl Fn(&T, &T) -> bool) -> bool {
@@ -156,15 +172,4 @@ fn arrows(side: i8, heading: impl Fn(i8, i8) -> Option<u8>) -> String {
     let sign = |heading: u8| ['>', 'v', '<', '^'][usize::from(heading)];
     let line = |row| (0..side).map(|column| heading(column, row).map_or('.', sign)).collect::<String>();
     (0..side).map(line).collect::<Vec<_>>().join("\n")
-}
-
-/// Robots by number, each cell with the letter of the robot whose goal it is.
-fn robots(graph: &Graph, now: &[u8], goals: &[u8]) -> String {
-    graph.draw(|cell| {
-        let who = |cells: &[u8], first: u8| {
-            let place = cells.iter().position(|&other| other == cell);
-            place.map_or('.', |place| char::from(first + place as u8))
-        };
-        [who(now, b'0'), who(goals, b'a')].iter().collect()
-    })
 }

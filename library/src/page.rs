@@ -25,7 +25,7 @@ of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robo
 Not every demand is one that the source makes: some say what a reader may expect and the rule does not promise, such as that no two robots
 set out for one frontier.
 
-A counterexample is the shortest one within the bound: breadth-first, the smallest layouts first. Robots are numbers; the letter behind is
+A counterexample is the shortest one within the bound; of those that are as short, one in the smallest layout. Robots are numbers; the letter behind is
 the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all that were looked at. [stateright](https://www.stateright.rs) counts the same
 ones of Dijkstra's ring, Ricart–Agrawala and gathering by the same moves, and SPIN those of Ricart–Agrawala by a model of its own, 3,300 and, with a
 message that may be lost, 10,522: [library/tests/counts.rs](../library/tests/counts.rs).
@@ -45,24 +45,25 @@ tried. In this table a shape counts in each place where it can stand; below each
 Without the preference for cells that are free, ours has 981,509 and 625,198. In the second row the order of equally good cells changes little: four
 agents have 688,824 to 689,026 states with any order of the four sides.
 
-Lines of code of each rule with demands, mutants, drawing and registration, beside those of a user who wrote the rule with its
-own world from the documents alone, before there were these faces:
+Lines of code of each rule with its demands, mutants, drawing, source and registration, beside those of a user who wrote the rule with its
+own world from the documents alone, before there were these faces; and those of the rule without mutants, source and registration:
 
-| rule | before | now |
-|---|---|---|
-| PIBT | 243 | 87, and 40 that LaCAM shares |
-| Yamauchi's frontiers | 169 | 64, and 117 that Burgard's rule shares |
-| Ricart–Agrawala | 172 | 119 |
-| a ring of robots | 133 | 106 |
-| Dijkstra's ring | 97 | 95 |
-| a corridor | 133 | 110 |
+| rule | before | now | the rule |
+|---|---|---|---|
+| PIBT | 243 | 63, and 40 that LaCAM shares | 41, and 40 |
+| Yamauchi's frontiers | 169 | 50 | 31 |
+| Ricart–Agrawala | 172 | 86 | 69 |
+| a ring of robots | 133 | 57 | 43 |
+| a corridor | 133 | 66 | 51 |
+| boustrophedon | 142 | 61 | 44 |
+| Dijkstra's ring | 97 | 63 | 44 |
+
+In [Python](python.md#a-rule-over-states) Dijkstra's ring has 24 lines and Ricart–Agrawala 50, with demands, without mutants and registration
+([ring.py](../python/tests/ring.py), [mutex.py](../python/tests/mutex.py)).
 
 Four of Alpha's robots, all together, have 292,924 states on 6×6 cells, 560,310 on 7×7 and 1,013,486 on 8×8, in 53 MB; states that are
 turns of each other, or differ in the order of robots, count once. On 16×16 they were not searched: the growth up to 8×8 lets one expect 20
 million states in 1 GB, but the check looks at 4.3 billion starts, one by one, before it keeps those that are connected.
-
-In [Python](python.md#a-rule-over-states) Dijkstra's ring has 24 lines and Ricart–Agrawala 50, with demands, without mutants and registration
-([ring.py](../python/tests/ring.py), [mutex.py](../python/tests/mutex.py)). In Rust four of the six have more than half of the lines that they had.
 
 | rule | source | checks that hold | refuted |
 |---|---|---|---|

@@ -7,7 +7,7 @@
 use crate::prelude::*;
 
 /// Which of the three moves a robot makes.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a condition of the rule")]
 struct Conditions {
     goes_on: bool,
@@ -17,38 +17,23 @@ struct Conditions {
     is_hasty: bool,
 }
 
-/// The nodes of the ring, and whether robots may start anywhere.
-struct Size(u8, bool);
-
-impl fmt::Display for Size {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let starts = if self.1 { "every start" } else { "gaps of 0 and 2" };
-        write!(f, "3 robots, a ring of {} nodes, {starts}, each looks, then moves", self.0)
-    }
-}
-
-struct Ring(Conditions, Size);
-
-/// Where robots are, and to where each is about to go.
-type State = [(u8, Option<u8>); 3];
-
-impl Ring {
+impl Conditions {
     /// The next node of a robot; the one where it is if it stays.
-    fn wish(&self, robots: &State, me: usize) -> u8 {
-        let (nodes, here) = (self.1.0, robots[me].0);
+    fn wish(self, ring: &Ring, robots: &[Walker], me: usize) -> u8 {
+        let (nodes, here) = (ring.nodes, robots[me].0);
         let gap = |from: u8, to: u8| (to + nodes - from - 1) % nodes;
         let mut others: Vec<u8> = (1..3).map(|by| robots[(me + by) % 3].0).collect();
         others.sort_by_key(|&other| gap(here, other));
         let (right, across, left) = (gap(here, others[0]), gap(others[0], others[1]), gap(others[1], here));
-        let (up, down) = ((here + 1) % nodes, (here + nodes - 1) % nodes);
+        let (up, down) = (ring.on(here, 1), ring.back(here));
         let far = |steps: u8| steps > 3;
         // The gaps on one side, on the other side, and across: seen from either side.
         for (near, beyond, to_near, to_beyond) in [(right, left, up, down), (left, right, down, up)] {
             match (near, beyond, across) {
-                (2, large, 0) if far(large) && self.0.goes_on => return to_beyond,
-                (3, 0, large) if far(large) && self.0.follows => return to_near,
-                (1, large, 2) if far(large) && self.0.closes_up => return to_near,
-                (2, 0, large) if far(large) && self.0.is_hasty => return to_near,
+                (2, large, 0) if far(large) && self.goes_on => return to_beyond,
+                (3, 0, large) if far(large) && self.follows => return to_near,
+                (1, large, 2) if far(large) && self.closes_up => return to_near,
+                (2, 0, large) if far(large) && self.is_hasty => return to_near,
                 _ => {}
             }
         }
@@ -56,81 +41,52 @@ impl Ring {
     }
 }
 
-impl Protocol for Ring {
-    type Rule = Conditions;
-    type Bound = Size;
-    type State = State;
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always(
-            "no two robots are in one node, or change places",
-            |_, before: &State, after: &State| {
-                !conflicts(&before.map(|robot| robot.0), &after.map(|robot| robot.0))
-            },
-        ),
-        Demand::again_and_again("robot 0 visits every node", |ring, robots: &State| {
-            set((0..usize::from(ring.1.0)).filter(|&node| usize::from(robots[0].0) != node))
-        }),
-    ];
-
-    fn new(&rule: &Conditions, &Size(nodes, is_any): &Size) -> Result<Self, MethodError> {
-        let fits = (9..=16).contains(&nodes);
-        MethodError::unless(fits, format_args!("a ring has 9 to 16 nodes, not {nodes}"))?;
-        Ok(Self(rule, Size(nodes, is_any)))
-    }
-
-    fn starts(&self) -> impl Iterator<Item = State> {
-        let from = |second: u8| (second + 1..self.1.0).map(move |third| [0, second, third]);
-        let any: Vec<[u8; 3]> = (1..self.1.0).flat_map(from).collect();
-        let cells = if self.1.1 { any } else { vec![[0, 1, 4]] };
-        cells.into_iter().map(|cells| cells.map(|cell| (cell, None)))
-    }
-
-    fn moves(&self, robots: &State) -> Vec<Move<State>> {
-        let go = |me: usize| {
-            let mut to = *robots;
-            to[me] = match robots[me] {
-                (_, Some(next)) => (next, None),
-                (here, None) => (here, Some(self.wish(robots, me)).filter(|&next| next != here)),
-            };
-            let words = if robots[me].1.is_some() { "moves" } else { "looks" };
-            Move::of(me, words, to)
+impl Protocol for Conditions {
+    type Bound = Ring;
+    type State = Vec<Walker>;
+    demands! {
+        always "no two robots are in one node, or change places", |_, _, before, after| {
+            let nodes = |robots: &Vec<Walker>| robots.iter().map(|robot| robot.0).collect::<Vec<u8>>();
+            !conflicts(&nodes(before), &nodes(after))
         };
-        (0..3).map(go).filter(|next| next.to != *robots).collect()
+        again_and_again "robot 0 visits every node", |_, ring, robots| {
+            set((0..ring.nodes).filter(|&node| robots[0].0 != node).map(usize::from))
+        };
     }
 
-    fn draw(&self, robots: &State) -> String {
-        let sign = |node: u8| robots.iter().position(|robot| robot.0 == node).map(|robot| b'0' + robot as u8);
-        (0..self.1.0).map(|node| char::from(sign(node).unwrap_or(b'.'))).collect()
+    fn starts(&self, ring: &Ring) -> impl IntoIterator<Item = Vec<Walker>> {
+        ring.starts()
+    }
+
+    fn moves(&self, ring: &Ring, robots: &Vec<Walker>) -> Vec<Move<Vec<Walker>>> {
+        ring.moves(robots, |me| self.wish(ring, robots, me))
+    }
+
+    fn draw(&self, ring: &Ring, robots: &Vec<Walker>) -> String {
+        ring.draw(robots)
     }
 }
 
-const RULE: Conditions = Conditions { goes_on: true, follows: true, closes_up: true, is_hasty: false };
-const PUBLISHED: NamedRule<Conditions> = NamedRule::new("legitimate phase", RULE);
-const STOPS: NamedRule<Conditions> =
-    NamedRule::new("does not close up", Conditions { closes_up: false, ..RULE });
-const HASTY: NamedRule<Conditions> = NamedRule::new("two at once", Conditions { is_hasty: true, ..RULE });
+const fn ring(nodes: u8, starts: Start) -> Ring {
+    Ring { nodes, robots: 3, starts, moves: Moves::LookThenMove }
+}
 
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "perpetual",
-    title: "perpetual exploration of a ring",
-    source: "after Blin, Milani, Potop-Butucaru, Tixeuil, *Exclusive Perpetual Ring Exploration without Chirality*, \
-             DISC 2010: its legitimate phase, as we model it",
-    promises: &[
-        promise(
-            "RING-1",
-            "No two robots MUST come into one node, or change places.",
-            &[&Check::new(PUBLISHED, &Keeps::<Ring>(Size(12, true), 0), Holds, &[])],
-        ),
-        promise(
-            "RING-2",
-            "Every node MUST be visited again and again, by each robot.",
-            &[
-                &Check::new(PUBLISHED, &Keeps::<Ring>(Size(12, false), 1), Holds, &[STOPS, HASTY]),
-                &Check::new(PUBLISHED, &Keeps::<Ring>(Size(10, false), 1), Holds, &[STOPS]),
-                &Check::new(PUBLISHED, &Keeps::<Ring>(Size(9, false), 1), Refuted, &[]),
-                &Check::new(PUBLISHED, &Keeps::<Ring>(Size(10, true), 1), Refuted, &[]),
-            ],
-        ),
-    ],
-};
+const GAPS: Start = Start::At(&[0, 1, 4]);
+const RULE: Conditions = Conditions { goes_on: true, follows: true, closes_up: true, is_hasty: false };
+
+entry! { Conditions: "perpetual", "perpetual exploration of a ring", "RING",
+    "after Blin, Milani, Potop-Butucaru, Tixeuil, *Exclusive Perpetual Ring Exploration without Chirality*, DISC \
+     2010: its legitimate phase, as we model it";
+    PUBLISHED = "legitimate phase", RULE;
+    STOPS = "does not close up", Conditions { closes_up: false, ..RULE };
+    HASTY = "two at once", Conditions { is_hasty: true, ..RULE };
+    1: "No two robots MUST come into one node, or change places." {
+        Holds PUBLISHED within ring(12, Start::Any);
+    }
+    2: "Every node MUST be visited again and again, by each robot." {
+        Holds PUBLISHED within ring(12, GAPS), not STOPS, HASTY;
+        Holds PUBLISHED within ring(10, GAPS), not STOPS;
+        Refuted PUBLISHED within ring(9, GAPS);
+        Refuted PUBLISHED within ring(10, Start::Any);
+    }
+}

@@ -1,5 +1,7 @@
 //! Robots that plan all of their ways before they go, in all layouts of a bound.
 
+use std::collections::BTreeSet;
+
 use crate::prelude::*;
 
 /// A planner.
@@ -9,7 +11,7 @@ pub(crate) trait Planner: Copy + Sync + 'static {
 }
 
 /// Which starts and goals are meant.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub(crate) enum Only {
     All,
     /// Those for which there is a plan at all.
@@ -32,63 +34,57 @@ impl fmt::Display for Tasks {
     }
 }
 
-/// A planner's robots.
-pub(crate) struct Planned<R>(R, Vec<Graph>, Vec<State>);
+impl Bound for Tasks {
+    type Surroundings = (Task, Only);
 
-/// The number of the layout, where robots are and go to, and, once they have planned, where they will be.
-type State = (u16, Vec<u8>, Vec<u8>, Option<Vec<Vec<u8>>>);
+    fn each(&self) -> Result<Vec<(Task, Only)>, MethodError> {
+        Ok(self.0.each()?.into_iter().map(|task| (task, self.1)).collect())
+    }
+}
+
+/// A planner's robots.
+#[derive(Clone, Copy)]
+pub(crate) struct Planned<R>(pub(crate) R);
+
+/// Where robots are, and, once they have planned, where they will be.
+type State = (Vec<u8>, Option<Vec<Vec<u8>>>);
 
 impl<R: Planner> Protocol for Planned<R> {
-    type Rule = R;
     type Bound = Tasks;
     type State = State;
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always(APART, |_, before: &State, after: &State| !conflicts(&before.1, &after.1)),
-        Demand::at_the_end("every robot is at its goal", |_, (_, now, goals, _): &State| now == goals),
-    ];
-
-    fn new(rule: &R, Tasks(teams, only): &Tasks) -> Result<Self, MethodError> {
-        let graphs = teams.graphs.all()?;
-        let parts: Vec<Vec<Vec<Vec<u8>>>> = match only {
-            Only::Solvable => graphs.iter().map(|graph| components(graph, teams.robots)).collect(),
-            Only::All | Only::WellFormed => Vec::new(),
-        };
-        let is_meant = |(graph, starts, goals): &(usize, Vec<u8>, Vec<u8>)| match only {
-            Only::All => true,
-            Only::Solvable => parts[*graph].iter().any(|part| part.contains(starts) && part.contains(goals)),
-            Only::WellFormed => is_well_formed(&graphs[*graph], starts, goals),
-        };
-        let tasks = teams.instances(&graphs).filter(is_meant);
-        let starts = tasks.map(|(graph, starts, goals)| (graph as u16, starts, goals, None)).collect();
-        Ok(Self(*rule, graphs, starts))
+    demands! {
+        always APART, |_, _, before, after| !conflicts(&before.0, &after.0);
+        at_the_end "every robot is at its goal", |_, (task, _), (now, _)| *now == task.goals;
     }
 
-    fn starts(&self) -> impl Iterator<Item = State> {
-        self.2.iter().cloned()
+    fn starts(&self, (task, only): &(Task, Only)) -> impl IntoIterator<Item = State> {
+        let starts = match only {
+            Only::All => task.starts(),
+            Only::Solvable => solvable(task),
+            Only::WellFormed => {
+                task.starts().into_iter().filter(|starts| is_well_formed(task, starts)).collect()
+            }
+        };
+        starts.into_iter().map(|starts| (starts, None))
     }
 
-    fn moves(&self, (graph, now, goals, plan): &State) -> Vec<Move<State>> {
-        let all = now.len();
+    fn moves(&self, (task, _): &(Task, Only), (now, plan): &State) -> Vec<Move<State>> {
+        let all =
+            |words, now: &Vec<u8>, plan| vec![Move::of_all(now.len(), words, (now.clone(), Some(plan)))];
         match plan.as_deref() {
-            None => {
-                let planned = self.0.plan(&self.1[usize::from(*graph)], now, goals).unwrap_or_default();
-                vec![Move::of_all(all, "all plan", (*graph, now.clone(), goals.clone(), Some(planned)))]
-            }
+            None => all("all plan", now, self.0.plan(&task.graph, now, &task.goals).unwrap_or_default()),
             Some([]) => Vec::new(),
-            Some([next, rest @ ..]) => {
-                let to = (*graph, next.clone(), goals.clone(), Some(rest.to_vec()));
-                vec![Move::of_all(all, "all move", to)]
-            }
+            Some([next, rest @ ..]) => all("all move", next, rest.to_vec()),
         }
     }
 
-    fn draw(&self, (graph, now, goals, _): &State) -> String {
-        robots(&self.1[usize::from(*graph)], now, goals)
+    fn draw(&self, (task, _): &(Task, Only), (now, _): &State) -> String {
+        task.draw(now)
     }
 }
 
 /// Whether every robot has a way to its goal that leads through no other start and goal.
-fn is_well_formed(graph: &Graph, starts: &[u8], goals: &[u8]) -> bool {
+fn is_well_formed(Task { graph, goals }: &Task, starts: &[u8]) -> bool {
     let has_way = |(&start, &goal): (&u8, &u8)| {
         let is_free = |cell: u8| (cell == goal || !goals.contains(&cell)) && !starts.contains(&cell);
         start == goal || graph.steps_through(start, is_free)[usize::from(goal)] != u8::MAX
@@ -96,29 +92,13 @@ fn is_well_formed(graph: &Graph, starts: &[u8], goals: &[u8]) -> bool {
     starts.iter().zip(goals).all(has_way)
 }
 
-/// The places of all robots, those together that can be reached from each other.
-fn components(graph: &Graph, robots: usize) -> Vec<Vec<Vec<u8>>> {
-    let mut parts: Vec<Vec<Vec<u8>>> = Vec::new();
-    for places in graph.places(robots) {
-        if parts.iter().any(|part| part.contains(&places)) {
-            continue;
-        }
-        let (mut part, mut next) = (vec![places], 0);
-        while let Some(now) = part.get(next).cloned() {
-            next += 1;
-            for to in joint_moves(graph, &now) {
-                if !part.contains(&to) {
-                    part.push(to);
-                }
-            }
-        }
-        parts.push(part);
+/// The starts from which robots can come to their goals: those to which they can come from there.
+fn solvable(Task { graph, goals }: &Task) -> Vec<Vec<u8>> {
+    let (mut found, mut ahead) = (BTreeSet::from([goals.clone()]), vec![goals.clone()]);
+    while let Some(now) = ahead.pop() {
+        let moves = combinations(now.iter().map(|&cell| [graph.beside(cell), &[cell]].concat()));
+        let new = moves.filter(|to| !conflicts(&now, to) && found.insert(to.clone()));
+        ahead.extend(new);
     }
-    parts
-}
-
-/// Every joint move of all robots.
-fn joint_moves(graph: &Graph, now: &[u8]) -> Vec<Vec<u8>> {
-    let moves = combinations(now.iter().map(|&cell| [graph.beside(cell), &[cell]].concat()));
-    moves.filter(|to| !conflicts(now, to)).collect()
+    found.into_iter().collect()
 }

@@ -75,54 +75,25 @@ const fn tasks(only: Only) -> Tasks {
 const WIDE: Tasks = Tasks(Teams::within(Kind::Connected, 4, 3, 2).of_cells(7, 9), Only::WellFormed);
 const RULE: Prioritised =
     Prioritised { leaves_out_starts: true, can_stay: true, has_no_swap: true, waits: true };
-const REVISED: NamedRule<Prioritised> = NamedRule::new("revised", RULE);
-const CLASSIC: NamedRule<Prioritised> =
-    NamedRule::new("classic", Prioritised { leaves_out_starts: false, ..RULE });
-const HASTY: NamedRule<Prioritised> =
-    NamedRule::new("stays anywhere", Prioritised { can_stay: false, ..RULE });
-const RUSHES: NamedRule<Prioritised> = NamedRule::new("never waits", Prioritised { waits: false, ..RULE });
-const SWAPS: NamedRule<Prioritised> = NamedRule::new("may swap", Prioritised { has_no_swap: false, ..RULE });
 
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "prioritised",
-    title: "prioritised planning",
-    source: "Erdmann, Lozano-Pérez, *On Multiple Moving Objects*, Algorithmica 2, 1987; revised: Čáp, Novák, Kleiner, \
-             Selecký, *Prioritized Planning Algorithms for Trajectory Coordination of Multiple Mobile Robots*, IEEE \
-             T-ASE 12, 2015",
-    promises: &[
-        promise(
-            "PRIO-1",
-            "No two robots MUST come into one cell, or change places.",
-            &[&Check::new(
-                CLASSIC,
-                &Keeps::<Planned<Prioritised>>(tasks(Only::All), 0),
-                Holds,
-                &[SWAPS, HASTY],
-            )],
-        ),
-        promise(
-            "PRIO-2",
-            "A plan MUST be found.",
-            &[
-                &Check::new(
-                    REVISED,
-                    &Keeps::<Planned<Prioritised>>(tasks(Only::WellFormed), 1),
-                    Holds,
-                    &[RUSHES],
-                ),
-                &Check::new(
-                    CLASSIC,
-                    &Keeps::<Planned<Prioritised>>(tasks(Only::WellFormed), 1),
-                    Holds,
-                    &[RUSHES],
-                ),
-                &Check::new(REVISED, &Keeps::<Planned<Prioritised>>(tasks(Only::Solvable), 1), Refuted, &[]),
-            ],
-        )
-        .larger(&[
-            &Check::new(CLASSIC, &Keeps::<Planned<Prioritised>>(WIDE, 1), Holds, &[]),
-            &Check::new(REVISED, &Keeps::<Planned<Prioritised>>(WIDE, 1), Holds, &[]),
-        ]),
-    ],
-};
+entry! { Planned<Prioritised>: "prioritised", "prioritised planning", "PRIO",
+    "Erdmann, Lozano-Pérez, *On Multiple Moving Objects*, Algorithmica 2, 1987; revised: Čáp, Novák, Kleiner, \
+     Selecký, *Prioritized Planning Algorithms for Trajectory Coordination of Multiple Mobile Robots*, IEEE T-ASE \
+     12, 2015";
+    REVISED = "revised", Planned(RULE);
+    CLASSIC = "classic", Planned(Prioritised { leaves_out_starts: false, ..RULE });
+    HASTY = "stays anywhere", Planned(Prioritised { can_stay: false, ..RULE });
+    RUSHES = "never waits", Planned(Prioritised { waits: false, ..RULE });
+    SWAPS = "may swap", Planned(Prioritised { has_no_swap: false, ..RULE });
+    1: "No two robots MUST come into one cell, or change places." {
+        Holds CLASSIC within tasks(Only::All), not SWAPS, HASTY;
+    }
+    2: "A plan MUST be found." {
+        Holds REVISED within tasks(Only::WellFormed), not RUSHES;
+        Holds CLASSIC within tasks(Only::WellFormed), not RUSHES;
+        Refuted REVISED within tasks(Only::Solvable);
+    } larger {
+        Holds CLASSIC within WIDE;
+        Holds REVISED within WIDE;
+    }
+}

@@ -7,7 +7,7 @@
 use crate::prelude::*;
 
 /// The conditions of the rule.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 struct Conditions {
     /// A robot at a midpoint keeps its lock.
     keeps_at_midpoint: bool,
@@ -17,120 +17,72 @@ struct Conditions {
     locks: bool,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-enum Place {
-    Bay,
-    Lane,
-    Midpoint,
-    Across,
-}
-compact! { Place: Bay, Lane, Midpoint, Across }
+compact! { enum Place { Bay, Lane, Midpoint, Across } }
 
-/// How many robots there are.
-struct Robots(usize);
-
-impl fmt::Display for Robots {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} robots, one lane, each plans anew once at most, every order", self.0)
-    }
-}
-
-struct Lane(Conditions, usize);
+bound! { Robots { robots: usize } "{robots} robots, one lane, each plans anew once at most, every order" }
 
 /// Where robots are, and who holds the lock.
 type State = (Vec<Place>, Option<usize>);
 
-impl Protocol for Lane {
-    type Rule = Conditions;
+fn is_in_lane(place: &Place) -> bool {
+    matches!(place, Place::Lane | Place::Midpoint)
+}
+
+impl Protocol for Conditions {
     type Bound = Robots;
     type State = State;
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always("one robot is in the lane", |_, _, (places, _): &State| {
-            places.iter().filter(|place| matches!(place, Place::Lane | Place::Midpoint)).count() <= 1
-        }),
-        Demand::eventually("every robot is across", |_, (places, _): &State| {
-            places.iter().all(|&place| place == Place::Across)
-        }),
-    ];
+    demands! {
+        always "one robot is in the lane", |_, _, _, (places, _)| places.iter().filter(|at| is_in_lane(at)).count() <= 1;
+        eventually "every robot is across", |_, _, (places, _)| places.iter().all(|&place| place == Place::Across);
+    }
     const COVERS: &'static [&'static str] = &["locks", "enters", "leaves", "plans anew"];
 
-    fn new(&rule: &Conditions, &Robots(robots): &Robots) -> Result<Self, MethodError> {
-        Ok(Self(rule, robots))
+    fn starts(&self, bound: &Robots) -> impl IntoIterator<Item = State> {
+        [(vec![Place::Bay; bound.robots], None)]
     }
 
-    fn starts(&self) -> impl Iterator<Item = State> {
-        iter::once((vec![Place::Bay; self.1], None))
-    }
-
-    fn moves(&self, (places, holder): &State) -> Vec<Move<State>> {
-        let is_free = !places.iter().any(|place| matches!(place, Place::Lane | Place::Midpoint));
-        let with = |me: usize, place: Place, holder: Option<usize>| {
-            let mut to = places.clone();
-            to[me] = place;
-            (to, holder)
+    fn moves(&self, _: &Robots, (places, holder): &State) -> Vec<Move<State>> {
+        let is_free = !places.iter().any(is_in_lane);
+        let act = |(me, &place): (usize, &Place)| {
+            let to = |place: Place, holder: Option<usize>| (with(places, me, place), holder);
+            let left = |keeps: bool| holder.filter(|&holder| holder != me || keeps);
+            let holds = *holder == Some(me) || !self.locks;
+            let may_lock = place != Place::Across && holder.is_none() && self.locks;
+            let may_enter = place == Place::Bay && holds && (is_free || !self.locks);
+            let across = to(Place::Across, left(!self.releases));
+            let anew = to(Place::Midpoint, left(self.keeps_at_midpoint));
+            [
+                Move::of(me, "locks", to(place, Some(me))).when(may_lock),
+                Move::of(me, "enters", to(Place::Lane, *holder)).when(may_enter),
+                Move::of(me, "leaves", across).when(holds && is_in_lane(&place)),
+                Move::fault("plans anew", anew).when(place == Place::Lane),
+            ]
         };
-        let mut moves = Vec::new();
-        for (me, &place) in places.iter().enumerate() {
-            let holds = *holder == Some(me) || !self.0.locks;
-            let released = holder.filter(|&holder| holder != me || !self.0.releases);
-            match place {
-                Place::Bay | Place::Lane | Place::Midpoint if holder.is_none() && self.0.locks => {
-                    moves.push(Move::of(me, "locks", with(me, place, Some(me))));
-                }
-                Place::Bay if holds && (is_free || !self.0.locks) => {
-                    moves.push(Move::of(me, "enters", with(me, Place::Lane, *holder)));
-                }
-                Place::Lane | Place::Midpoint if holds => {
-                    moves.push(Move::of(me, "leaves", with(me, Place::Across, released)));
-                }
-                Place::Bay | Place::Lane | Place::Midpoint | Place::Across => {}
-            }
-            if place == Place::Lane {
-                let kept = holder.filter(|&holder| holder != me || self.0.keeps_at_midpoint);
-                moves.push(Move::fault("plans anew", with(me, Place::Midpoint, kept)));
-            }
-        }
-        moves
+        places.iter().enumerate().flat_map(act).flatten().collect()
     }
 
-    fn draw(&self, (places, holder): &State) -> String {
-        let at = |wanted: &[Place]| {
-            let here = places.iter().zip('0'..).filter(|(place, _)| wanted.contains(place));
-            here.map(|(_, name)| name).collect::<String>()
-        };
-        let lane = at(&[Place::Lane, Place::Midpoint]);
+    fn draw(&self, _: &Robots, (places, holder): &State) -> String {
+        let at = |wanted: Place| names(places, |&place| place == wanted);
+        let lane = names(places, is_in_lane);
         let lock = holder.map_or("free".to_owned(), |holder| format!("of {holder}"));
-        format!("[{:2}]={lane:=<2}=[{:2}]\nlock {lock}", at(&[Place::Bay]), at(&[Place::Across]))
+        format!("[{:2}]={lane:=<2}=[{:2}]\nlock {lock}", at(Place::Bay), at(Place::Across))
     }
 }
 
 const RULE: Conditions = Conditions { keeps_at_midpoint: true, releases: true, locks: true };
-const MENDED: NamedRule<Conditions> = NamedRule::new("mended", RULE);
-const BEFORE: NamedRule<Conditions> =
-    NamedRule::new("before the pull request", Conditions { keeps_at_midpoint: false, ..RULE });
-const HOLDS_ON: NamedRule<Conditions> =
-    NamedRule::new("never releases", Conditions { releases: false, ..RULE });
-const NO_LOCK: NamedRule<Conditions> = NamedRule::new("no lock", Conditions { locks: false, ..RULE });
 
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "rmf-lane",
-    title: "Open-RMF's lane mutex",
-    source: "[rmf_ros2 issue 448](https://github.com/open-rmf/rmf_ros2/issues/448), mended by \
-             [pull request 490](https://github.com/open-rmf/rmf_ros2/pull/490), 2025, problem 1",
-    promises: &[
-        promise(
-            "LANE-1",
-            "At most one robot MUST be in the lane.",
-            &[&Check::new(MENDED, &Keeps::<Lane>(Robots(3), 0), Holds, &[NO_LOCK])],
-        ),
-        promise(
-            "LANE-2",
-            "Every robot MUST come across.",
-            &[
-                &Check::new(BEFORE, &Keeps::<Lane>(Robots(2), 1), Refuted, &[]),
-                &Check::new(MENDED, &Keeps::<Lane>(Robots(3), 1), Holds, &[BEFORE, HOLDS_ON]),
-            ],
-        ),
-    ],
-};
+entry! { Conditions: "rmf-lane", "Open-RMF's lane mutex", "LANE",
+    "[rmf_ros2 issue 448](https://github.com/open-rmf/rmf_ros2/issues/448), mended by \
+     [pull request 490](https://github.com/open-rmf/rmf_ros2/pull/490), 2025, problem 1";
+    MENDED = "mended", RULE;
+    BEFORE = "before the pull request", Conditions { keeps_at_midpoint: false, ..RULE };
+    HOLDS_ON = "never releases", Conditions { releases: false, ..RULE };
+    NO_LOCK = "no lock", Conditions { locks: false, ..RULE };
+    1: "At most one robot MUST be in the lane." {
+        Holds MENDED within Robots::of(3), not NO_LOCK;
+    }
+    2: "Every robot MUST come across." {
+        Refuted BEFORE within Robots::of(2);
+        Holds MENDED within Robots::of(3), not BEFORE, HOLDS_ON;
+    }
+}

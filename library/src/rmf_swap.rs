@@ -7,7 +7,7 @@
 use crate::prelude::*;
 
 /// The conditions of the rule.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 struct Conditions {
     /// A robot whose destination is reserved for another one may go to the waiting place.
     retreats: bool,
@@ -17,117 +17,84 @@ struct Conditions {
     queues: bool,
 }
 
-/// How many robots there are, each with a destination that another one starts in.
-struct Robots(u8);
-
-impl fmt::Display for Robots {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{0} robots, {0} places and one to wait in, every order", self.0)
-    }
+bound! {
+    /// Robots, each with a destination that another one starts in.
+    Robots { robots: u8 } "{robots} robots, {robots} places and one to wait in, every order";
+    (2..=4).contains(&robots), "there are 2 to 4 robots"
 }
-
-struct Places(Conditions, u8);
 
 /// Where each robot is and goes to, and for whom each place is reserved; the last place is to wait in.
 type State = (Vec<(u8, u8)>, Vec<Option<u8>>);
 
-impl Protocol for Places {
-    type Rule = Conditions;
+impl Protocol for Conditions {
     type Bound = Robots;
     type State = State;
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always("no two robots are in one place", |_, _, (robots, _): &State| {
-            let apart = |one: usize| (0..one).all(|other| robots[one].0 != robots[other].0);
-            (0..robots.len()).all(apart)
-        }),
-        Demand::again_and_again("every robot comes to its destination", |places, (robots, _): &State| {
+    demands! {
+        always "no two robots are in one place", |_, _, _, (robots, _)| {
+            (0..robots.len()).all(|one| (0..one).all(|other| robots[one].0 != robots[other].0))
+        };
+        again_and_again "every robot comes to its destination", |_, _, (robots, _)| {
             // A robot's destination is another one once it is there: it owes a visit to each place.
-            let bit = |robot: usize, place: u8| 1 << (robot * usize::from(places.1) + usize::from(place));
-            let all = (0..robots.len()).flat_map(|robot| (0..places.1).map(move |place| (robot, place)));
-            all.filter(|&(robot, place)| robots[robot].0 != place)
-                .fold(0, |set, (robot, place)| set | bit(robot, place))
-        }),
-    ];
-
-    fn new(&rule: &Conditions, &Robots(robots): &Robots) -> Result<Self, MethodError> {
-        let fits = (2..=4).contains(&robots);
-        fits.then_some(Self(rule, robots)).ok_or_else(|| MethodError::new("there are 2 to 4 robots"))
+            let visits = (0..robots.len()).flat_map(|robot| (0..robots.len()).map(move |place| (robot, place)));
+            let owed = visits.filter(|&(robot, place)| usize::from(robots[robot].0) != place);
+            set(owed.map(|(robot, place)| robot * robots.len() + place))
+        };
     }
 
-    fn starts(&self) -> impl Iterator<Item = State> {
-        let robots = (0..self.1).map(|robot| (robot, (robot + 1) % self.1)).collect();
-        iter::once((robots, (0..self.1).map(Some).chain([None]).collect()))
+    fn starts(&self, &Robots { robots }: &Robots) -> impl IntoIterator<Item = State> {
+        let placed = (0..robots).map(|robot| (robot, (robot + 1) % robots)).collect();
+        [(placed, (0..robots).map(Some).chain([None]).collect())]
     }
 
-    fn moves(&self, (robots, reserved): &State) -> Vec<Move<State>> {
-        let mut moves = Vec::new();
-        let wait = self.1;
-        for (me, &(here, goal)) in robots.iter().enumerate() {
+    fn moves(&self, &Robots { robots: wait }: &Robots, (robots, reserved): &State) -> Vec<Move<State>> {
+        let act = |(me, &(here, goal)): (usize, &(u8, u8))| {
             let name = me as u8;
             let go = |place: u8| {
-                let (mut robots, mut reserved) = (robots.clone(), reserved.clone());
-                reserved[usize::from(place)] = Some(name);
-                let is_over = self.0.gives_up || place == goal && here == wait;
-                if is_over {
+                let mut reserved = with(reserved, usize::from(place), Some(name));
+                if self.gives_up || place == goal && here == wait {
                     reserved[usize::from(here)] = None;
                 }
-                robots[me] = if place == goal { (place, (place + 1) % self.1) } else { (place, goal) };
-                (robots, reserved)
+                let next = if place == goal { (place + 1) % wait } else { goal };
+                (with(robots, me, (place, next)), reserved)
             };
             let is_free = |place: u8| {
                 let is_wanted = robots.contains(&(wait, place)) && here != wait;
-                reserved[usize::from(place)].is_none_or(|other| other == name)
-                    && !(is_wanted && self.0.queues)
+                reserved[usize::from(place)].is_none_or(|other| other == name) && !(is_wanted && self.queues)
             };
-            if is_free(goal) {
-                moves.push(Move::of(me, "goes on", go(goal)));
-            } else if here != wait && is_free(wait) && self.0.retreats {
-                moves.push(Move::of(me, "retreats", go(wait)));
-            }
-        }
-        moves
+            let retreats = !is_free(goal) && here != wait && is_free(wait) && self.retreats;
+            let goes_on = Move::of(me, "goes on", go(goal)).when(is_free(goal));
+            goes_on.or(Move::of(me, "retreats", go(wait)).when(retreats))
+        };
+        robots.iter().enumerate().filter_map(act).collect()
     }
 
-    fn draw(&self, (robots, reserved): &State) -> String {
-        let place = |(place, owner): (usize, &Option<u8>)| {
-            let here = robots.iter().zip('0'..).find(|(robot, _)| usize::from(robot.0) == place);
+    fn draw(&self, bound: &Robots, (robots, reserved): &State) -> String {
+        let place = |(place, owner): (u8, &Option<u8>)| {
+            let here = names(robots, |robot| robot.0 == place);
             let owner = owner.map_or("free".to_owned(), |owner| format!("for {owner}"));
-            let name = if place == usize::from(self.1) { "waiting" } else { "place" };
-            format!("{name} {place}: {} ({owner})\n", here.map_or('.', |(_, name)| name))
+            let name = if place == bound.robots { "waiting" } else { "place" };
+            format!("{name} {place}: {here:.<1} ({owner})\n")
         };
-        reserved.iter().enumerate().map(place).collect()
+        (0..).zip(reserved).map(place).collect()
     }
 }
 
 const RULE: Conditions = Conditions { retreats: true, gives_up: true, queues: true };
-const QUEUES: NamedRule<Conditions> = NamedRule::new("retreats and queues", RULE);
-const RETREATS: NamedRule<Conditions> = NamedRule::new("retreats", Conditions { queues: false, ..RULE });
-const HOLDS_ON: NamedRule<Conditions> =
-    NamedRule::new("holds and waits", Conditions { retreats: false, ..RULE });
-const KEEPS: NamedRule<Conditions> =
-    NamedRule::new("retreats and keeps its place", Conditions { gives_up: false, ..RULE });
 
-/// The rule.
-pub(crate) static ENTRY: Entry = Entry {
-    name: "rmf-swap",
-    title: "two robots that swap",
-    source: "the situation of [rmf_ros2 issue 503](https://github.com/open-rmf/rmf_ros2/issues/503), 2026; hold and \
-             wait: Coffman, Elphick, Shoshani, *System Deadlocks*, ACM Computing Surveys 3, 1971",
-    promises: &[
-        promise(
-            "SWAP-1",
-            "No two robots MUST be in one place.",
-            &[&Check::new(QUEUES, &Keeps::<Places>(Robots(3), 0), Holds, &[])],
-        ),
-        promise(
-            "SWAP-2",
-            "Every robot MUST come to its destination, again and again.",
-            &[
-                &Check::new(HOLDS_ON, &Keeps::<Places>(Robots(2), 1), Refuted, &[]),
-                &Check::new(RETREATS, &Keeps::<Places>(Robots(2), 1), Refuted, &[]),
-                &Check::new(QUEUES, &Keeps::<Places>(Robots(2), 1), Holds, &[HOLDS_ON, KEEPS, RETREATS]),
-                &Check::new(QUEUES, &Keeps::<Places>(Robots(3), 1), Holds, &[HOLDS_ON, KEEPS, RETREATS]),
-            ],
-        ),
-    ],
-};
+entry! { Conditions: "rmf-swap", "two robots that swap", "SWAP",
+    "the situation of [rmf_ros2 issue 503](https://github.com/open-rmf/rmf_ros2/issues/503), 2026; hold and wait: \
+     Coffman, Elphick, Shoshani, *System Deadlocks*, ACM Computing Surveys 3, 1971";
+    QUEUES = "retreats and queues", RULE;
+    RETREATS = "retreats", Conditions { queues: false, ..RULE };
+    HOLDS_ON = "holds and waits", Conditions { retreats: false, ..RULE };
+    KEEPS = "retreats and keeps its place", Conditions { gives_up: false, ..RULE };
+    1: "No two robots MUST be in one place." {
+        Holds QUEUES within Robots::of(3);
+    }
+    2: "Every robot MUST come to its destination, again and again." {
+        Refuted HOLDS_ON within Robots::of(2);
+        Refuted RETREATS within Robots::of(2);
+        Holds QUEUES within Robots::of(2), not HOLDS_ON, KEEPS, RETREATS;
+        Holds QUEUES within Robots::of(3), not HOLDS_ON, KEEPS, RETREATS;
+    }
+}

@@ -1,34 +1,25 @@
 //! Bad input: rules and bounds of which no verdict may be believed.
 
-use std::fmt;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 use tautline_library::{dijkstra, gathering, ricart};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::{MethodError, Verdict};
+use tautline_proofs::decide::Verdict;
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger;
-use tautline_proofs::protocol::{Compact, Demand, Keeps, Move, Protocol};
+use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring};
 use tautline_proofs::team::Moves;
+use tautline_proofs::{bound, demands};
 
 /// A number that a move makes larger, up to 9.
-struct Counter(Rule, u8);
-
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Rule {
+enum Counter {
     AsItSays,
     /// A move looks at a count that is none of its arguments.
     LooksElsewhere,
 }
 
-/// How many starts there are.
-struct Starts(u8);
-
-impl fmt::Display for Starts {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} starts", self.0)
-    }
-}
+bound! { Starts { starts: u8 } "{starts} starts" }
 
 /// A number of whose bytes a bit is lost.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -47,65 +38,47 @@ impl Compact for Number {
 static CALLS: AtomicU8 = AtomicU8::new(0);
 
 impl Protocol for Counter {
-    type Rule = Rule;
     type Bound = Starts;
     type State = Number;
-    const DEMANDS: &'static [Demand<Self>] =
-        &[Demand::at_the_end("it is 9", |_, number: &Number| number.0 == 9)];
+    demands! { at_the_end "it is 9", |_, _, number| number.0 == 9; }
 
-    fn new(&rule: &Rule, &Starts(starts): &Starts) -> Result<Self, MethodError> {
-        Ok(Self(rule, starts))
+    fn starts(&self, here: &Starts) -> impl IntoIterator<Item = Number> {
+        (0..here.starts).map(|start| Number(100 * start))
     }
 
-    fn starts(&self) -> impl Iterator<Item = Number> {
-        (0..self.1).map(|start| Number(100 * start))
-    }
-
-    fn moves(&self, &Number(number): &Number) -> Vec<Move<Number>> {
-        let by = match self.0 {
-            Rule::AsItSays => 1,
-            Rule::LooksElsewhere => 1 + CALLS.fetch_add(1, Ordering::Relaxed) % 2,
+    fn moves(&self, _: &Starts, &Number(number): &Number) -> Vec<Move<Number>> {
+        let by = match self {
+            Self::AsItSays => 1,
+            Self::LooksElsewhere => 1 + CALLS.fetch_add(1, Ordering::Relaxed) % 2,
         };
         (number < 9).then(|| Move::of(0, "counts", Number(number + by))).into_iter().collect()
     }
-
-    fn draw(&self, number: &Number) -> String {
-        number.0.to_string()
-    }
 }
 
-fn refused<P: Protocol>(rule: &P::Rule, bound: P::Bound, demand: usize) -> String {
+fn refused<P: Protocol>(rule: &P, bound: P::Bound, demand: usize) -> String {
     Keeps::<P>(bound, demand).search(rule, Limits::NONE).expect_err("it is refused").to_string()
 }
 
 #[test]
 fn a_rule_whose_step_is_not_a_function_of_its_arguments_is_refused() {
     let words = "from one state a step led to two: a rule may depend on nothing but its arguments";
-    assert_eq!(refused::<Counter>(&Rule::LooksElsewhere, Starts(1), 0), words);
+    assert_eq!(refused(&Counter::LooksElsewhere, Starts::of(1), 0), words);
 }
 
 #[test]
 fn a_state_that_does_not_come_back_from_its_bytes_is_refused() {
     let words = "the state Number(200) does not come back from its bytes";
-    assert_eq!(refused::<Counter>(&Rule::AsItSays, Starts(3), 0), words);
+    assert_eq!(refused(&Counter::AsItSays, Starts::of(3), 0), words);
 }
 
 #[test]
 fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
-    assert_eq!(
-        refused::<gathering::Ring>(&gathering::RULE, gathering::Row(2, 3, Moves::Together), 0),
-        "the ring has no room for the robots"
-    );
-    assert_eq!(
-        refused::<ricart::Nodes>(&ricart::RULE, ricart::Net(9, 0), 0),
-        "there are 1 to 8 nodes, not 9"
-    );
-    let (rule, ring) = (dijkstra::Rule::Published, dijkstra::Ring(1, 5));
-    assert_eq!(
-        refused::<dijkstra::Machines>(&rule, ring, 0),
-        "a ring has at least two machines of two states"
-    );
-    assert_eq!(refused::<Counter>(&Rule::AsItSays, Starts(1), 7), "there is no demand 7");
+    let ring = Ring { nodes: 2, ..gathering::row(3, Moves::Together) };
+    assert_eq!(refused(&gathering::RULE, ring, 0), "the ring has no room for the robots");
+    assert_eq!(refused(&ricart::RULE, ricart::Net::of(9, 0), 0), "there are 1 to 8 nodes, not 9");
+    let words = "a ring has at least two machines of two states";
+    assert_eq!(refused(&dijkstra::Rule::Published, dijkstra::Machines::of(1, 5), 0), words);
+    assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7");
 }
 
 #[test]
@@ -115,14 +88,14 @@ fn a_check_over_no_start_is_open() {
         sentence: "The count MUST be 9 in the end.",
         checks: &[
             &Check::new(
-                NamedRule::new("plain", Rule::AsItSays),
-                &Keeps::<Counter>(Starts(0), 0),
+                NamedRule::new("plain", Counter::AsItSays),
+                &Keeps::<Counter>(Starts::of(0), 0),
                 Verdict::Open,
                 &[],
             ),
             &Check::new(
-                NamedRule::new("plain", Rule::AsItSays),
-                &Keeps::<Counter>(Starts(1), 0),
+                NamedRule::new("plain", Counter::AsItSays),
+                &Keeps::<Counter>(Starts::of(1), 0),
                 Verdict::Holds,
                 &[],
             ),

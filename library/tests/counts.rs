@@ -8,53 +8,46 @@ use std::{env, fs, io, process};
 use stateright::{Checker, Model};
 use tautline_library::{dijkstra, gathering, ricart};
 use tautline_proofs::engine::states::Limits;
-use tautline_proofs::protocol::{Keeps, Protocol};
+use tautline_proofs::protocol::{Bound, Keeps, Protocol};
 use tautline_proofs::team::Moves;
 
 use crate::model::Counted;
 
 /// The states of the first demand's search.
-fn ours<P: Protocol>(rule: &P::Rule, bound: P::Bound) -> u64 {
+fn ours<P: Protocol>(rule: &P, bound: P::Bound) -> u64 {
     let found = Keeps::<P>(bound, 0).search(rule, Limits::NONE).expect("it can be searched");
     assert!(found.is_whole && found.broken.is_empty());
     found.states
 }
 
-fn stateright<P: Protocol + Send>(rule: &P::Rule, bound: &P::Bound) -> u64
+fn stateright<P: Protocol + Send>(rule: &P, bound: &P::Bound) -> u64
 where
     P::State: Send + Sync + std::hash::Hash,
 {
-    let model = Counted(P::new(rule, bound).expect("there is such a bound"));
+    let surroundings = bound.each().expect("there is such a bound").remove(0);
+    let model = Counted(rule.clone(), surroundings);
     model.checker().spawn_bfs().join().unique_state_count() as u64
 }
 
 #[test]
 fn stateright_counts_the_same_states_of_three_rules() {
-    use dijkstra::{Machines, Ring, Rule};
-    use gathering::Row;
-    use ricart::{Net, Nodes};
-
-    let ring = Ring(5, 5);
-    assert_eq!(
-        [ours::<Machines>(&Rule::Published, ring), stateright::<Machines>(&Rule::Published, &ring)],
-        [3125; 2]
-    );
-    for (losses, states) in [(0, 3300), (1, 10522)] {
-        let net = Net(3, losses);
-        assert_eq!(
-            [ours::<Nodes>(&ricart::RULE, net), stateright::<Nodes>(&ricart::RULE, &net)],
-            [states; 2]
-        );
+    fn both<P: Protocol + Send>(rule: &P, bound: impl Fn() -> P::Bound) -> [u64; 2]
+    where
+        P::State: Send + Sync + std::hash::Hash,
+    {
+        [ours(rule, bound()), stateright(rule, &bound())]
     }
-    let row = Row(6, 3, Moves::LookThenMove);
-    let rule = &gathering::RULE;
-    assert_eq!(ours::<gathering::Ring>(rule, row), stateright::<gathering::Ring>(rule, &row));
+    assert_eq!(both(&dijkstra::Rule::Published, || dijkstra::Machines::of(5, 5)), [3125; 2]);
+    for (losses, states) in [(0, 3300), (1, 10522)] {
+        assert_eq!(both(&ricart::RULE, || ricart::Net::of(3, losses)), [states; 2]);
+    }
+    assert_eq!(both(&gathering::RULE, || gathering::row(3, Moves::LookThenMove)), [9; 2]);
 }
 
 /// States, steps, memory, and the first run that breaks the demand.
 #[test]
 fn any_number_of_workers_finds_the_same() {
-    fn same<P: Protocol>(rule: &P::Rule, bound: impl Fn() -> P::Bound, demand: usize) -> bool {
+    fn same<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, demand: usize) -> bool {
         let by = |workers| {
             Keeps::<P>(bound(), demand).search_together(rule, Limits::NONE, workers).expect("a search")
         };
@@ -62,15 +55,15 @@ fn any_number_of_workers_finds_the_same() {
         assert!([2, 3, 8].into_iter().all(|workers| by(workers) == alone));
         alone.broken.is_empty()
     }
-    use dijkstra::{Machines, Ring, Rule};
+    use dijkstra::{Machines, Rule};
 
-    assert!(same::<Machines>(&Rule::Published, || Ring(6, 6), 1));
-    assert!(!same::<Machines>(&Rule::Published, || Ring(7, 4), 1));
-    assert!(!same::<Machines>(&Rule::Uniform, || Ring(6, 6), 1));
-    assert!(!same::<Machines>(&Rule::CountsOn, || Ring(6, 6), 0));
-    assert!(same::<ricart::Nodes>(&ricart::RULE, || ricart::Net(3, 1), 0));
+    assert!(same(&Rule::Published, || Machines::of(6, 6), 1));
+    assert!(!same(&Rule::Published, || Machines::of(7, 4), 1));
+    assert!(!same(&Rule::Uniform, || Machines::of(6, 6), 1));
+    assert!(!same(&Rule::CountsOn, || Machines::of(6, 6), 0));
+    assert!(same(&ricart::RULE, || ricart::Net::of(3, 1), 0));
     let hasty = ricart::Conditions { defers: false, ..ricart::RULE };
-    assert!(!same::<ricart::Nodes>(&hasty, || ricart::Net(3, 1), 0));
+    assert!(!same(&hasty, || ricart::Net::of(3, 1), 0));
 }
 
 /// The states that SPIN stores for a model of `spin`; `None` where there is no SPIN or no C compiler.
@@ -102,7 +95,6 @@ fn spin_counts_the_same_states() {
             eprintln!("skipped: there is no SPIN and C compiler here");
             return;
         };
-        let net = ricart::Net(3, losses);
-        assert_eq!(ours::<ricart::Nodes>(&ricart::RULE, net), stored, "{define}");
+        assert_eq!(ours(&ricart::RULE, ricart::Net::of(3, losses)), stored, "{define}");
     }
 }

@@ -6,8 +6,8 @@ use std::fmt;
 
 use crate::ambiguity::Paper;
 use crate::decide::{
-    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, RandomRuns, RefutationPlay, Size, Systems,
-    Verdict,
+    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, Portion, RandomRuns, RefutationPlay, Size,
+    Systems, Verdict,
 };
 use crate::engine::states::{Limits, MemoryLimit};
 use crate::engine::tree::Watch;
@@ -275,6 +275,21 @@ pub trait AnyCheck: Sync {
         desk: &mut Context<'_, '_>,
     ) -> Result<Answer, MethodError>;
 
+    /// Into how many parts it can be divided: see [`Method::portions`].
+    fn portions(&self) -> usize;
+
+    /// The answer about its own rule, or about the variant with this number, in a portion of the parts: see
+    /// [`Method::decide_portion`].
+    ///
+    /// # Errors
+    /// [`MethodError`] if its method cannot begin.
+    fn decide_portion(
+        &self,
+        variant: Option<usize>,
+        portion: Portion,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError>;
+
     /// Decides it, and its variants, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
     ///
@@ -391,6 +406,24 @@ impl<R: Sync> AnyCheck for Check<R> {
     ) -> Result<Answer, MethodError> {
         let Some(rule) = self.variant(number) else { return Ok(Answer::open()) };
         self.method.decide(rule, until, desk)
+    }
+
+    fn portions(&self) -> usize {
+        self.method.portions()
+    }
+
+    fn decide_portion(
+        &self,
+        variant: Option<usize>,
+        portion: Portion,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
+        let (rule, until) = match variant {
+            None => (Some(&self.about.rule), Until::Exhausted),
+            Some(number) => (self.variant(number), Until::Violation),
+        };
+        let Some(rule) = rule else { return Ok(Answer::open()) };
+        self.method.decide_portion(rule, portion, until, desk)
     }
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

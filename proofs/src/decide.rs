@@ -126,6 +126,28 @@ impl Answer {
         Self { verdict: Verdict::Open, cases: 0, given_up: 0, counterexample: None, note: None }
     }
 
+    /// The answer of those to all portions of a check, with the shortest counterexample, of which the first. A portion in
+    /// which there was nothing to look at says nothing.
+    pub fn merged(answers: impl IntoIterator<Item = Self>) -> Self {
+        let key = |answer: &Self| {
+            let choices = answer.counterexample.as_ref().map(|found| &found.choices);
+            let length = choices.map(|choices| (choices.once.len() + choices.again.len(), choices.once[0]));
+            let rank = match answer.verdict {
+                Verdict::Refuted => 0,
+                Verdict::Open if answer.cases > 0 => 1,
+                Verdict::Holds | Verdict::Unrefuted => 2,
+                Verdict::Open => 3,
+            };
+            (rank, length)
+        };
+        let mut answers: Vec<Self> = answers.into_iter().collect();
+        answers.sort_by_key(key);
+        let (cases, given_up) =
+            answers.iter().fold((0, 0), |sum, one| (sum.0 + one.cases, sum.1 + one.given_up));
+        let first = answers.into_iter().next().unwrap_or_else(Self::open);
+        Self { cases, given_up, ..first }
+    }
+
     /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
     /// gives no verdict, nor does one that is to hold of every case and has given some up.
     pub fn of_tally(tally: Tally, covers: &[&str], shown: Verdict) -> Self {
@@ -213,6 +235,25 @@ pub struct Context<'a, 'w> {
     pub room: &'a MemoryLimit,
 }
 
+/// A portion of a check that is divided: every so many-th part of it, from this one on.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Portion {
+    /// The number of its first part.
+    pub number: usize,
+    /// How many portions there are.
+    pub of: usize,
+}
+
+impl Portion {
+    /// All of a check.
+    pub const WHOLE: Self = Self { number: 0, of: 1 };
+
+    /// Those of these that it has.
+    pub fn of<T>(self, all: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
+        all.into_iter().skip(self.number).step_by(self.of)
+    }
+}
+
 /// Random runs of a rule.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct RandomRuns {
@@ -248,6 +289,26 @@ pub trait Method<R>: Sync {
     /// # Errors
     /// [`MethodError`] if it cannot begin.
     fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
+
+    /// Into how many parts it can be divided, of which each is looked at by itself.
+    fn portions(&self) -> usize {
+        1
+    }
+
+    /// Looks for a counterexample to `rule` in a portion of the parts. [`Answer::merged`] makes one answer of those to all
+    /// portions.
+    ///
+    /// # Errors
+    /// [`MethodError`] if it cannot begin.
+    fn decide_portion(
+        &self,
+        rule: &R,
+        _: Portion,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
+        self.decide(rule, until, desk)
+    }
 
     /// Makes the choices of a counterexample to `rule` again.
     ///

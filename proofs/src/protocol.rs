@@ -5,27 +5,34 @@
 //! An actor is awake in a state if one of its moves is possible there. A run is weakly fair if it leaves out nobody who
 //! is awake throughout.
 
+mod bound;
 mod compact;
+mod exploration;
 mod film;
 mod keeps;
 mod mail;
+mod playing;
+mod ring;
 
-use std::fmt::{Debug, Display};
+use std::fmt::Debug;
 
+pub use self::bound::Bound;
 pub use self::compact::Compact;
-pub use self::film::beside;
+pub use self::exploration::{Exploration, Explorers, Team};
+pub use self::film::{beside, names};
 pub use self::keeps::Keeps;
 pub use self::mail::{Letter, Mail};
-use crate::decide::MethodError;
+pub use self::ring::{Ring, Start, Walker};
 use crate::engine::states::Bits;
 
-/// A rule over states, in its surroundings.
-pub trait Protocol: Sized + Sync + 'static {
-    /// The rule, of which a mutant is another value.
-    type Rule: Sync;
-    /// The surroundings; their words are the bound.
-    type Bound: Display + Sync;
-    /// All that is. What is made of numbers, of words (`compact!`), of lists of them is [`Compact`].
+/// The surroundings of a protocol: one of those that its bound has.
+pub type Surroundings<P> = <<P as Protocol>::Bound as Bound>::Surroundings;
+
+/// A rule over states, of which a mutant is another value.
+pub trait Protocol: Clone + Sync + 'static {
+    /// All surroundings within which the rule is looked at.
+    type Bound: Bound;
+    /// All that changes. What is made of numbers, of words (`compact!`), of lists of them is [`Compact`].
     type State: Clone + Eq + Compact + Debug + Send + Sync;
 
     /// The demands.
@@ -33,28 +40,24 @@ pub trait Protocol: Sized + Sync + 'static {
     /// The moves that must occur, by their words: where one does not, a check is open.
     const COVERS: &'static [&'static str] = &[];
 
-    /// All follow `rule`.
-    ///
-    /// # Errors
-    /// [`MethodError`] if there are no such surroundings, or too many.
-    fn new(rule: &Self::Rule, bound: &Self::Bound) -> Result<Self, MethodError>;
-
-    /// The states in which runs begin; the smallest ones first, as they are told first.
-    fn starts(&self) -> impl Iterator<Item = Self::State>;
+    /// The states in which runs begin in these surroundings, always in the same order.
+    fn starts(&self, here: &Surroundings<Self>) -> impl IntoIterator<Item = Self::State>;
 
     /// Every move that is possible in `state`, always in the same order. If there is none, the run is over.
-    fn moves(&self, state: &Self::State) -> Vec<Move<Self::State>>;
+    fn moves(&self, here: &Surroundings<Self>, state: &Self::State) -> Vec<Move<Self::State>>;
 
     /// The other states that are taken for one with `state`: the same robots in another order, say, or the floor turned.
     /// From each of them the same moves of the same actors, in the same words, lead to states that are taken for one,
     /// and each demand says the same of them. A check tries that on the first few states, and is refused where it is
     /// not so. None, unless there is more to tell.
-    fn alike(&self, _: &Self::State) -> Vec<Self::State> {
+    fn alike(&self, _: &Surroundings<Self>, _: &Self::State) -> Vec<Self::State> {
         Vec::new()
     }
 
     /// A drawing of `state`, in lines.
-    fn draw(&self, state: &Self::State) -> String;
+    fn draw(&self, _: &Surroundings<Self>, state: &Self::State) -> String {
+        self.words(state)
+    }
 
     /// The words for `state` in what is said of a protocol that is refused.
     fn words(&self, state: &Self::State) -> String {
@@ -88,6 +91,11 @@ impl<S> Move<S> {
     pub const fn fault(words: &'static str, to: S) -> Self {
         Self { actors: 0, words, to }
     }
+
+    /// The move, if it is possible.
+    pub fn when(self, is_possible: bool) -> Option<Self> {
+        is_possible.then_some(self)
+    }
 }
 
 /// The set of these, a bit for each.
@@ -111,12 +119,19 @@ pub fn combinations<T: Clone>(choices: impl IntoIterator<Item = Vec<T>>) -> impl
     })
 }
 
+/// These, with another one in this place.
+pub fn with<T: Clone>(all: &[T], place: usize, new: T) -> Vec<T> {
+    let mut all = all.to_vec();
+    all[place] = new;
+    all
+}
+
 /// When a demand is looked at.
 enum When<P: Protocol> {
-    Always(fn(&P, &P::State, &P::State) -> bool),
-    AtTheEnd(fn(&P, &P::State) -> bool),
-    Eventually(fn(&P, &P::State) -> bool),
-    AgainAndAgain(fn(&P, &P::State) -> Bits),
+    Always(fn(&P, &Surroundings<P>, &P::State, &P::State) -> bool),
+    AtTheEnd(fn(&P, &Surroundings<P>, &P::State) -> bool),
+    Eventually(fn(&P, &Surroundings<P>, &P::State) -> bool),
+    AgainAndAgain(fn(&P, &Surroundings<P>, &P::State) -> Bits),
 }
 
 /// A demand on a protocol.
@@ -127,22 +142,31 @@ pub struct Demand<P: Protocol> {
 
 impl<P: Protocol> Demand<P> {
     /// Of every move, from a state to the next one.
-    pub const fn always(words: &'static str, is_kept: fn(&P, &P::State, &P::State) -> bool) -> Self {
+    pub const fn always(
+        words: &'static str,
+        is_kept: fn(&P, &Surroundings<P>, &P::State, &P::State) -> bool,
+    ) -> Self {
         Self { words, when: When::Always(is_kept) }
     }
 
     /// Of the end of every run that ends.
-    pub const fn at_the_end(words: &'static str, is_kept: fn(&P, &P::State) -> bool) -> Self {
+    pub const fn at_the_end(
+        words: &'static str,
+        is_kept: fn(&P, &Surroundings<P>, &P::State) -> bool,
+    ) -> Self {
         Self { words, when: When::AtTheEnd(is_kept) }
     }
 
     /// That this is so at some time in every run that is weakly fair.
-    pub const fn eventually(words: &'static str, is_so: fn(&P, &P::State) -> bool) -> Self {
+    pub const fn eventually(words: &'static str, is_so: fn(&P, &Surroundings<P>, &P::State) -> bool) -> Self {
         Self { words, when: When::Eventually(is_so) }
     }
 
     /// That no weakly fair run comes to owe one of these, a bit for each, from some time on for ever.
-    pub const fn again_and_again(words: &'static str, owed: fn(&P, &P::State) -> Bits) -> Self {
+    pub const fn again_and_again(
+        words: &'static str,
+        owed: fn(&P, &Surroundings<P>, &P::State) -> Bits,
+    ) -> Self {
         Self { words, when: When::AgainAndAgain(owed) }
     }
 }

@@ -7,9 +7,10 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 use tautline_proofs::decide::{Method, MethodError};
+use tautline_proofs::demands;
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::states::{Bits, Ending, Limits, Run};
-use tautline_proofs::protocol::{Demand, Keeps, Move, Protocol};
+use tautline_proofs::protocol::{Bound, Keeps, Move, Protocol};
 
 /// The number of a random system.
 struct Number(u64);
@@ -26,18 +27,37 @@ struct Random {
     owed: Vec<Bits>,
 }
 
-impl Protocol for Random {
-    type Rule = ();
+impl Bound for Number {
+    type Surroundings = Random;
+
+    fn each(&self) -> Result<Vec<Random>, MethodError> {
+        Ok(vec![Random::new(self.0)])
+    }
+}
+
+/// The rule of a random system, which knows nothing.
+#[derive(Clone, Copy)]
+struct Any;
+
+impl Protocol for Any {
     type Bound = Number;
     type State = u8;
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::again_and_again("nothing is owed for ever", |system, &state: &u8| {
-            system.owed[usize::from(state)]
-        }),
-        Demand::eventually("nothing is owed", |system, &state: &u8| system.owed[usize::from(state)] == 0),
-    ];
+    demands! {
+        again_and_again "nothing is owed for ever", |_, system, &state| system.owed[usize::from(state)];
+        eventually "nothing is owed", |_, system, &state| system.owed[usize::from(state)] == 0;
+    }
 
-    fn new((): &(), &Number(number): &Number) -> Result<Self, MethodError> {
+    fn starts(&self, _: &Random) -> impl IntoIterator<Item = u8> {
+        [0]
+    }
+
+    fn moves(&self, system: &Random, &state: &u8) -> Vec<Move<u8>> {
+        system.moves[usize::from(state)].clone()
+    }
+}
+
+impl Random {
+    fn new(number: u64) -> Self {
         let mut any = SeededOracle::new(0, number);
         let states = 2 + any.pick(7);
         let mut moves_of = |_| {
@@ -50,23 +70,9 @@ impl Protocol for Random {
         };
         let moves = (0..states).map(&mut moves_of).collect();
         let owed = (0..states).map(|_| [0, 1, 2, 3, 3, 1][any.pick(6) as usize]).collect();
-        Ok(Self { moves, owed })
+        Self { moves, owed }
     }
 
-    fn starts(&self) -> impl Iterator<Item = u8> {
-        [0].into_iter()
-    }
-
-    fn moves(&self, &state: &u8) -> Vec<Move<u8>> {
-        self.moves[usize::from(state)].clone()
-    }
-
-    fn draw(&self, state: &u8) -> String {
-        state.to_string()
-    }
-}
-
-impl Random {
     /// The states that a run gets to, each with the fewest steps. Where something must be so at some time, a run is over
     /// once it is.
     fn distances(&self, until_met: bool) -> HashMap<u8, usize> {
@@ -152,9 +158,8 @@ impl Random {
 fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
     let (mut stays, mut rounds, mut shortest, mut kept) = (0, 0, 0, 0);
     for (number, demand) in (0..1000).flat_map(|number| [(number, 0), (number, 1)]) {
-        let system = Random::new(&(), &Number(number)).expect("a system");
-        let found =
-            Keeps::<Random>(Number(number), demand).search(&(), Limits::NONE).expect("it is searched");
+        let system = Random::new(number);
+        let found = Keeps::<Any>(Number(number), demand).search(&Any, Limits::NONE).expect("it is searched");
         assert!(found.is_whole);
         let way = found.broken.first().map(|run| run.steps.len());
         assert_eq!(way, system.shortest_way(demand), "{number}, {demand}");
@@ -182,46 +187,34 @@ fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
 
 /// A random system in three colours, which no move and no demand looks at: a move goes on by so many colours. With
 /// `TURNED`, states are taken for one that differ in their colours alone; a mark that a demand looks at spoils that.
-struct Coloured<const TURNED: bool>(Random, Option<u8>);
+#[derive(Clone, Copy)]
+struct Coloured<const TURNED: bool>(Option<u8>);
 
 impl<const TURNED: bool> Protocol for Coloured<TURNED> {
-    type Rule = Option<u8>;
     type Bound = Number;
     type State = (u8, u8);
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::again_and_again("nothing is owed for ever", |system, &(state, _): &(u8, u8)| {
-            system.0.owed[usize::from(state)]
-        }),
-        Demand::eventually("nothing is owed", |system, &(state, _): &(u8, u8)| {
-            system.0.owed[usize::from(state)] == 0
-        }),
-        Demand::always("no step leads to 3, nor to the mark", |system, _, &(state, colour): &(u8, u8)| {
-            state != 3 && system.1 != Some(colour)
-        }),
-    ];
-
-    fn new(&mark: &Option<u8>, bound: &Number) -> Result<Self, MethodError> {
-        Ok(Self(Random::new(&(), bound)?, mark))
+    demands! {
+        again_and_again "nothing is owed for ever", |_, system, &(state, _)| system.owed[usize::from(state)];
+        eventually "nothing is owed", |_, system, &(state, _)| system.owed[usize::from(state)] == 0;
+        always "no step leads to 3, nor to the mark", |rule, _, _, &(state, colour)| {
+            state != 3 && rule.0 != Some(colour)
+        };
     }
 
-    fn starts(&self) -> impl Iterator<Item = (u8, u8)> {
-        [(0, 1)].into_iter()
+    fn starts(&self, _: &Random) -> impl IntoIterator<Item = (u8, u8)> {
+        [(0, 1)]
     }
 
-    fn moves(&self, &(state, colour): &(u8, u8)) -> Vec<Move<(u8, u8)>> {
-        let coloured = |(next, by): (Move<u8>, u8)| {
-            let Move { actors, words, to } = next;
+    fn moves(&self, system: &Random, &(state, colour): &(u8, u8)) -> Vec<Move<(u8, u8)>> {
+        let coloured = |(next, by): (&Move<u8>, u8)| {
+            let &Move { actors, words, to } = next;
             Move { actors, words, to: (to, (colour + by + to) % 3) }
         };
-        self.0.moves(&state).into_iter().zip(0..).map(coloured).collect()
+        system.moves[usize::from(state)].iter().zip(0..).map(coloured).collect()
     }
 
-    fn alike(&self, &(state, colour): &(u8, u8)) -> Vec<(u8, u8)> {
+    fn alike(&self, _: &Random, &(state, colour): &(u8, u8)) -> Vec<(u8, u8)> {
         if TURNED { [1, 2].map(|by| (state, (colour + by) % 3)).to_vec() } else { Vec::new() }
-    }
-
-    fn draw(&self, state: &(u8, u8)) -> String {
-        format!("{state:?}")
     }
 }
 
@@ -229,10 +222,10 @@ impl<const TURNED: bool> Protocol for Coloured<TURNED> {
 fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
     let (mut all, mut least) = (0, 0);
     for (number, demand) in (0..200).flat_map(|number| [0, 1, 2].map(|demand| (number, demand))) {
-        let plain =
-            Keeps::<Coloured<false>>(Number(number), demand).search(&None, Limits::NONE).expect("a search");
-        let method = Keeps::<Coloured<true>>(Number(number), demand);
-        let turned = method.search(&None, Limits::NONE).expect("a search");
+        let plain = Keeps::<Coloured<false>>(Number(number), demand).search(&Coloured(None), Limits::NONE);
+        let plain = plain.expect("a search");
+        let (rule, method) = (Coloured(None), Keeps::<Coloured<true>>(Number(number), demand));
+        let turned = method.search(&rule, Limits::NONE).expect("a search");
         (all, least) = (all + plain.states, least + turned.states);
         let lengths = |run: &Run<&'static str>| (run.steps.len(), run.round().is_empty());
         assert_eq!(
@@ -241,7 +234,7 @@ fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
             "{number}, {demand}"
         );
         if let Some(run) = turned.broken.first() {
-            let played = method.replay(&None, &run.choices()).expect("the run can be played");
+            let played = method.replay(&rule, &run.choices()).expect("the run can be played");
             assert_eq!(played.evidence.demand, run.demand);
         }
     }
@@ -250,8 +243,10 @@ fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
 
 #[test]
 fn states_that_are_not_alike_are_not_taken_for_one() {
-    let marked =
-        |mark| Keeps::<Coloured<true>>(Number(1), 2).search(&mark, Limits::NONE).map(|found| found.is_whole);
+    let marked = |mark| {
+        let method = Keeps::<Coloured<true>>(Number(1), 2);
+        method.search(&Coloured(mark), Limits::NONE).map(|found| found.is_whole)
+    };
     assert_eq!(marked(None), Ok(true));
     let refused = marked(Some(2)).expect_err("a demand tells them apart").to_string();
     assert_eq!(refused, "the states (0, 1) and (0, 2) are taken for one, and are not alike");

@@ -28,6 +28,7 @@ __all__ = [
     "estimate_share",
     "explore",
     "hunt",
+    "hunt_protocol",
     "hunt_rule",
     "in_contact",
     "replay",
@@ -329,6 +330,9 @@ def decide_every_number(
     rule: LocalRule, *, certificate: bool = False, patience_s: float = 10.0
 ) -> EveryNumberReport: ...
 def decide_protocol(rule: Protocol, *, budget: int | None = None, patience_s: float = 10.0) -> ProtocolReport: ...
+def hunt_protocol(
+    rule: Protocol, *, runs: int, seed: int = 0, max_moves: int = 1000, patience_s: float = 10.0
+) -> dict[str, StateRun | None]: ...
 def replay_protocol(rule: Protocol, path: _Path, *, patience_s: float = 10.0) -> StateRun: ...
 def sweep(
     layouts: Sequence[str],

@@ -32,7 +32,9 @@ mod _native {
     #[pymodule_export]
     use crate::local::{EveryNumberReport, decide_every_number};
     #[pymodule_export]
-    use crate::protocol::{Decision, ProtocolReport, StateRun, decide_protocol, replay_protocol};
+    use crate::protocol::{
+        Decision, ProtocolReport, StateRun, decide_protocol, hunt_protocol, replay_protocol,
+    };
     #[pymodule_export]
     use crate::rule::moved::TeamMove;
     #[pymodule_export]

@@ -12,14 +12,14 @@ use std::sync::{Arc, Mutex};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use tautline_proofs::clause::{AnyCheck, Check, Clause, NamedRule};
-use tautline_proofs::decide::{MethodError, Verdict};
+use tautline_proofs::decide::{MethodError, RandomRuns, Verdict};
 use tautline_proofs::engine::Choices;
 use tautline_proofs::engine::states::{Limits, Unrepeatable};
 use tautline_proofs::protocol::Keeps;
 use tautline_sim::counterexample::refutation::{self, Meant};
 
 pub(crate) use self::run::StateRun;
-use self::script::{Posed, StateScript, Wanted, Words, Written};
+use self::script::{Posed, StateScript, Wanted, Words};
 use crate::diagnostic::{Kind, error, raised};
 use crate::hunt::verdict;
 use crate::script::held;
@@ -105,6 +105,38 @@ pub(crate) fn decide_protocol(
     })
 }
 
+/// Makes at most so many random runs of a rule for each of its demands. The first that breaks it; none if no run does.
+#[pyfunction]
+#[pyo3(signature = (rule, *, runs, seed=0, max_moves=1000, patience_s=10.0))]
+pub(crate) fn hunt_protocol(
+    py: Python<'_>,
+    rule: Bound<'_, PyAny>,
+    runs: u64,
+    seed: u64,
+    max_moves: u32,
+    patience_s: f64,
+) -> PyResult<BTreeMap<&'static str, Option<StateRun>>> {
+    let script = Arc::new(StateScript::read(&rule)?);
+    let runs = RandomRuns { runs, seed, most_moves: max_moves };
+    script.script.work(py, patience_s, |py| {
+        script.begin(py)?;
+        if script.starts().is_empty() {
+            return Err(error(py, Kind::Input, "no run can begin", "let starts return at least one state"));
+        }
+        let hunted = |demand| -> PyResult<_> {
+            let Asked { clause, check } = Asked::of(&script, demand);
+            script.take_met();
+            let found = check.hunt(&runs);
+            script.script.checked(py)?;
+            let found = found.map_err(|why| refused(py, &script, &why))?;
+            let evidence = found.and_then(|answer| answer.counterexample);
+            let run = evidence.map(|evidence| run_of(py, &script, demand, &evidence.choices)).transpose()?;
+            Ok((clause.id, run))
+        };
+        (0..script.demands.len()).map(hunted).collect()
+    })
+}
+
 /// Plays the run in a file that [`StateRun::store`] has written by this rule.
 #[pyfunction]
 #[pyo3(signature = (rule, path, *, patience_s=10.0))]
@@ -129,9 +161,9 @@ pub(crate) fn replay_protocol(
 
 /// The checks that there were, by their bounds and the kinds of their demands. They are as few as the bounds, and are
 /// kept as long as the process.
-static KEEPS: Mutex<BTreeMap<(&str, usize), &Keeps<Written>>> = Mutex::new(BTreeMap::new());
+static KEEPS: Mutex<BTreeMap<(&str, usize), &Keeps<Posed>>> = Mutex::new(BTreeMap::new());
 
-fn keeps(bound: &'static str, kind: usize) -> &'static Keeps<Written> {
+fn keeps(bound: &'static str, kind: usize) -> &'static Keeps<Posed> {
     held(&KEEPS).entry((bound, kind)).or_insert_with(|| Box::leak(Box::new(Keeps(Words(bound), kind))))
 }
 

@@ -27,8 +27,7 @@ class Mutex(tautline.Protocol):
 
     def __init__(self, nodes: int, losses: int, breaks_ties: bool = True) -> None:
         self.nodes, self.losses, self.breaks_ties = nodes, losses, breaks_ties
-        self.bound = f"{nodes} nodes, each enters once, every order of messages"
-        self.bound += f", at most {losses} lost" if losses else ""
+        self.bound = f"{nodes} nodes, each enters once, every order of messages, at most {losses} lost"
 
     def starts(self):
         return [((Node(),) * self.nodes, Mail(self.losses))]

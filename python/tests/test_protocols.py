@@ -29,7 +29,7 @@ def test_verdicts_and_counts_are_those_of_the_rule_in_rust(rule):
         (Ring, 4): ["KSTATE-2"],
         (Ring, 3): ["KSTATE-2"],
         (Ring, 2): ["KSTATE-2"],
-        (Mutex, 3): ["MUTEX-1"] if rule.bound.endswith("lost") else ["MUTEX-1", "MUTEX-2"],
+        (Mutex, 3): ["MUTEX-1"] if rule.bound.endswith("1 lost") else ["MUTEX-1", "MUTEX-2"],
         (Mutex, 2): ["MUTEX-2"],
     }[type(rule), rule.states if isinstance(rule, Ring) else rule.nodes]
     found = tautline.decide_protocol(rule)
@@ -47,6 +47,25 @@ def test_a_counterexample_is_the_one_that_the_library_draws():
     lost = tautline.decide_protocol(Mutex(2, 1))["MUTEX-2"].counterexample
     assert (lost.moves[-1].words, lost.moves[-1].actors) == ("a message is lost", ())
     assert lost.again == [] and "nobody moves any more" in lost.story
+
+
+def test_random_runs_break_what_is_refuted_and_nothing_else(tmp_path):
+    kept = tautline.hunt_protocol(Ring(4, 4), runs=200)
+    assert kept == {"KSTATE-1": None, "KSTATE-2": None}
+
+    found, again = (tautline.hunt_protocol(Mutex(3, 1), runs=2000, seed=7) for _ in range(2))
+    assert found["MUTEX-1"] is None and found["MUTEX-2"].story == again["MUTEX-2"].story
+    path = tmp_path / "found.jsonl"
+    found["MUTEX-2"].store(path)
+    assert tautline.replay_protocol(Mutex(3, 1), path).moves == found["MUTEX-2"].moves
+    assert tautline.hunt_protocol(Mutex(3, 1), runs=2000, seed=7, max_moves=1) == {"MUTEX-1": None, "MUTEX-2": None}
+
+    class Nowhere(Ring):
+        def starts(self):
+            return []
+
+    with pytest.raises(tautline.InputError, match="no run can begin"):
+        tautline.hunt_protocol(Nowhere(3, 3), runs=1)
 
 
 def test_of_two_numbers_that_are_equal_one_is_smaller():

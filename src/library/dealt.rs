@@ -1,5 +1,5 @@
-//! The checks of the rules, dealt out: a job is a check, or one of its mutants, each decided within its whole bound. A
-//! check is never divided: most of its states are led to from many starts, so each shard would search them again.
+//! The checks of the rules, dealt out: a job is a check, or one of its mutants, in a portion of its surroundings. No state
+//! of one is a state of another, so that no shard searches what another one has searched.
 
 use std::path::Path;
 use std::time::Instant;
@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_library::Entry;
 use tautline_proofs::clause::{Clause, Decision};
-use tautline_proofs::decide::{Answer, Cache, Context, Verdict};
+use tautline_proofs::decide::{Answer, Cache, Context, Depiction, Evidence, Portion, Verdict};
+use tautline_proofs::engine::Choices;
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::engine::{Choices, Until};
 use tautline_proofs::ledger::{Row, checks};
 use tautline_proofs::plural::counted;
 use tautline_sim::checkpoint::{Facts, Part, decode, encode};
@@ -25,8 +25,8 @@ use crate::{Exit, ForceArgs, Format, shards};
 /// The remedy for a plan or a shard that says no such thing.
 const AS_WRITTEN: &str = "take it as tautline wrote it";
 
-/// A check by its place, and the number of one of its variants.
-type Job = (usize, Option<usize>);
+/// A check by its place, the number of one of its variants, and the portion of it.
+type Job = (usize, Option<usize>, Portion);
 
 /// How far a shard is: the answers to its jobs, in their order.
 #[derive(Serialize, Deserialize)]
@@ -62,9 +62,13 @@ impl JobAnswer {
         known.ok_or_else(|| Diagnostic::usage(format_args!("{:?} is no verdict", self.verdict), AS_WRITTEN))
     }
 
-    fn choices(&self) -> Option<Choices> {
-        let (once, again) = (self.once.clone(), self.again.clone());
-        (!once.is_empty()).then_some(Choices { once, again })
+    /// The answer, whose counterexample is yet to be played again.
+    fn answer(self) -> Result<Answer, Diagnostic> {
+        let verdict = self.verdict()?;
+        let Self { cases, given_up, once, again, note, .. } = self;
+        let (choices, seen) = (Choices { once, again }, Depiction::Choices);
+        let counterexample = (!choices.once.is_empty()).then_some(Evidence { choices, demand: "", seen });
+        Ok(Answer { verdict, cases, given_up, counterexample, note })
     }
 }
 
@@ -75,11 +79,13 @@ struct Dealt {
 }
 
 impl Dealt {
-    fn of(clauses: &[&'static Clause]) -> Self {
+    fn of(clauses: &[&'static Clause], shards: u32) -> Self {
         let checks = checks(clauses);
         let jobs = (0..).zip(&checks).flat_map(|(place, (clause, number))| {
-            let variants = 0..clause.checks[*number].variants().len();
-            [None].into_iter().chain(variants.map(Some)).map(move |variant| (place, variant))
+            let check = clause.checks[*number];
+            let (variants, of) = (0..check.variants().len(), check.portions().clamp(1, shards as usize));
+            let all = [None].into_iter().chain(variants.map(Some));
+            all.flat_map(move |variant| (0..of).map(move |number| (place, variant, Portion { number, of })))
         });
         Self { jobs: jobs.collect(), checks }
     }
@@ -93,7 +99,7 @@ impl Dealt {
             let what = "this plan is none of the library";
             return Err(Diagnostic::usage(what, "run it with the command that planned it"));
         };
-        Ok(Self::of(&clauses(&chosen(rules)?, *larger)))
+        Ok(Self::of(&clauses(&chosen(rules)?, *larger), plan.shards))
     }
 
     /// The jobs of a shard.
@@ -123,15 +129,12 @@ struct Shard<'a> {
 
 impl Part for Shard<'_> {
     fn step(&mut self) -> Result<bool, Halt> {
-        let Some(&(place, variant)) = self.jobs.get(self.answers.len()) else { return Ok(false) };
+        let Some(&(place, variant, portion)) = self.jobs.get(self.answers.len()) else { return Ok(false) };
         let (clause, number) = self.dealt.checks[place];
         let (check, start) = (clause.checks[number], Instant::now());
         let watch = &mut |_: &Progress<'_>| std::ops::ControlFlow::Continue(());
         let mut desk = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
-        let answer = match variant {
-            None => check.decide_own(&mut desk),
-            Some(variant) => check.decide_variant(variant, Until::Violation, &mut desk),
-        };
+        let answer = check.decide_portion(variant, portion, &mut desk);
         let answer = answer
             .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
         self.answers.push(JobAnswer::of(answer, start.elapsed().as_secs_f64()));
@@ -169,7 +172,7 @@ pub(super) fn plan(
     out: &mut Output,
 ) -> Result<Exit, Halt> {
     Plan::check(shards)?;
-    let jobs = Dealt::of(&clauses(rules, larger)).jobs.len();
+    let jobs = Dealt::of(&clauses(rules, larger), shards).jobs.len();
     let rules = rules.iter().map(|rule| rule.name.to_owned()).collect();
     let words = format!("{} for {}.", counted(jobs, "job"), counted(shards as usize, "shard"));
     let of = (Work::Library { rules, larger }, &*encode(&jobs)?);
@@ -200,12 +203,15 @@ pub(crate) fn rows(plan: &Plan, shards: &[ShardFile]) -> Result<Vec<Row>, Halt> 
     }
     answers.sort_by_key(|(job, _)| *job);
     let mut rows: Vec<Row> = Vec::new();
-    for ((place, variant), kept) in answers {
+    for portions in
+        answers.chunk_by(|((place, variant, _), _), (other, _)| (*place, *variant) == (other.0, other.1))
+    {
+        let (place, variant, _) = portions[0].0;
         let (clause, number) = dealt.checks[place];
         let check = clause.checks[number];
-        let JobAnswer { cases, given_up, ref note, seconds, .. } = kept;
-        let answer =
-            Answer { verdict: kept.verdict()?, cases, given_up, counterexample: None, note: note.clone() };
+        let seconds: f64 = portions.iter().map(|(_, kept)| kept.seconds).sum();
+        let answers = portions.iter().map(|(_, kept)| kept.clone().answer());
+        let answer = Answer::merged(answers.collect::<Result<Vec<_>, _>>()?);
         match (variant.and_then(|variant| check.variants().get(variant).copied()), rows.last_mut()) {
             (Some(variant), Some(row)) => {
                 row.decision.add(variant, answer);
@@ -213,11 +219,11 @@ pub(crate) fn rows(plan: &Plan, shards: &[ShardFile]) -> Result<Vec<Row>, Halt> 
             }
             (Some(_), None) => {}
             (None, _) => {
-                let played =
-                    kept.choices().map(|choices| check.replay(&choices)).transpose().map_err(|unfit| {
-                        let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
-                        Diagnostic::usage(what, "remove the file of its shard, and run it again")
-                    })?;
+                let played = answer.counterexample.as_ref().map(|found| check.replay(&found.choices));
+                let played = played.transpose().map_err(|unfit| {
+                    let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
+                    Diagnostic::usage(what, "remove the file of its shard, and run it again")
+                })?;
                 let counterexample = played.map(|played| played.evidence);
                 let decision = Decision::of(Answer { counterexample, ..answer });
                 rows.push(Row { clause, number, check, decision, undecided: None, seconds });

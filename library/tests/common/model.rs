@@ -3,10 +3,10 @@
 use std::hash::Hash;
 
 use stateright::{Model, Property};
-use tautline_proofs::protocol::{Move, Protocol};
+use tautline_proofs::protocol::{Move, Protocol, Surroundings};
 
-/// A protocol, whose states are counted.
-pub(crate) struct Counted<P>(pub(crate) P);
+/// A protocol in its surroundings, whose states are counted.
+pub(crate) struct Counted<P: Protocol>(pub(crate) P, pub(crate) Surroundings<P>);
 
 impl<P: Protocol> Model for Counted<P>
 where
@@ -16,11 +16,11 @@ where
     type Action = Move<P::State>;
 
     fn init_states(&self) -> Vec<P::State> {
-        self.0.starts().collect()
+        self.0.starts(&self.1).into_iter().collect()
     }
 
     fn actions(&self, state: &P::State, actions: &mut Vec<Move<P::State>>) {
-        actions.extend(self.0.moves(state));
+        actions.extend(self.0.moves(&self.1, state));
     }
 
     fn next_state(&self, _: &P::State, action: Move<P::State>) -> Option<P::State> {

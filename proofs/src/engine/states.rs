@@ -240,6 +240,32 @@ pub struct Findings<D> {
     pub broken: Vec<Run<D>>,
 }
 
+impl<D> Findings<D> {
+    /// Nothing was looked for yet.
+    pub(crate) const NONE: Self = Self {
+        states: 0,
+        looked_at: 0,
+        steps: 0,
+        bytes: 0,
+        is_whole: true,
+        covered: Vec::new(),
+        broken: Vec::new(),
+    };
+
+    /// Adds what was found of another system; of the bytes the larger number counts.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.states += other.states;
+        self.looked_at += other.looked_at;
+        self.steps += other.steps;
+        self.bytes = self.bytes.max(other.bytes);
+        self.is_whole &= other.is_whole;
+        self.covered.extend(other.covered);
+        self.covered.sort_unstable();
+        self.covered.dedup();
+        self.broken.extend(other.broken);
+    }
+}
+
 /// A run that breaks a demand.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Run<D> {
@@ -265,6 +291,11 @@ pub enum Ending {
 }
 
 impl<D> Run<D> {
+    /// How many steps it has, those of its round once.
+    pub(crate) fn length(&self) -> usize {
+        self.steps.len() + self.round().len()
+    }
+
     /// The numbers of the steps of its round; none if it ends.
     pub fn round(&self) -> &[u32] {
         match &self.ending {

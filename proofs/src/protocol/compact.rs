@@ -163,9 +163,18 @@ tuple!(A B C D);
 tuple!(A B C D E);
 tuple!(A B C D E F);
 
-/// Makes an enum without fields, or a struct with named ones, [`Compact`].
+/// Makes an enum without fields, or a struct with named ones, [`Compact`]; or makes such an enum: `compact! { enum Light {
+/// Off, On } }`.
 #[macro_export]
 macro_rules! compact {
+    ($(#[$about:meta])* $vis:vis enum $name:ident { $($variant:ident),* }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+        #[allow(missing_docs, reason = "what it is made for says what its words mean")]
+        $vis enum $name { $($variant),* }
+
+        $crate::compact! { $name: $($variant),* }
+    };
     ($name:ident: $($variant:ident),*) => {
         impl $crate::protocol::Compact for $name {
             fn write(&self, to: &mut Vec<u8>) {
@@ -196,12 +205,7 @@ mod tests {
     use super::*;
     use crate::protocol::Mail;
 
-    #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-    enum Light {
-        Off,
-        On,
-    }
-    compact! { Light: Off, On }
+    compact! { enum Light { Off, On } }
 
     #[derive(PartialEq, Eq, Debug)]
     struct Lamp {

@@ -42,6 +42,11 @@ pub fn beside(frames: &[(String, String)]) -> String {
     text
 }
 
+/// The numbers of those of which this is so.
+pub fn names<T>(all: &[T], is_meant: impl Fn(&T) -> bool) -> String {
+    all.iter().zip('0'..).filter(|(one, _)| is_meant(one)).map(|(_, name)| name).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

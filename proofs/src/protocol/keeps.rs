@@ -1,16 +1,20 @@
-//! A check that a protocol keeps a demand within its bound.
+//! A check that a protocol keeps a demand within its bound. Each of the surroundings is searched by itself, since no
+//! state of one is a state of another: so a check can be divided, and counts are the same however it is.
 
-use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 use tautline_kernel::choice::Oracle;
 
-use super::{Compact, Demand, Move, Protocol, When, beside};
+use super::playing::Playing;
+use super::{Bound, Protocol};
 use crate::decide::{
-    Answer, Context, Depiction, Evidence, Method, MethodError, RandomRuns, RefutationPlay, Systems, Verdict,
+    Answer, Context, Evidence, Method, MethodError, Portion, RandomRuns, RefutationPlay, Systems, Verdict,
 };
 use crate::engine::model::Started;
-use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System};
-use crate::engine::world::{Turn, World, any_of, bit, picked};
+use crate::engine::states::{self, AnySystem, Findings, Limits};
+use crate::engine::watchdog::Task;
 use crate::engine::{Choices, Replay, Script, ScriptError, Stop, Until, sample};
 
 /// A check that the demand with this number is kept, in these surroundings.
@@ -21,279 +25,24 @@ pub struct Keeps<P: Protocol>(
     pub usize,
 );
 
-/// A protocol, of whose demands one is looked at.
-struct Playing<P: Protocol> {
-    protocol: P,
-    demand: &'static Demand<P>,
-}
-
-/// From how many each choice is made, the start, and the run from it.
-type Played<P> = (Vec<u32>, <P as Protocol>::State, states::Run<&'static str>);
-
-impl<P: Protocol> World for Playing<P> {
-    type State = P::State;
-    type Plan = Vec<Move<P::State>>;
-    /// The actors, and the move in words.
-    type Event = (Bits, &'static str);
-    type Demand = &'static str;
-
-    fn plan(&self, state: &mut P::State, _: &[u8]) -> Option<Self::Plan> {
-        any_of(self.moves(state))
-    }
-
-    fn settle(
-        &self,
-        state: &mut P::State,
-        moves: &Self::Plan,
-        _: &mut Vec<u8>,
-        world: &mut impl Oracle,
-    ) -> Self::Event {
-        let Move { actors, words, to } = picked(moves, world);
-        *state = to;
-        (actors, words)
-    }
-
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
-        self.broken_between(turn.before, turn.after)
-    }
-
-    fn broken_at_end(&self, state: &P::State, _: &[u8]) -> Vec<&'static str> {
-        let is_broken = match self.demand.when {
-            When::Always(_) => false,
-            When::AtTheEnd(is_so) | When::Eventually(is_so) => !is_so(&self.protocol, state),
-            When::AgainAndAgain(owed) => owed(&self.protocol, state) != 0,
-        };
-        is_broken.then_some(self.demand.words).into_iter().collect()
-    }
-
-    fn covers(&self) -> Vec<&'static str> {
-        P::COVERS.to_vec()
-    }
-
-    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        bit(P::COVERS, turn.event.1)
-    }
-}
-
-impl<P: Protocol> System for Playing<P> {
-    /// A state has no parts.
-    type Part = ();
-
-    fn places(&self, _: &P::State) -> usize {
-        0
-    }
-
-    fn part(&self, _: &P::State, _: usize) {}
-
-    fn put(&self, _: &mut P::State, _: usize, (): &()) {}
-
-    fn write(&self, state: &P::State, to: &mut Vec<u8>) {
-        state.write(to);
-    }
-
-    fn read(&self, state: &mut P::State, mut bytes: &[u8]) {
-        *state = P::State::read(&mut bytes);
-    }
-
-    fn make_canonical(&self, state: &mut P::State) {
-        let all = self.protocol.alike(state).into_iter();
-        let least = all.map(|other| (bytes(&other), other)).min_by(|one, other| one.0.cmp(&other.0));
-        if let Some((bytes_of, other)) = least
-            && bytes_of < bytes(state)
-        {
-            *state = other;
-        }
-    }
-
-    /// Takes the moves as they are, without a copy of each.
-    fn each_step<B>(
-        &self,
-        state: &P::State,
-        mut take: impl FnMut(Step<Self>) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
-        self.moves(state).into_iter().try_for_each(|Move { actors, words, to }| {
-            let breaks = self.broken_between(state, &to);
-            let (occurs, is_bound) = (bit(P::COVERS, words), actors != 0);
-            take(Step { state: to, event: (actors, words), occurs, acting: actors, is_bound, breaks })
-        })
-    }
-
-    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
-        turn.event.0
-    }
-
-    fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
-        turn.event.0 != 0
-    }
-
-    fn broken_by_endless_runs(&self) -> Option<&'static str> {
-        matches!(self.demand.when, When::Eventually(_) | When::AgainAndAgain(_)).then_some(self.demand.words)
-    }
-
-    fn owed(&self, state: &P::State) -> Bits {
-        match self.demand.when {
-            When::AgainAndAgain(owed) => owed(&self.protocol, state),
-            When::Always(_) | When::AtTheEnd(_) | When::Eventually(_) => 1,
-        }
-    }
-
-    fn awake(&self, state: &P::State) -> Bits {
-        self.protocol.moves(state).iter().fold(0, |set, next| set | next.actors)
-    }
-}
-
-impl<P: Protocol> Playing<P> {
-    /// The moves from a state: none once the demand is met.
-    fn moves(&self, state: &P::State) -> Vec<Move<P::State>> {
-        let is_met = matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.protocol, state));
-        if is_met { Vec::new() } else { self.protocol.moves(state) }
-    }
-
-    fn broken_between(&self, before: &P::State, after: &P::State) -> Vec<&'static str> {
-        let is_broken =
-            matches!(self.demand.when, When::Always(is_kept) if !is_kept(&self.protocol, before, after));
-        is_broken.then_some(self.demand.words).into_iter().collect()
-    }
-
-    fn canonical(&self, mut state: P::State) -> P::State {
-        self.make_canonical(&mut state);
-        state
-    }
-
-    /// All that must be the same of states that are taken for one: what their moves are and lead to, and what is owed.
-    fn outlook(&self, state: &P::State) -> impl Eq + use<P> {
-        let of = |step: Step<Self>| (step.event, step.breaks, bytes(&self.canonical(step.state)));
-        let mut moves: Vec<_> = states::steps(self, state).map(of).collect();
-        moves.sort_unstable();
-        (bytes(&self.canonical(state.clone())), moves, self.owed(state), self.broken_at_end(state, &[]))
-    }
-
-    /// Whether the first few states and those that they are taken for one with are alike.
-    ///
-    /// # Errors
-    /// [`MethodError`] with two that are not.
-    fn is_symmetric(&self) -> Result<(), MethodError> {
-        for state in states::first_states(self, self.protocol.starts()) {
-            let mut others = self.protocol.alike(&state).into_iter();
-            if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
-                let [state, other] = [&state, &other].map(|state| self.protocol.words(state));
-                let reason =
-                    format_args!("the states {state} and {other} are taken for one, and are not alike");
-                return Err(MethodError::new(reason));
-            }
-        }
-        Ok(())
-    }
-
-    /// The run from `start` itself that a search has found among states of which each stands for those like it.
-    fn unfolded(&self, start: &P::State, run: states::Run<&'static str>) -> states::Run<&'static str> {
-        let (mut seen, mut state) = (self.canonical(start.clone()), start.clone());
-        let mut follow = |&number: &u32| {
-            let step = states::steps(self, &seen).nth(number as usize)?;
-            seen = self.canonical(step.state);
-            let is_it = |(_, own): &(u32, Step<Self>)| {
-                own.event == step.event
-                    && own.breaks == step.breaks
-                    && self.canonical(own.state.clone()) == seen
-            };
-            let (number, own) = (0..).zip(states::steps(self, &state)).find(is_it)?;
-            state = own.state;
-            Some(number)
-        };
-        let steps = run.steps.iter().map_while(&mut follow).collect();
-        let ending = match run.ending {
-            Ending::Round(round) => Ending::Round(round.iter().map_while(follow).collect()),
-            ending @ (Ending::There | Ending::Still) => ending,
-        };
-        states::Run { steps, ending, ..run }
-    }
-
-    /// Whether what is found can be believed, as far as the first few states tell.
-    ///
-    /// # Errors
-    /// [`MethodError`] if it cannot.
-    fn is_sound(&self) -> Result<(), MethodError> {
-        states::repeats(self, self.protocol.starts()).map_err(MethodError::new)?;
-        self.comes_back()?;
-        self.is_symmetric()
-    }
-
-    /// The findings of a search that can be believed.
-    fn searched(&self, limits: Limits<'_>, workers: usize) -> Result<Findings<&'static str>, MethodError> {
-        self.is_sound()?;
-        let mut found = states::search_together(self, self.protocol.starts(), limits, workers);
-        for run in &mut found.broken {
-            if let Some(start) = self.protocol.starts().nth(run.start) {
-                *run = self.unfolded(&start, run.clone());
-            }
-        }
-        Ok(found)
-    }
-
-    /// Whether the first few states come back from their bytes.
-    ///
-    /// # Errors
-    /// [`MethodError`] if one does not: two states might be taken for one.
-    fn comes_back(&self) -> Result<(), MethodError> {
-        let first = |state: P::State| {
-            let next: Vec<P::State> = self.moves(&state).into_iter().map(|next| next.to).collect();
-            next.into_iter().chain([state])
-        };
-        let differs = |state: &P::State| P::State::read(&mut &bytes(state)[..]) != *state;
-        self.protocol.starts().take(states::TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
-            let state = self.protocol.words(&state);
-            Err(MethodError::new(format_args!("the state {state} does not come back from its bytes")))
-        })
-    }
-
-    /// From how many each of these choices is made, and the run that they make, with its start.
-    fn play(&self, choices: &Choices) -> Result<Played<P>, ScriptError> {
-        let mut script = Script::new(choices);
-        let number = script.choose(self.protocol.starts().count())?;
-        let start = self.protocol.starts().nth(number).ok_or(ScriptError::Unbroken)?;
-        let (of, run) = script.play(self, (number, start.clone()), |_| true)?;
-        Ok((of, start, run))
-    }
-
-    fn evidence(&self, start: &P::State, run: &states::Run<&'static str>) -> Evidence {
-        Evidence { choices: run.choices(), demand: run.demand, seen: self.story(start, run) }
-    }
-
-    /// The run, drawn state by state.
-    fn story(&self, start: &P::State, run: &states::Run<&'static str>) -> Depiction {
-        let mut frames = vec![("start".to_owned(), self.protocol.draw(start))];
-        for (place, (_, step)) in run.played(self, start.clone()).enumerate() {
-            let (actors, words) = step.event;
-            let again = if place == run.steps.len() { "again: " } else { "" };
-            let title = if actors.is_power_of_two() {
-                format!("{again}{} {words}", actors.trailing_zeros())
-            } else {
-                format!("{again}{words}")
-            };
-            frames.push((title, self.protocol.draw(&step.state)));
-        }
-        let end = match run.ending {
-            Ending::There => "",
-            Ending::Still => "\nnobody moves any more\n",
-            Ending::Round(_) => "\nand so on for ever\n",
-        };
-        Depiction::Story(beside(&frames) + end)
-    }
-}
+/// A run that breaks the demand, its start by its number among all.
+type Run = states::Run<&'static str>;
 
 impl<P: Protocol> Keeps<P> {
-    fn playing(&self, rule: &P::Rule) -> Result<Playing<P>, MethodError> {
+    /// The protocol in each of its surroundings.
+    fn playing(&self, rule: &P) -> Result<Vec<Playing<P>>, MethodError> {
         let none = || MethodError::new(format_args!("there is no demand {}", self.1));
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
-        Ok(Playing { protocol: P::new(rule, &self.0)?, demand })
+        let each = self.0.each()?.into_iter();
+        Ok(each.map(|here| Playing { rule: rule.clone(), here, demand }).collect())
     }
 
     /// The states, and the shortest run that breaks the demand if there is one.
     ///
     /// # Errors
-    /// [`MethodError`] if there is no such demand, if the protocol cannot be within its bound, or if its moves are not a
-    /// function of their state, its states not of their bytes, or states that it takes for one not alike.
-    pub fn search(&self, rule: &P::Rule, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
+    /// [`MethodError`] if there is no such demand, if there are no such surroundings, or if the moves are not a function
+    /// of their state, the states not of their bytes, or states that are taken for one not alike.
+    pub fn search(&self, rule: &P, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         self.search_together(rule, limits, 1)
     }
 
@@ -303,15 +52,15 @@ impl<P: Protocol> Keeps<P> {
     /// [`MethodError`] as of [`Self::search`].
     pub fn search_together(
         &self,
-        rule: &P::Rule,
+        rule: &P,
         limits: Limits<'_>,
         workers: usize,
     ) -> Result<Findings<&'static str>, MethodError> {
-        self.playing(rule)?.searched(limits, workers)
+        searched(&self.playing(rule)?, Portion::WHOLE, Until::Exhausted, limits, workers)
     }
 }
 
-impl<P: Protocol> Method<P::Rule> for Keeps<P> {
+impl<P: Protocol> Method<P> for Keeps<P> {
     fn engine(&self) -> &'static str {
         "states"
     }
@@ -320,73 +69,175 @@ impl<P: Protocol> Method<P::Rule> for Keeps<P> {
         self.0.to_string()
     }
 
+    fn decide(&self, rule: &P, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+        self.decide_portion(rule, Portion::WHOLE, until, desk)
+    }
+
+    /// The surroundings, one by one. A move that must occur may occur in any of them: such a check is not divided.
+    fn portions(&self) -> usize {
+        if P::COVERS.is_empty() { self.0.each().map_or(1, |each| each.len()) } else { 1 }
+    }
+
     /// The choices are the number of the start, and those of the moves. A check over no start is open.
-    fn decide(&self, rule: &P::Rule, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
-        let playing = self.playing(rule)?;
+    fn decide_portion(
+        &self,
+        rule: &P,
+        portion: Portion,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
+        let all = self.playing(rule)?;
         let limits = Limits { room: desk.room, ..Limits::NONE };
-        let found = playing.searched(limits, rayon::current_num_threads())?;
-        let evidence = found
-            .broken
-            .first()
-            .and_then(|run| Some(playing.evidence(&playing.protocol.starts().nth(run.start)?, run)));
+        let found = searched(&all, portion, until, limits, rayon::current_num_threads())?;
+        let evidence = found.broken.first().and_then(|run| evidence(&all, run));
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
         let is_whole = found.is_whole && is_covered && found.states > 0;
         Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
     }
 
-    fn systems(&self, rule: &P::Rule) -> Result<Systems, MethodError> {
-        let starts = |playing: &Playing<P>| playing.protocol.starts().collect();
-        Ok(vec![Box::new(Started::new(self.playing(rule)?, starts))])
+    fn systems(&self, rule: &P) -> Result<Systems, MethodError> {
+        let of = |playing| -> Box<dyn AnySystem> {
+            Box::new(Started::new(playing, |playing: &Playing<P>| playing.starts().collect()))
+        };
+        Ok(self.playing(rule)?.into_iter().map(of).collect())
     }
 
-    fn replay(&self, rule: &P::Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        let playing = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
-        let (of, start, run) = playing.play(choices)?;
-        Ok(RefutationPlay { of, evidence: playing.evidence(&start, &run) })
+    fn replay(&self, rule: &P, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let all = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
+        let (of, run) = play(&all, choices)?;
+        Ok(RefutationPlay { of, evidence: evidence(&all, &run).ok_or(ScriptError::Unbroken)? })
     }
 
     /// A hunt over no start is open.
-    fn hunt(&self, rule: &P::Rule, runs: &RandomRuns) -> Result<Option<Answer>, MethodError> {
-        let playing = self.playing(rule)?;
-        playing.is_sound()?;
-        let starts: Vec<P::State> = playing.protocol.starts().collect();
+    fn hunt(&self, rule: &P, runs: &RandomRuns) -> Result<Option<Answer>, MethodError> {
+        let all = self.playing(rule)?;
+        is_sound(&all)?;
+        let starts: Vec<_> = starts(&all).collect();
         if starts.is_empty() {
             return Ok(Some(Answer::open()));
         }
         let made = |oracle: &mut dyn Oracle| {
             let number = oracle.pick(starts.len() as u32) as usize;
-            states::walk(&playing, (number, starts[number].clone()), runs.most_moves, oracle)
+            let (playing, start) = &starts[number];
+            states::walk(*playing, (number, start.clone()), runs.most_moves, oracle)
         };
         let tally = sample(runs.runs, runs.seed, |oracle| match made(oracle) {
             Some(run) => Err(Stop::Violated(run.demand)),
             None => Ok("a run"),
         });
         let again = tally.violation.as_ref().and_then(|(choices, _)| made(&mut Replay::new(choices)));
-        let evidence = again.map(|run| playing.evidence(&starts[run.start], &run));
+        let evidence = again.map(|run| starts[run.start].0.evidence(&starts[run.start].1, &run));
         Ok(Some(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases)))
     }
 
     fn shorten(
         &self,
-        rule: &P::Rule,
+        rule: &P,
         choices: &Choices,
         limits: Limits<'_>,
     ) -> Result<Option<(Choices, bool)>, MethodError> {
-        let playing = self.playing(rule)?;
-        let (_, start, run) = playing.play(choices).map_err(MethodError::new)?;
-        let found = states::search_together(&playing, [start.clone()], limits, rayon::current_num_threads());
+        let all = self.playing(rule)?;
+        let (_, run) = play(&all, choices).map_err(MethodError::new)?;
+        let Some((playing, start)) = starts(&all).nth(run.start) else { return Ok(None) };
+        let found = states::search_together(playing, [start.clone()], limits, rayon::current_num_threads());
         let shortest = found.broken.into_iter().next();
         let shortest =
             shortest.map(|found| playing.unfolded(&start, states::Run { start: run.start, ..found }));
         Ok(Some(match shortest {
             Some(run) => (run.choices(), true),
-            None => (states::without_detours(&playing, &start, &run).choices(), false),
+            None => (states::without_detours(playing, &start, &run).choices(), false),
         }))
     }
 }
 
-fn bytes(state: &impl Compact) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    state.write(&mut bytes);
-    bytes
+/// Every start, each in its surroundings.
+fn starts<P: Protocol>(all: &[Playing<P>]) -> impl Iterator<Item = (&Playing<P>, P::State)> {
+    all.iter().flat_map(|playing| playing.starts().map(move |start| (playing, start)))
+}
+
+/// From how many each of these choices is made, and the run that they make.
+fn play<P: Protocol>(all: &[Playing<P>], choices: &Choices) -> Result<(Vec<u32>, Run), ScriptError> {
+    let mut script = Script::new(choices);
+    let number = script.choose(starts(all).count())?;
+    let (playing, start) = starts(all).nth(number).ok_or(ScriptError::Unbroken)?;
+    script.play(playing, (number, start), |_| true)
+}
+
+fn evidence<P: Protocol>(all: &[Playing<P>], run: &Run) -> Option<Evidence> {
+    let (playing, start) = starts(all).nth(run.start)?;
+    Some(playing.evidence(&start, run))
+}
+
+/// Whether what is found can be believed, as far as the first few states tell.
+///
+/// # Errors
+/// [`MethodError`] if it cannot.
+fn is_sound<P: Protocol>(all: &[Playing<P>]) -> Result<(), MethodError> {
+    let mut left = states::TRIED;
+    for playing in all {
+        playing.is_sound()?;
+        left -= playing.starts().take(left).count();
+        if left == 0 {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The findings of a search that can be believed: of all surroundings in a portion, or up to the first in which the
+/// demand is broken. The run is a shortest one, in the first of them that has one.
+fn searched<P: Protocol>(
+    all: &[Playing<P>],
+    portion: Portion,
+    until: Until,
+    limits: Limits<'_>,
+    workers: usize,
+) -> Result<Findings<&'static str>, MethodError> {
+    is_sound(all)?;
+    let mut whole = Findings::NONE;
+    // The surroundings of the run that is the shortest so far, and the run.
+    let mut shortest: Option<(usize, Run)> = None;
+    let own: Vec<usize> = portion.of(0..all.len()).collect();
+    let (at_once, each) = if own.len() == 1 { (1, workers) } else { (workers, 1) };
+    'all: for places in own.chunks(64 * at_once) {
+        let limits = Limits { most_steps: limits.most_steps - whole.steps, ..limits };
+        let found = each_of(places, at_once, |place| all[place].search(limits, each));
+        for (&place, mut found) in places.iter().zip(found) {
+            if let Some(run) = found.broken.pop()
+                && shortest.as_ref().is_none_or(|(_, other)| run.length() < other.length())
+            {
+                shortest = Some((place, run));
+            }
+            whole.add(found);
+            if !whole.is_whole || shortest.is_some() && until == Until::Violation {
+                break 'all;
+            }
+        }
+    }
+    let before = |place| all[..place].iter().map(|playing| playing.starts().count()).sum::<usize>();
+    let counted = shortest.map(|(place, run)| Run { start: before(place) + run.start, ..run });
+    Ok(Findings { broken: counted.into_iter().collect(), ..whole })
+}
+
+/// The answers about these, in their order, by so many threads.
+fn each_of<T: Send>(places: &[usize], workers: usize, answer: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    if workers == 1 {
+        return places.iter().map(|&place| answer(place)).collect();
+    }
+    let (task, next) = (Task::current(), AtomicUsize::new(0));
+    let work = || {
+        let _working = task.enter();
+        let mut own = Vec::new();
+        while let Some(&place) = places.get(next.fetch_add(1, Ordering::Relaxed)) {
+            own.push((place, answer(place)));
+        }
+        own
+    };
+    let mut answers = thread::scope(|scope| {
+        let running: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let ended = running.into_iter().map(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        ended.flatten().collect::<Vec<_>>()
+    });
+    answers.sort_unstable_by_key(|(place, _)| *place);
+    answers.into_iter().map(|(_, answer)| answer).collect()
 }

@@ -25,10 +25,13 @@ impl<M: Clone + Ord> Mail<M> {
         self.under_way.insert(place, letter);
     }
 
-    /// Sends one message to a set of nodes, a bit for each.
-    pub fn send_each(&mut self, from: usize, to: Bits, message: &M) {
+    /// The mail with one message more to each of a set of nodes, a bit for each.
+    #[must_use]
+    pub fn with_each(&self, from: usize, to: Bits, message: &M) -> Self {
         let receivers = (0..Bits::BITS as usize).filter(|node| to >> node & 1 == 1);
-        receivers.for_each(|to| self.send((from, to, message.clone())));
+        let mut mail = self.clone();
+        receivers.for_each(|to| mail.send((from, to, message.clone())));
+        mail
     }
 
     /// The messages under way, in one order whatever order they were sent in.

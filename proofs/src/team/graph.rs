@@ -2,12 +2,15 @@
 //! states is quantified over them.
 
 use std::fmt;
+use std::sync::Arc;
 
 use tautline_kernel::ground::{Cell, Side};
 
+use super::Moves;
 use super::ground::{Ground, Map, Which};
 use crate::decide::MethodError;
 use crate::plural::counted;
+use crate::protocol::Bound;
 
 /// A kind of layouts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -81,8 +84,14 @@ pub struct Teams {
     pub graphs: Graphs,
 }
 
-/// The number of a layout, where robots start, and where they are to go.
-pub type Instance = (usize, Vec<u8>, Vec<u8>);
+/// A layout, and where robots are to go in it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Task {
+    /// The layout.
+    pub graph: Arc<Graph>,
+    /// The goal of each robot.
+    pub goals: Vec<u8>,
+}
 
 impl Teams {
     /// So many robots in all layouts of a kind within an area.
@@ -96,24 +105,128 @@ impl Teams {
         self.graphs.cells = (fewest, most);
         self
     }
-
-    /// Every start and goal in these layouts, of which those without room for the robots have none.
-    pub fn instances<'a>(&self, graphs: &'a [Graph]) -> impl Iterator<Item = Instance> + 'a {
-        let robots = self.robots;
-        graphs.iter().enumerate().flat_map(move |(number, graph)| {
-            let places = graph.places(robots);
-            let pairs = places.clone().into_iter().flat_map(move |starts| {
-                places.clone().into_iter().map(move |goals| (number, starts.clone(), goals))
-            });
-            pairs.collect::<Vec<_>>()
-        })
-    }
 }
 
 impl fmt::Display for Teams {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}, {}, every start and goal", counted(self.robots as u32, "robot"), self.graphs)
     }
+}
+
+/// Layouts without room for the robots are left out.
+impl Bound for Teams {
+    type Surroundings = Task;
+
+    fn each(&self) -> Result<Vec<Task>, MethodError> {
+        let of = |graph: Graph| {
+            let (places, graph) = (graph.places(self.robots), Arc::new(graph));
+            places.into_iter().map(move |goals| Task { graph: Arc::clone(&graph), goals })
+        };
+        Ok(self.graphs.all()?.into_iter().flat_map(of).collect())
+    }
+}
+
+impl Task {
+    /// Every start of the robots.
+    pub fn starts(&self) -> Vec<Vec<u8>> {
+        self.graph.places(self.goals.len())
+    }
+
+    /// A drawing of robots by number, each cell with the letter of the robot whose goal it is.
+    pub fn draw(&self, robots: &[u8]) -> String {
+        let sign = |cells: &[u8], cell: u8, first: u8| {
+            let place = cells.iter().position(|&other| other == cell);
+            place.map_or('.', |place| char::from(first + place as u8))
+        };
+        self.graph.draw(|cell| [sign(robots, cell, b'0'), sign(&self.goals, cell, b'a')].iter().collect())
+    }
+}
+
+/// So many robots in layouts, from every start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Crew {
+    /// How many robots.
+    pub robots: usize,
+    /// The layouts.
+    pub graphs: Graphs,
+    /// Who acts at once.
+    pub moves: Moves,
+}
+
+impl fmt::Display for Crew {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}, every start", counted(self.robots as u32, "robot"), self.graphs)?;
+        if self.robots == 1 { Ok(()) } else { write!(f, ", {}", self.moves) }
+    }
+}
+
+/// A layout, and how many robots start in it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Deployed {
+    /// The layout.
+    pub graph: Graph,
+    /// How many robots.
+    pub robots: usize,
+}
+
+/// Layouts without room for the robots are left out.
+impl Bound for Crew {
+    type Surroundings = Deployed;
+
+    fn each(&self) -> Result<Vec<Deployed>, MethodError> {
+        let graphs = self.graphs.all()?.into_iter().filter(|graph| graph.len() >= self.robots);
+        Ok(graphs.map(|graph| Deployed { graph, robots: self.robots }).collect())
+    }
+}
+
+/// A layout of at most 64 cells as far as robots know it, or have covered it.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'a> {
+    /// The layout.
+    pub graph: &'a Graph,
+    /// The cells that are known, a bit for each.
+    pub cells: u64,
+}
+
+impl Known<'_> {
+    /// Whether a cell is known.
+    pub const fn has(&self, cell: u8) -> bool {
+        self.cells >> cell & 1 == 1
+    }
+
+    /// Whether all cells are known.
+    pub const fn is_whole(&self) -> bool {
+        self.cells.count_ones() as usize == self.graph.len()
+    }
+
+    /// Whether a cell is a frontier: known, and beside one that is not.
+    pub fn is_frontier(&self, cell: u8) -> bool {
+        self.has(cell) && self.graph.beside(cell).iter().any(|&other| !self.has(other))
+    }
+
+    /// The frontiers, by number.
+    pub fn frontiers(&self) -> impl Iterator<Item = u8> {
+        (0..self.graph.len() as u8).filter(|&cell| self.is_frontier(cell))
+    }
+
+    /// Steps from a cell to each, through known cells but these; [`u8::MAX`] where no way leads.
+    pub fn steps(&self, from: u8, but: &[u8]) -> Vec<u8> {
+        self.graph.steps_through(from, |cell| self.has(cell) && !but.contains(&cell))
+    }
+
+    /// The known cells, and a cell with those beside it.
+    pub fn with_sight(&self, cell: u8) -> u64 {
+        self.graph.beside(cell).iter().fold(self.cells | 1 << cell, |cells, beside| cells | 1 << beside)
+    }
+}
+
+/// Whether two robots come into one cell, or change places.
+pub fn conflicts(before: &[u8], after: &[u8]) -> bool {
+    let robots = 0..before.len();
+    robots.clone().any(|one| {
+        let is_swap = |other: usize| before[one] == after[other] && after[one] == before[other];
+        (0..one).any(|other| after[one] == after[other] || is_swap(other))
+    })
 }
 
 /// The free cells of a layout by number, by rows and from left to right.
@@ -176,6 +289,13 @@ impl Graph {
     /// Steps from a cell to each, through cells of which this is so; [`u8::MAX`] where no such way leads.
     pub fn steps_through(&self, from: u8, is_free: impl Fn(u8) -> bool) -> Vec<u8> {
         distances(&self.beside, from, is_free)
+    }
+
+    /// The cell beside a cell that is nearest by these steps, if it is nearer.
+    pub fn nearer(&self, cell: u8, steps: &[u8]) -> Option<u8> {
+        let of = |cell: u8| steps[usize::from(cell)];
+        let nearest = self.beside(cell).iter().copied().min_by_key(|&beside| of(beside))?;
+        (of(nearest) < of(cell)).then_some(nearest)
     }
 
     /// Every way to put so many robots into cells, no two into one.
@@ -246,12 +366,10 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_without_room_for_the_robots_has_no_start() {
-        let team = Teams { robots: 5, graphs: SMALL };
-        let graphs = SMALL.all().expect("a small area");
-        assert_eq!(team.instances(&graphs).count(), 720 * 720);
-        let none = Teams { robots: 7, ..team };
-        assert_eq!(none.instances(&graphs).count(), 0);
+    fn a_layout_without_room_for_the_robots_is_left_out() {
+        let tasks = |robots| Teams { robots, graphs: SMALL }.each().expect("a small area");
+        assert_eq!(tasks(5).iter().map(|task| task.starts().len()).collect::<Vec<_>>(), [720; 720]);
+        assert_eq!(tasks(7), []);
     }
 
     #[test]

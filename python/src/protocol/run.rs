@@ -10,7 +10,7 @@ use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Move, Protocol};
 use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 
-use super::script::{Posed, StateScript, Written};
+use super::script::{Posed, StateScript};
 use crate::diagnostic::raised;
 
 /// A run of a rule over states that breaks a demand.
@@ -42,12 +42,12 @@ impl StateRun {
     ) -> PyResult<Self> {
         let wanted = &script.demands[demand];
         let class = py.import("pytautline._protocol")?.getattr("Move")?;
-        let written = Written(Posed(Arc::clone(script), demand));
+        let posed = Posed(Arc::clone(script), demand);
         let (start, once) = evidence.choices.once.split_first().unwrap_or((&0, &[]));
         let mut state = script.starts().get(*start as usize).copied().unwrap_or_default();
         let start = script.script.state(py, state);
         let mut made = |&choice: &u32| -> PyResult<Py<PyAny>> {
-            let chosen = written.moves(&state).into_iter().nth(choice as usize);
+            let chosen = posed.moves(&(), &state).into_iter().nth(choice as usize);
             script.script.checked(py)?;
             let Move { actors, words, to } = chosen.ok_or_else(|| script.script.not_pure(py))?;
             state = to;

@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex, OnceLock};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use tautline_proofs::decide::MethodError;
+use tautline_proofs::demands;
 use tautline_proofs::engine::states::Bits;
-use tautline_proofs::protocol::{Demand, Move, Protocol, set};
+use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
 use crate::diagnostic::{Kind, error};
 use crate::script::{Script, attribute, held, kept, shown, word};
@@ -24,7 +25,7 @@ const MOVES: &str = "return a list of pytautline.Move, each with the numbers of 
 pub(super) struct Wanted {
     pub(super) clause: &'static str,
     pub(super) words: &'static str,
-    /// The number of its kind among the demands of [`Written`].
+    /// The number of its kind among the demands of [`Posed`].
     pub(super) kind: usize,
     asked: Py<PyAny>,
 }
@@ -169,10 +170,10 @@ fn wanted(demand: &Bound<'_, PyAny>) -> PyResult<Wanted> {
     Ok(Wanted { clause: word(py, "the id", &id)?, words: kept(&words), kind, asked })
 }
 
-/// The kinds of demands, in the order of those of [`Written`].
+/// The kinds of demands, in the order of those of [`Posed`].
 const KINDS: [&str; 4] = ["always", "at-the-end", "eventually", "again-and-again"];
 
-/// A rule, and the number of the demand that is looked at.
+/// A rule over states that was written in Python, and the number of the demand that is looked at.
 #[derive(Clone)]
 pub(super) struct Posed(pub(super) Arc<StateScript>, pub(super) usize);
 
@@ -185,13 +186,19 @@ impl fmt::Display for Words {
     }
 }
 
-/// A rule over states that was written in Python, of whose demands one is looked at.
-pub(super) struct Written(pub(super) Posed);
+impl StateBound for Words {
+    /// The rule knows its surroundings.
+    type Surroundings = ();
 
-impl Written {
+    fn each(&self) -> Result<Vec<()>, MethodError> {
+        Ok(vec![()])
+    }
+}
+
+impl Posed {
     /// Whether the demand says yes to states.
     fn says<const N: usize>(&self, states: [u32; N]) -> bool {
-        let Posed(rule, demand) = &self.0;
+        let Self(rule, demand) = self;
         let Wanted { clause, asked, .. } = &rule.demands[*demand];
         rule.answer(|py| {
             let states = PyTuple::new(py, states.map(|state| rule.script.state(py, state)))?;
@@ -201,7 +208,7 @@ impl Written {
 
     /// What is owed in a state by the demand.
     fn owed(&self, state: u32) -> Bits {
-        let Posed(rule, demand) = &self.0;
+        let Self(rule, demand) = self;
         let Wanted { clause, asked, .. } = &rule.demands[*demand];
         let remedy = "return a list of what is owed, numbers from 0 to 15";
         rule.answer(|py| {
@@ -218,40 +225,34 @@ impl Written {
     }
 }
 
-impl Protocol for Written {
-    type Rule = Posed;
+impl Protocol for Posed {
     type Bound = Words;
     type State = u32;
-
-    const DEMANDS: &'static [Demand<Self>] = &[
-        Demand::always("every move keeps it", |written, &before, &after| written.says([before, after])),
-        Demand::at_the_end("it is so at the end", |written, &state| written.says([state])),
-        Demand::eventually("it is so at some time", |written, &state| written.says([state])),
-        Demand::again_and_again("nothing is owed for ever", |written, &state| written.owed(state)),
-    ];
-
-    fn new(rule: &Posed, _: &Words) -> Result<Self, MethodError> {
-        Ok(Self(rule.clone()))
+    demands! {
+        always "every move keeps it", |rule, (), &before, &after| rule.says([before, after]);
+        at_the_end "it is so at the end", |rule, (), &state| rule.says([state]);
+        eventually "it is so at some time", |rule, (), &state| rule.says([state]);
+        again_and_again "nothing is owed for ever", |rule, (), &state| rule.owed(state);
     }
 
-    fn starts(&self) -> impl Iterator<Item = u32> {
-        self.0.0.starts().iter().copied()
+    fn starts(&self, (): &()) -> impl IntoIterator<Item = u32> {
+        self.0.starts().iter().copied()
     }
 
-    fn moves(&self, &state: &u32) -> Vec<Move<u32>> {
-        self.0.0.answer(|py| self.0.0.moves(py, state))
+    fn moves(&self, (): &(), &state: &u32) -> Vec<Move<u32>> {
+        self.0.answer(|py| self.0.moves(py, state))
     }
 
-    fn alike(&self, &state: &u32) -> Vec<u32> {
-        let Posed(rule, _) = &self.0;
+    fn alike(&self, (): &(), &state: &u32) -> Vec<u32> {
+        let Self(rule, _) = self;
         rule.answer(|py| {
             let state = (rule.script.state(py, state),);
             rule.states(py, "alike", "return a list of states", |rule| rule.call_method1("alike", state))
         })
     }
 
-    fn draw(&self, &state: &u32) -> String {
-        let Posed(rule, _) = &self.0;
+    fn draw(&self, (): &(), &state: &u32) -> String {
+        let Self(rule, _) = self;
         rule.answer(|py| {
             let state = (rule.script.state(py, state),);
             let drawing = rule.script.called(py, "draw", |rule| rule.call_method1("draw", state))?;
@@ -263,6 +264,6 @@ impl Protocol for Written {
     }
 
     fn words(&self, &state: &u32) -> String {
-        Python::attach(|py| shown(self.0.0.script.state(py, state).bind(py)))
+        Python::attach(|py| shown(self.0.script.state(py, state).bind(py)))
     }
 }
