@@ -6,19 +6,19 @@
 use crate::prelude::*;
 
 /// The conditions of the rule.
-#[derive(Clone, Copy)]
-struct Conditions {
+#[derive(Clone, Copy, Debug)]
+pub struct Conditions {
     /// A robot that misses the others goes on.
-    goes_on: bool,
+    pub goes_on: bool,
     /// A robot that loses the others turns back.
-    turns_back: bool,
+    pub turns_back: bool,
     /// A robot that has found them again turns left or right.
-    turns_aside: bool,
+    pub turns_aside: bool,
 }
 
 bound! {
     /// Robots on a grid without rim, so many cells wide and high; the range of each in cells, in both directions.
-    Swarm { robots: usize, width: i8, range: i8, alpha: usize, moves: Moves }
+    pub Swarm { robots: usize, width: i8, range: i8, alpha: usize, moves: Moves }
     "{robots} robots, {width}×{width} cells without rim, range {range}, α = {alpha}, every connected start, {moves}"
 }
 
@@ -132,8 +132,10 @@ impl Protocol for Conditions {
     }
 }
 
-const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, moves: Moves::Together };
-const RULE: Conditions = Conditions { goes_on: true, turns_back: true, turns_aside: true };
+/// Two robots on 6×6 cells.
+pub const SWARM: Swarm = Swarm { robots: 2, width: 6, range: 1, alpha: 1, moves: Moves::Together };
+/// The published rule.
+pub const RULE: Conditions = Conditions { goes_on: true, turns_back: true, turns_aside: true };
 
 entry! { Conditions: "alpha", "Alpha", "ALPHA",
     "Winfield, Liu, Nembrini, Martinoli, *Modelling a Wireless Connected Swarm of Mobile Robots*, Swarm \

@@ -43,7 +43,7 @@ macro_rules! entry {
 }
 
 mod aggregation;
-mod alpha;
+pub mod alpha;
 mod ba_star;
 mod burgard;
 pub mod dijkstra;

@@ -3,10 +3,11 @@
 
 use std::path::Path;
 use std::process::{Command, Output};
+use std::time::Instant;
 use std::{env, fs, io, process};
 
 use stateright::{Checker, Model};
-use tautline_library::{dijkstra, gathering, ricart};
+use tautline_library::{alpha, dijkstra, gathering, ricart};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::protocol::{Bound, Keeps, Protocol};
 use tautline_proofs::team::Moves;
@@ -64,6 +65,21 @@ fn any_number_of_workers_finds_the_same() {
     assert!(same(&ricart::RULE, || ricart::Net::of(3, 1), 0));
     let hasty = ricart::Conditions { defers: false, ..ricart::RULE };
     assert!(!same(&hasty, || ricart::Net::of(3, 1), 0));
+}
+
+/// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 16 unless it says otherwise; what is found is printed:
+/// `cargo test -p tautline-library --test all four_robots -- --ignored --nocapture`.
+#[test]
+#[ignore = "it takes minutes"]
+fn four_robots_of_alpha_on_a_large_square_are_decided_in_two_gigabytes() {
+    let width = env::var("ALPHA_SIDE").map_or(16, |side| side.parse().expect("cells a side"));
+    let (swarm, begun) = (alpha::Swarm { robots: 4, width, ..alpha::SWARM }, Instant::now());
+    let starts = alpha::RULE.starts(&swarm).into_iter().count();
+    eprintln!("{starts} starts, listed in {:.0} s", begun.elapsed().as_secs_f64());
+    let found = Keeps::<alpha::Conditions>(swarm, 0).search(&alpha::RULE, Limits::NONE).expect("a search");
+    let (states, steps, megabytes) = (found.states, found.steps, found.bytes >> 20);
+    eprintln!("{states} states, {steps} steps, {megabytes} MB, {:.0} s", begun.elapsed().as_secs_f64());
+    assert!(found.is_whole && !found.broken.is_empty() && found.bytes < 2 << 30);
 }
 
 /// The states that SPIN stores for a model of `spin`; `None` where there is no SPIN or no C compiler.
