@@ -32,7 +32,7 @@ impl Protocol for Conditions {
     type Bound = Robots;
     type State = State;
     demands! {
-        always "one robot is in the lane", |_, _, _, (places, _)| places.iter().filter(|at| is_in_lane(at)).count() <= 1;
+        always "one robot is in the lane", |_, _, _, (at, _)| at.iter().filter(|at| is_in_lane(at)).count() <= 1;
         eventually "every robot is across", |_, _, (places, _)| places.iter().all(|&place| place == Place::Across);
     }
     const COVERS: &'static [&'static str] = &["locks", "enters", "leaves", "plans anew"];

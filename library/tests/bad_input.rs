@@ -8,7 +8,7 @@ use tautline_proofs::decide::Verdict;
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger;
 use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring};
-use tautline_proofs::team::Moves;
+use tautline_proofs::team::{Crew, Deployed, Graphs, Kind, Moves};
 use tautline_proofs::{bound, demands};
 
 /// A number that a move makes larger, up to 9.
@@ -79,6 +79,45 @@ fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
     let words = "a ring has at least two machines of two states";
     assert_eq!(refused(&dijkstra::Rule::Published, dijkstra::Machines::of(1, 5), 0), words);
     assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7");
+}
+
+/// A robot that stays where it is.
+#[derive(Clone, Copy)]
+struct Stays;
+
+impl Protocol for Stays {
+    type Bound = Crew;
+    type State = Vec<u8>;
+    demands! { at_the_end "it is somewhere", |_, _, robots| !robots.is_empty(); }
+
+    fn starts(&self, crew: &Deployed) -> impl IntoIterator<Item = Vec<u8>> {
+        crew.graph.places(crew.robots)
+    }
+
+    fn moves(&self, _: &Deployed, _: &Vec<u8>) -> Vec<Move<Vec<u8>>> {
+        Vec::new()
+    }
+}
+
+#[test]
+fn a_check_over_no_layout_with_room_for_the_robots_is_open() {
+    const fn crew(robots: usize) -> Keeps<Stays> {
+        let graphs = Graphs::within(Kind::Biconnected, 3, 2);
+        Keeps(Crew { robots, graphs, moves: Moves::Together }, 0)
+    }
+    static FITS: Keeps<Stays> = crew(6);
+    static TOO_MANY: Keeps<Stays> = crew(7);
+    const STAYS: NamedRule<Stays> = NamedRule::new("stays", Stays);
+    static BOTH: Clause = Clause {
+        id: "STAY-1",
+        sentence: "Robots MUST be somewhere.",
+        checks: &[
+            &Check::new(STAYS, &FITS, Verdict::Holds, &[]),
+            &Check::new(STAYS, &TOO_MANY, Verdict::Open, &[]),
+        ],
+    };
+    let rows = ledger::decide_all(&[&BOTH]).expect("they can be decided");
+    assert!(rows.iter().all(ledger::Row::is_as_registered));
 }
 
 #[test]

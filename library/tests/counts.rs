@@ -1,14 +1,17 @@
 //! The search over states counts the states that other model checkers count: stateright, which shares the moves of a
 //! rule and no engine, and SPIN, whose models in `spin` share nothing.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Instant;
 use std::{env, fs, io, process};
 
 use stateright::{Checker, Model};
-use tautline_library::{alpha, dijkstra, gathering, ricart};
-use tautline_proofs::engine::states::Limits;
+use tautline_library::{RULES, alpha, dijkstra, gathering, ricart};
+use tautline_proofs::decide::{Answer, Cache, Context, Portion, Verdict};
+use tautline_proofs::engine::states::{Limits, MemoryLimit};
+use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::protocol::{Bound, Keeps, Protocol};
 use tautline_proofs::team::Moves;
 
@@ -65,6 +68,28 @@ fn any_number_of_workers_finds_the_same() {
     assert!(same(&ricart::RULE, || ricart::Net::of(3, 1), 0));
     let hasty = ricart::Conditions { defers: false, ..ricart::RULE };
     assert!(!same(&hasty, || ricart::Net::of(3, 1), 0));
+}
+
+/// Checks over many layouts, as one and in portions, of which some have no layout that is large enough.
+#[test]
+fn a_check_in_portions_has_the_verdict_the_counts_and_the_counterexample_of_the_whole() {
+    let rules = RULES.iter().filter(|rule| ["yamauchi", "lacam"].contains(&rule.name));
+    let checks = rules.flat_map(|rule| rule.clauses()).flat_map(|clause| clause.checks);
+    let mut refuted = 0;
+    for check in checks {
+        let watch = &mut |_: &Progress<'_>| ControlFlow::Continue(());
+        let mut desk = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
+        let whole = check.decide_own(&mut desk).expect("it is decided");
+        refuted += usize::from(whole.verdict == Verdict::Refuted);
+        for of in [2, 5, check.portions()] {
+            let portion =
+                |number| check.decide_portion(None, Portion { number, of }, &mut desk).expect("a portion");
+            let mut parts: Vec<_> = (0..of).map(portion).collect();
+            parts.reverse();
+            assert_eq!(Answer::merged(parts), whole, "{check:?}");
+        }
+    }
+    assert_eq!(refuted, 3);
 }
 
 /// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 16 unless it says otherwise; what is found is printed:

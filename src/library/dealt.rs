@@ -1,5 +1,5 @@
-//! The checks of the rules, dealt out: a job is a check, or one of its mutants, in a portion of its surroundings. No state
-//! of one is a state of another, so that no shard searches what another one has searched.
+//! The checks of the rules, dealt out: a job is a check, or one of its mutants, in a portion of its surroundings. No
+//! state of one is a state of another, so that no shard searches what another one has searched.
 
 use std::path::Path;
 use std::time::Instant;

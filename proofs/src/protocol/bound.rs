@@ -57,8 +57,8 @@ macro_rules! bound {
     };
 }
 
-/// Makes the demands of a [`Protocol`](crate::protocol::Protocol), in its block: `demands! { eventually "all are there",
-/// |rule, here, state| state.0; }`, each by the name of a function of [`Demand`](crate::protocol::Demand).
+/// Makes the demands of a [`Protocol`](crate::protocol::Protocol), in its block, each by the name of a function of
+/// [`Demand`](crate::protocol::Demand): `demands! { eventually "all are there", |rule, here, state| state.0; }`.
 #[macro_export]
 macro_rules! demands {
     ($($when:ident $words:expr, $asked:expr;)+) => {

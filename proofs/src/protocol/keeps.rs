@@ -40,8 +40,8 @@ impl<P: Protocol> Keeps<P> {
     /// The states, and the shortest run that breaks the demand if there is one.
     ///
     /// # Errors
-    /// [`MethodError`] if there is no such demand, if there are no such surroundings, or if the moves are not a function
-    /// of their state, the states not of their bytes, or states that are taken for one not alike.
+    /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function of
+    /// their state, the states not of their bytes, or states that are taken for one not alike.
     pub fn search(&self, rule: &P, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         self.search_together(rule, limits, 1)
     }
@@ -95,11 +95,17 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
     }
 
+    /// Surroundings without a start are left out, unless there are no others.
     fn systems(&self, rule: &P) -> Result<Systems, MethodError> {
+        let mut all = self.playing(rule)?;
+        let has_start = |playing: &Playing<P>| playing.starts().next().is_some();
+        if all.iter().any(has_start) {
+            all.retain(has_start);
+        }
         let of = |playing| -> Box<dyn AnySystem> {
             Box::new(Started::new(playing, |playing: &Playing<P>| playing.starts().collect()))
         };
-        Ok(self.playing(rule)?.into_iter().map(of).collect())
+        Ok(all.into_iter().map(of).collect())
     }
 
     fn replay(&self, rule: &P, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -141,7 +141,10 @@ impl<P: Protocol> Playing<P> {
     }
 
     fn broken_between(&self, before: &P::State, after: &P::State) -> Vec<&'static str> {
-        let is_broken = matches!(self.demand.when, When::Always(is_kept) if !is_kept(&self.rule, &self.here, before, after));
+        let is_broken = match self.demand.when {
+            When::Always(is_kept) => !is_kept(&self.rule, &self.here, before, after),
+            When::AtTheEnd(_) | When::Eventually(_) | When::AgainAndAgain(_) => false,
+        };
         is_broken.then_some(self.demand.words).into_iter().collect()
     }
 

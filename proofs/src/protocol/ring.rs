@@ -62,7 +62,7 @@ impl Ring {
         all.into_iter().map(|nodes| nodes.into_iter().map(|node| (node, None)).collect()).collect()
     }
 
-    /// The moves of robots of which each wishes to go to a node. Where one looks before it moves, others may act between.
+    /// The moves of robots, each of which wishes to go to a node. Where one looks, others may act before it moves.
     pub fn moves(&self, robots: &[Walker], wish: impl Fn(usize) -> u8) -> Vec<Move<Vec<Walker>>> {
         let looks = self.moves == Moves::LookThenMove;
         let go = |actors: Bits| {
