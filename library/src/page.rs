@@ -52,7 +52,7 @@ own world from the documents alone, before there were these faces; and those of 
 |---|---|---|---|
 | PIBT | 243 | 63, and 40 that LaCAM shares | 41, and 40 |
 | Yamauchi's frontiers | 169 | 50 | 31 |
-| Ricart–Agrawala | 172 | 86 | 69 |
+| Ricart–Agrawala | 172 | 85 | 68 |
 | a ring of robots | 133 | 57 | 43 |
 | a corridor | 133 | 66 | 51 |
 | boustrophedon | 142 | 61 | 44 |
@@ -63,7 +63,7 @@ In [Python](python.md#a-rule-over-states) Dijkstra's ring has 24 lines and Ricar
 
 Four of Alpha's robots, all together, have 292,924 states on 6×6 cells, 1,013,486 on 8×8, and 26,713,844 on 16×16, where the promise is refuted, too,
 in 1.4 GB and 385 s on a part of one core (`cargo test -p tautline-library --test all four_robots -- --ignored --nocapture`). States that are turns of each
-other, or differ in the order of robots, count once; of the 4.3 billion starts in all places and headings, 731,392 are connected and not alike.
+other, or differ in the order of robots, count once; of the 4.3 billion starts in all places and headings, 731,392 are looked at.
 
 | rule | source | checks that hold | refuted |
 |---|---|---|---|
