@@ -59,8 +59,8 @@ impl Protocol for Rule {
     }
 
     fn draw(&self, _: &Machines, ring: &Vec<u8>) -> String {
-        let mark = |machine: usize| if self.has_privilege(ring, machine) { '*' } else { ' ' };
-        (0..ring.len()).map(|machine| format!("{}{}", ring[machine], mark(machine))).collect()
+        let mark = |machine: usize| if self.has_privilege(ring, machine) { "*" } else { " " };
+        (0..ring.len()).map(|machine| ring[machine].to_string() + mark(machine)).collect()
     }
 }
 

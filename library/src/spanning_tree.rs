@@ -67,7 +67,7 @@ impl Protocol for Conditions {
             crew.graph.draw(|block| quarters.map(|quarter| sign((block, quarter))).iter().collect())
         };
         let (upper, lower) = (half([0, 1]), half([3, 2]));
-        upper.lines().zip(lower.lines()).map(|(upper, lower)| format!("{upper}\n{lower}\n")).collect()
+        upper.lines().zip(lower.lines()).map(|(upper, lower)| [upper, lower, ""].join("\n")).collect()
     }
 }
 

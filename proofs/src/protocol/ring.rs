@@ -85,6 +85,7 @@ impl Ring {
 
     /// The nodes in a row, with the robots in each by number.
     pub fn draw(&self, robots: &[Walker]) -> String {
-        (0..self.nodes).map(|node| format!("[{}]", names(robots, |robot| robot.0 == node))).collect()
+        let node = |node| ["[", &names(robots, |robot| robot.0 == node), "]"].concat();
+        (0..self.nodes).map(node).collect()
     }
 }
