@@ -160,8 +160,8 @@ const MANY_MOVES: [(Rule, [(i16, i16); 2], &[(i16, i16)], &str); 2] = [
     ),
 ];
 
-/// The lowest `bits` of the labels of the first trees, of those around a byte more, and of the last ones, of agents with
-/// the least ids, those around half of them, and the greatest.
+/// The lowest `bits` of the labels of the first trees, of those around a byte more, and of the last ones, of agents
+/// with the least ids, those around half of them, and the greatest.
 fn labels(bits: u8) -> String {
     let founded = [0, 1, 2, 255, 256, 65_535, 65_536, Label::TREES - 2, Label::TREES - 1];
     let answers = founded.iter().flat_map(|&founded| [0, 1, 127, 128, 254, 255].map(|id| (founded, id)));
@@ -172,8 +172,8 @@ fn labels(bits: u8) -> String {
     definition(&format!("labels_{bits}"), "list (N * N * N)", &list(answers))
 }
 
-/// How many times the cells beyond the sides of a cell were entered, in the order of the compass, 0 where a wall is, the
-/// others being its children; and to which of them, counted from 1, an agent goes, 0 if to none.
+/// How many times the cells beyond the sides of a cell were entered, in the order of the compass, 0 where a wall is,
+/// the others being its children; and to which of them, counted from 1, an agent goes, 0 if to none.
 fn children(rule: Rule) -> String {
     let label = Label::new(0, 0).unwrap_or_default();
     let counts = (0..256_u16).map(|number| [0, 2, 4, 6].map(|place| number >> place & 3));
