@@ -50,11 +50,20 @@ Section Area.
   Hypothesis beside_cells : forall u v, In v (beside u) -> In v cells.
   Notation world := (world V).
   Notation PLAIN := (PLAIN V same cells beside).
-  Notation run := (run V same cells obstacle N PLAIN).
-  Notation leads := (leads V same obstacle N PLAIN).
-  Notation may_decide := (may_decide V PLAIN).
-  Notation may_tick := (may_tick V N PLAIN).
+  Notation nearest := (nearest V same cells beside).
+  Notation firsts := (firsts V same cells beside).
+  Notation far := (far V same cells beside).
+  Notation targets := (targets V same cells beside).
   Notation moves := (moves V).
+
+  (** A rule by which robots go as long as they know a way to an unknown cell, and no longer. *)
+  Definition lasting (rl : rule V) : Prop :=
+    sensible V same cells beside rl /\ forall i r, targets r (place r) = [] -> chooses rl i r = [].
+  Variable rl : rule V.
+  Notation run := (run V same cells obstacle N rl).
+  Notation leads := (leads V same obstacle N rl).
+  Notation may_decide := (may_decide V rl).
+  Notation may_tick := (may_tick V N rl).
 
   Definition acts (i : nat) (e : event V) : bool :=
     match e with Decides j _ _ _ | Looks j _ _ _ | Arrives j _ => j =? i | Ticks => false end.
@@ -67,6 +76,13 @@ Section Area.
   Definition fair (s : nat -> world) (e : nat -> event V) : Prop :=
     (forall i n, i < N -> exists m, n <= m /\ (acts i (e m) = true \/ able (s m) i = false))
     /\ forall n, exists m, n <= m /\ (e m = Ticks \/ may_tick (s m) = false).
+
+  (** In the end robots go to nearest cells alone. *)
+  Definition plain_in_the_end (s : nat -> world) (e : nat -> event V) : Prop :=
+    exists t, forall n i v c ms, t <= n -> e n = Decides i v c ms ->
+      In c (nearest (robots (s n) i)) /\ In v (firsts (robots (s n) i) c).
+
+  Hypothesis rl_lasting : lasting rl.
 
   (** ** What a step changes. *)
   Definition longer (r r' : robot V) : Prop :=
@@ -88,8 +104,9 @@ Section Area.
   Proof.
     intros w e w' [x [E [A _]]] i I; rewrite <- A by exact I. clear A.
     destruct e as [j v c ms | j ms un sl | j ms |]; cbn [next] in E.
-    - destruct (_ && _); [|discriminate]; injection E as <-; cbn; unfold put.
-      destruct (i =? j) eqn:D; [apply Nat.eqb_eq in D; subst|]; now apply longer_same.
+    - destruct (_ && _); [|discriminate]; injection E as <-; cbn; destruct (claims rl); unfold tells, put;
+        destruct (i =? j) eqn:D; cbn [orb]; try (now apply longer_same); try (apply Nat.eqb_eq in D; subst; now apply longer_same).
+      destruct (is_in i ms); [now apply longer_same | now apply longer_hears, longer_same].
     - destruct (doing (robots w j)) as [|v|v]; try discriminate. destruct (negb _); [discriminate|].
       destruct (meets _ _ _ _ _ _) as [|k met]; injection E as <-; rewrite (proj1 (settle_robots _ _ _ _)); cbn [robots with_robots].
       + destruct (obstacle v); unfold tells, put; destruct (i =? j) eqn:D; cbn [orb]; try (now apply longer_same);
@@ -122,7 +139,7 @@ Section Area.
   Definition outcome (w : world) (e : event V) (i : nat) (x : V * stance V * bool) : Prop :=
     let r := robots w i in
     match e with
-    | Decides j v c _ => j = i /\ may_decide w i = true /\ In (v, c) (chooses PLAIN i r) /\ x = (place r, Tries v, waits r)
+    | Decides j v c _ => j = i /\ may_decide w i = true /\ In (v, c) (chooses rl i r) /\ x = (place r, Tries v, waits r)
     | Looks j _ _ _ => j = i /\ exists v, doing r = Tries v
         /\ ((meets V same N w i v = [] /\ x = if obstacle v then (place r, Stands, false) else (place r, Enters v, false))
             \/ (meets V same N w i v <> [] /\ x = (place r, Stands, true)))
@@ -134,7 +151,9 @@ Section Area.
   Proof.
     intros w e w' [x [E [A _]]] i I; rewrite <- A by exact I. clear A.
     destruct e as [j v c ms | j ms un sl | j ms |]; cbn [next acts] in *.
-    - destruct (_ && _) eqn:G; [|discriminate]; injection E as <-; cbn [robots with_robots claims Explorers.PLAIN]; unfold put.
+    - destruct (_ && _) eqn:G; [|discriminate]; injection E as <-; cbn [robots with_robots].
+      replace (self _) with (self (put (robots w) j (becomes V (robots w j) (Tries v) (Some c) (waits (robots w j))) i))
+        by (destruct (claims rl); [now rewrite self_tells | reflexivity]); unfold put.
       destruct (j =? i) eqn:D.
       + apply Nat.eqb_eq in D; subst j; rewrite Nat.eqb_refl; right; split; [reflexivity|].
         rewrite !andb_true_iff in G; destruct G as [[_ G] X]. apply existsb_exists in X; destruct X as [[v' c'] [X Y]].
@@ -201,14 +220,17 @@ Section Area.
       - intros v J; apply in_map_iff in J; destruct J as [j [<- J]]; apply in_seq in J; apply S1; lia. }
     clear A. assert (forall j, j < N -> match doing (robots w j) with Stands => True | Tries v | Enters v => In v cells end) as Cell.
     { intros j J; destruct (placed_always V same cells beside obstacle N same_spec beside_cells _ w
-        (plain_sensible V same cells beside same_spec beside_cells) R j J) as [_ [_ P]]; destruct (doing _); eauto. }
+        (proj1 rl_lasting) R j J) as [_ [_ P]]; destruct (doing _); eauto. }
     assert (forall (f : nat -> robot V) j ms, (forall k, k < N -> fits (f k)) -> j < N -> forall k, k < N -> fits (tells V same f j ms k)) as T
       by (intros f j ms F J k K; unfold tells; destruct (_ || _); [auto | apply fits_hears; auto]).
     assert (forall (f : nat -> robot V) j r, (forall k, k < N -> fits (f k)) -> fits r -> forall k, k < N -> fits (put f j r k)) as P
       by (intros f j r F Fr k K; unfold put; destruct (k =? j); auto).
     destruct e as [j v c ms | j ms un sl | j ms |]; cbn [next] in E.
-    - destruct (_ && _) eqn:G; [|discriminate]; injection E as <-; cbn. apply P; [exact IH | | exact I].
-      rewrite !andb_true_iff, Nat.ltb_lt in G; apply (IH j); tauto.
+    - destruct (_ && _) eqn:G; [|discriminate]; injection E as <-; cbn.
+      rewrite !andb_true_iff, Nat.ltb_lt in G; destruct G as [[G _] _].
+      assert (forall k, k < N -> fits (put (robots w) j (becomes V (robots w j) (Tries v) (Some c) (waits (robots w j))) k)) as Q
+        by (apply P; [exact IH | apply (IH j G)]).
+      destruct (claims rl); [now apply T | now apply Q].
     - destruct (doing (robots w j)) as [|v|v] eqn:Do; try discriminate. destruct (j <? N) eqn:J; [|discriminate].
       destruct (sl <? N); [|discriminate]; cbn [andb negb] in E; apply Nat.ltb_lt in J; specialize (Cell j J); rewrite Do in Cell.
       destruct (meets V same N w j v) as [|k met] eqn:M; [|rewrite <- M in E]; injection E as <-;
@@ -255,7 +277,7 @@ Section Area.
   Qed.
 
   (** What a step makes of the slot while a robot waits, before and after it. *)
-  Lemma step_slot : forall w e w', leads w e w' -> some N (waiting V PLAIN w) = true -> some N (waiting V PLAIN w') = true ->
+  Lemma step_slot : forall w e w', leads w e w' -> some N (waiting V rl w) = true -> some N (waiting V rl w') = true ->
     match e with
     | Decides i _ _ _ => i < N /\ may_decide w i = true /\ slot w' = slot w /\ tried w' = tried w
     | Looks i _ _ _ => i < N /\ moves w i = true
@@ -266,11 +288,11 @@ Section Area.
     end.
   Proof.
     intros w e w' [x [E [A [_ [S [_ T]]]]]] W W'; rewrite <- S, <- T.
-    assert (some N (waiting V PLAIN x) = true) as Wx.
+    assert (some N (waiting V rl x) = true) as Wx.
     { apply some_spec in W'; destruct W' as [i [I X]]; apply some_spec; exists i; split; [exact I|].
       unfold waiting, would in *; now rewrite A. }
-    assert (forall y, settle V N PLAIN y = x -> slot x = slot y /\ tried x = tried y) as St.
-    { intros y Y; assert (some N (waiting V PLAIN y) = true) as Wy.
+    assert (forall y, settle V N rl y = x -> slot x = slot y /\ tried x = tried y) as St.
+    { intros y Y; assert (some N (waiting V rl y) = true) as Wy.
       { assert (robots y = robots x) as Ry by (rewrite <- Y; now rewrite (proj1 (settle_robots _ _ _ _))).
         apply some_spec in Wx; destruct Wx as [i [I X]]; apply some_spec; exists i; split; [exact I|].
         unfold waiting, would in *; now rewrite Ry. }
@@ -421,21 +443,20 @@ Section Area.
     Qed.
 
     (** *** Nobody arrives. *)
-    Notation nearest := (nearest V same cells beside).
-    Notation firsts := (firsts V same cells beside).
-    Notation far := (far V same cells beside).
-    Notation targets := (targets V same cells beside).
     Definition alike_maps (r r' : robot V) : Prop := explored r = explored r' /\ blocked r = blocked r' /\ place r = place r'.
     Lemma nearest_alike : forall r r', alike_maps r r' -> nearest r = nearest r' /\ (forall c, firsts r c = firsts r' c).
     Proof.
       intros r r' [A [B C]]; unfold Explorers.nearest, Explorers.firsts, Explorers.targets; rewrite A, B, C; auto.
     Qed.
-    Lemma would_alike : forall n m i, alike_maps (at_ n i) (at_ m i) -> would V PLAIN (s n) i = would V PLAIN (s m) i.
+    Lemma would_iff : forall n i, would V rl (s n) i = true <-> targets (at_ n i) (place (at_ n i)) <> [].
     Proof.
-      intros n m i A; apply nearest_alike in A; destruct A as [A B]; unfold would, at_ in *; cbn.
-      replace (flat_map (fun c => map (fun v => (v, c)) (firsts (robots (s n) i) c)) (nearest (robots (s n) i)))
-        with (flat_map (fun c => map (fun v => (v, c)) (firsts (robots (s m) i) c)) (nearest (robots (s m) i))); [reflexivity|].
-      rewrite A; apply flat_map_ext; intros c; now rewrite B.
+      intros n i; unfold would, at_; destruct rl_lasting as [[_ S] L]; specialize (S i (robots (s n) i)).
+      specialize (L i (robots (s n) i)); destruct (chooses rl i (robots (s n) i)); [split; [discriminate | intros H; exfalso; auto]|].
+      split; [intros _ H; now apply L in H | reflexivity].
+    Qed.
+    Lemma would_alike : forall n m i, alike_maps (at_ n i) (at_ m i) -> would V rl (s n) i = would V rl (s m) i.
+    Proof.
+      intros n m i [A [B C]]; apply eq_true_iff_eq; rewrite !would_iff; unfold Explorers.targets; now rewrite A, B, C.
     Qed.
 
     (** A robot under way is on a shortest way to a nearest unknown cell, by what it knows. *)
@@ -444,9 +465,12 @@ Section Area.
       | Stands => True
       | Tries v | Enters v => exists c, In c (nearest (at_ n i)) /\ In v (firsts (at_ n i) c)
       end.
-    Lemma aligned_step : forall t n i, known t -> t <= n -> i < N -> aligned n i -> aligned (S n) i.
+    Variable plain_from : nat.
+    Hypothesis is_plain : forall n i v c ms, plain_from <= n -> e n = Decides i v c ms ->
+      In c (nearest (at_ n i)) /\ In v (firsts (at_ n i) c).
+    Lemma aligned_step : forall t n i, known t -> t <= n -> plain_from <= n -> i < N -> aligned n i -> aligned (S n) i.
     Proof.
-      intros t n i K L I A; destruct (K n i L I) as [K1 K2], (K (S n) i ltac:(lia) I) as [K3 K4].
+      intros t n i K L Pf I A; destruct (K n i L I) as [K1 K2], (K (S n) i ltac:(lia) I) as [K3 K4].
       assert (forall r, place (at_ (S n) i) = place r -> explored r = explored (at_ n i) -> blocked r = blocked (at_ n i) ->
         nearest (at_ (S n) i) = nearest r /\ forall c, firsts (at_ (S n) i) c = firsts r c) as Al
         by (intros r P E B; apply nearest_alike; repeat split; congruence).
@@ -454,17 +478,17 @@ Section Area.
       - apply self_eq in E; destruct E as [P [D _]]; rewrite D; destruct (Al _ P eq_refl eq_refl) as [-> F].
         destruct (doing (at_ n i)); auto; destruct A as [c [C1 C2]]; exists c; now rewrite F.
       - remember (self (at_ (S n) i)) as x eqn:X; unfold self in X.
-        destruct (e n) as [j v c ms|j ms un sl|j ms|]; cbn in O; [| | |destruct O].
-        + destruct O as [_ [_ [O E]]]; rewrite E in X; injection X as P D _; rewrite <- D.
-          destruct (Al (at_ n i) (eq_sym P) eq_refl eq_refl) as [-> F]; exists c; rewrite F; now apply plain_spec in O.
+        destruct (e n) as [j v c ms|j ms un sl|j ms|] eqn:Ev; cbn in O; [| | |destruct O].
+        + destruct O as [-> [_ [_ E]]]; rewrite E in X; injection X as P D _; rewrite <- D.
+          destruct (Al (at_ n i) (eq_sym P) eq_refl eq_refl) as [-> F]; exists c; rewrite F; now apply (is_plain n i v c ms).
         + destruct O as [_ [v [D [[_ O]|[_ O]]]]]; rewrite O in X; [destruct (obstacle v)|]; injection X as P D' _; rewrite <- D'; auto.
           unfold at_ in A at 1; rewrite D in A; destruct (Al (at_ n i) (eq_sym P) eq_refl eq_refl) as [-> F].
           destruct A as [c [C1 C2]]; exists c; now rewrite F.
         + destruct O as [_ [v [_ O]]]; rewrite O in X; injection X as _ D _; now rewrite <- D.
     Qed.
-    Lemma aligned_in_the_end : forall t, known t -> exists u, t <= u /\ forall n i, u <= n -> i < N -> aligned n i.
+    Lemma aligned_in_the_end : forall t, known t -> plain_from <= t -> exists u, t <= u /\ forall n i, u <= n -> i < N -> aligned n i.
     Proof.
-      intros t K; destruct (all_in_the_end (fun i u => t <= u /\ forall n, u <= n -> aligned n i) N) as [u H].
+      intros t K Pf; destruct (all_in_the_end (fun i u => t <= u /\ forall n, u <= n -> aligned n i) N) as [u H].
       - intros i a b L [A B]; split; [lia | intros; apply B; lia].
       - intros i I; destruct (lands_or_stays i t I) as [m [L D]]; exists m; split; [exact L|]; intros n Ln.
         induction Ln as [|n Ln IH]; [unfold aligned; now rewrite D | eapply aligned_step; eauto; lia].
@@ -494,8 +518,8 @@ Section Area.
     Proof. apply firsts_spec; assumption. Qed.
     Lemma is_placed : forall n i, i < N -> placed V cells beside (at_ n i).
     Proof.
-      intros n i I; apply (placed_always V same cells beside obstacle N same_spec beside_cells PLAIN (s n)); auto.
-      - now apply plain_sensible.
+      intros n i I; apply (placed_always V same cells beside obstacle N same_spec beside_cells rl (s n)); auto.
+      - apply rl_lasting.
       - apply runs.
     Qed.
 
@@ -602,15 +626,14 @@ Section Area.
       Qed.
       Lemma stays : forall n i, t <= n -> i < N -> alike_maps (at_ n i) (at_ t i).
       Proof. intros n i L I; destruct (all_known n i L I); repeat split; auto; now apply places_stay. Qed.
-      Lemma would_stay : forall n i, t <= n -> i < N -> would V PLAIN (s n) i = would V PLAIN (s t) i.
+      Lemma would_stay : forall n i, t <= n -> i < N -> would V rl (s n) i = would V rl (s t) i.
       Proof. intros; apply would_alike, stays; auto. Qed.
-      Lemma flier_would : forall n i, t <= n -> i < N -> flying n i -> would V PLAIN (s t) i = true.
+      Lemma flier_would : forall n i, t <= n -> i < N -> flying n i -> would V rl (s t) i = true.
       Proof.
         intros n i L I F; rewrite <- (would_stay n i L I); pose proof (all_aligned n i L I) as A; unfold aligned, flying in *.
         assert (exists c v, In c (nearest (at_ n i)) /\ In v (firsts (at_ n i) c)) as [c [v C]]
           by (destruct (doing (at_ n i)); [congruence | |]; destruct A as [c C]; eauto).
-        unfold would; destruct (chooses PLAIN i (robots (s n) i)) eqn:E; [|reflexivity].
-        assert (In (v, c) (chooses PLAIN i (robots (s n) i))) as X by (apply plain_spec; assumption). now rewrite E in X.
+        destruct C as [C _]; apply nearest_iff in C; destruct C as [C _]; apply would_iff; intros E; now rewrite E in C.
       Qed.
 
       Hypothesis all_wait : forall n, t <= n -> lazy (n - t) = lazy 0.
@@ -640,7 +663,7 @@ Section Area.
         - apply (flier_waits (S n) i); auto; lia.
         - apply (flier_waits n i); auto; unfold flying; rewrite D; discriminate.
       Qed.
-      Lemma flier_waiting : forall n m i, t <= n -> t <= m -> i < N -> flying n i -> some N (waiting V PLAIN (s m)) = true.
+      Lemma flier_waiting : forall n m i, t <= n -> t <= m -> i < N -> flying n i -> some N (waiting V rl (s m)) = true.
       Proof.
         intros n m i L Lm I F; apply some_spec; exists i; split; [exact I|]; unfold waiting.
         rewrite (would_stay m i Lm I), (flier_would n i L I F); fold (at_ m i); rewrite (waits_same m i Lm I), (flier_waits n i L I F); reflexivity.
@@ -681,7 +704,7 @@ Section Area.
         destruct (doing (robots (s n) i)); try discriminate. destruct (i <? N) eqn:I; [|discriminate].
         apply Nat.ltb_lt in I; exact (no_arrival n i ms L I E).
       Qed.
-      Lemma waiting_stay : forall n i, t <= n -> i < N -> waiting V PLAIN (s n) i = waiting V PLAIN (s t) i.
+      Lemma waiting_stay : forall n i, t <= n -> i < N -> waiting V rl (s n) i = waiting V rl (s t) i.
       Proof.
         intros n i L I; unfold waiting; rewrite (would_stay n i L I); f_equal; exact (waits_same n i L I).
       Qed.
@@ -693,8 +716,8 @@ Section Area.
       Section Busy.
         Variable w : nat.
         Hypothesis w_robot : w < N.
-        Hypothesis w_waits : waiting V PLAIN (s t) w = true.
-        Lemma busy : forall n, t <= n -> some N (waiting V PLAIN (s n)) = true.
+        Hypothesis w_waits : waiting V rl (s t) w = true.
+        Lemma busy : forall n, t <= n -> some N (waiting V rl (s n)) = true.
         Proof. intros n L; apply some_spec; exists w; split; [exact w_robot|]. now rewrite waiting_stay. Qed.
 
         (** What may happen: the robot whose slot it is goes to the rim, or looks; or the slot is over. *)
@@ -781,7 +804,7 @@ Section Area.
         Qed.
       End Busy.
 
-      Lemma would_waits : forall i, i < N -> would V PLAIN (s t) i = true -> waiting V PLAIN (s t) i = true.
+      Lemma would_waits : forall i, i < N -> would V rl (s t) i = true -> waiting V rl (s t) i = true.
       Proof.
         intros i I W; unfold waiting; rewrite W, andb_true_r; destruct (proj1 is_fair i t I) as [m [L [A|A]]].
         - exact (actor_waits m i L I A).
@@ -800,7 +823,7 @@ Section Area.
       Qed.
 
       (** A robot with a way meets one that is nearer. *)
-      Lemma nobody_would : forall d i, i < N -> would V PLAIN (s t) i = true -> near (at_ t i) = d -> False.
+      Lemma nobody_would : forall d i, i < N -> would V rl (s t) i = true -> near (at_ t i) = d -> False.
       Proof.
         induction d as [d IH] using lt_wf_ind; intros i I W D.
         destruct (looks_comes i I (would_waits i I W)) as [m [v [sl [L [E [Do Me]]]]]]. assert (t <= m) as Lt by lia.
@@ -832,8 +855,7 @@ Section Area.
           repeat split; auto; [rewrite <- (proj1 (Same c)) | rewrite <- (proj2 (Same c)) | lia]; assumption. }
         pose proof (near_most _ _ T) as Nm; rewrite <- Pr, <- (far_same _ _ (fun v => proj1 (Same v))) in Nm.
         apply (IH (near (robots (s t) r)) ltac:(lia) r Rn); [|reflexivity].
-        unfold would; destruct (chooses PLAIN r (robots (s t) r)) eqn:C; [|reflexivity].
-        apply (proj2 (plain_sensible V same cells beside same_spec beside_cells)) in C; unfold at_ in T; rewrite C in T; destruct T.
+        apply would_iff; intros C; unfold at_ in C; now rewrite C in T.
       Qed.
       Lemma late_run_ends : False.
       Proof.
@@ -851,11 +873,15 @@ Section Area.
     End Late.
   End Endless.
 
-  (** FRONTIER-3, plain: there is no such run. *)
-  Theorem FRONTIER_3 : forall s e, endless s e -> fair s e -> (exists t, forall n, t <= n -> missed (e n) = false) -> False.
+  (** There is no such run. *)
+  Theorem plain_in_the_end_ends : forall s e, endless s e -> fair s e -> plain_in_the_end s e ->
+    (exists t, forall n, t <= n -> missed (e n) = false) -> False.
   Proof.
-    intros s e G F [t0 H]; apply (constant (fun n => learnt s n)); [apply (learnt_falls s e G)|]; intros t1 K.
-    apply (learnt_same s e G) in K. destruct (aligned_in_the_end s e G F t1 K) as [t2 [L2 A]].
+    intros s e G F [tp Pl] [t0 H]; apply (constant (fun n => learnt s n)); [apply (learnt_falls s e G)|]; intros t1' K'.
+    apply (learnt_same s e G) in K'; remember (t1' + tp) as t1 eqn:T1.
+    assert (known s t1) as K.
+    { intros n i L I; destruct (K' n i ltac:(lia) I) as [-> ->], (K' t1 i ltac:(lia) I) as [-> ->]; auto. }
+    destruct (aligned_in_the_end s e G F tp Pl t1 K ltac:(lia)) as [t2 [L2 A]].
     assert (forall t, t1 <= t -> known s t) as Kn.
     { intros t L n i Ln I; destruct (K n i ltac:(lia) I) as [-> ->], (K t i L I) as [-> ->]; auto. }
     apply (constant (left_ s (t0 + t2))).
@@ -887,4 +913,27 @@ Section Area.
     - apply (late_run_ends s e G F t' (Kn t' ltac:(lia)) Hd' Al' NoA' W' (t' + u)); [lia|].
       intros n i L I; apply (proj2 (U i I)); lia.
   Qed.
+
 End Area.
+
+(** FRONTIER-3, plain. *)
+Theorem plain_lasting : forall V same cells beside, (forall a b : V, same a b = true <-> a = b) ->
+  (forall u v : V, In v (beside u) -> In v cells) -> lasting V same cells beside (PLAIN V same cells beside).
+Proof.
+  intros V same cells beside S B; split; [now apply plain_sensible|]. intros i r T.
+  destruct (chooses _ i r) as [|[v c] l] eqn:C; [reflexivity|]. assert (In (v, c) (chooses (PLAIN V same cells beside) i r)) as I
+    by (rewrite C; now left). apply plain_spec in I; auto. destruct I as [I _]; apply nearest_spec in I; auto.
+  destruct I as [I _]; now rewrite T in I.
+Qed.
+Theorem FRONTIER_3 : forall (V : Type) (same : V -> V -> bool) (cells : list V) (beside : V -> list V) (obstacle : V -> bool)
+  (N : nat), (forall a b : V, same a b = true <-> a = b) -> (forall u v : V, In v (beside u) -> In v cells) ->
+  forall s e, endless V same cells obstacle N (PLAIN V same cells beside) s e -> fair V N (PLAIN V same cells beside) s e ->
+  (exists t, forall n, t <= n -> missed V (e n) = false) -> False.
+Proof.
+  intros V same cells beside obstacle N S B s e G F M.
+  apply (plain_in_the_end_ends V same cells beside obstacle N S B (PLAIN V same cells beside) (plain_lasting V same cells beside S B) s e G F); [|exact M].
+  exists 0; intros n i v c ms _ E. destruct (proj2 G n) as [x [X _]]; rewrite E in X; cbn [next] in X.
+  destruct (_ && _) eqn:D; [|discriminate]; rewrite andb_true_iff in D; destruct D as [_ D].
+  apply existsb_exists in D; destruct D as [[v' c'] [D Q]]; cbn in Q; apply andb_true_iff in Q; destruct Q as [Q1 Q2].
+  apply S in Q1, Q2; subst; now apply plain_spec in D.
+Qed.

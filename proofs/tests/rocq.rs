@@ -137,6 +137,11 @@ fn robots_explore_cells_as_the_proofs_have_it() {
 }
 
 #[test]
+fn a_repaired_run_without_an_end_is_as_the_proofs_have_it() {
+    is_up_to_date("FrontierEndless.v", &frontier::without_end());
+}
+
+#[test]
 fn fixes_are_taken_as_the_proofs_have_it() {
     is_up_to_date("FixAnswers.v", &fixes::terms());
 }

@@ -12,6 +12,9 @@ use super::term::{definition, list};
 const KIND: &str = "list ((nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)\n  \
                     * list (list nat * list nat * nat))";
 
+const ENDLESS: &str = "(nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)\n  \
+                       * list (list (nat * nat) * bool * event nat)";
+
 /// The situations that a set of runs must contain for the comparison to mean something.
 #[derive(Default)]
 struct Situations {
@@ -67,20 +70,9 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
         if turns.is_empty() {
             break;
         }
-        let mut might: Vec<String> = turns
-            .iter()
-            .filter_map(|turn| match turn.event {
-                Event::Decides(robot, side, ..) => {
-                    Some(format!("({robot},{})", number(world.robots()[robot].at().beyond(side))))
-                }
-                Event::Looks(..) | Event::Arrives(..) | Event::Ticks => None,
-            })
-            .collect();
-        might.dedup();
-        let ticks = turns.iter().any(|turn| turn.event == Event::Ticks);
         let turn = &turns[draw.below(turns.len() as u64) as usize];
         assert!(turn.breaks.is_empty(), "{turn:?}");
-        steps.push(format!("({},{ticks},{})", list(might), event(&world, &turn.event, number, met)));
+        steps.push(step(&world, &turns, turn, number, met));
         world = turn.world;
     }
     let (starts, obstacles) = (list(starts.map(number)), list(obstacles.map(number)));
@@ -88,6 +80,71 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
     let (columns, rows) = size;
     let steps = list(steps);
     format!("\n (({ROBOTS},{columns},{rows}),{obstacles},{starts},\n  {steps},\n  {})", list(end))
+}
+
+/// The first cells to which robots might have gone, whether a slot might have been over, and the event.
+fn step<const ROBOTS: usize>(
+    world: &World<ROBOTS>,
+    turns: &[Successor<ROBOTS>],
+    turn: &Successor<ROBOTS>,
+    number: impl Fn(Cell) -> String,
+    met: &mut Situations,
+) -> String {
+    let mut might: Vec<String> = turns
+        .iter()
+        .filter_map(|turn| match turn.event {
+            Event::Decides(robot, side, ..) => {
+                Some(format!("({robot},{})", number(world.robots()[robot].at().beyond(side))))
+            }
+            Event::Looks(..) | Event::Arrives(..) | Event::Ticks => None,
+        })
+        .collect();
+    might.dedup();
+    let ticks = turns.iter().any(|turn| turn.event == Event::Ticks);
+    format!("({},{ticks},{})", list(might), event(world, &turn.event, number, met))
+}
+
+/// A run of four repaired robots in 4×3 cells that has no end: two of them miss what the other two find, and each of the
+/// two waits for the other one to make way. Its events, and those that follow each other for ever then.
+const WITHOUT_END: [&str; 2] = [
+    "Decides 0 8 8 [] | Looks 0 [] [] 0 | Decides 1 11 11 [] | Arrives 0 [] | Decides 2 4 4 [] | Looks 1 [] [] 0 | \
+     Arrives 1 [] | Looks 2 [] [] 0 | Decides 0 9 6 [] | Decides 1 7 7 [] | Decides 3 1 1 [1] | Looks 1 [] [] 0 | \
+     Looks 0 [] [] 0 | Arrives 2 [1] | Arrives 1 [] | Arrives 0 [] | Looks 3 [] [] 0 | Decides 1 11 0 [] | \
+     Looks 1 [] [] 0 | Arrives 3 [0;1] | Decides 3 0 0 [0;1] | Looks 3 [0;1] [] 0 | Arrives 1 [] | \
+     Decides 1 10 0 [] | Decides 2 5 6 [0;1] | Looks 1 [] [] 0 | Decides 3 2 3 [0;1] | Looks 3 [] [] 0 | \
+     Looks 2 [] [] 0 | Arrives 2 [0;1] | Arrives 3 [0;1] | Arrives 1 [] | Decides 3 3 3 [0;1] | \
+     Decides 2 6 6 [0;1] | Looks 3 [] [] 0 | Looks 2 [] [] 0 | Arrives 3 [0;1] | Arrives 2 [0;1] | \
+     Decides 0 10 3 [] | Looks 0 [] [] 0 | Decides 1 9 0 [] | Looks 1 [] [] 0",
+    "Ticks | Decides 1 9 0 [] | Looks 1 [] [] 1 | Ticks | Ticks | Ticks | Decides 0 10 3 [] | Looks 0 [] [] 0",
+];
+
+/// That run: after the second part every robot is as it was after the first one.
+pub(super) fn without_end() -> String {
+    let setting = setting::<4>(Rule::REPAIRED, (4, 3)).expect("a small area");
+    let cells: Vec<Cell> = setting.area.cells().collect();
+    let mut given = TinyMap::new(setting.area).expect("a small area");
+    given.block(cells[0]);
+    let setting = Setting { given: Some(given), max_losses: 24, ..setting };
+    let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
+    let mut world = setting.start([9, 10, 5, 2].map(|place| cells[place])).expect("a small area");
+    let mut met = Situations::default();
+    let mut worlds = Vec::new();
+    let parts = WITHOUT_END.map(|events| {
+        let steps = events.split(" | ").map(|said| {
+            let turns = setting.turns(&world);
+            let is_said = |turn: &&Successor<4>| event(&world, &turn.event, number, &mut met) == said;
+            let turn = turns.iter().find(is_said).expect(said);
+            let step = step(&world, &turns, turn, number, &mut Situations::default());
+            world = turn.world;
+            step
+        });
+        let steps = list(steps.collect::<Vec<_>>());
+        worlds.push(world);
+        steps
+    });
+    assert_eq!(worlds[0], worlds[1], "the second part leads back");
+    let run = format!("((4,4,3),[0],[9;10;5;2],\n  {},\n  {})", parts[0], parts[1]);
+    format!("From Tautline Require Import Explorers.\n{}", definition("endless_REPAIRED", ENDLESS, &run))
 }
 
 /// The other robots that are met by one that looks.

@@ -148,9 +148,12 @@ fn drawn_run(rule: Rule, agents: usize, misses: u32, draw: &mut Draw, met: &mut 
     run(rule, floor, &starts, order, &mut eyes, met)
 }
 
+/// A rule, two starts, the cells with a wall to the east, and whose turn it is.
+type ManyMoves = (Rule, [(i16, i16); 2], &'static [(i16, i16)], &'static str);
+
 /// Orders of two agents in which the first makes more than four moves a cell, though there is one tree: helpers in 6×2
 /// cells, and brick-tree with two walls in them.
-const MANY_MOVES: [(Rule, [(i16, i16); 2], &[(i16, i16)], &str); 2] = [
+const MANY_MOVES: [ManyMoves; 2] = [
     (Rule::HELPERS, [(0, 0), (5, 0)], &[], "000011000000011111000000000001000000000100000001000001000000000"),
     (
         Rule::TREE,
