@@ -229,9 +229,6 @@ Section Two.
   (** No open path leads out of the area. *)
   Hypothesis inside : forall c s, In c cells -> wall (edge_of c s) = false -> In (beyond c s) cells.
 
-  Lemma lets_is_admits_two : forall x c other s, left_ x = c -> admits_two REPAIRED x other s = lets c other s.
-  Proof. intros x c other s <-; reflexivity. Qed.
-
   (** What they do is a run of Kit.v: so KIT-1 and KIT-3 hold. *)
   Theorem two_keep_in_touch : forall l w, two l w -> Kit.run 2 (stances w).
   Proof.
@@ -354,7 +351,6 @@ Section Two.
     intros l w i c s R L E D. unfold may; rewrite E.
     replace (uncovered 2 border w c s) with false by (unfold uncovered; now rewrite D).
     set (x := stances w (1 - i)). destruct (lets c x s) eqn:A; [|split; [discriminate | intros [X _]; discriminate X]].
-    change (existsb (side_eqb s)) with (existsb (side_eqb s)).
     assert (forall l, existsb (side_eqb s) l = true <-> In s l) as SE.
     { intros l'; rewrite existsb_exists; split; [intros [t [I H]]; destruct s, t; (discriminate || exact I)|].
       intros I; exists s; split; [exact I | now destruct s]. }
