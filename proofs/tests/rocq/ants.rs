@@ -113,15 +113,11 @@ fn run(rule: Rule, ants: usize, draw: &mut Draw) -> String {
         let side = COMPASS.iter().position(|&side| here.beyond(side) == at[ant]).expect("it has a neighbour");
         actions.push((ant + 4 * side + 16 * missed).to_string());
     }
-    let walls = floor.walls.iter().map(|edge| (edge.cell(), edge.side() == Side::East));
-    let mut walls: Vec<(Cell, bool)> = walls.collect();
-    walls.sort_unstable_by_key(|&(cell, is_east)| (cell.x, cell.y, is_east));
-    let walls = walls.into_iter().map(|(at, is_east)| format!("({},{is_east})", cell(at)));
     let counts = cells.iter().map(|&cell| floor.count(cell).to_string());
     format!(
         "\n ({}%Z,\n  {}%Z,{starts}%Z,\n  {}%nat,\n  {}%Z,{}%nat)",
         list(cells.iter().copied().map(cell)),
-        list(walls),
+        floor.walls(),
         list(actions),
         list(at.iter().copied().map(cell)),
         list(counts),

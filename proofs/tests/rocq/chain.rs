@@ -4,7 +4,7 @@
 use tautline_kernel::chain::{Condition, Message, Move, Outcome, Role, Rule, goes_on};
 use tautline_kernel::ground::{Cell, Circle, Edge, Side, Step, neighbours};
 
-use super::term::{at, bits, cell, definition, everywhere, list, offsets};
+use super::term::{at, bits, cell, definition, edge, everywhere, list, offsets};
 
 /// Neighbours in E_C are at most 2 apart, and planned places a step farther each. One is to spare.
 const REACH: i16 = 5;
@@ -55,12 +55,12 @@ fn lattice() -> String {
     let back = Step::ALL.map(|step| step.reverse().place().to_string());
     text += &definition("back", "list nat", &format!("{}%nat", list(back)));
     let edges = Side::ALL.map(|side| {
-        let edge = Edge::new(ORIGIN, side);
+        let here = Edge::new(ORIGIN, side);
         assert!(everywhere(|cell| {
             let there = Edge::new(cell, side);
-            there.cell() == at(cell, edge.cell().into()) && there.side() == edge.side()
+            there.cell() == at(cell, here.cell().into()) && there.side() == here.side()
         }));
-        format!("({},{})", cell(edge.cell()), edge.side() == Side::East)
+        edge(here)
     });
     text += &definition("edges", "list ((Z * Z) * bool)", &format!("{}%Z", list(edges)));
     text

@@ -1,14 +1,12 @@
 //! Runs of the paper's planner in drawn layouts: what the robots sent, the virtual obstacles that each plan puts, and
 //! where epochs begin.
 
-use tautline_kernel::chain::{Chain, Intent, Kind, Plan, Rule, area};
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, MediumGrid, Side};
+use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+use tautline_kernel::ground::{Edge, EdgeMark, Grid, MediumGrid};
 
-use super::reel::number;
-use super::runs::Draw;
-use super::term::{cell, definition, list};
+use super::runs::{BASE, Draw, border, drawn, until_gain};
+use super::term::{cell, definition, edge, list, number};
 
-const BASE: Cell = Cell::new(5, 5);
 const MOST: usize = 4;
 const RUNS: usize = 9;
 
@@ -48,30 +46,8 @@ fn virtual_obstacles(chain: &Paper) -> Vec<Edge> {
     edges.filter(|&edge| chain.grid().edge_has(EdgeMark::Virtual, edge)).collect()
 }
 
-/// The team moves that unfold a chain which has just planned the first of them, as if no wall were met.
-fn unfolding(mut chain: Paper, mut plan: Plan<MOST>) -> Vec<String> {
-    let mut script = Vec::new();
-    loop {
-        script.push(number(plan.steps().iter().skip(1).map(|step| step.place() as u8)));
-        chain.settle(&plan, |_| true);
-        if chain.gained() {
-            return script;
-        }
-        let Ok(Intent::Go(next)) = chain.plan(&[]) else { panic!("unfolding goes on") };
-        plan = next;
-    }
-}
-
 fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> String {
-    let whole = Area::new(Cell::new(0, 0), Cell::new(10, 10)).expect("an area");
-    let area = area(whole, BASE, robots).expect("the base is inside");
-    let share = 1 + draw.below(3);
-    let inside: Vec<Edge> = area.edges().filter(|_| draw.below(10) < share).collect();
-    let border = area.cells().flat_map(|cell| Side::ALL.map(|side| (cell, side)));
-    let border = border.filter(|&(cell, side)| !area.contains(cell.beyond(side)));
-    let border = border.map(|(cell, side)| Edge::new(cell, side));
-    let term = |edge: Edge| format!("({},{})", cell(edge.cell()), edge.side() == Side::East);
-
+    let (area, inside) = drawn(robots, draw);
     let grid = MediumGrid::new(area).expect("it is small");
     let mut chain = Paper::new(rule, robots, BASE, grid).expect("a chain");
     let (mut log, mut moves) = (Vec::new(), Vec::new());
@@ -84,22 +60,22 @@ fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> Stri
         }
         let new: Vec<Edge> =
             virtual_obstacles(&chain).into_iter().filter(|edge| !before.contains(edge)).collect();
-        let script = if begins && chain.is_unfolding() { unfolding(chain, plan) } else { Vec::new() };
+        let script = if begins && chain.is_unfolding() { until_gain(chain, plan) } else { Vec::new() };
         met.taken_back += usize::from(plan.kind == Kind::Backtrack);
         met.refused += new.len();
         met.epochs += usize::from(begins);
         met.unfolded += usize::from(!script.is_empty());
         let settled = chain.settle(&plan, |edge| !inside.contains(&edge));
         let sent = number(settled.messages().iter().copied());
-        moves.push(format!("({sent}%N,{begins},{}%Z,{}%N)", list(new.into_iter().map(term)), list(script)));
+        moves.push(format!("({sent}%N,{begins},{}%Z,{}%N)", list(new.into_iter().map(edge)), list(script)));
         log.extend_from_slice(settled.messages());
     }
     let last = chain.cells().iter().copied().map(cell);
     format!(
         "\n ({robots}%nat,{}%Z,{}%Z,\n  {}%Z,\n  {},{}%Z)",
         cell(BASE),
-        list(inside.iter().copied().map(term)),
-        list(border.map(term)),
+        list(inside.iter().copied().map(edge)),
+        list(border(area).map(edge)),
         list(moves),
         list(last)
     )

@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, HashSet};
 
 use tautline_kernel::floor::Floor;
-use tautline_kernel::ground::{Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge, Side};
+
+use super::term::{edge, list};
 
 /// Sensors, and walls between cells.
 #[derive(Clone)]
@@ -15,6 +17,15 @@ pub(super) struct Ground<S> {
 impl<S> Default for Ground<S> {
     fn default() -> Self {
         Self { sensors: BTreeMap::new(), walls: HashSet::new() }
+    }
+}
+
+impl<S> Ground<S> {
+    /// The walls as a list, column by column.
+    pub(super) fn walls(&self) -> String {
+        let mut walls: Vec<Edge> = self.walls.iter().copied().collect();
+        walls.sort_unstable_by_key(|wall| (wall.cell().x, wall.cell().y, wall.side() == Side::East));
+        list(walls.into_iter().map(edge))
     }
 }
 

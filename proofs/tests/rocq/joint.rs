@@ -8,7 +8,7 @@ use tautline_kernel::kit::{Condition, Next, Records, Rule, Sight};
 use tautline_proofs::kit::world::{Event, Setting, Successor, Team};
 
 use super::runs::Draw;
-use super::term::{bits, cell, definition, list};
+use super::term::{bits, cell, definition, edge, list};
 
 const KIND: &str =
     "list ((nat * Z * Z) * list edge * list cell\n  * list (list event * option (nat * list side) * list N))";
@@ -74,8 +74,7 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
         steps.push(format!("\n  ({},{old},{})", list(events), list(covered)));
     }
     let (columns, rows) = size;
-    let walls = walls.iter().map(|edge| format!("({},{})", cell(edge.cell()), edge.side() == Side::East));
-    let [walls, starts] = [list(walls), list(starts.map(cell))];
+    let [walls, starts] = [list(walls.into_iter().map(edge)), list(starts.map(cell))];
     format!("\n (({ROBOTS}%nat,{columns},{rows})%Z,{walls}%Z,{starts}%Z,{})", list(steps))
 }
 

@@ -1,10 +1,10 @@
 //! Which plans of whole teams the kernel accepts, on drawn maps, by three rules.
 
 use tautline_kernel::chain::Rule;
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, SmallGrid, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
 
-use super::runs::Draw;
-use super::term::{bits, cell, definition, list};
+use super::runs::{Draw, border};
+use super::term::{bits, cell, definition, edge, list, number};
 
 const BASE: Cell = Cell::new(2, 2);
 const MOST: usize = 5;
@@ -30,9 +30,7 @@ fn step(draw: &mut Draw) -> Step {
 fn team(robots: usize, draw: &mut Draw, accepted: &mut [usize; RULES.len()]) -> String {
     let area = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("an area");
     let mut grid = SmallGrid::new(area).expect("it is small");
-    let border = area.cells().flat_map(|cell| Side::ALL.map(|side| (cell, side)));
-    let border = border.filter(|&(cell, side)| !area.contains(cell.beyond(side)));
-    let mut walls: Vec<Edge> = border.map(|(cell, side)| Edge::new(cell, side)).collect();
+    let mut walls: Vec<Edge> = border(area).collect();
     let mut open = Vec::new();
     for edge in area.edges() {
         match draw.below(6) {
@@ -64,20 +62,18 @@ fn team(robots: usize, draw: &mut Draw, accepted: &mut [usize; RULES.len()]) -> 
                 steps[other] = step(draw);
             }
         }
-        let number = steps.iter().skip(1).rev().fold(0_u64, |number, step| number << 8 | step.place() as u64);
-        plans.push(format!("0x{number:x}"));
+        plans.push(number(steps.iter().skip(1).map(|step| step.place() as u8)));
         for (rule, (answers, accepted)) in RULES.iter().zip(answers.iter_mut().zip(&mut *accepted)) {
             let answer = rule.admits_plan(&mut grid, &cells, &steps);
             *accepted += usize::from(answer);
             answers.push(answer);
         }
     }
-    let term = |edge: &Edge| format!("({},{})", cell(edge.cell()), edge.side() == Side::East);
     format!(
         "\n ({robots}%nat,{}%Z,{}%Z,\n  {}%Z,\n  {}%N,{})",
         list(cells.into_iter().map(cell)),
-        list(walls.iter().map(term)),
-        list(open.iter().map(term)),
+        list(walls.into_iter().map(edge)),
+        list(open.into_iter().map(edge)),
         list(plans),
         list(answers.iter().map(|answers| bits(answers)))
     )

@@ -3,13 +3,12 @@
 
 use std::cell::Cell as Switch;
 
-use tautline_kernel::chain::{Chain, Condition, Intent, Kind, Plan, Rule, area};
-use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, MediumGrid, Side, Steps};
+use tautline_kernel::chain::{Chain, Condition, Intent, Kind, Rule};
+use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, MediumGrid, Steps};
 
-use super::runs::Draw;
-use super::term::{cell, definition, list};
+use super::runs::{BASE, Draw, border, drawn, until_gain};
+use super::term::{cell, definition, edge, list, number};
 
-const BASE: Cell = Cell::new(5, 5);
 const MOST: usize = 5;
 const RUNS: usize = 12;
 
@@ -105,13 +104,6 @@ fn runs(name: &str, rule: Rule) -> String {
     definition(&format!("reels_{name}"), kind, &list(runs))
 }
 
-/// Steps or messages as one number, those of R_2 in the lowest byte.
-pub(super) fn number(bytes: impl DoubleEndedIterator<Item = u8> + ExactSizeIterator) -> String {
-    let digits = 2 * bytes.len();
-    let number = bytes.rev().fold(0_u64, |number, byte| number << 8 | u64::from(byte));
-    format!("0x{number:0digits$x}")
-}
-
 /// The take-backs begun, whether one is under way, and the team moves left, as one number.
 fn measure(chain: &Reel<'_>) -> String {
     let [not_begun, is_under_way, left] = chain.measure();
@@ -119,30 +111,8 @@ fn measure(chain: &Reel<'_>) -> String {
     format!("0x{:x}", (u32::from(u8::MAX) - not_begun) << 20 | is_under_way << 16 | left)
 }
 
-/// The team moves of a task that a chain has just planned to begin, as if no wall were met.
-fn rehearsed(mut chain: Reel<'_>, mut plan: Plan<MOST>) -> Vec<String> {
-    let mut script = Vec::new();
-    loop {
-        script.push(number(plan.steps().iter().skip(1).map(|step| step.place() as u8)));
-        chain.settle(&plan, |_| true);
-        if chain.gained() {
-            return script;
-        }
-        let Ok(Intent::Go(next)) = chain.plan(&[]) else { panic!("what was rehearsed goes on") };
-        plan = next;
-    }
-}
-
 fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> String {
-    let whole = Area::new(Cell::new(0, 0), Cell::new(10, 10)).expect("an area");
-    let area = area(whole, BASE, robots).expect("the base is inside");
-    let share = 1 + draw.below(3);
-    let inside: Vec<Edge> = area.edges().filter(|_| draw.below(10) < share).collect();
-    let border = area.cells().flat_map(|cell| Side::ALL.map(|side| (cell, side)));
-    let border = border.filter(|&(cell, side)| !area.contains(cell.beyond(side)));
-    let border = border.map(|(cell, side)| Edge::new(cell, side));
-    let term = |edge: Edge| format!("({},{})", cell(edge.cell()), edge.side() == Side::East);
-
+    let (area, inside) = drawn(robots, draw);
     let hides = Switch::new(false);
     let grid = Hiding { grid: MediumGrid::new(area).expect("it is small"), hides: &hides };
     let mut chain = Reel::new(rule, robots, BASE, grid).expect("a chain");
@@ -155,7 +125,7 @@ fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> Stri
         match chain.until_gain() {
             Some(left) if !goes_on => {
                 hides.set(true);
-                script = rehearsed(chain, plan);
+                script = until_gain(chain, plan);
                 hides.set(false);
                 assert_eq!(left as usize, script.len(), "the team moves left are those of the rehearsal");
                 met.begun += 1;
@@ -178,8 +148,8 @@ fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> Stri
     format!(
         "\n ({robots}%nat,{}%Z,{}%Z,\n  {}%Z,\n  {}%N,{}%Z)",
         cell(BASE),
-        list(inside.iter().copied().map(term)),
-        list(border.map(term)),
+        list(inside.iter().copied().map(edge)),
+        list(border(area).map(edge)),
         list(moves),
         list(last)
     )

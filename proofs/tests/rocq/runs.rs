@@ -1,11 +1,12 @@
 //! Runs of the chain's planner in drawn layouts: what the robots sent, byte by byte.
 
-use tautline_kernel::chain::{Chain, Intent, Kind, Rule, area};
-use tautline_kernel::ground::{Area, Cell, Edge, MediumGrid, Side};
+use tautline_kernel::chain::{Chain, Intent, Kind, Plan, Rule, area};
+use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, Side};
 
-use super::term::{cell, definition, list};
+use super::term::{cell, definition, edge, list, number};
 
-const BASE: Cell = Cell::new(5, 5);
+/// The base of all teams that run.
+pub(super) const BASE: Cell = Cell::new(5, 5);
 const MOST: usize = 6;
 
 /// A generator of our own, so that the file is the same everywhere.
@@ -15,6 +16,38 @@ impl Draw {
     pub(super) fn below(&mut self, n: u64) -> u64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % n
+    }
+}
+
+/// A drawn layout around the base: the area of so many robots, and the walls inside it.
+pub(super) fn drawn(robots: usize, draw: &mut Draw) -> (Area, Vec<Edge>) {
+    let whole = Area::new(Cell::new(0, 0), Cell::new(10, 10)).expect("an area");
+    let area = area(whole, BASE, robots).expect("the base is inside");
+    let share = 1 + draw.below(3);
+    (area, area.edges().filter(|_| draw.below(10) < share).collect())
+}
+
+/// The edges between an area and what lies outside of it.
+pub(super) fn border(area: Area) -> impl Iterator<Item = Edge> {
+    let sides = area.cells().flat_map(|cell| Side::ALL.map(|side| (cell, side)));
+    let sides = sides.filter(move |&(cell, side)| !area.contains(cell.beyond(side)));
+    sides.map(|(cell, side)| Edge::new(cell, side))
+}
+
+/// The team moves up to the one that gains, of a chain that has just planned the first of them, as if no wall were met.
+pub(super) fn until_gain<G: Grid, const MOST: usize>(
+    mut chain: Chain<G, MOST>,
+    mut plan: Plan<MOST>,
+) -> Vec<String> {
+    let mut script = Vec::new();
+    loop {
+        script.push(number(plan.steps().iter().skip(1).map(|step| step.place() as u8)));
+        chain.settle(&plan, |_| true);
+        if chain.gained() {
+            return script;
+        }
+        let Ok(Intent::Go(next)) = chain.plan(&[]) else { panic!("it goes on until it gains") };
+        plan = next;
     }
 }
 
@@ -47,16 +80,9 @@ fn runs(name: &str, rule: Rule) -> (String, Situations) {
 }
 
 fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> String {
-    let whole = Area::new(Cell::new(0, 0), Cell::new(10, 10)).expect("an area");
-    let area = area(whole, BASE, robots).expect("the base is inside");
-    let share = 1 + draw.below(3);
-    let inside: Vec<Edge> = area.edges().filter(|_| draw.below(10) < share).collect();
+    let (area, inside) = drawn(robots, draw);
     // The border is a wall, too.
-    let border = area.cells().flat_map(|cell| Side::ALL.map(|side| (cell, side)));
-    let border = border.filter(|&(cell, side)| !area.contains(cell.beyond(side)));
-    let walls = inside.iter().copied().chain(border.map(|(cell, side)| Edge::new(cell, side)));
-    let walls = walls.map(|edge| format!("({},{})", cell(edge.cell()), edge.side() == Side::East));
-
+    let walls = inside.iter().copied().chain(border(area)).map(edge);
     let grid = MediumGrid::new(area).expect("it is small");
     let mut chain = Chain::<_, MOST>::new(rule, robots, BASE, grid).expect("a chain");
     let (mut log, mut sent) = (Vec::new(), Vec::new());
@@ -67,11 +93,7 @@ fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> Stri
             chain.cells().iter().zip(plan.steps()).map(|(cell, &step)| cell.after(step)).collect();
         let settled = chain.settle(&plan, |edge| !inside.contains(&edge));
         met.blocked += planned.iter().zip(chain.cells()).filter(|(planned, now)| planned != now).count();
-        // R_2 in the lowest byte.
-        let number =
-            settled.messages().iter().rev().fold(0_u64, |number, &byte| number << 8 | u64::from(byte));
-        let digits = 2 * settled.messages().len();
-        sent.push(format!("0x{number:0digits$x}"));
+        sent.push(number(settled.messages().iter().copied()));
         log.extend_from_slice(settled.messages());
     }
     let last = chain.cells().iter().copied().map(cell);

@@ -1,6 +1,6 @@
 //! Rocq terms.
 
-use tautline_kernel::ground::Cell;
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 /// The head of every generated file.
 pub(super) const HEAD: &str = "From Coq Require Import ZArith NArith List.\nImport ListNotations.\n";
@@ -41,6 +41,18 @@ pub(super) fn list(entries: impl IntoIterator<Item = String>) -> String {
 
 pub(super) fn cell(cell: Cell) -> String {
     format!("({},{})", cell.x, cell.y)
+}
+
+/// An edge: the cell to its west or north, and whether it is on the east of that.
+pub(super) fn edge(edge: Edge) -> String {
+    format!("({},{})", cell(edge.cell()), edge.side() == Side::East)
+}
+
+/// Bytes as one hexadecimal number, the first in the lowest place.
+pub(super) fn number(bytes: impl DoubleEndedIterator<Item = u8> + ExactSizeIterator) -> String {
+    let digits = 2 * bytes.len();
+    let number = bytes.rev().fold(0_u64, |number, byte| number << 8 | u64::from(byte));
+    format!("0x{number:0digits$x}")
 }
 
 /// Columns and rows that are at most `reach`, row by row.

@@ -126,13 +126,10 @@ fn run(
     let action = |(turn, here, changes): (String, Cell, Vec<(Cell, Said)>)| {
         format!("({turn},{},{})", cell(here), list(changes.into_iter().map(change)))
     };
-    let walls = floor.walls.iter().map(|edge| (edge.cell(), edge.side() == Side::East));
-    let mut walls: Vec<(Cell, bool)> = walls.collect();
-    walls.sort_unstable_by_key(|&(cell, is_east)| (cell.x, cell.y, is_east));
     format!(
         "\n ({},\n  {},{},\n  {})%Z",
         list(cells.into_iter().map(cell)),
-        list(walls.into_iter().map(|(at, is_east)| format!("({},{is_east})", cell(at)))),
+        floor.walls(),
         list(starts.iter().copied().map(cell)),
         list(actions.into_iter().map(action)),
     )
