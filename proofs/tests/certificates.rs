@@ -11,6 +11,8 @@ use tautline_proofs::chain::local::Contact;
 use tautline_proofs::frontier::local::Alone;
 use tautline_proofs::local::{Invariant, Local};
 
+use crate::draw::Draw;
+
 /// A folder with the proofs that a certificate needs, compiled.
 struct Rocq(PathBuf);
 
@@ -49,16 +51,6 @@ impl Drop for Rocq {
     }
 }
 
-/// A generator of our own, so that the changes are the same everywhere.
-struct Draw(u64);
-
-impl Draw {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) % n as u64) as usize
-    }
-}
-
 /// The certificate without one place that a table has: a bit of that table is 0 instead of 1.
 fn without_a_place(text: &str, table: &str, draw: &mut Draw) -> String {
     let from = text.find(&format!("{table} :=")).expect("a table");
@@ -73,7 +65,7 @@ fn without_a_place(text: &str, table: &str, draw: &mut Draw) -> String {
             places.extend(bits.map(|bit| (from + start + 2 + place, value & !(1 << bit))));
         }
     }
-    let (place, value) = places[draw.below(places.len())];
+    let (place, value) = places[draw.below(places.len() as u64) as usize];
     let digit = char::from_digit(value, 16).expect("a digit");
     format!("{}{digit}{}", &text[..place], &text[place + 1..])
 }

@@ -12,6 +12,8 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::floor::crew::Scheme;
 use tautline_proofs::floor::trap::{Bounds, End, Trap, TrapReport, hunt};
 
+use crate::draw::Draw;
+
 const fn bounds<S: Scheme>(scheme: S, agents: u32, max_misses: u8, max_side: i16) -> Bounds<S> {
     Bounds { scheme, agents, max_misses, max_width: max_side, max_height: max_side, budget_steps: None }
 }
@@ -228,15 +230,13 @@ fn an_agent_that_trusts_what_it_has_not_seen_is_trapped() {
 
 /// Misses one sensor in eight, until so many have been asked for.
 struct Fading {
-    state: u64,
+    draw: Draw,
     left: u32,
 }
 
 impl Oracle for Fading {
     fn pick(&mut self, below: u32) -> u32 {
-        self.state =
-            self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.state >> 33) as u32 % below
+        self.draw.below(below.into()) as u32
     }
 
     fn mishap(&mut self) -> bool {
@@ -249,7 +249,7 @@ impl Oracle for Fading {
 /// a while, and act in any order, go on for ever. On all others they end with every cell visited.
 fn not_ended(agents: u8, patience: u8) -> Vec<u64> {
     let ends = |seed: u64| {
-        let mut world = Fading { state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1, left: 20_001 };
+        let mut world = Fading { draw: Draw(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1), left: 20_001 };
         let cells = (0..12).flat_map(|y| (0..12).map(move |x| Cell::new(x, y)));
         let free: Vec<Cell> = cells.filter(|_| world.pick(5) != 0).collect();
         let (mut reached, mut next) = (vec![free[0]], 0);

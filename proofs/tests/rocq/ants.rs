@@ -7,8 +7,8 @@ use tautline_kernel::floor::{COMPASS, Floor, Mark, Replaced, Scan, Sensor, settl
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::ground::Ground;
-use super::runs::Draw;
 use super::term::{cell, definition, list};
+use crate::draw::Draw;
 
 const RULES: [(&str, Rule); 4] = [
     ("Lost", Rule::PUBLISHED),

@@ -4,8 +4,9 @@
 use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
 use tautline_kernel::ground::{Edge, EdgeMark, Grid, MediumGrid};
 
-use super::runs::{BASE, Draw, border, drawn, until_gain};
+use super::runs::{BASE, border, drawn, until_gain};
 use super::term::{cell, definition, edge, list, number};
+use crate::draw::Draw;
 
 const MOST: usize = 4;
 const RUNS: usize = 9;

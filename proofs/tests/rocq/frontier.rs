@@ -6,8 +6,8 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Event, Setting, Successor, World};
 
-use super::runs::Draw;
 use super::term::{definition, list};
+use crate::draw::Draw;
 
 const KIND: &str = "list ((nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)\n  \
                     * list (list nat * list nat * nat))";

@@ -7,8 +7,8 @@ use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, Step, Step
 use tautline_kernel::kit::{Condition, Next, Records, Rule, Sight};
 use tautline_proofs::kit::world::{Event, Setting, Successor, Team};
 
-use super::runs::Draw;
 use super::term::{bits, cell, definition, edge, list};
+use crate::draw::Draw;
 
 const KIND: &str =
     "list ((nat * Z * Z) * list edge * list cell\n  * list (list event * option (nat * list side) * list N))";

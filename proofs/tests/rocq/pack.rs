@@ -4,8 +4,8 @@ use tautline_kernel::ground::{Area, Cell, Step};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Rule, Scratch, Team};
 use tautline_proofs::pack::Moves;
 
-use super::runs::Draw;
 use super::term::{at, bits, cell, definition, everywhere, list, offsets};
+use crate::draw::Draw;
 
 /// Columns and rows up to which links are asked for.
 const REACH: i16 = 6;

@@ -3,8 +3,9 @@
 use tautline_kernel::chain::Rule;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
 
-use super::runs::{Draw, border};
+use super::runs::border;
 use super::term::{bits, cell, definition, edge, list, number};
+use crate::draw::Draw;
 
 const BASE: Cell = Cell::new(2, 2);
 const MOST: usize = 5;

@@ -6,8 +6,9 @@ use std::cell::Cell as Switch;
 use tautline_kernel::chain::{Chain, Condition, Intent, Kind, Rule};
 use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, MediumGrid, Steps};
 
-use super::runs::{BASE, Draw, border, drawn, until_gain};
+use super::runs::{BASE, border, drawn, until_gain};
 use super::term::{cell, definition, edge, list, number};
+use crate::draw::Draw;
 
 const MOST: usize = 5;
 const RUNS: usize = 12;

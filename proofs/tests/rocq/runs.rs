@@ -4,20 +4,11 @@ use tautline_kernel::chain::{Chain, Intent, Kind, Plan, Rule, area};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, Side};
 
 use super::term::{cell, definition, edge, list, number};
+use crate::draw::Draw;
 
 /// The base of all teams that run.
 pub(super) const BASE: Cell = Cell::new(5, 5);
 const MOST: usize = 6;
-
-/// A generator of our own, so that the file is the same everywhere.
-pub(super) struct Draw(pub(super) u64);
-
-impl Draw {
-    pub(super) fn below(&mut self, n: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % n
-    }
-}
 
 /// A drawn layout around the base: the area of so many robots, and the walls inside it.
 pub(super) fn drawn(robots: usize, draw: &mut Draw) -> (Area, Vec<Edge>) {

@@ -5,8 +5,8 @@ use tautline_kernel::net::{NodeId, RobotId, Strength};
 use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
 
 use super::mrc::{Answers, explore, table};
-use super::runs::Draw;
 use super::term::{definition, list};
+use crate::draw::Draw;
 
 const GOAL: NodeId = NodeId(0);
 const NEARNESS: Nearness = Nearness { near: Strength(100), closer: 10, times: 1 };

@@ -8,8 +8,8 @@ use tautline_kernel::floor::{COMPASS, Floor};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::ground::Ground;
-use super::runs::Draw;
 use super::term::{cell, definition, list};
+use crate::draw::Draw;
 
 /// Eyes that miss some sensors, until they have missed so many.
 pub(super) struct Eyes {

@@ -5,8 +5,8 @@ use tautline_kernel::floor::{Sensor, settle};
 use tautline_kernel::ground::Cell;
 
 use super::ground::Ground;
-use super::runs::Draw;
 use super::trees::{Eyes, drawn};
+use crate::draw::Draw;
 
 #[test]
 fn an_agent_reads_and_writes_no_cell_but_those_around_it() {
