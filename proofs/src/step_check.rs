@@ -77,23 +77,26 @@ macro_rules! step_checks {
                 #[test]
                 fn holds_for_any_tape_and_rejects_its_mutants() {
                     use ::proptest::prelude::{TestCaseError, prop};
-                    use ::proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+                    use ::proptest::test_runner::{Config, RngAlgorithm, TestCaseResult, TestRng, TestRunner};
                     use $crate::engine::{Stop, Tape};
 
                     let body: $crate::decide::Body<$rule> = $body;
-                    let broken = |rule: &$rule| {
+                    let broken = |rule: $rule| {
                         let config = Config { cases: 20_000, failure_persistence: None, ..Config::default() };
                         let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
                         let tapes = prop::collection::vec(0_u32..3600, 16);
                         let mut runner = TestRunner::new_with_rng(config, rng);
-                        runner.run(&tapes, |tape| match body(rule, &mut Tape(&tape)) {
-                            Err(Stop::Violated(demand)) => Err(TestCaseError::fail(demand)),
-                            Err(Stop::Assumed | Stop::GivenUp) | Ok(_) => Ok(()),
-                        })
+                        // One type for all of them, so that the runner is compiled once.
+                        let case: Box<dyn Fn(Vec<u32>) -> TestCaseResult> =
+                            Box::new(move |tape| match body(&rule, &mut Tape(&tape)) {
+                                Err(Stop::Violated(demand)) => Err(TestCaseError::fail(demand)),
+                                Err(Stop::Assumed | Stop::GivenUp) | Ok(_) => Ok(()),
+                            });
+                        runner.run(&tapes, case)
                     };
-                    assert!(broken(&CHECK.about.rule).is_ok(), "{}", stringify!($name));
+                    assert!(broken(CHECK.about.rule).is_ok(), "{}", stringify!($name));
                     for mutant in CHECK.mutants {
-                        assert!(broken(&mutant.rule).is_err(), "{} survives", mutant.name);
+                        assert!(broken(mutant.rule).is_err(), "{} survives", mutant.name);
                     }
                 }
             }

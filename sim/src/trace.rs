@@ -14,7 +14,7 @@ pub mod lines;
 mod summary;
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -157,14 +157,12 @@ impl Trace {
     }
 }
 
-/// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells
-/// it.
-fn path(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
+/// The name of the file of a run that breaks `clause`. The scheme is in it unless the clause tells it.
+fn file_name(scheme: &str, rule: RuleId, robots: u16, clause: ClauseId) -> String {
     let clause = clause.as_str().to_lowercase();
-    let Setup { scheme, rule, robots, .. } = setup;
-    let is_told = clause.rsplit_once('-').is_some_and(|(family, _)| family == scheme.name);
-    let scheme = if is_told { String::new() } else { format!("-{}", scheme.name) };
-    folder.join(format!("{clause}{scheme}-{rule}-n{robots}.jsonl"))
+    let is_told = clause.rsplit_once('-').is_some_and(|(family, _)| family == scheme);
+    let scheme = if is_told { String::new() } else { format!("-{scheme}") };
+    format!("{clause}{scheme}-{rule}-n{robots}.jsonl")
 }
 
 /// Writes the run of `setup`, which breaks `clause`, to a file in `folder` under a name that says so. The file has yet
@@ -178,7 +176,8 @@ pub fn store(
     clause: ClauseId,
     replaceable: &Replaceable,
 ) -> Result<(AtomicFile, Report), Halt> {
-    store_at(&path(folder, setup, clause), setup, clause, replaceable)
+    let name = file_name(setup.scheme.name, setup.rule, setup.robots, clause);
+    store_at(&folder.join(name), setup, clause, replaceable)
 }
 
 /// Writes the run of `setup`, which breaks `clause`, to a file at `path`. The file has yet to be put in its place.
@@ -493,23 +492,14 @@ fn drawn(lines: &Lines, text: &str, layout: &str, base: Cell, again: &str) -> Re
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::ground::Cell;
-
     use super::*;
     use crate::explore::RuleName;
-    use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
-    use crate::explore::chain::CHAIN;
-    use crate::layout::Layout;
 
     #[test]
     fn runs_of_two_schemes_have_two_names() {
-        let name = |scheme, clause: &'static str| {
-            let layout = Layout::open(3, 3).expect("a layout");
-            let setup = Setup::new(scheme, RuleName::Repaired, 2, layout, Cell::new(1, 1));
-            path(Path::new("a"), &setup, ClauseId::new(clause)).display().to_string()
-        };
-        assert_eq!(name(&CHAIN, "CHAIN-13"), "a/chain-13-repaired-n2.jsonl");
-        assert_eq!(name(&BRICKS, "BRICKS-4"), "a/bricks-4-repaired-n2.jsonl");
-        assert_eq!(name(&BRICKS_ANTS, "BRICKS-4"), "a/bricks-4-bricks-ants-repaired-n2.jsonl");
+        let name = |scheme, clause| file_name(scheme, RuleName::Repaired.into(), 2, ClauseId::new(clause));
+        assert_eq!(name("chain", "CHAIN-13"), "chain-13-repaired-n2.jsonl");
+        assert_eq!(name("bricks", "BRICKS-4"), "bricks-4-repaired-n2.jsonl");
+        assert_eq!(name("bricks-ants", "BRICKS-4"), "bricks-4-bricks-ants-repaired-n2.jsonl");
     }
 }

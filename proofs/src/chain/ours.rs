@@ -328,8 +328,6 @@ pub static CLAUSES: [Clause; 10] = [
 mod tests {
     use super::*;
     use crate::chain::search::{Bounds, search};
-    use crate::clause::AnyCheck;
-    use crate::decide::Cache;
     use crate::engine::tree::unwatched;
     use crate::engine::{SeededOracle, Stop};
     use tautline_kernel::chain::{Chain, Intent};
@@ -347,16 +345,6 @@ mod tests {
             assert!(found.complete && found.counterexamples.is_empty(), "{:?}", found.counterexamples);
             (found.runs, found.moves, found.longest)
         })
-    }
-
-    #[test]
-    fn whatever_is_lost_whoever_dies_and_whichever_walls_appear_the_reel_goes_on_and_mutants_do_not() {
-        let checks: [&dyn AnyCheck; 6] =
-            [&BARRIER, &DEATH, &MEETING, &DEATH_AT_RANDOM, &SHUT, &SHUT_AT_RANDOM];
-        for check in checks {
-            let decision = check.decide(&mut Cache::default(), &mut unwatched).expect("it can be decided");
-            assert!(decision.is_as_registered(check), "{check:?}: {decision:?}");
-        }
     }
 
     /// Whether contact is lost when one robot stops on its way and the others go, in a run in a random layout.

@@ -404,33 +404,3 @@ impl Job {
         Ok(Completion { question, seconds: start.elapsed().as_secs_f64(), came, undecided: None })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use std::iter;
-
-    use super::super::clauses;
-    use super::*;
-
-    #[test]
-    fn every_question_is_asked_once_and_that_of_a_variant_with_its_family() {
-        let checks = checks(&clauses().collect::<Vec<_>>());
-        let jobs = jobs(&checks);
-        let mut asked: Vec<Question> = jobs.iter().flat_map(|job| job.questions.iter().copied()).collect();
-        asked.sort_unstable();
-        let all = (0..).zip(&checks).flat_map(|(place, (clause, number))| {
-            let variants = 0..clause.checks[*number].variants().len();
-            iter::once(None).chain(variants.map(Some)).map(move |variant| Question { place, variant })
-        });
-        assert!(asked.into_iter().eq(all));
-        let of = |place: usize| (checks[place].0.id, checks[place].0.checks[checks[place].1]);
-        let is_published = |question: &Question| {
-            let (clause, check) = of(question.place);
-            let is_named = |number: usize| check.variants()[number].name() == "as published";
-            (clause, check.engine()) == ("CHAIN-2", "search") && question.variant.is_some_and(is_named)
-        };
-        let job = jobs.iter().find(|job| job.questions.iter().any(is_published)).expect("a mutant");
-        let (clause, check) = of(job.place());
-        assert_eq!((clause, check.rule(), job.until), ("CHAIN-3", "published", Until::Exhausted));
-    }
-}

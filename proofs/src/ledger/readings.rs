@@ -121,36 +121,3 @@ impl Row {
         Some(words)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::super::clauses;
-    use super::*;
-
-    #[test]
-    fn the_readings_that_are_decided_are_those_of_the_papers() {
-        let checks = || clauses().flat_map(|clause| clause.checks);
-        for check in checks() {
-            let Some(paper) = check.paper() else { continue };
-            let names = check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name);
-            for name in names {
-                let asked: Vec<&str> = name.split(" + ").collect();
-                assert_eq!(paper.reading(&asked).as_deref(), Ok(name), "{check:?}");
-            }
-        }
-        // Some check of each paper has all.
-        let complete = |check: &dyn crate::clause::AnyCheck| {
-            let names =
-                check.variants().into_iter().filter_map(Variant::reading).map(|(name, _)| name.to_owned());
-            let all: BTreeSet<String> = names.chain(["published".to_owned()]).collect();
-            check.paper().is_some_and(|paper| all == paper.readings().into_iter().collect())
-        };
-        for scheme in ["ANTS", "BRICKS", "MRC", "KIT", "FRONTIER"] {
-            let of =
-                clauses().filter(|clause| clause.id.starts_with(scheme)).flat_map(|clause| clause.checks);
-            assert!(of.into_iter().any(|check| complete(*check)), "{scheme}");
-        }
-    }
-}

@@ -389,20 +389,3 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[&FILLED],
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::clause::AnyCheck;
-    use crate::decide::Cache;
-    use crate::engine::tree::unwatched;
-
-    #[test]
-    fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
-        for check in [&RECORDS, &SERVED, &WAYS_BACK, &REPEATED, &FILLED] {
-            let decision =
-                check.decide(&mut Cache::default(), &mut unwatched).expect("a body can be decided");
-            assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());
-        }
-    }
-}

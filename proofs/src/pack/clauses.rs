@@ -213,30 +213,3 @@ pub static CLAUSES: [Clause; 8] = [
         ],
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::decide::{Cache, Depiction};
-    use crate::engine::tree::unwatched;
-
-    /// The floors of [`FEW`] take milliseconds, the others seconds: `tautline prove PACK` looks at them.
-    #[test]
-    fn small_floors_refute_what_the_paper_leaves_open() {
-        let mut memory = Cache::default();
-        let mut floors = Vec::new();
-        for check in CLAUSES
-            .iter()
-            .flat_map(|clause| clause.checks)
-            .filter(|check| check.expected() == Verdict::Refuted)
-        {
-            let decision = check.decide(&mut memory, &mut unwatched).expect("it can be decided");
-            assert!(decision.is_as_registered(*check), "{check:?}: {decision:?}");
-            let found = decision.counterexample.expect("it is refuted");
-            let Depiction::Story(story) = &found.seen else { panic!("it is told") };
-            floors.push(story.lines().nth(1).expect("a row").to_owned());
-            assert_eq!(check.replay(&found.choices).expect("it is one").evidence, found);
-        }
-        assert_eq!(floors, ["..#.", "..12.", "1#2.."]);
-    }
-}

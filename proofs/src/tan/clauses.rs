@@ -86,21 +86,3 @@ pub static CLAUSES: [Clause; 4] = [
         checks: &[&GUIDES],
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::clause::AnyCheck;
-    use crate::decide::Cache;
-    use crate::engine::tree::unwatched;
-
-    #[test]
-    fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
-        let checks: [&dyn AnyCheck; 4] = [&FOLLOWS, &GOES_ON, &WHOLE_WAY, &GUIDES];
-        for check in checks {
-            let decision =
-                check.decide(&mut Cache::default(), &mut unwatched).expect("a body can be decided");
-            assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());
-        }
-    }
-}
