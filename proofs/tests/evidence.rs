@@ -1,34 +1,25 @@
 //! Choices refute a clause as they were found, and no others do.
 
-use tautline_proofs::clause::AnyCheck;
-use tautline_proofs::decide::{Cache, Evidence, RefutationPlay, Verdict};
-use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::decide::RefutationPlay;
 use tautline_proofs::engine::{Choices, ScriptError};
-use tautline_proofs::ledger;
 
-/// The evidence of the checks that are registered as refuted and take no long time.
-fn refuted() -> Vec<(&'static dyn AnyCheck, Evidence)> {
-    let mut memory = Cache::default();
-    let is_short =
-        |id: &str| ["CHAIN-14", "BRICKS-5", "BRICKS-6", "NOTICE-4", "NOTICE-5", "MRC-2"].contains(&id);
-    let clauses = ledger::clauses().filter(|clause| is_short(clause.id));
-    let checks = clauses.flat_map(|clause| clause.checks.iter().copied());
-    let decide = |check: &'static dyn AnyCheck| {
-        let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
-        (check, decision.counterexample.expect("a counterexample"))
-    };
-    checks.filter(|check| check.expected() == Verdict::Refuted).map(decide).collect()
+use crate::refuted::{Refuted, of};
+
+/// The refuted checks that take no long time.
+fn short() -> impl Iterator<Item = &'static Refuted> {
+    let short = ["CHAIN-14", "BRICKS-5", "BRICKS-6", "NOTICE-4", "NOTICE-5", "MRC-2"];
+    of(move |id| short.contains(&id))
 }
 
 #[test]
 fn other_choices_refute_something_or_are_refused() {
-    for (check, evidence) in refuted() {
+    for Refuted { check, found: evidence, .. } in short() {
         let choices = evidence.choices.clone();
-        let RefutationPlay { of, evidence: again } = check.replay(&choices).expect("what was found");
+        let RefutationPlay { of: options, evidence: again } = check.replay(&choices).expect("what was found");
         assert_eq!((again.choices.clone(), again.demand), (choices.clone(), evidence.demand));
         let all = choices.once.len() + choices.again.len();
-        assert_eq!(of.len(), all);
-        for (at, &of) in of.iter().enumerate() {
+        assert_eq!(options.len(), all);
+        for (at, &of) in options.iter().enumerate() {
             let other = |value: u32| {
                 let mut other = choices.clone();
                 *other.once.iter_mut().chain(&mut other.again).nth(at).expect("a choice") = value;
@@ -45,7 +36,7 @@ fn other_choices_refute_something_or_are_refused() {
 
 #[test]
 fn choices_that_are_cut_or_go_on_are_refused() {
-    for (check, evidence) in refuted() {
+    for Refuted { check, found: evidence, .. } in short() {
         let choices = evidence.choices.clone();
         for left in 0..choices.once.len() {
             let cut = Choices { once: choices.once[..left].to_vec(), ..choices.clone() };

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use tautline_kernel::ground::Cell;
-use tautline_proofs::decide::{Cache, Depiction, Verdict};
-use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::decide::Depiction;
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::judge::floor::{Exhibit, Judgement, Objection, Place, Turn, judge};
-use tautline_proofs::ledger;
+
+use crate::refuted::{Refuted, of};
 
 fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
@@ -33,19 +33,15 @@ fn written_down(clause: &str, course: &Course) -> Exhibit {
 
 /// Exhibits that refute BRICKS-5 and BRICKS-6 with sensors missed, and BRICKS-6 without: a run that ends too early, and
 /// one that goes round.
-fn exhibits() -> Vec<Exhibit> {
-    let mut memory = Cache::default();
-    let mut exhibits = Vec::new();
-    for clause in ledger::clauses().filter(|clause| ["BRICKS-5", "BRICKS-6"].contains(&clause.id)) {
-        for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
-            let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
-            match decision.counterexample.map(|evidence| evidence.seen) {
-                Some(Depiction::Agents(course)) => exhibits.push(written_down(clause.id, &course)),
-                other => panic!("no run of agents: {other:?}"),
-            }
-        }
-    }
-    exhibits
+fn exhibits() -> impl Iterator<Item = Exhibit> {
+    of(|id| ["BRICKS-5", "BRICKS-6"].contains(&id)).map(exhibit)
+}
+
+fn exhibit(refuted: &Refuted) -> Exhibit {
+    let Depiction::Agents(course) = &refuted.found.seen else {
+        panic!("no run of agents: {:?}", refuted.found)
+    };
+    written_down(refuted.clause.id, course)
 }
 
 #[test]
@@ -134,12 +130,7 @@ fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
     let mut two = run(5);
     two.starts.push((0, 0));
     assert!(judge(&two).is_err(), "it is not alone");
-    let tree = ledger::clauses().find(|clause| clause.id == "BRICKS-12").expect("a clause").checks[1];
-    let decision = tree.decide(&mut Cache::default(), &mut unwatched).expect("registered checks fit");
-    let Some(Depiction::Agents(course)) = decision.counterexample.map(|evidence| evidence.seen) else {
-        panic!("a run of an agent")
-    };
-    let exhibit = written_down("BRICKS-12", &course);
+    let exhibit = of(|id| id == "BRICKS-12").map(exhibit).next().expect("it is refuted");
     assert_eq!(judge(&exhibit), Ok(Judgement::Broken));
     let mut from = exhibit.starts[0];
     for (index, turn) in exhibit.turns.iter().enumerate() {

@@ -3,9 +3,7 @@
 
 use std::fmt::Write;
 
-use tautline_proofs::decide::{Cache, Verdict};
-use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::ledger;
+use crate::refuted::{Refuted, of};
 
 /// Whether a clause has a judge in the file of its scheme, or is tried elsewhere.
 fn is_here(clause: &str) -> bool {
@@ -15,31 +13,27 @@ fn is_here(clause: &str) -> bool {
 #[test]
 fn every_refutation_is_judged_and_no_single_change_of_it_passes_unnoticed() {
     let mut table = "clause       rule       engine      changes refused\n".to_owned();
-    let (mut memory, mut unjudged) = (Cache::default(), Vec::new());
+    let mut unjudged = Vec::new();
     let (mut refutations, mut tried, mut by_right) = (0, 0, 0);
-    for clause in ledger::clauses().filter(|clause| is_here(clause.id)) {
-        for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
-            let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
-            let found = decision.counterexample.expect("what is refuted has a counterexample");
-            let Some(case) = check.case(&found.choices) else {
-                unjudged.push(format!("{} {} {}", clause.id, check.rule(), check.engine()));
-                continue;
-            };
-            assert_eq!(case.clause(), clause.id);
-            assert_eq!(case.judge(), Ok(()), "{case:#?}");
-            let changes = case.changes();
-            let right: Vec<&str> = changes
-                .iter()
-                .filter(|(_, changed)| changed.judge().is_ok())
-                .map(|(what, _)| what.as_str())
-                .collect();
-            (refutations, tried, by_right) = (refutations + 1, tried + changes.len(), by_right + right.len());
-            let (all, refused) = (changes.len(), changes.len() - right.len());
-            let (rule, engine) = (check.rule(), check.engine());
-            writeln!(table, "{:<12} {rule:<10} {engine:<10} {all:8} {refused:7}", clause.id).expect("text");
-            for what in right {
-                writeln!(table, "             by right: {what}").expect("text");
-            }
+    for Refuted { clause, check, found } in of(is_here) {
+        let Some(case) = check.case(&found.choices) else {
+            unjudged.push(format!("{} {} {}", clause.id, check.rule(), check.engine()));
+            continue;
+        };
+        assert_eq!(case.clause(), clause.id);
+        assert_eq!(case.judge(), Ok(()), "{case:#?}");
+        let changes = case.changes();
+        let right: Vec<&str> = changes
+            .iter()
+            .filter(|(_, changed)| changed.judge().is_ok())
+            .map(|(what, _)| what.as_str())
+            .collect();
+        (refutations, tried, by_right) = (refutations + 1, tried + changes.len(), by_right + right.len());
+        let (all, refused) = (changes.len(), changes.len() - right.len());
+        let (rule, engine) = (check.rule(), check.engine());
+        writeln!(table, "{:<12} {rule:<10} {engine:<10} {all:8} {refused:7}", clause.id).expect("text");
+        for what in right {
+            writeln!(table, "             by right: {what}").expect("text");
         }
     }
     let refused = tried - by_right;

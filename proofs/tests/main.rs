@@ -20,6 +20,7 @@ mod log;
 mod own_parts;
 mod own_rule;
 mod plans;
+mod refuted;
 mod register;
 mod rescue;
 mod rocq;

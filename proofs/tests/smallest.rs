@@ -3,29 +3,23 @@
 
 use std::fmt::Write;
 
-use tautline_proofs::decide::{Cache, Verdict};
-use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::ledger;
+use crate::refuted::{Refuted, of};
 
 /// The refuted clauses of which smaller counterexamples can be asked for.
 fn table(is_wanted: impl Fn(&str) -> bool) -> String {
-    let (mut table, mut memory) = (String::new(), Cache::default());
-    for clause in ledger::clauses().filter(|clause| is_wanted(clause.id)) {
-        for check in clause.checks.iter().filter(|check| check.expected() == Verdict::Refuted) {
-            let Some(made) = check.smallest().expect("registered checks fit") else { continue };
-            assert!(made.is_whole, "{} was cut off", clause.id);
-            let decision = check.decide(&mut memory, &mut unwatched).expect("registered checks fit");
-            let found = decision.counterexample.expect("what is refuted has a counterexample");
-            let (class, moves) = check.size(&found.choices).expect("it has a size");
-            let smallest = made.smallest.as_ref().map(|one| (one.class.clone(), one.moves));
-            let (id, rule, size) = (clause.id, check.rule(), made.size());
-            writeln!(table, "{id} {rule}: {size}").expect("text");
-            if smallest != Some((class.clone(), moves)) {
-                writeln!(table, "  in the ledger: {class}, {moves} moves").expect("text");
-            }
-            for (class, cases) in &made.exhausted {
-                writeln!(table, "  none in {class}: {cases}").expect("text");
-            }
+    let mut table = String::new();
+    for Refuted { clause, check, found } in of(is_wanted) {
+        let Some(made) = check.smallest().expect("registered checks fit") else { continue };
+        assert!(made.is_whole, "{} was cut off", clause.id);
+        let (class, moves) = check.size(&found.choices).expect("it has a size");
+        let smallest = made.smallest.as_ref().map(|one| (one.class.clone(), one.moves));
+        let (id, rule, size) = (clause.id, check.rule(), made.size());
+        writeln!(table, "{id} {rule}: {size}").expect("text");
+        if smallest != Some((class.clone(), moves)) {
+            writeln!(table, "  in the ledger: {class}, {moves} moves").expect("text");
+        }
+        for (class, cases) in &made.exhausted {
+            writeln!(table, "  none in {class}: {cases}").expect("text");
         }
     }
     table

@@ -379,8 +379,8 @@ mod tests {
 
     #[test]
     fn robots_that_radio_alone_binds_leave_paths_undriven() {
-        let (_, ended) = runs(Rule::REPAIRED.without(Condition::Tether), "walls:15x15:0.3", 3, 0..40);
-        assert!(ended > 0);
+        let rule = Rule::REPAIRED.without(Condition::Tether);
+        assert!((0..40).any(|seed| runs(rule, "walls:15x15:0.3", 3, seed..seed + 1).1 > 0));
     }
 
     #[test]

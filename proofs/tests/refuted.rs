@@ -1,0 +1,38 @@
+//! What the registered checks find that are refuted: decided once, for all tests that look at it.
+
+use std::sync::LazyLock;
+
+use rayon::prelude::*;
+use tautline_proofs::clause::{AnyCheck, Clause};
+use tautline_proofs::decide::{Cache, Context, Evidence, Verdict};
+use tautline_proofs::engine::states::MemoryLimit;
+use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::ledger::{ROOMS, Room};
+
+/// A check that is refuted.
+pub(crate) struct Refuted {
+    pub(crate) clause: &'static Clause,
+    pub(crate) check: &'static dyn AnyCheck,
+    pub(crate) found: Evidence,
+}
+
+static REFUTED: LazyLock<Vec<Refuted>> = LazyLock::new(|| ROOMS.par_iter().flat_map(in_room).collect());
+
+/// Checks of a room are decided one after the other: what one has found, the next one need not search again.
+fn in_room(room: &Room) -> Vec<Refuted> {
+    let memory = &mut Cache::default();
+    let mut desk = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let checks =
+        room.clauses.iter().flat_map(|clause| clause.checks.iter().map(move |&check| (clause, check)));
+    let refuted = checks.filter(|(_, check)| check.expected() == Verdict::Refuted);
+    let decide = |(clause, check): (&'static Clause, &'static dyn AnyCheck)| {
+        let answer = check.decide_own(&mut desk).expect("registered checks fit");
+        Refuted { clause, check, found: answer.counterexample.expect("what is refuted has a counterexample") }
+    };
+    refuted.map(decide).collect()
+}
+
+/// The refuted checks of these clauses, in the order of the ledger.
+pub(crate) fn of(is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = &'static Refuted> {
+    REFUTED.iter().filter(move |refuted| is_wanted(refuted.clause.id))
+}
