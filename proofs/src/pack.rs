@@ -7,5 +7,6 @@ mod gains;
 pub mod local;
 mod played;
 mod rays;
+mod readings;
 
 pub use played::Moves;

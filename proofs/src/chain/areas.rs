@@ -226,7 +226,7 @@ pub fn smallest_run(
         for base in area.cells() {
             let bounds = Bounds { area, base, until, ..Bounds::new(observed, robots, walls) };
             let bounds = Bounds { invariants: vec![invariant], ..bounds };
-            if bounds.reach()? != area {
+            if bounds.reach()? != area || !bounds.starts().all(|start| area.contains(start)) {
                 continue;
             }
             let OfOne { runs, complete, counterexamples, given_up, .. } = search_one(&bounds, watch)?;

@@ -6,6 +6,7 @@ use tautline_kernel::ground::{Area, Cell};
 use super::breach::Breach;
 use super::invariant::Invariant;
 use super::observed::Subject;
+use super::readings::starts;
 use super::whole;
 use crate::decide::{Depiction, Evidence};
 use crate::engine::tree::{self, Limits};
@@ -58,7 +59,7 @@ impl Bounds {
         Run {
             scheme: "chain",
             area: self.area,
-            starts: vec![self.base; self.robots],
+            starts: self.starts().collect(),
             walls: walls(&found.frames),
             obstacles: Vec::new(),
             frames: found.frames.clone(),
@@ -78,6 +79,11 @@ impl Bounds {
     pub(super) const fn limits(&self) -> Limits {
         let Self { max_walls, budget_moves, until, .. } = *self;
         Limits { max_walls, budget_moves, until }
+    }
+
+    /// Where the robots start, base first.
+    pub(super) fn starts(&self) -> impl Iterator<Item = Cell> {
+        starts(self.observed.readings, self.base, self.robots)
     }
 
     /// The area as the chain's range cuts it.

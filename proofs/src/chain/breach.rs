@@ -51,6 +51,16 @@ impl Breach {
         }
     }
 
+    /// The demand that it breaks, in words.
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Contact => "each neighbour's cell is wholly covered",
+            Self::Crowding => "no three robots are in one cell outside the base",
+            Self::Coverage => "the neighbours' centres stay within r_cov",
+            Self::Costly | Self::Completeness => "this is seen in no team move",
+        }
+    }
+
     /// Whether the team move from `before` to `after` commits it; the base stands first in both. Completeness is of
     /// the end of a run, and in no team move; where robots are does not tell what they know, or what a plan has cost.
     #[inline]

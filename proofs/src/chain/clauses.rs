@@ -12,9 +12,10 @@ use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact, Coverage, Crowd, OfThree};
 use super::observed::{Deception, Subject};
+use super::readings::{LAST, PAPER, READINGS};
 use super::search::EveryLayout;
 use super::{crowd, optimum, pair, small, three, walk, whole};
-use crate::clause::{Check, Clause, NamedRule};
+use crate::clause::{Check, Clause, NamedRule, readings};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::engine::smallest::Most;
 use crate::ground::clauses::{NARROWER, WIDER};
@@ -77,6 +78,12 @@ step_checks! { Subject;
 
 /// The bound within which the smallest counterexamples are looked for.
 pub(super) const AREAS: Most = Most { cells: 10, barriers: 13, robots: 2..=5 };
+
+/// The part of it in which counterexamples to other readings are sought: the plain recursion plays these.
+const READ: Most = Most { cells: 10, barriers: 2, robots: 3..=4 };
+
+/// As [`READ`], where two walls are too few.
+const READ_AMONG_FOUR_WALLS: Most = Most { cells: 10, barriers: 4, robots: 4..=4 };
 
 /// The bound of four robots in the paper's area.
 const FOUR_ROBOTS: (usize, u32) = (4, 4);
@@ -158,10 +165,12 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &EveryArea(Invariant::Without(Breach::Contact), AREAS),
+                &EveryArea(Invariant::Without(Breach::Contact), AREAS, READ_AMONG_FOUR_WALLS),
                 Verdict::Refuted,
                 &[],
-            ),
+            )
+            .under(&readings([LAST], [Verdict::Refuted]))
+            .of(&PAPER),
             &contact::CHECK,
             &Check::new(
                 REPAIRED,
@@ -208,10 +217,12 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &EveryArea(Invariant::Without(Breach::Crowding), AREAS),
+                &EveryArea(Invariant::Without(Breach::Crowding), AREAS, READ),
                 Verdict::Refuted,
                 &[],
-            ),
+            )
+            .under(&readings(READINGS, [Verdict::Refuted; 3]))
+            .of(&PAPER),
             &crowding::CHECK,
             &Check::new(
                 REPAIRED,
@@ -376,7 +387,9 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Without obstacles a chain of N robots MUST have explored all (2N−1)² cells after exactly \
                    9(N−1)−1 team moves.",
         checks: &[
-            &Check::new(PUBLISHED, &SPIRALS, Verdict::Holds, &[]),
+            &Check::new(PUBLISHED, &SPIRALS, Verdict::Holds, &[])
+                .under(&readings(READINGS, [Verdict::Holds, Verdict::Refuted, Verdict::Refuted]))
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &SPIRALS,
@@ -430,10 +443,12 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::new(
                 PUBLISHED,
-                &EveryArea(Invariant::Without(Breach::Completeness), AREAS),
+                &EveryArea(Invariant::Without(Breach::Completeness), AREAS, READ),
                 Verdict::Refuted,
                 &[],
-            ),
+            )
+            .under(&readings(READINGS, [Verdict::Refuted; 3]))
+            .of(&PAPER),
             &unfolding::CHECK,
             &Check::new(
                 REPAIRED,
@@ -459,14 +474,16 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-14",
         sentence: "When a run ends, every chain-reachable cell MUST be explored.",
         checks: &[
-            &Check::new(PUBLISHED, &EveryArea(Invariant::Exhausts, AREAS), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &EveryArea(Invariant::Exhausts, AREAS, READ), Verdict::Refuted, &[])
+                .under(&readings(READINGS, [Verdict::Refuted; 3]))
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &EveryLayout(Invariant::Exhausts, (3, 2)),
                 Verdict::Holds,
                 &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
-            &Check::new(REPAIRED, &EveryArea(Invariant::Exhausts, AREAS), Verdict::Refuted, &[])
+            &Check::new(REPAIRED, &EveryArea(Invariant::Exhausts, AREAS, READ), Verdict::Refuted, &[])
                 .because("no repair yet: walls part the ways of neighbours"),
         ],
     },

@@ -14,8 +14,9 @@ use crate::engine::tree::{Watch, unwatched};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::run::walls;
 
-/// A check of one invariant.
-pub(super) struct EveryArea(pub(super) Invariant, pub(super) Most);
+/// A check of one invariant, its bound, and the part of that in which a reading that no rule expresses is refuted or left
+/// open.
+pub(super) struct EveryArea(pub(super) Invariant, pub(super) Most, pub(super) Most);
 
 /// The numbers before the answers of the world: columns, rows, the place of the base, robots and walls.
 const FIRST: usize = 5;
@@ -26,7 +27,10 @@ impl EveryArea {
         observed: &Subject,
         watch: Watch<'_>,
     ) -> Result<Certificate<Class, Smallest>, MethodError> {
-        smallest_run(*observed, self.0, &self.1, watch).map_err(MethodError::new)
+        let most = if observed.has_readings() { &self.2 } else { &self.1 };
+        let mut made = smallest_run(*observed, self.0, most, watch).map_err(MethodError::new)?;
+        made.is_whole &= !observed.has_readings();
+        Ok(made)
     }
 
     /// The evidence that `smallest` gives, whose choices say where, too.
@@ -45,7 +49,7 @@ impl EveryArea {
         observed: &Subject,
         choices: &Choices,
     ) -> Result<(Vec<u32>, Bounds, Counterexample), ScriptError> {
-        let Self(invariant, Most { cells, barriers, robots }) = self;
+        let Self(invariant, Most { cells, barriers, robots }, _) = self;
         let mut script = Script::new(choices);
         let most = *cells as usize;
         let of = [most + 1, most + 1, most, robots.end() + 1, *barriers as usize + 1];

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, SetupError};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
+use tautline_kernel::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 use super::bounds::Bounds;
 use super::breach::{Breach, frame, is_harmless};
@@ -21,7 +21,7 @@ use crate::run::Frame;
 const MOST_EXHAUSTING: usize = 5;
 
 /// Team moves for each cell of the area after which a run is given up: many times as many as any run is known to take.
-const MOVES_OF_A_CELL: u32 = 64;
+pub(super) const MOVES_OF_A_CELL: u32 = 64;
 
 /// A chain within bounds.
 pub(super) struct ChainGame<G, const ROBOTS: usize> {
@@ -136,22 +136,7 @@ where
         }
         let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
         let is_missed = |cell| !grid.has(CellMark::Explored, cell);
-        let Bounds { base, robots, .. } = self.bounds;
-        let (complete, exhausts) = (Invariant::Without(Breach::Completeness), Invariant::Exhausts);
-        if self.looks_for(complete)
-            && within_reach(grid.area(), base, robots, is_open).into_iter().any(is_missed)
-        {
-            broken.push(complete);
-        }
-        let ground =
-            self.looks_for(exhausts).then(|| Ground::new(grid.area(), base, robots, is_open)).flatten();
-        let Some(ground) = ground else { return broken };
-        let mut missed = CellSet::new(grid.area());
-        grid.area().cells().filter(|&cell| is_missed(cell)).for_each(|cell| missed.insert(cell));
-        let is_reachable = ground.reaches_any(chain.rule(), &missed).unwrap_or(false);
-        if is_reachable {
-            broken.push(exhausts);
-        }
+        broken.extend(left_out(&self.bounds, grid.area(), is_open, is_missed));
         broken
     }
 }
@@ -186,11 +171,7 @@ where
         let broken: Vec<_> = turn.map_or_else(Vec::new, |turn| self.broken_in(turn, &[demand]));
         match (broken.first(), demand) {
             (Some((_, words)), _) => words,
-            (None, Invariant::Heard) => "no message of a team is refused by it",
-            (None, Invariant::Short) => "each wall that is met costs at most N² team moves",
-            (None, Invariant::Without(_)) => "at the end every cell within reach is explored",
-            (None, Invariant::Exhausts) => "at the end every cell that a chain can reach is explored",
-            (None, _) => "a run never comes back to where it was",
+            (None, demand) => words_of_end(demand),
         }
     }
 
@@ -216,6 +197,40 @@ where
         let recurs = (height == 0 || height > 0 && !was_home)
             && self.open_moves(&log[..sent]).take(undone).eq(self.open_moves(log).take(undone));
         if recurs { ControlFlow::Break(vec![Invariant::Ends]) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// The demands on the end of a run that `area` breaks, as far as sides are open and cells are missed.
+pub(super) fn left_out(
+    bounds: &Bounds,
+    area: Area,
+    is_open: impl Fn(Edge) -> bool + Copy,
+    is_missed: impl Fn(Cell) -> bool + Copy,
+) -> Vec<Invariant> {
+    let Bounds { base, robots, ref invariants, ref observed, .. } = *bounds;
+    let leaves = |demand: &Invariant| {
+        if *demand == Invariant::Without(Breach::Completeness) {
+            within_reach(area, base, robots, is_open).into_iter().any(is_missed)
+        } else if *demand == Invariant::Exhausts {
+            let mut missed = CellSet::new(area);
+            area.cells().filter(|&cell| is_missed(cell)).for_each(|cell| missed.insert(cell));
+            let ground = Ground::new(area, base, robots, is_open);
+            ground.is_some_and(|ground| ground.reaches_any(&observed.rule, &missed).unwrap_or(false))
+        } else {
+            false
+        }
+    };
+    invariants.iter().copied().filter(leaves).collect()
+}
+
+/// What is not so where `demand` is broken by the end of a run, or by its never coming.
+pub(super) const fn words_of_end(demand: Invariant) -> &'static str {
+    match demand {
+        Invariant::Heard => "no message of a team is refused by it",
+        Invariant::Short => "each wall that is met costs at most N² team moves",
+        Invariant::Without(_) => "at the end every cell within reach is explored",
+        Invariant::Exhausts => "at the end every cell that a chain can reach is explored",
+        _ => "a run never comes back to where it was",
     }
 }
 

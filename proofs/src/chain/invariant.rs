@@ -8,8 +8,8 @@ use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step}
 use super::breach::Breach;
 use super::environment::{in_covered, in_safe};
 use super::observed::Subject;
-use super::plain::walk;
 use super::plain_reel::PlainReel;
+use super::plain_walk::walk;
 use crate::engine::{Stop, require};
 
 /// One team move, with the chain in its three states.
@@ -185,15 +185,7 @@ impl Invariant {
         match self {
             Self::Without(breach) => {
                 let safe = !breach.is_in(moment.before.cells(), moment.after.cells());
-                require(
-                    safe,
-                    match breach {
-                        Breach::Contact => "each neighbour's cell is wholly covered",
-                        Breach::Crowding => "no three robots are in one cell outside the base",
-                        Breach::Coverage => "the neighbours' centres stay within r_cov",
-                        Breach::Costly | Breach::Completeness => "this is seen in no team move",
-                    },
-                )
+                require(safe, breach.words())
             }
             Self::Admitted => moment.is_admitted(),
             Self::Distinct => moment.is_distinct(),

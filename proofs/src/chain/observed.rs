@@ -4,6 +4,8 @@
 use tautline_kernel::chain::{Budget, Condition, Habit, Habits, High, Pursuit, Rule};
 use tautline_kernel::ground::Circle;
 
+use super::readings::Readings;
+
 /// How the observer of a mutant is deceived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Deception {
@@ -38,6 +40,8 @@ pub struct Subject {
     pub intended: Rule,
     /// A deception of the chain behind its back.
     pub deception: Deception,
+    /// The readings that it follows, of those that no rule expresses.
+    pub readings: Readings,
 }
 
 impl Subject {
@@ -61,7 +65,12 @@ impl Subject {
 
     /// A chain that follows the rule that it claims to follow.
     pub const fn honest(rule: Rule) -> Self {
-        Self { rule, intended: rule, deception: Deception::None }
+        Self { rule, intended: rule, deception: Deception::None, readings: Readings::of(&[]) }
+    }
+
+    /// Whether it follows a reading that no rule expresses.
+    pub(super) fn has_readings(&self) -> bool {
+        self.readings != Readings::of(&[])
     }
 
     /// A chain that claims to follow the repaired rule, but follows `rule`.

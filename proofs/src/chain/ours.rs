@@ -218,7 +218,7 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "Whichever robots go, and in whatever order, each robot MUST be in E_C of its neighbours in the \
                    chain before, between and after their moves.",
         checks: &[
-            &Check::new(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS), Verdict::Refuted, &[])
+            &Check::new(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS, AREAS), Verdict::Refuted, &[])
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
             &Check::new(

@@ -6,14 +6,16 @@
 
 use std::collections::VecDeque;
 
-use rustc_hash::FxHashSet;
-use tautline_kernel::chain::{Condition, High, Rule};
+use tautline_kernel::chain::{Condition, High, Kind, Rule};
 use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
 
 use super::environment::{in_covered, in_safe};
+use super::plain_walk::walk;
+use super::readings::Reading::{LastMoved, NullLast, Pathless, Unfollowed};
+use super::readings::{Readings, starts};
 
 /// A chain on an area of its own.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub struct PlainChain {
     rule: Rule,
     area: Area,
@@ -21,14 +23,15 @@ pub struct PlainChain {
     explored: Vec<bool>,
     east: Vec<Marks>,
     south: Vec<Marks>,
-    /// The steps that were really made and not taken back.
-    history: Vec<Vec<Step>>,
+    /// The steps that were really made and not taken back, one for each robot and team move.
+    history: Vec<Step>,
     gained: bool,
     /// Whether this epoch began by unfolding the chain.
     unfolds: bool,
     /// Whether it takes nobody for sure to arrive.
     doubts_all: bool,
     floods: Floods,
+    readings: Readings,
 }
 
 /// How many flood fills a plan takes.
@@ -59,6 +62,21 @@ pub enum PlainIntent {
     Explored,
     /// An epoch gained nothing.
     Exhausted,
+}
+
+impl PlainIntent {
+    /// The steps of a team move, base first; `None` at the end.
+    pub fn steps(&self) -> Option<&[Step]> {
+        match self {
+            Self::Advance(steps) | Self::Backtrack(steps) => Some(steps),
+            Self::Explored | Self::Exhausted => None,
+        }
+    }
+
+    /// Whether it takes a team move back.
+    pub fn kind(&self) -> Kind {
+        if matches!(self, Self::Backtrack(_)) { Kind::Backtrack } else { Kind::Advance }
+    }
 }
 
 /// The recursion was stopped: it had looked at too many candidates.
@@ -99,6 +117,7 @@ impl PlainChain {
             unfolds: false,
             doubts_all: false,
             floods: Floods::Many,
+            readings: Readings::of(&[]),
         };
         for cell in area.cells() {
             for side in Side::ALL {
@@ -124,9 +143,52 @@ impl PlainChain {
         Self { floods: Floods::Few, ..self }
     }
 
+    /// This chain as other readings of the paper have it; `None` if the area has no room for its start.
+    #[must_use]
+    pub fn under(mut self, readings: Readings) -> Option<Self> {
+        self.readings = readings;
+        self.cells = starts(readings, self.cells[0], self.cells.len()).collect();
+        for robot in 0..self.cells.len() {
+            let (behind, cell) = (self.cells[robot.saturating_sub(1)], self.cells[robot]);
+            self.index(cell)?;
+            self.explore(cell);
+            if cell != behind {
+                self.mark(Edge::new(behind, Side::East), |marks| marks.open = true);
+            }
+        }
+        Some(self)
+    }
+
     /// Where the robots are, base first.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
+    }
+
+    /// The cells that it may explore.
+    pub const fn area(&self) -> Area {
+        self.area
+    }
+
+    /// Whether `edge` is known to be a wall.
+    pub(super) fn has_wall(&self, edge: Edge) -> bool {
+        self.marks(edge).wall
+    }
+
+    /// Whether a robot has been in `cell`.
+    pub(super) fn has_explored(&self, cell: Cell) -> bool {
+        self.index(cell).is_some_and(|index| self.explored[index])
+    }
+
+    /// The steps that can be taken back.
+    pub(super) const fn history(&self) -> usize {
+        self.history.len()
+    }
+
+    /// Whether it is where the `other` chain is, and knows as much, whatever there is to take back.
+    pub(super) fn is_where(&self, other: &Self) -> bool {
+        let Self { cells, explored, east, south, gained, unfolds, .. } = self;
+        (cells, explored, east, south) == (&other.cells, &other.explored, &other.east, &other.south)
+            && (gained, unfolds) == (&other.gained, &other.unfolds)
     }
 
     /// Whether the team knows if `edge` is open.
@@ -163,7 +225,7 @@ impl PlainChain {
             if let Some(steps) = self.lead(most, &mut looked_at)? {
                 return Ok((PlainIntent::Advance(steps), looked_at));
             }
-            if let Some(steps) = self.history.last() {
+            if let Some(steps) = self.history.rchunks_exact(self.cells.len()).next() {
                 let back = steps.iter().map(|step| step.reverse()).collect();
                 return Ok((PlainIntent::Backtrack(back), looked_at));
             }
@@ -201,11 +263,13 @@ impl PlainChain {
                         Step::Stay
                     })
                     .collect();
-                self.history.push(made.clone());
+                if !self.readings.has(LastMoved) || made.iter().any(|&step| step != Step::Stay) {
+                    self.history.extend_from_slice(&made);
+                }
                 made
             }
             PlainIntent::Backtrack(steps) => {
-                self.history.pop();
+                self.history.truncate(self.history.len() - steps.len());
                 steps.clone()
             }
             PlainIntent::Explored | PlainIntent::Exhausted => return,
@@ -249,6 +313,9 @@ impl PlainChain {
                 *step = Step::Stay;
             }
         }
+        if self.readings.has(NullLast) {
+            list.sort_by_key(|&(_, step)| step == Step::Stay);
+        }
         let distances = self.distances(Avoid::Walls);
         for (side, step) in list {
             let to = at.after(step);
@@ -265,7 +332,8 @@ impl PlainChain {
                     return Ok(recursion.planned.into_iter().collect());
                 }
             }
-            if self.rule.has(Condition::RefusedIsVirtual) {
+            let is_asked = may_enter || !self.readings.has(Unfollowed);
+            if self.rule.has(Condition::RefusedIsVirtual) && is_asked {
                 self.mark(Edge::new(at, side), |marks| marks.virtual_obstacle = true);
             }
         }
@@ -404,82 +472,6 @@ impl PlainChain {
     }
 }
 
-/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of `area`, as a list of its cells and
-/// the places of its stops among them. Of equally near cells the first in row order; going back from it, stops beyond
-/// a side before those beyond a corner, in direction order.
-pub(crate) fn walk(
-    area: Area,
-    base: Cell,
-    most: usize,
-    is_open: impl Fn(Edge) -> bool,
-    is_explored: impl Fn(Cell) -> bool,
-) -> Option<(Vec<Cell>, Vec<usize>)> {
-    // East, south, west, north, and the corners between them, from east over south round to east again.
-    let around = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
-    let way = |from, offset: (i16, i16)| way(&is_open, from, offset);
-    let mut layers = vec![vec![base]];
-    let mut met = FxHashSet::from_iter([base]);
-    let target = loop {
-        let nearest = layers.last()?;
-        if let Some(&target) = nearest.iter().find(|&&cell| !is_explored(cell)) {
-            break target;
-        }
-        if layers.len() > most || nearest.is_empty() {
-            return None;
-        }
-        let mut next = Vec::new();
-        for &from in nearest {
-            for (dx, dy) in around {
-                let cell = Cell::new(from.x - dx, from.y - dy);
-                if area.contains(cell) && !met.contains(&cell) && way(cell, (dx, dy)).is_some() {
-                    met.insert(cell);
-                    next.push(cell);
-                }
-            }
-        }
-        next.sort_by_key(|cell| (cell.y, cell.x));
-        layers.push(next);
-    };
-    let mut stops = vec![target];
-    for nearer in layers.iter().rev().skip(1) {
-        let stop = stops[stops.len() - 1];
-        let linked = around.iter().filter(|&&offset| way(stop, offset).is_some());
-        let back =
-            linked.map(|&(dx, dy)| Cell::new(stop.x + dx, stop.y + dy)).find(|cell| nearer.contains(cell));
-        stops.push(back?);
-    }
-    stops.reverse();
-    let (mut cells, mut places) = (vec![base], vec![0]);
-    for pair in stops.windows(2) {
-        cells.extend(way(pair[0], (pair[1].x - pair[0].x, pair[1].y - pair[0].y))?);
-        places.push(cells.len() - 1);
-    }
-    Some((cells, places))
-}
-
-/// The cells from one to another that is this far away, over one side or two in the order of directions, the first left
-/// out; none, if no way is open.
-pub(super) fn way(is_open: &impl Fn(Edge) -> bool, from: Cell, (dx, dy): (i16, i16)) -> Option<Vec<Cell>> {
-    let horizontal = if dx > 0 { Side::East } else { Side::West };
-    let vertical = if dy > 0 { Side::South } else { Side::North };
-    let sides =
-        [vec![horizontal; dx.unsigned_abs().into()], vec![vertical; dy.unsigned_abs().into()]].concat();
-    let mut ways = [sides.clone(), sides.into_iter().rev().collect()];
-    ways.sort();
-    ways.into_iter().filter(|sides| sides.len() <= 2).find_map(|sides| {
-        let mut cell = from;
-        let mut cells = Vec::new();
-        for side in sides {
-            if !is_open(Edge::new(cell, side)) {
-                return None;
-            }
-            cell = cell.beyond(side);
-            cells.push(cell);
-        }
-        Some(cells)
-    })
-}
-
 impl Recursion<'_> {
     /// Algorithm 1: whether R_i, and all behind it, can follow.
     fn follow(&mut self, robot: usize) -> Result<bool, TooMany> {
@@ -516,6 +508,9 @@ impl Recursion<'_> {
             let is_high = dx + dy <= 1;
             let distance = chain.distance(to, self.distances).unwrap_or(u32::MAX);
             list.push(((!(is_high && step == Step::Stay), !is_high, distance), step));
+        }
+        if chain.readings.has(Pathless) && list.iter().any(|&((.., distance), _)| distance == u32::MAX) {
+            list.clear();
         }
         list.sort_by_key(|&(key, _)| key);
         for (_, step) in list {

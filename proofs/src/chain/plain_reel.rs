@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 use tautline_kernel::ground::{Cell, CellMark, Edge, EdgeMark, Grid, Side, Step};
 
 use super::environment::{in_covered, in_safe};
-use super::plain::{walk, way};
+use super::plain_walk::{walk, way};
 
 /// Rehearsals of approaches that one choice may take.
 const REHEARSALS: usize = 64;

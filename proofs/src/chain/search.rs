@@ -9,6 +9,7 @@ pub use super::bounds::{Bounds, Counterexample};
 use super::game::ChainGame;
 use super::invariant::Invariant;
 use super::observed::Subject;
+use super::plain_game::PlainGame;
 
 use crate::decide::{self, Answer, Context, Method, RefutationPlay};
 use crate::engine::tree::{self, Progress, Tree, Watch, Waves};
@@ -91,6 +92,9 @@ impl Search {
     /// [`Unsearchable`] if the bounds are beyond what can be searched.
     pub fn new(bounds: &Bounds) -> Result<Self, Unsearchable> {
         let limits = &bounds.limits();
+        if bounds.observed.has_readings() {
+            return Ok(Self(Box::new(Tree::new(PlainGame::new(bounds)?, limits)?)));
+        }
         Ok(match bounds.robots {
             0..=4 => Self(Box::new(Tree::new(ChainGame::<_, 4>::new(bounds, TinyGrid::new)?, limits)?)),
             5..=6 => Self(Box::new(Tree::new(ChainGame::<_, 6>::new(bounds, CompactGrid::new)?, limits)?)),

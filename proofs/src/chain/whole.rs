@@ -69,18 +69,38 @@ pub(super) fn spirals() -> String {
 /// [`Stop::Violated`] if it is not.
 pub(super) fn spiral(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let robots = within(&SPIRALS, oracle) as usize;
+    let optimum = 9 * (robots - 1) - 1;
+    if observed.has_readings() {
+        return plain_spiral(observed, robots, optimum);
+    }
     let mut chain = start::<_, 32>(observed, robots, MediumGrid::new)?;
     let mut log = Vec::new();
-    let optimum = 9 * (robots - 1) - 1;
     for _ in 0..optimum {
-        let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else {
-            return Err(Stop::Violated("no run is shorter than the optimum"));
-        };
+        let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else { return Err(SHORTER) };
         log.extend_from_slice(chain.settle(&plan, |_| true).messages());
     }
     let end = chain.plan(&log).map_err(|_| NO_MESSAGE)?;
-    require(end == Intent::Done(End::Explored), "all cells are explored after 9(N−1)−1 moves")?;
-    Ok("an open area")
+    require(end == Intent::Done(End::Explored), LONGER)?;
+    Ok(AN_OPEN_AREA)
+}
+
+const AN_OPEN_AREA: &str = "an open area";
+const SHORTER: Stop = Stop::Violated("no run is shorter than the optimum");
+const LONGER: &str = "all cells are explored after 9(N−1)−1 moves";
+
+/// CHAIN-9 by the plain recursion.
+fn plain_spiral(observed: &Subject, robots: usize, optimum: usize) -> Outcome {
+    let (area, base) = area(robots);
+    let plain = PlainChain::new(observed.rule, robots, base, area).that_floods_once();
+    let mut plain = plain.under(observed.readings).ok_or(Stop::Assumed)?;
+    let plan = |plain: &mut PlainChain| Ok(plain.plan(PATIENCE).map_err(|_| Stop::GivenUp)?.0);
+    for _ in 0..optimum {
+        let intent = plan(&mut plain)?;
+        intent.steps().ok_or(SHORTER)?;
+        plain.settle(&intent, |_| true);
+    }
+    require(plan(&mut plain)? == PlainIntent::Explored, LONGER)?;
+    Ok(AN_OPEN_AREA)
 }
 
 /// Robots, and walls in percent, of [`any_order`].

@@ -6,6 +6,37 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use super::change::plain;
 use super::{Case, Floor, Objection, Place, SIDES, beside, must};
 
+/// The metric gain of a frontier cell.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Metric {
+    /// The unknown cells in sight, by the steps: as published.
+    CellsBySteps,
+    /// Their share of all cells in sight, by the steps.
+    ShareBySteps,
+    /// The unknown cells in sight, by the straight line.
+    CellsByLine,
+    /// Their share of all cells in sight, by the straight line.
+    ShareByLine,
+}
+
+impl Metric {
+    /// It, or its square where the distance is a root, as a fraction.
+    const fn fraction(
+        self,
+        unknown: usize,
+        in_sight: usize,
+        steps: usize,
+        line_squared: usize,
+    ) -> (usize, usize) {
+        match self {
+            Self::CellsBySteps => (unknown, steps),
+            Self::ShareBySteps => (unknown, in_sight * steps),
+            Self::CellsByLine => (unknown * unknown, line_squared),
+            Self::ShareByLine => (unknown * unknown, in_sight * in_sight * line_squared),
+        }
+    }
+}
+
 /// A run of a pack.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Run {
@@ -17,6 +48,8 @@ pub struct Run {
     pub sight: i32,
     /// R_c, in cells.
     pub range: i32,
+    /// What robots compare.
+    pub metric: Metric,
     /// Where each robot starts.
     pub starts: Vec<Place>,
     /// Where all robots are after each team move.
@@ -68,8 +101,7 @@ impl Case for Run {
         let side_by_side = joins(starts, |one, other| (0..4).any(|side| beside(one, side) == Some(other)));
         let is_linked = if self.clause == "PACK-5" { self.is_joined(starts) } else { side_by_side };
         must(is_linked, "the robots start otherwise").map_err(whole)?;
-        let mut team = Team { cells: starts.clone(), aims: vec![None; starts.len()], seen: BTreeMap::new() };
-        self.look(&mut team);
+        let mut team = self.team();
         for (number, made) in (1..).zip(moves) {
             let object = |what| Objection { at: number, what };
             must(self.clause != "PACK-5", "the judge knows packs alone that cannot go").map_err(object)?;
@@ -118,6 +150,26 @@ fn apart(one: Place, other: Place) -> Place {
 }
 
 impl Run {
+    /// The team moves that the rule makes from the starts, at most so many, and the free cells that a robot could walk to
+    /// and that are not seen then.
+    pub(crate) fn played(&self, most: usize) -> (Vec<Vec<Place>>, Vec<Place>) {
+        let (mut team, mut moves) = (self.team(), Vec::new());
+        while moves.len() < most && self.advance(&mut team) {
+            self.look(&mut team);
+            moves.push(team.cells.clone());
+        }
+        let walkable = self.floor.walkable(&self.starts).into_iter();
+        (moves, walkable.filter(|cell| !team.seen.contains_key(cell)).collect())
+    }
+
+    /// The robots where they start, who have looked round.
+    fn team(&self) -> Team {
+        let (cells, aims) = (self.starts.clone(), vec![None; self.starts.len()]);
+        let mut team = Team { cells, aims, seen: BTreeMap::new() };
+        self.look(&mut team);
+        team
+    }
+
     /// A link by midpoints, as published.
     fn links(&self, one: Place, other: Place) -> bool {
         let (columns, rows) = apart(one, other);
@@ -188,7 +240,7 @@ impl Run {
     }
 
     /// The choice of a robot: of the frontier cells with a link to a cell to which another robot is going, if there
-    /// is one, and at most 2 R_c steps farther than the nearest of them, the first with the greatest V/d, cells
+    /// is one, and at most 2 R_c steps farther than the nearest of them, the first with the greatest metric gain, cells
     /// being in the order of a flood fill that looks east, south, west, north; if V is 0 everywhere, the first of
     /// all.
     fn choose(
@@ -225,11 +277,14 @@ impl Run {
             let is_taken =
                 |unknown: &Place| others.iter().any(|&other| self.disc(other).any(|cell| cell == *unknown));
             let is_obstacle = |cell: Place| seen.get(&cell) == Some(&false) || !self.floor.has(cell);
-            let gain =
-                self.disc(cell).filter(|unknown| self.floor.has(*unknown) && !seen.contains_key(unknown));
-            let gain = gain.filter(|unknown| !is_taken(unknown) && sees(cell, *unknown, is_obstacle)).count();
-            if gain > 0 && best.is_none_or(|(most, over, _)| gain * over > most * far) {
-                best = Some((gain, far, cell));
+            let in_sight: Vec<Place> =
+                self.disc(cell).filter(|&to| self.floor.has(to) && sees(cell, to, is_obstacle)).collect();
+            let unknown = in_sight.iter().filter(|to| !seen.contains_key(to) && !is_taken(to)).count();
+            let (columns, rows) = apart(from, cell);
+            let line_squared = (columns * columns + rows * rows) as usize;
+            let (gain, by) = self.metric.fraction(unknown, in_sight.len(), far, line_squared);
+            if gain > 0 && best.is_none_or(|(most, over, _)| gain * over > most * by) {
+                best = Some((gain, by, cell));
             }
         }
         let cell = best.map(|(_, _, cell)| cell).or(first.map(|(_, cell)| cell))?;

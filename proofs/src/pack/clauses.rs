@@ -1,29 +1,33 @@
 //! The clauses of pack exploration, in the order of `SPEC.md`.
 
 use tautline_kernel::pack::Condition::{Anew, Back, Connect, Corners, Double, Lead, Single};
-use tautline_kernel::pack::Rule;
+use tautline_kernel::pack::{Condition, Rule};
 
 use super::floors::{Bounds, Drawing, Floors, Size, Starts};
 use super::gains::Gains;
 use super::local;
 use super::played::{Demand, SITUATIONS};
 use super::rays::{self, Rays};
-use crate::clause::{Check, Clause, NamedRule};
+use super::readings::{PAPER, READINGS, Subject};
+use crate::clause::{Check, Clause, NamedRule, readings};
 use crate::decide::{EveryAnswer, Verdict};
 use crate::local::EveryNumber;
 
-const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
-const REPAIRED: NamedRule<Rule> = NamedRule::new("repaired", Rule::REPAIRED);
+const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::of(Rule::PUBLISHED));
+const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::of(Rule::REPAIRED));
 
-const NO_CONNECT: NamedRule<Rule> = NamedRule::new("links do not count", Rule::REPAIRED.without(Connect));
-const NO_CORNERS: NamedRule<Rule> = NamedRule::new("midpoints count", Rule::REPAIRED.without(Corners));
-const NO_SINGLE: NamedRule<Rule> = NamedRule::new("robots share cells", Rule::REPAIRED.without(Single));
-const NO_LEAD: NamedRule<Rule> = NamedRule::new("nobody leads", Rule::REPAIRED.without(Lead));
-const NO_BACK: NamedRule<Rule> = NamedRule::new("no move is taken back", Rule::REPAIRED.without(Back));
-const NO_DOUBLE: NamedRule<Rule> =
-    NamedRule::new("always one move is taken back", Rule::REPAIRED.without(Double));
-const NO_ANEW: NamedRule<Rule> =
-    NamedRule::new("ways are kept when a move is taken back", Rule::REPAIRED.without(Anew));
+/// The repaired rule without one condition.
+const fn without(name: &'static str, condition: Condition) -> NamedRule<Subject> {
+    NamedRule::new(name, Subject::of(Rule::REPAIRED.without(condition)))
+}
+
+const NO_CONNECT: NamedRule<Subject> = without("links do not count", Connect);
+const NO_CORNERS: NamedRule<Subject> = without("midpoints count", Corners);
+const NO_SINGLE: NamedRule<Subject> = without("robots share cells", Single);
+const NO_LEAD: NamedRule<Subject> = without("nobody leads", Lead);
+const NO_BACK: NamedRule<Subject> = without("no move is taken back", Back);
+const NO_DOUBLE: NamedRule<Subject> = without("always one move is taken back", Double);
+const NO_ANEW: NamedRule<Subject> = without("ways are kept when a move is taken back", Anew);
 
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
@@ -108,7 +112,9 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-1",
         sentence: "After every team move, links MUST join all robots of a pack: robots are linked if the whole cell of one is within R_c of the midpoint of the other's.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(NO_TIES, Demand::Connected), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &demand(NO_TIES, Demand::Connected), Verdict::Refuted, &[])
+                .under(&readings(READINGS, [Verdict::Refuted; 3]))
+                .of(&PAPER),
             &Check::new(
                 REPAIRED,
                 &wholly(SMALLEST, Demand::Connected),
@@ -150,7 +156,9 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-3",
         sentence: "When the run of a pack whose robots start side by side ends, every free cell that a robot can walk to MUST be explored.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Covers), Verdict::Refuted, &[])
+                .under(&readings(READINGS, [Verdict::Refuted; 3]))
+                .of(&PAPER),
             &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
             &Check::new(REPAIRED, &far(Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
             &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
@@ -213,3 +221,25 @@ pub static CLAUSES: [Clause; 8] = [
         ],
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decide::{Cache, Context, Method};
+    use crate::engine::Until;
+    use crate::engine::states::MemoryLimit;
+    use crate::engine::tree::unwatched;
+
+    #[test]
+    fn under_every_reading_of_the_gain_robots_keep_apart_go_step_by_step_and_end() {
+        let (memory, watch) = (&mut Cache::default(), &mut unwatched);
+        let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+        for (name, subject) in READINGS {
+            for asked in [Demand::Single, Demand::Free, Demand::Ends] {
+                let found = demand(OF_FEW, asked).decide(&subject, Until::Exhausted, &mut desk);
+                let found = found.expect("it can be decided");
+                assert_eq!((found.verdict, found.cases), (Verdict::Holds, 8834), "{name}: {asked:?}");
+            }
+        }
+    }
+}

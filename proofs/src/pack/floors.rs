@@ -2,17 +2,17 @@
 //! to chance, so there is one run for each. A counterexample has the fewest cells, and of these the fewest obstacles.
 
 use tautline_kernel::ground::{Area, Cell, neighbours};
-use tautline_kernel::pack::Rule;
 
 use super::gains::Gains;
 use super::played::{Demand, Floor, RunOutcome, play, story};
+use super::readings::{Subject, place};
 use crate::decide::{
     self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
 };
 use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
-use crate::judge::{AnyCase, Floor as Written, pack as judge};
+use crate::judge::{AnyCase, pack as judge};
 use crate::plural::counted;
 
 /// Columns and rows.
@@ -65,8 +65,9 @@ struct Findings {
 }
 
 impl Bounds {
-    fn rule(&self, rule: &Rule) -> Result<Rule, MethodError> {
-        rule.within(self.sight_cells, self.range_cells).map_err(MethodError::new)
+    fn subject(&self, subject: &Subject) -> Result<Subject, MethodError> {
+        let rule = subject.rule.within(self.sight_cells, self.range_cells).map_err(MethodError::new)?;
+        Ok(Subject { rule, ..*subject })
     }
 
     fn area(size: Size) -> Result<Area, MethodError> {
@@ -113,8 +114,8 @@ impl Bounds {
     }
 
     /// Runs a pack on every floor; ends with the first one that breaks `until`.
-    fn search(&self, rule: &Rule, until: Option<Demand>) -> Result<Findings, MethodError> {
-        let rule = self.rule(rule)?;
+    fn search(&self, subject: &Subject, until: Option<Demand>) -> Result<Findings, MethodError> {
+        let subject = self.subject(subject)?;
         let mut found = Findings { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
         let steps = Steps::begin();
         for number in 0..self.count() {
@@ -122,7 +123,7 @@ impl Bounds {
             for (set, obstacles) in sets.into_iter().enumerate() {
                 for (start, starts) in self.starts(area, obstacles).into_iter().enumerate() {
                     steps.next();
-                    let Some(played) = play(&rule, &Floor { area, obstacles, starts }, self.gains) else {
+                    let Some(played) = play(&subject, &Floor { area, obstacles, starts }, self.gains) else {
                         continue;
                     };
                     found.runs += 1;
@@ -173,8 +174,13 @@ impl Floors {
     }
 
     /// The shortest run in a class that breaks the demand.
-    fn shortest(&self, rule: &Rule, class: Class, until: Until) -> Result<Searched<String>, MethodError> {
-        let (rule, area) = (self.bounds.rule(rule)?, Bounds::area(class.size())?);
+    fn shortest(
+        &self,
+        subject: &Subject,
+        class: Class,
+        until: Until,
+    ) -> Result<Searched<String>, MethodError> {
+        let (subject, area) = (self.bounds.subject(subject)?, Bounds::area(class.size())?);
         // Where cells are R_c apart, whether robots are linked rests on equality.
         let range_cells = usize::from(self.bounds.range_cells);
         if self.demand == Demand::Connected && area.width().max(area.height()) > range_cells {
@@ -186,9 +192,10 @@ impl Floors {
         for obstacles in sets.filter(|set| set.count_ones() <= class.barriers) {
             for starts in bounds.starts(area, obstacles) {
                 let floor = Floor { area, obstacles, starts };
-                let Some(played) = play(&rule, &floor, bounds.gains) else { continue };
+                let Some(played) = play(&subject, &floor, bounds.gains) else { continue };
                 let is_broken = played.broken.contains(&self.demand);
-                let shortest = is_broken.then(|| (self.moves(&played), story(&rule, &floor, &played)));
+                let shortest =
+                    is_broken.then(|| (self.moves(&played), story(&subject.rule, &floor, &played)));
                 all.add(Searched { cases: 1, is_whole: true, shortest });
                 if is_broken && until == Until::Violation {
                     return Ok(all);
@@ -201,31 +208,31 @@ impl Floors {
     /// The run on one floor; `None` if it breaks something else, or nothing.
     fn run(
         &self,
-        rule: &Rule,
+        subject: &Subject,
         [number, set, start]: Place,
     ) -> Result<Option<(RunOutcome, Floor)>, MethodError> {
-        let rule = self.bounds.rule(rule)?;
+        let subject = self.bounds.subject(subject)?;
         let (area, sets) = self.bounds.layouts(number)?;
         let Some(&obstacles) = sets.get(set) else { return Ok(None) };
         let starts = self.bounds.starts(area, obstacles).into_iter().nth(start);
         let floor = starts.map(|starts| Floor { area, obstacles, starts });
-        let run = floor.and_then(|floor| Some((play(&rule, &floor, self.bounds.gains)?, floor)));
+        let run = floor.and_then(|floor| Some((play(&subject, &floor, self.bounds.gains)?, floor)));
         Ok(run.filter(|(played, _)| played.broken.contains(&self.demand)))
     }
 
     /// The refutation by the run on one floor; `None` if it breaks something else, or nothing.
-    fn evidence(&self, rule: &Rule, place: Place) -> Result<Option<Evidence>, MethodError> {
-        let rule_within = self.bounds.rule(rule)?;
+    fn evidence(&self, subject: &Subject, place: Place) -> Result<Option<Evidence>, MethodError> {
+        let within = self.bounds.subject(subject)?;
         let choices = Choices { once: place.map(|place| place as u32).to_vec(), again: Vec::new() };
-        Ok(self.run(rule, place)?.map(|(played, floor)| Evidence {
+        Ok(self.run(subject, place)?.map(|(played, floor)| Evidence {
             choices,
             demand: self.demand.words(),
-            seen: Depiction::Story(story(&rule_within, &floor, &played)),
+            seen: Depiction::Story(story(&within.rule, &floor, &played)),
         }))
     }
 }
 
-impl Method<Rule> for Floors {
+impl Method<Subject> for Floors {
     fn engine(&self) -> &'static str {
         "exhaustive"
     }
@@ -264,30 +271,35 @@ impl Method<Rule> for Floors {
         )
     }
 
-    fn family(&self, rule: &Rule) -> Option<String> {
-        Some(format!("{:?} {rule:?}", self.bounds))
+    fn family(&self, subject: &Subject) -> Option<String> {
+        Some(format!("{:?} {subject:?}", self.bounds))
     }
 
     /// The choices are the numbers of the size, of the set of obstacles, and of the starts.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(
+        &self,
+        subject: &Subject,
+        until: Until,
+        desk: &mut Context<'_, '_>,
+    ) -> Result<Answer, MethodError> {
         let once;
         let found = match until {
             Until::Exhausted => {
-                desk.memory.recall((self.bounds, *rule), |_| self.bounds.search(rule, None))?
+                desk.memory.recall((self.bounds, *subject), |_| self.bounds.search(subject, None))?
             }
             Until::Violation => {
-                once = self.bounds.search(rule, Some(self.demand))?;
+                once = self.bounds.search(subject, Some(self.demand))?;
                 &once
             }
         };
         let (runs, is_covered) =
             (found.runs, self.covers.iter().all(|situation| found.covered.contains(situation)));
         let place = found.broken[self.demand as usize];
-        let evidence = place.map(|place| self.evidence(rule, place)).transpose()?.flatten();
+        let evidence = place.map(|place| self.evidence(subject, place)).transpose()?.flatten();
         Ok(Answer::new(evidence, is_covered, Verdict::Holds, runs))
     }
 
-    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+    fn replay(&self, subject: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let number = script.choose(self.bounds.count())?;
         let (area, sets) = self.bounds.layouts(number).map_err(|_| ScriptError::Unbroken)?;
@@ -295,50 +307,41 @@ impl Method<Rule> for Floors {
         let starts = self.bounds.starts(area, sets[set]).len();
         let start = script.choose(starts)?;
         let evidence =
-            self.evidence(rule, [number, set, start]).ok().flatten().ok_or(ScriptError::Unbroken)?;
+            self.evidence(subject, [number, set, start]).ok().flatten().ok_or(ScriptError::Unbroken)?;
         let of = [self.bounds.count(), sets.len(), starts].map(|of| of as u32).to_vec();
         Ok(RefutationPlay { of, evidence })
     }
 
-    fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {
+    fn size(&self, subject: &Subject, choices: &Choices) -> Option<decide::Size> {
         let &[number, set, start] = &choices.once[..] else { return None };
         let place = [number, set, start].map(|place| place as usize);
-        let (played, floor) = self.run(rule, place).ok().flatten()?;
+        let (played, floor) = self.run(subject, place).ok().flatten()?;
         let (barriers, robots) = (floor.obstacles.count_ones(), floor.starts.len());
         let class = Class { area: floor.area, barriers, robots };
         Some((class.to_string(), self.moves(&played)))
     }
 
-    fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, subject: &Subject) -> Result<Option<Drawn>, MethodError> {
         let most = Most { cells: 12, barriers: 2, robots: 1..=3 };
         Ok(Some(
-            smallest(&most, |class, until| self.shortest(rule, class, until))?.drawn_by_cells(|story| story),
+            smallest(&most, |class, until| self.shortest(subject, class, until))?
+                .drawn_by_cells(|story| story),
         ))
     }
 
-    fn case(&self, rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    fn case(&self, subject: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         let &[number, set, start] = &choices.once[..] else { return None };
-        let place = [number, set, start].map(|place| place as usize);
-        let (played, floor) = self.run(rule, place).ok().flatten()?;
-        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
+        let number = [number, set, start].map(|place| place as usize);
+        let (played, floor) = self.run(subject, number).ok().flatten()?;
         let clause = match (self.demand, self.bounds.starts) {
             (Demand::Connected, _) => "PACK-1",
             (Demand::Covers, Starts::Beside) => "PACK-3",
             (Demand::Covers, Starts::Linked) => "PACK-5",
             (Demand::Single | Demand::Ends | Demand::Free | Demand::Best, _) => return None,
         };
-        let area = floor.area;
-        let barred = area.cells().filter(|&cell| !floor.is_free(cell)).map(place).collect();
-        let moves = played
-            .until(self.demand, self.bounds.range_cells)
-            .map(|cells| cells.iter().copied().map(place).collect());
-        Some(Box::new(judge::Run {
-            clause,
-            floor: Written { columns: area.width() as i32, rows: area.height() as i32, barred },
-            sight: self.bounds.sight_cells.into(),
-            range: self.bounds.range_cells.into(),
-            starts: floor.starts.iter().copied().map(place).collect(),
-            moves: moves.collect(),
-        }))
+        let subject = self.bounds.subject(subject).ok()?;
+        let moves = played.until(self.demand, self.bounds.range_cells);
+        let moves = moves.map(|cells| cells.iter().copied().map(place).collect()).collect();
+        Some(Box::new(judge::Run { clause, moves, ..subject.written(&floor) }))
     }
 }

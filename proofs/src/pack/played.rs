@@ -1,11 +1,15 @@
 //! One run of a pack on one small floor, and what it breaks.
 
 use std::fmt::Write;
+use std::ops::ControlFlow;
 
 use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Team};
 
 use super::gains::{Gains, are_best};
+use super::readings::Subject;
+use crate::judge::Place;
+use crate::judge::pack::Metric;
 use crate::plural::counted;
 
 /// Team moves at which a run on a small floor counts as endless.
@@ -118,7 +122,7 @@ impl Past for Moves {
 }
 
 /// The outcome of a run.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct RunOutcome {
     /// The demands that it breaks, each once.
     pub(super) broken: Vec<Demand>,
@@ -131,6 +135,36 @@ pub(super) struct RunOutcome {
 }
 
 impl RunOutcome {
+    fn judge(&mut self, demand: Demand, is_broken: bool) {
+        if is_broken && !self.broken.contains(&demand) {
+            self.broken.push(demand);
+        }
+    }
+
+    /// Adds a team move to `now`; whether the run is cut off there.
+    fn goes_on(&mut self, rule: &Rule, floor: &Floor, made: MoveKind, now: Vec<Cell>) -> ControlFlow<()> {
+        let before = self.moves.last().map_or(&floor.starts, |(_, cells)| cells);
+        let is_step =
+            |(&from, &to): (&Cell, &Cell)| floor.is_free(to) && (from == to || neighbours(from, to));
+        let are_steps = before.iter().zip(&now).all(is_step);
+        let is_double = now.iter().enumerate().any(|(robot, cell)| now[..robot].contains(cell));
+        self.judge(Demand::Free, !are_steps);
+        self.judge(Demand::Connected, !is_joined(&now, rule.range_cells()));
+        self.judge(Demand::Single, is_double);
+        self.moves.push((made, now));
+        if self.moves.len() < MOST_MOVES {
+            return ControlFlow::Continue(());
+        }
+        self.judge(Demand::Ends, true);
+        ControlFlow::Break(())
+    }
+
+    /// Ends the run, these cells being left.
+    fn end(&mut self, left: Vec<Cell>) {
+        self.judge(Demand::Covers, !left.is_empty());
+        self.left = left;
+    }
+
     /// Where the robots were after each team move, up to the one that breaks a demand of each of them.
     pub(super) fn until(&self, demand: Demand, range_cells: u16) -> impl Iterator<Item = &Vec<Cell>> {
         let breaks = move |cells: &Vec<Cell>| demand == Demand::Connected && !is_joined(cells, range_cells);
@@ -153,23 +187,21 @@ fn is_joined(cells: &[Cell], range_cells: u16) -> bool {
     joined.into_iter().all(|is_joined| is_joined)
 }
 
-/// Runs a pack of `rule` on `floor`; `None` if the robots are no pack there.
-pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<RunOutcome> {
+/// Runs a pack of `subject` on `floor`; `None` if the robots are no pack there.
+pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<RunOutcome> {
+    let rule = &subject.rule;
+    let mut team = Team::new(*rule, &floor.starts).ok()?;
+    if subject.metric != Metric::CellsBySteps {
+        return Some(play_plainly(subject, floor));
+    }
     let area = floor.area;
     let cells = area.width() * area.height();
-    let mut team = Team::new(*rule, &floor.starts).ok()?;
     let mut chart = Chart::new(area, vec![[0; 2]; Chart::<Vec<[u64; 2]>>::words(area)])?;
     let (mut reached, mut queue) = (vec![0; cells], vec![Cell::default(); cells]);
     let (mut gains, mut rounds) = (vec![0; cells], 0);
     let (mut past, mut steps) = (Moves::default(), [Step::Stay; MAX_ROBOTS]);
-    let mut played =
-        RunOutcome { broken: Vec::new(), covered: Vec::new(), moves: Vec::new(), left: Vec::new() };
+    let mut played = RunOutcome::default();
     let mut seen = floor.starts.clone();
-    let breaks = |broken: &mut Vec<Demand>, demand: Demand, is_broken: bool| {
-        if is_broken && !broken.contains(&demand) {
-            broken.push(demand);
-        }
-    };
     loop {
         for &cell in team.cells() {
             chart.look(
@@ -187,21 +219,14 @@ pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<RunOutc
             Scratch { reached: &mut reached, queue: &mut queue, gains: &mut gains, rounds: &mut rounds };
         let (before, aims) = (team.cells().to_vec(), team.aims().collect::<Vec<_>>());
         let Ok(made) = team.advance(&chart, &mut past, &mut memory, &mut steps) else { break };
-        let now = team.cells().to_vec();
-        let is_step =
-            |(&from, &to): (&Cell, &Cell)| floor.is_free(to) && (from == to || neighbours(from, to));
-        breaks(&mut played.broken, Demand::Free, !before.iter().zip(&now).all(is_step));
         if made == MoveKind::Spread && choices == Gains::Compared {
             // A robot that has gone its own way keeps its aim as long as that is a frontier cell.
             let has_spread = played.moves.last().is_none_or(|&(last, _)| last == MoveKind::Spread);
             let is_kept = |&aim: &Cell| has_spread && chart.is_frontier(aim);
             let kept: Vec<Option<Cell>> = aims.into_iter().map(|aim| aim.filter(is_kept)).collect();
             let chosen: Vec<Option<Cell>> = team.aims().collect();
-            breaks(&mut played.broken, Demand::Best, !are_best(rule, &chart, &before, &kept, &chosen));
+            played.judge(Demand::Best, !are_best(rule, &chart, &before, &kept, &chosen));
         }
-        let is_double = now.iter().enumerate().any(|(robot, cell)| now[..robot].contains(cell));
-        breaks(&mut played.broken, Demand::Connected, !is_joined(&now, rule.range_cells()));
-        breaks(&mut played.broken, Demand::Single, is_double);
         let situation = SITUATIONS[match made {
             MoveKind::Spread => 0,
             MoveKind::Led(_) => 1,
@@ -211,16 +236,27 @@ pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<RunOutc
         if !played.covered.contains(&situation) {
             played.covered.push(situation);
         }
-        played.moves.push((made, now));
-        if played.moves.len() == MOST_MOVES {
-            breaks(&mut played.broken, Demand::Ends, true);
+        if played.goes_on(rule, floor, made, team.cells().to_vec()).is_break() {
             return Some(played);
         }
     }
-    played.left = floor.reachable().into_iter().filter(|cell| !seen.contains(cell)).collect();
-    let is_left = !played.left.is_empty();
-    breaks(&mut played.broken, Demand::Covers, is_left);
+    played.end(floor.reachable().into_iter().filter(|cell| !seen.contains(cell)).collect());
     Some(played)
+}
+
+/// Runs a pack under another reading than the published one, as the judge does.
+fn play_plainly(subject: &Subject, floor: &Floor) -> RunOutcome {
+    let (moves, left) = subject.written(floor).played(MOST_MOVES);
+    let cell = |(x, y): Place| Cell::new(x as i16, y as i16);
+    let mut played = RunOutcome::default();
+    for cells in moves {
+        let cells = cells.into_iter().map(cell).collect();
+        if played.goes_on(&subject.rule, floor, MoveKind::Spread, cells).is_break() {
+            return played;
+        }
+    }
+    played.end(left.into_iter().map(cell).collect());
+    played
 }
 
 /// Most team moves that are told.

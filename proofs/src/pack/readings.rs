@@ -1,0 +1,79 @@
+//! The readings of what Jasmine Xavier and Shantha Selva Kumari 2013 leave open. The judge's plain words follow them, so
+//! that the kernel has the published one alone.
+
+use tautline_kernel::ground::Cell;
+use tautline_kernel::pack::Rule;
+
+use super::played::Floor;
+use crate::ambiguity::Charity::{Literal, Probable};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
+use crate::judge::pack::{Metric, Run};
+use crate::judge::{Floor as Written, Place};
+
+/// A pack as a check looks at it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Subject {
+    pub(super) rule: Rule,
+    /// What its robots compare: another one than the published one is followed by the published rule alone.
+    pub(super) metric: Metric,
+}
+
+impl Subject {
+    pub(super) const fn of(rule: Rule) -> Self {
+        Self { rule, metric: Metric::CellsBySteps }
+    }
+
+    /// A run on `floor`, written down for the judge; no team moves yet.
+    pub(super) fn written(&self, floor: &Floor) -> Run {
+        let area = floor.area;
+        let barred = area.cells().filter(|&cell| !floor.is_free(cell)).map(place).collect();
+        Run {
+            clause: "",
+            floor: Written { columns: area.width() as i32, rows: area.height() as i32, barred },
+            sight: self.rule.sight().radius_cells().into(),
+            range: self.rule.range_cells().into(),
+            metric: self.metric,
+            starts: floor.starts.iter().copied().map(place).collect(),
+            moves: Vec::new(),
+        }
+    }
+}
+
+/// A cell as the judge has it.
+pub(super) fn place(cell: Cell) -> Place {
+    (cell.x.into(), cell.y.into())
+}
+
+/// The published pack that compares this.
+const fn read(metric: Metric) -> Subject {
+    Subject { rule: Rule::PUBLISHED, metric }
+}
+
+/// The readings but for the published one.
+pub(super) const READINGS: [(&str, Subject); 3] = [
+    ("share", read(Metric::ShareBySteps)),
+    ("line", read(Metric::CellsByLine)),
+    ("share + line", read(Metric::ShareByLine)),
+];
+
+/// What the paper leaves open.
+pub(super) static PAPER: Paper = Paper {
+    ambiguities: &[
+        Ambiguity {
+            words: "“the fraction of unexplored areas around a point, which are inside the sensing radius”",
+            interpretations: &[
+                Interpretation::new("cells", "the visibility gain is the number of unknown cells", Probable),
+                Interpretation::new("share", "it is their share of the cells in sight", Literal),
+            ],
+        },
+        Ambiguity {
+            words: "“the distance … a robot has to travel”",
+            interpretations: &[
+                Interpretation::new("steps", "the distance is that over known cells", Literal),
+                Interpretation::new("line", "it is that of the straight line", Literal),
+            ],
+        },
+    ],
+    excluded: &[],
+    repairs: &["repaired"],
+};
