@@ -25,6 +25,7 @@ Examples:
   tautline library pibt rmf-lane --out refutations
   tautline library all --format json
   tautline library alpha --larger
+  tautline library pibt --larger --memory 1GiB --spill /var/tmp/states
   tautline library pibt --larger --runs 100000 --out found
   tautline library all --plan plan.json --shards 8
   tautline library --plan plan.json --shard 1";
@@ -48,7 +49,7 @@ pub(super) struct Library {
     /// Hunt: in place of all states, make at most N random runs for each check, until one breaks its promise. Of mutants
     /// none are made.
     #[arg(long, value_name = "N", value_parser = number::<u64>)]
-    #[arg(conflicts_with_all = ["html", "certificate", "memory", "patience"])]
+    #[arg(conflicts_with_all = ["html", "certificate", "memory", "spill", "patience"])]
     runs: Option<u64>,
     /// The seed of the random runs, 0 unless this says otherwise.
     #[arg(long, value_name = "SEED", value_parser = number::<u64>, requires = "runs")]
@@ -61,11 +62,11 @@ pub(super) struct Library {
     plan: Option<PathBuf>,
     /// Decide nothing yet, but deal the checks and their mutants out among N shards, each to be run on any machine.
     #[arg(long, value_name = "N", value_parser = whole::<u32>, requires = "plan")]
-    #[arg(conflicts_with_all = ["shard", "runs", "out", "html", "certificate", "memory", "patience"])]
+    #[arg(conflicts_with_all = ["shard", "runs", "out", "html", "certificate", "memory", "spill", "patience"])]
     shards: Option<u32>,
     /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
     #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
-    #[arg(conflicts_with_all = ["rules", "larger", "runs", "out", "html", "certificate", "memory", "patience", "force"])]
+    #[arg(conflicts_with_all = ["rules", "larger", "runs", "out", "html", "certificate", "memory", "spill", "patience", "force"])]
     shard: Option<u32>,
     #[command(flatten)]
     how: Deciding,

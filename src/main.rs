@@ -34,6 +34,7 @@ mod schemas;
 mod schemes;
 mod shards;
 mod show;
+mod spill;
 mod threads;
 mod value_parser;
 mod viewers;

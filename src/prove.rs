@@ -24,7 +24,7 @@ use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::{keep, make_folder};
 use super::output::Output;
-use super::{Exit, ForceArgs, needless, positive, progress};
+use super::{Exit, ForceArgs, needless, positive, progress, spill};
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
@@ -37,6 +37,7 @@ Examples:
   tautline prove BRICKS-4 --out refutations
   tautline prove KIT-2 --certificate certificates
   tautline prove --memory 1GiB
+  tautline prove MRC-1 --memory 1GiB --spill /var/tmp/states
   tautline prove --verbose
   tautline prove --html report.html
   tautline prove --format json
@@ -93,6 +94,10 @@ pub(super) struct Deciding {
     /// is left open. Without it they take what they need.
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
+    /// A folder, empty or of the same command that was killed, in which a search over states goes on for which --memory does
+    /// not suffice. Of a rule over states it is taken up there.
+    #[arg(long, value_name = "DIR", requires = "memory")]
+    spill: Option<PathBuf>,
     /// Seconds that one step may take: a team move, a case, a step between states. Where one does not end by then and
     /// no other check goes on, its check is left open.
     #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = PATIENCE)]
@@ -204,6 +209,7 @@ impl Deciding {
             ("--out", self.out.is_some()),
             ("--certificate", self.certificate.is_some()),
             ("--html", self.html.is_some()),
+            ("--spill", self.spill.is_some()),
             ("--force", self.force.force),
         ] {
             if is_given {
@@ -221,7 +227,8 @@ impl Deciding {
 
     /// Of what was decided elsewhere.
     pub(super) const fn elsewhere(out: Option<PathBuf>, force: ForceArgs, format: FormatArgs) -> Self {
-        Self { out, html: None, certificate: None, memory: None, patience: PATIENCE, force, format }
+        let (html, certificate, memory, spill) = (None, None, None, None);
+        Self { out, html, certificate, memory, spill, patience: PATIENCE, force, format }
     }
 
     /// The folder for counterexamples, the files that may be replaced, and the format.
@@ -257,6 +264,14 @@ impl Deciding {
         let threads = rayon::current_num_threads() as u64;
         let room =
             self.memory.map_or(MemoryLimit::unbounded(), |Bytes(bytes)| MemoryLimit::of(bytes, threads));
+        // The folder is locked until all is decided.
+        let (room, _held) = match &self.spill {
+            Some(folder) => {
+                let (folder, held) = spill::open(folder)?;
+                (room.spilling(folder), held)
+            }
+            None => (room, None),
+        };
         let limits = Limits { room: Arc::new(room), patience_s: self.patience.get() };
         let room = &*limits.room;
         let bar = progress::bar("proving", 1);
@@ -306,6 +321,9 @@ impl Deciding {
                 certify((row, room), folder, replaceable, out);
             }
         }
+        if let Some(fault) = room.fault() {
+            out.leave_out(&spill::diagnostic(&fault));
+        }
         let unfinished = unfinished(rows, room);
         let as_registered = rows.iter().all(Row::is_as_registered);
         let ledger = || -> Result<Ledger, Halt> {
@@ -351,12 +369,18 @@ impl Deciding {
     }
 }
 
-fn too_small(room: &MemoryLimit) -> String {
-    format!(
-        "A search over states would have taken more than {} KiB: its check is open, or its mutant was not rejected.\n\
-         Give more with --memory: one search gets three quarters of it.\n",
-        room.most() >> 10
-    )
+/// Why a search was cut off, if one was.
+fn cut_off(room: &MemoryLimit) -> Option<String> {
+    if let Some(fault) = room.fault() {
+        return Some(format!("A search over states could not go on in its folder: {fault}\n"));
+    }
+    room.was_too_small().then(|| {
+        format!(
+            "A search over states would have taken more than {} KiB: its check is open, or its mutant was not rejected.\n\
+             Give more with --memory: one search gets three quarters of it; or give it a folder with --spill.\n",
+            room.most() >> 10
+        )
+    })
 }
 
 fn is_undecided(row: &Row) -> bool {
@@ -365,7 +389,7 @@ fn is_undecided(row: &Row) -> bool {
 
 /// Which rows were cut off, and what can be done about it; nothing if none were.
 fn unfinished(rows: &[Row], room: &MemoryLimit) -> String {
-    let mut text = if room.was_too_small() { too_small(room) } else { String::new() };
+    let mut text = cut_off(room).unwrap_or_default();
     if rows.iter().any(is_undecided) {
         text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, or it \
                  needs more time: give more with --patience.\n";
@@ -379,11 +403,11 @@ fn findings(rows: &[Row], room: &MemoryLimit) -> Result<Vec<Case>, Halt> {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
         let variants = of_variants(row).into_iter().map(|words| words + "\n");
-        let outcome = match (row.is_as_registered(), row.undecided) {
-            (true, _) => Outcome::Expected,
-            (false, Some(undecided)) => Outcome::Unfinished(format!("{undecided}\n")),
-            (false, None) if room.was_too_small() => Outcome::Unfinished(too_small(room)),
-            (false, None) => Outcome::Broken(
+        let outcome = match (row.is_as_registered(), row.undecided, cut_off(room)) {
+            (true, ..) => Outcome::Expected,
+            (false, Some(undecided), _) => Outcome::Unfinished(format!("{undecided}\n")),
+            (false, None, Some(why)) => Outcome::Unfinished(why),
+            (false, None, None) => Outcome::Broken(
                 format!("{verdict}, registered as {registered}"),
                 variants.collect::<String>() + story(row, None)?.trim_start(),
             ),
@@ -450,7 +474,7 @@ pub(super) fn stored(
 /// Stores the proof of a row in `folder`, or the certificate of what its search has exhausted.
 fn certify((row, room): (&Row, &MemoryLimit), folder: &Path, replaceable: &Replaceable, out: &mut Output) {
     let Row { clause, number, check, .. } = *row;
-    let limits = states::Limits { room, ..states::Limits::NONE };
+    let limits = states::Limits { room: room.room(), ..states::Limits::NONE };
     let (path, content) = if let Some(terms) = check.certificate() {
         let name = format!("{}_{}.v", clause.id.replace('-', "_"), check.rule());
         (folder.join(name), terms.map(String::into_bytes))

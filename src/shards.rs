@@ -249,7 +249,7 @@ impl Merge {
                     library::rows(&plan, &shards)?,
                 );
                 let replaceable = self.force.replaceable(inputs);
-                how.tell((&rows, MemoryLimit::any()), (Detail::Rows, None), &replaceable, out)
+                how.tell((&rows, &MemoryLimit::unbounded()), (Detail::Rows, None), &replaceable, out)
             }
             Work::Hunt { .. } => {
                 let here = Path::new(".");

@@ -82,7 +82,7 @@ pub fn put(to: &mut Vec<u8>, mut number: u64) {
 
 /// Takes a number that [`put`] has written from the beginning of `bytes`.
 #[inline]
-pub(crate) fn take(bytes: &mut &[u8]) -> Option<u64> {
+pub fn take(bytes: &mut &[u8]) -> Option<u64> {
     let (mut number, mut shift) = (0_u64, 0);
     loop {
         let byte = *bytes.split_off_first()?;

@@ -16,5 +16,5 @@ mod file;
 mod model;
 
 pub use check::{Counts, Refusal, check};
-pub use file::{Fault, File, Header, digest, put, read, write};
+pub use file::{Fault, File, Header, digest, put, read, take, write};
 pub use model::{Model, Step};

@@ -15,7 +15,8 @@ demands, and rules with one thing wrong that the check must reject. This page is
 out. `tautline library` lists the rules, `tautline library pibt` decides one of them, `tautline library all` all of them, and `--larger`
 takes larger bounds. With `--out DIR` counterexamples are stored, and `tautline replay` plays them.
 
-Where there are more states than memory, `tautline library pibt --larger --runs 100000 --out found` hunts: it makes random runs, each by
+Where there are more states than memory, `--memory 8GiB --spill DIR` keeps them on disk ([commands.md](commands.md#larger-than-memory)). Where there are more
+than either holds, `tautline library pibt --larger --runs 100000 --out found` hunts: it makes random runs, each by
 the seed and its number, and stores the first that breaks a promise. A run that goes round for ever is found, too, if it is weakly
 fair. `tautline minimise FILE` makes it a shortest one from its start. What no run breaks is *not refuted*, and may be broken all the same.
 With `--plan` and `--shards` the checks are dealt out among machines: see [shards.md](shards.md).

@@ -6,6 +6,7 @@ mod model;
 mod bad_input;
 mod counts;
 mod hunts;
+mod spilled;
 
 use std::path::Path;
 use std::{env, fs};

@@ -11,7 +11,7 @@ use tautline_kernel::choice::Oracle;
 pub use self::portion::Portion;
 use crate::engine::model::Started;
 use crate::engine::smallest::Certificate;
-use crate::engine::states::{self, AnySystem, Limits, MemoryLimit, Step, System};
+use crate::engine::states::{self, AnySystem, Limits, Room, Step, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
@@ -213,7 +213,7 @@ pub struct Context<'a, 'w> {
     /// Hears of searches, and may end them: the check is left open then.
     pub watch: Watch<'w>,
     /// The memory that searches over states may take. Where it does not suffice, the check is left open.
-    pub room: &'a MemoryLimit,
+    pub room: Room<'a>,
 }
 
 /// Random runs of a rule.
@@ -518,6 +518,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::states::MemoryLimit;
     use crate::engine::tree::unwatched;
 
     /// A rule that ends or goes on for ever, whatever is asked of it.

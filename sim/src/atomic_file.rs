@@ -338,7 +338,7 @@ pub(crate) enum Standing {
 ///
 /// # Errors
 /// A [`Diagnostic`] if another process has locked it.
-pub(crate) fn lock(path: &Path, file: &File) -> Result<(), Diagnostic> {
+pub fn lock(path: &Path, file: &File) -> Result<(), Diagnostic> {
     match file.try_lock() {
         Ok(()) => Ok(()),
         Err(TryLockError::WouldBlock) => {

@@ -111,3 +111,34 @@ fn the_shards_of_the_library_in_any_order_give_what_one_process_gives() {
     assert!(refused(many, &["merge", "plan.json"]).contains("\"sure\" is no verdict"));
     assert!(refused(many, &["hunt", "--plan", "plan.json", "--shard", "1"]).contains("none of a hunt"));
 }
+
+/// The first promise of Ricart–Agrawala has 10,522 states, and no room for them.
+#[test]
+fn a_search_larger_than_memory_goes_on_in_a_folder() {
+    let folder = folder();
+    let spill = folder.path().join("states");
+    let bounded = ["library", "ricart-agrawala", "--memory", "480KiB"];
+    let spilling = [&bounded[..], &["--spill", "states"]].concat();
+    let said = refused(folder.path(), &spilling);
+    assert!(said.contains("there is no such folder") && said.contains("make it"), "{said}");
+    fs::create_dir(&spill).expect("a folder");
+    let whole = printed(folder.path(), &bounded[..2], 0);
+    assert!(printed(folder.path(), &bounded, 3).contains("give it a folder with --spill"));
+    assert_eq!(printed(folder.path(), &spilling, 0), whole);
+    assert_eq!(fs::read_dir(&spill).expect("a folder").count(), 0, "nothing is left");
+    // Of a search that was killed while it wrote.
+    fs::write(spill.join("0-0.part"), "tautline sta").expect("it is written");
+    assert_eq!(printed(folder.path(), &spilling, 0), whole);
+    assert_eq!(fs::read_dir(&spill).expect("a folder").count(), 0, "nothing is left");
+    for (name, content) in [("notes.txt", "tautline states 1\n"), ("1-0.states", "mine")] {
+        fs::write(spill.join(name), content).expect("it is written");
+        let said = refused(folder.path(), &spilling);
+        assert!(said.contains(name) && said.contains("name a folder that is empty"), "{said}");
+        fs::remove_file(spill.join(name)).expect("it is there");
+    }
+    fs::write(folder.path().join("file"), "").expect("it is written");
+    let said = refused(folder.path(), &[&bounded[..], &["--spill", "file"]].concat());
+    assert!(said.contains("this is no folder"), "{said}");
+    let said = refused(folder.path(), &[&bounded[..2], &["--spill", "states"]].concat());
+    assert!(said.contains("--memory"), "{said}");
+}

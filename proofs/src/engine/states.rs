@@ -14,6 +14,7 @@ mod known;
 mod limits;
 mod rounds;
 mod search;
+mod spill;
 mod tables;
 mod together;
 mod walk;
@@ -24,8 +25,9 @@ use std::ops::ControlFlow;
 use std::{fmt, iter, mem};
 
 pub use exhausted::{AnySystem, NoCertificate};
-pub use limits::{Limits, MemoryLimit};
+pub use limits::{Limits, MemoryLimit, Room};
 pub use search::{search, watched};
+pub use spill::{Create, HEAD, PART, Spill, SpillError, SpillFault, WHOLE};
 pub use together::search_together;
 pub use walk::{walk, without_detours};
 

@@ -173,8 +173,9 @@ impl SharedState {
             let job = &jobs[number];
             let memory = &mut Cache::default();
             let watch = &mut |progress: &Progress<'_>| (self.hear)(News::Search(progress));
-            let mut desk = Context { memory, watch, room: &self.limits.room };
             for &question in &job.questions {
+                let words = question.words(&self.checks);
+                let mut desk = Context { memory, watch, room: self.limits.room.asked(&words) };
                 match job.answer(question, &self.checks, &mut desk) {
                     Ok(done) => send(ThreadNews::Done(Box::new(done))),
                     Err(refused) => return send(ThreadNews::Refused(refused)),
@@ -322,6 +323,14 @@ impl Question {
     fn variant(self, checks: &[(&'static Clause, usize)]) -> Option<Variant> {
         let (clause, number) = checks[self.place];
         self.variant.and_then(|variant| clause.checks[number].variants().get(variant).copied())
+    }
+
+    /// The words that stand for it alone.
+    fn words(self, checks: &[(&'static Clause, usize)]) -> String {
+        let (clause, number) = checks[self.place];
+        let check = clause.checks[number];
+        let of = self.variant(checks).map_or(check.rule(), Variant::name);
+        format!("{} {number} as {:?} {of}, {}", clause.id, self.variant, check.bound())
     }
 }
 

@@ -207,7 +207,9 @@ fn searched<P: Protocol>(
     let (at_once, each) = if own.len() == 1 { (1, workers) } else { (workers, 1) };
     'all: for places in own.chunks(64 * at_once) {
         let limits = Limits { most_steps: limits.most_steps - whole.steps, ..limits };
-        let found = each_of(places, at_once, |place| all[place].search(limits, each));
+        let found = each_of(places, at_once, |place| {
+            all[place].search(Limits { room: limits.room.of_search(place), ..limits }, each)
+        });
         for (&place, mut found) in places.iter().zip(found) {
             if let Some(run) = found.broken.pop()
                 && shortest.as_ref().is_none_or(|(_, other)| run.length() < other.length())

@@ -67,7 +67,8 @@ where
 {
     fn exhausted(&self, limits: Limits<'_>) -> Result<(Vec<u8>, u64), NoCertificate> {
         let (system, starts) = (&self.system, (self.starts)(&self.system));
-        let mut search = Search::new(system, limits);
+        // All states are gone through in any order.
+        let mut search = Search::new(system, Limits { room: limits.room.in_memory(), ..limits });
         let unwatched = &mut |_| ControlFlow::Continue(());
         let found = search.run_from(starts.iter().cloned(), limits.most_steps, unwatched);
         if found.broken.iter().any(|run| (self.is_asked)(system, run.demand)) {

@@ -1,6 +1,8 @@
 //! The graph of the states that were met, with nothing of what they are: how each was first found, and where endless
 //! runs are looked for, what is owed in it and which steps are bound to be made from it.
 
+use std::ops::Range;
+
 use super::Bits;
 use super::tables::Pile;
 
@@ -16,6 +18,8 @@ pub(super) struct Graph {
     /// Of each node that is gone on from, where its arcs begin.
     first_arc: Pile<u32>,
     arcs: Pile<Arc>,
+    /// How many nodes, and how many that are gone on from, stand on disk.
+    on_disk: (usize, usize),
 }
 
 /// A step that is bound to be made.
@@ -35,7 +39,47 @@ impl Graph {
             owed: Pile::new(),
             first_arc: Pile::new(),
             arcs: Pile::new(),
+            on_disk: (0, 0),
         }
+    }
+
+    /// All that was added since the last time, as numbers.
+    pub(super) fn added(&self) -> impl Iterator<Item = u64> {
+        let (nodes, gone_on) = (self.on_disk.0..self.len(), self.on_disk.1..self.first_arc.len());
+        let counts = [self.starts.len(), nodes.len(), gone_on.len()].map(|count| count as u64);
+        let starts = self.starts.iter().map(|&start| start.into());
+        let from = nodes.map(|node| self.from.at(node).into());
+        let steps = gone_on.flat_map(|node| {
+            let arcs = self.arcs(node).flat_map(|Arc { to, acting }| [to.into(), acting.into()]);
+            [self.owed.at(node).into(), self.arcs(node).count() as u64].into_iter().chain(arcs)
+        });
+        counts.into_iter().chain(starts).chain(from).chain(steps)
+    }
+
+    /// All that was added stands on disk.
+    pub(super) const fn is_on_disk(&mut self) {
+        self.on_disk = (self.len(), self.first_arc.len());
+    }
+
+    /// Adds what was added once, from its numbers.
+    pub(super) fn add_again<E>(&mut self, mut next: impl FnMut() -> Result<u64, E>) -> Result<(), E> {
+        let [starts, nodes, gone_on] = [next()?, next()?, next()?];
+        self.starts.clear();
+        for _ in 0..starts {
+            self.starts.push(next()? as u32);
+        }
+        for _ in 0..nodes {
+            self.from.push(next()? as u32);
+        }
+        for _ in 0..gone_on {
+            let (owed, arcs) = (next()? as Bits, next()?);
+            self.go_on(|| owed);
+            for _ in 0..arcs {
+                self.add_arc(Arc { to: next()? as u32, acting: next()? as Bits });
+            }
+        }
+        self.is_on_disk();
+        Ok(())
     }
 
     /// The number of nodes.
@@ -44,7 +88,8 @@ impl Graph {
     }
 
     pub(super) fn bytes(&self) -> u64 {
-        self.from.bytes() + self.owed.bytes() + self.first_arc.bytes() + self.arcs.bytes()
+        let starts = self.starts.capacity() * size_of::<u32>();
+        starts as u64 + self.from.bytes() + self.owed.bytes() + self.first_arc.bytes() + self.arcs.bytes()
     }
 
     /// Whether it has as many nodes or arcs as it can number.
@@ -91,6 +136,19 @@ impl Graph {
 
     fn end(&self, node: usize) -> u32 {
         if node + 1 < self.first_arc.len() { self.first_arc.at(node + 1) } else { self.arcs.len() as u32 }
+    }
+
+    /// The nodes that were first found from these.
+    pub(super) fn found_from(&self, nodes: &Range<usize>) -> Range<usize> {
+        let after = |node: usize| {
+            let (mut first, mut last) = (self.starts.len(), self.len());
+            while first < last {
+                let middle = first.midpoint(last);
+                if (self.from.at(middle) as usize) < node { first = middle + 1 } else { last = middle }
+            }
+            first
+        };
+        after(nodes.start)..after(nodes.end)
     }
 
     /// The number of the start of the way that first led to a node, and the nodes on it, the start's first.

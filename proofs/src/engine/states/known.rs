@@ -1,10 +1,13 @@
-//! The states that are known, each as the numbers of its parts.
+//! The states that are known, each as the numbers of its parts: the last ones in memory, those before perhaps on disk.
 
 use std::hash::{BuildHasher, Hash, Hasher};
 use std::hint::black_box;
+use std::mem;
+use std::ops::Range;
 
 use rustc_hash::FxBuildHasher;
 
+use super::spill::{Disk, SpillError, Wanted};
 use super::tables::{Codes, Slots};
 use super::{Places, System};
 
@@ -69,8 +72,11 @@ pub(super) struct StateTable<P> {
     /// Parts of a state.
     places: usize,
     codes: Codes,
-    /// The states by their hashes.
+    /// The states in memory by their hashes.
     nodes: Slots,
+    /// The states on disk, and how many they are.
+    pub(super) disk: Option<Disk>,
+    on_disk: usize,
     /// States that are looked up together, so that the memory answers for all of them at once.
     queue: Queue,
     /// The state that is shown; at first none, and all numbers are 0.
@@ -87,6 +93,8 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
             places: 0,
             codes: Codes::default(),
             nodes: Slots::default(),
+            disk: None,
+            on_disk: 0,
             queue: Queue::default(),
             shown: Code::default(),
             made: Code::default(),
@@ -95,22 +103,93 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
 
     /// The number of states.
     pub(super) const fn len(&self) -> usize {
-        self.codes.length
+        self.on_disk + self.codes.length
     }
 
     /// The bytes that they take, and will have taken once the next one is there.
     pub(super) fn bytes(&self) -> u64 {
         let table = self.nodes.bytes_with_the_next();
         let parts = self.parts.parts.capacity() * size_of::<P>() + self.parts.slots.bytes();
-        self.codes.bytes() + table + parts as u64
+        self.codes.bytes() + table + parts as u64 + self.disk.as_ref().map_or(0, Disk::bytes)
     }
 
-    /// Makes of `state`, which was shown last, the state of a node: only the parts that they do not share are put.
-    pub(super) fn show<S: System<Part = P>>(&mut self, system: &S, node: usize, state: &mut S::State) {
-        let Self { parts, codes, places, width, shown, .. } = self;
-        let code = codes.entry(node);
+    /// The code of a state that is in memory or was loaded.
+    fn code(&self, node: usize) -> Option<&[u8]> {
+        match node.checked_sub(self.on_disk) {
+            Some(place) => Some(self.codes.entry(place)),
+            None => self.disk.as_ref()?.code(node),
+        }
+    }
+
+    /// Loads those of these states that are on disk. False if they cannot be read.
+    pub(super) fn load(&mut self, nodes: Range<usize>) -> bool {
+        nodes.start >= self.on_disk || self.disk.as_mut().is_some_and(|disk| disk.load(nodes))
+    }
+
+    /// Writes the states in memory to disk, with these numbers, and empties it. False if they cannot be written.
+    pub(super) fn spill(&mut self, numbers: impl Iterator<Item = u64>) -> bool {
+        while self.places > 0 && self.width < size_of::<u32>() {
+            self.widen();
+        }
+        let Some(disk) = &mut self.disk else { return false };
+        let sorted = mem::take(&mut self.nodes).into_sorted();
+        let is_written = disk.write((&self.codes, &sorted), numbers);
+        if is_written {
+            (self.codes, self.on_disk) = (Codes::default(), disk.len());
+        }
+        is_written
+    }
+
+    /// Takes up the states on this disk, if there are any.
+    pub(super) fn take_up(&mut self, disk: Disk) {
+        self.on_disk = disk.len();
+        self.disk = (disk.len() > 0 || disk.fault().is_some()).then_some(disk);
+    }
+
+    /// Why states cannot be written or read.
+    pub(super) fn fault(&self) -> Option<&SpillError> {
+        self.disk.as_ref().and_then(Disk::fault)
+    }
+
+    /// The states on disk are of another system.
+    pub(super) fn is_foreign(&mut self) {
+        self.disk.iter_mut().for_each(Disk::is_foreign);
+    }
+
+    /// Removes what is on disk if the search is over, or cannot be taken up.
+    pub(super) fn leave_disk(&self, is_over: bool) {
+        self.disk.iter().for_each(|disk| disk.leave(is_over));
+    }
+
+    /// Looks on disk for the states of queues that are not in memory, by so many workers. False if it cannot be read.
+    pub(super) fn look_up_on_disk<'a>(
+        &mut self,
+        queues: impl Iterator<Item = &'a mut Queue>,
+        workers: usize,
+    ) -> bool {
+        let Some(disk) = &mut self.disk else { return true };
+        disk.look_up(queues.flat_map(Queue::unknown).collect(), workers)
+    }
+
+    /// Makes of `state`, which was shown last, the state of a node: only the parts that they do not share are put. False
+    /// if it cannot be read.
+    pub(super) fn show<S: System<Part = P>>(
+        &mut self,
+        system: &S,
+        node: usize,
+        state: &mut S::State,
+    ) -> bool {
+        if !self.load(node..node + 1) {
+            return false;
+        }
+        let Self { parts, codes, places, width, shown, disk, on_disk, .. } = self;
+        let code = match node.checked_sub(*on_disk) {
+            Some(place) => codes.entry(place),
+            None => disk.as_ref().and_then(|disk| disk.code(node)).unwrap_or_default(),
+        };
         if *places == 0 {
-            return system.read(state, code);
+            system.read(state, code);
+            return true;
         }
         for place in 0..*places {
             let number_in = |bytes: &[u8]| number(&bytes[place * *width..(place + 1) * *width]);
@@ -120,6 +199,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
                 shown.put(place, *width, number);
             }
         }
+        true
     }
 
     /// Makes the state in the making, whose parts are all put, the one that is shown.
@@ -133,22 +213,21 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.queue.push(&self.made);
     }
 
-    /// The states that were put into the queue, looked up. The queue is to be given back.
+    /// The bytes that the queue takes.
+    pub(super) const fn queued_bytes(&self) -> u64 {
+        self.queue.bytes() as u64
+    }
+
+    /// The states that were put into the queue, looked up in memory.
     pub(super) fn queued(&mut self) -> Queue {
-        let mut queue = std::mem::take(&mut self.queue);
+        let mut queue = mem::take(&mut self.queue);
         self.look_up(&mut queue);
         queue
     }
 
-    /// Takes a queue back whose states were met.
-    pub(super) fn give_back(&mut self, mut queue: Queue) {
-        queue.clear();
-        self.queue = queue;
-    }
-
-    /// Looks for the states of a queue among those that are known.
+    /// Looks for the states of a queue among those in memory.
     pub(super) fn look_up(&self, queue: &mut Queue) {
-        let Self { nodes, codes, .. } = self;
+        let Self { nodes, codes, on_disk, .. } = self;
         // No look waits for the one before it: first into the table, then among the codes.
         black_box(queue.states.iter().fold(0, |all, state| all ^ nodes.slot(state.hash)));
         for state in &mut queue.states {
@@ -158,20 +237,21 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         for state in &mut queue.states {
             let code = &queue.bytes[first..state.end];
             first = state.end;
-            state.node = state.node.filter(|&node| codes.entry(node as usize) == code);
+            state.node = state.node.filter(|&node| codes.entry(node as usize - on_disk) == code);
         }
     }
 
     /// Meets the next state of a queue in which all were looked up: its number, and whether it is new.
     pub(super) fn meet_next(&mut self, queue: &mut Queue) -> (u32, bool) {
-        let Self { nodes, codes, .. } = self;
+        let Self { nodes, codes, on_disk, .. } = self;
         let state = &queue.states[queue.met];
         let code = &queue.bytes[queue.first..state.end];
         (queue.met, queue.first) = (queue.met + 1, state.end);
+        let is_it = |node: u32| codes.entry(node as usize - *on_disk) == code;
         // Since it was looked up, it may have been met.
-        let known = state.node.or_else(|| nodes.find(state.hash, |node| codes.entry(node as usize) == code));
+        let known = state.node.or_else(|| nodes.find(state.hash, is_it));
         let node = known.unwrap_or_else(|| {
-            let node = codes.length as u32;
+            let node = (*on_disk + codes.length) as u32;
             nodes.insert(state.hash, node);
             codes.push(code);
             node
@@ -179,9 +259,15 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         (node, known.is_none())
     }
 
-    /// Makes `state`, which has no parts, that of a node.
-    pub(super) fn read<S: System<Part = P>>(&self, system: &S, node: usize, state: &mut S::State) {
-        system.read(state, self.codes.entry(node));
+    /// Makes `state`, which has no parts, that of a node that is loaded.
+    pub(super) fn read<S: System<Part = P>>(&self, system: &S, node: usize, state: &mut S::State) -> bool {
+        self.code(node).map(|code| system.read(state, code)).is_some()
+    }
+
+    /// Whether `state` is that of a node.
+    pub(super) fn is_at<S: System<Part = P>>(&mut self, system: &S, state: &S::State, node: usize) -> bool {
+        self.take_apart(system, state, Places::MAX);
+        self.load(node..node + 1) && self.code(node) == Some(&self.made.bytes)
     }
 
     /// Whether states are kept in bytes of their own.
@@ -189,16 +275,16 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.places == 0
     }
 
-    /// The number of `state`, if it is known.
+    /// The number of `state`, if it is in memory.
     pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
         self.take_apart(system, state, Places::MAX);
-        let Self { nodes, codes, made, .. } = self;
-        nodes.find(made.hash, |node| codes.entry(node as usize) == made.bytes)
+        let Self { nodes, codes, made, on_disk, .. } = self;
+        nodes.find(made.hash, |node| codes.entry(node as usize - *on_disk) == made.bytes)
     }
 
     /// Makes `state` the one in the making.
     fn take_apart<S: System<Part = P>>(&mut self, system: &S, state: &S::State, differing: Places) {
-        if self.codes.length == 0 {
+        if self.len() == 0 {
             self.places = system.places(state);
             self.shown = Code::zero(self.places, self.width);
         }
@@ -268,8 +354,8 @@ const fn hash_at(place: usize, number: u32) -> HashOfState {
     (mixed >> u32::BITS) as HashOfState
 }
 
-/// The hash of a state in bytes of its own.
-fn hash_of(bytes: &[u8]) -> HashOfState {
+/// The hash of bytes.
+pub(super) fn hash_of(bytes: &[u8]) -> HashOfState {
     let mut hasher = FxBuildHasher.build_hasher();
     hasher.write(bytes);
     folded(hasher.finish())
@@ -313,10 +399,24 @@ impl Queue {
         self.states.push(Queued { hash, end: self.bytes.len(), node: None });
     }
 
-    fn clear(&mut self) {
-        self.bytes.clear();
-        self.states.clear();
-        (self.met, self.first) = (0, 0);
+    /// The numbers of the states, of those that were found.
+    pub(super) fn found(&self) -> impl Iterator<Item = Option<u32>> {
+        self.states.iter().map(|state| state.node)
+    }
+
+    /// The states that were not found, to be looked for on disk.
+    fn unknown(&mut self) -> impl Iterator<Item = Wanted<'_>> {
+        let (bytes, mut first) = (&self.bytes, 0);
+        let all = self.states.iter_mut().map(move |state| {
+            let code = &bytes[mem::replace(&mut first, state.end)..state.end];
+            Wanted { hash: state.hash, code, node: &mut state.node }
+        });
+        all.filter(|wanted| wanted.node.is_none())
+    }
+
+    /// The bytes that it takes while its states are looked for on disk.
+    pub(super) const fn bytes(&self) -> usize {
+        self.bytes.len() + self.states.len() * (size_of::<Queued>() + size_of::<Wanted<'_>>())
     }
 }
 
@@ -366,9 +466,7 @@ mod tests {
     fn meet(known: &mut StateTable<u32>, state: &[u32; 3], differing: Places) -> (u32, bool) {
         known.queue(&Triples, state, differing);
         let mut queue = known.queued();
-        let met = known.meet_next(&mut queue);
-        known.give_back(queue);
-        met
+        known.meet_next(&mut queue)
     }
 
     /// The second one needs numbers of two bytes.

@@ -1,9 +1,12 @@
 //! How far a search over states may go. Searches that run beside each other share the memory that they may take: small
 //! ones take it as they come, and of those that grow only one at a time is large. What one search may take does not
-//! depend on how many there are, so neither does what it finds.
+//! depend on how many there are, so neither does what it finds. A large search for which memory does not suffice goes on
+//! in a folder ([`Spill`]), if there is one.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::spill::{Spill, SpillError};
 
 /// How far a search may go.
 #[derive(Clone, Copy, Debug)]
@@ -11,7 +14,7 @@ pub struct Limits<'a> {
     /// Steps between states that it may make.
     pub most_steps: u64,
     /// The memory that it may take.
-    pub room: &'a MemoryLimit,
+    pub room: Room<'a>,
 }
 
 impl Limits<'static> {
@@ -20,7 +23,33 @@ impl Limits<'static> {
 
     /// At most so many steps, in any memory.
     pub const fn steps(most_steps: u64) -> Self {
-        Self { most_steps, room: &ANY }
+        Self { most_steps, room: MemoryLimit::any() }
+    }
+}
+
+/// The memory of searches that answer one question.
+#[derive(Clone, Copy, Debug)]
+pub struct Room<'a> {
+    limit: &'a MemoryLimit,
+    /// The folder in which a search goes on.
+    pub(super) spill: Option<&'a Spill>,
+    /// The question, if a search that is killed may be taken up for it, and the number of the search among its own.
+    pub(super) question: Option<(&'a str, usize)>,
+}
+
+impl Room<'_> {
+    /// That of the search with this number among those that answer the question.
+    #[must_use]
+    pub const fn of_search(self, number: usize) -> Self {
+        match self.question {
+            Some((question, _)) => Self { question: Some((question, number)), ..self },
+            None => self,
+        }
+    }
+
+    /// That of a search that goes on in no folder.
+    pub(super) const fn in_memory(self) -> Self {
+        Self { spill: None, ..self }
     }
 }
 
@@ -38,25 +67,52 @@ pub struct MemoryLimit {
     large: Mutex<()>,
     /// Whether it did not suffice.
     was_too_small: AtomicBool,
+    /// Where a search goes on for which it does not suffice.
+    spill: Option<Spill>,
 }
 
 impl MemoryLimit {
     /// As much as there is.
-    pub const fn any() -> &'static Self {
-        &ANY
+    pub const fn any() -> Room<'static> {
+        Room { limit: &ANY, spill: None, question: None }
     }
 
     /// As much as there is, for searches of one's own.
     pub const fn unbounded() -> Self {
-        Self { most: u64::MAX, small: u64::MAX, large: Mutex::new(()), was_too_small: AtomicBool::new(false) }
+        Self::new(u64::MAX, u64::MAX)
+    }
+
+    const fn new(most: u64, small: u64) -> Self {
+        let was_too_small = AtomicBool::new(false);
+        Self { most, small, large: Mutex::new(()), was_too_small, spill: None }
     }
 
     /// `bytes` for at most `beside` searches at a time: three quarters of it for the large one, and the rest in equal
     /// shares for all.
     pub const fn of(bytes: u64, beside: u64) -> Self {
-        let most = bytes - bytes / 4;
-        let small = bytes / 4 / if beside == 0 { 1 } else { beside };
-        Self { most, small, large: Mutex::new(()), was_too_small: AtomicBool::new(false) }
+        Self::new(bytes - bytes / 4, bytes / 4 / if beside == 0 { 1 } else { beside })
+    }
+
+    /// This memory, and a folder in which a search goes on for which it does not suffice.
+    #[must_use]
+    pub fn spilling(self, spill: Spill) -> Self {
+        Self { spill: Some(spill), ..self }
+    }
+
+    /// The memory of searches that answer no question in particular.
+    pub const fn room(&self) -> Room<'_> {
+        Room { limit: self, spill: self.spill.as_ref(), question: None }
+    }
+
+    /// The memory of searches that answer this question, by words that stand for it alone: one that was killed is taken
+    /// up when the same question is asked again.
+    pub const fn asked<'a>(&'a self, question: &'a str) -> Room<'a> {
+        Room { question: Some((question, 0)), ..self.room() }
+    }
+
+    /// Why a search could not go on in its folder.
+    pub fn fault(&self) -> Option<SpillError> {
+        self.spill.as_ref().and_then(Spill::fault)
     }
 
     /// Whether a search was cut off for want of it.
@@ -72,7 +128,7 @@ impl MemoryLimit {
 
 /// A search's share of a [`MemoryLimit`].
 pub(super) struct MemoryShare<'a> {
-    room: &'a MemoryLimit,
+    room: Room<'a>,
     large: Option<MutexGuard<'a, ()>>,
     /// Bytes of what stays.
     pub(super) held: u64,
@@ -81,7 +137,7 @@ pub(super) struct MemoryShare<'a> {
 }
 
 impl<'a> MemoryShare<'a> {
-    pub(super) const fn new(room: &'a MemoryLimit) -> Self {
+    pub(super) const fn new(room: Room<'a>) -> Self {
         Self { room, large: None, held: 0, most: 0 }
     }
 
@@ -94,15 +150,33 @@ impl<'a> MemoryShare<'a> {
     /// Has so many bytes in all for a while; false if a search may not have them. A search that becomes large waits
     /// until no other one is.
     pub(super) fn reaches(&mut self, bytes: u64) -> bool {
-        self.most = self.most.max(bytes);
-        if bytes > self.room.small && self.large.is_none() {
-            self.large = Some(self.room.large.lock().unwrap_or_else(PoisonError::into_inner));
+        let limit = self.room.limit;
+        if bytes > limit.small && self.large.is_none() {
+            self.large = Some(limit.large.lock().unwrap_or_else(PoisonError::into_inner));
         }
-        let fits = bytes <= self.room.most;
-        if !fits {
-            self.room.was_too_small.store(true, Ordering::Relaxed);
+        let fits = self.fits(bytes);
+        if fits {
+            self.most = self.most.max(bytes);
         }
         fits
+    }
+
+    /// Whether a search may have so many bytes.
+    pub(super) const fn fits(&self, bytes: u64) -> bool {
+        bytes <= self.room.limit.most
+    }
+
+    /// The memory did not suffice, and the search stops.
+    pub(super) fn was_too_small(&self) {
+        self.room.limit.was_too_small.store(true, Ordering::Relaxed);
+    }
+
+    /// The bytes that steps may take at a time beside so many, if a search goes on in a folder: the states to which they
+    /// lead may take as many, and a table as many again while it grows. Nothing if that is too little to go on with.
+    pub(super) const fn for_steps(&self, beside: u64) -> u64 {
+        let most = self.room.limit.most;
+        let bytes = most.saturating_sub(beside) / 4;
+        if bytes < most / 32 { 0 } else { bytes }
     }
 }
 
@@ -118,10 +192,9 @@ mod tests {
     fn one_search_gets_three_quarters_whatever_is_beside_it() {
         for beside in [0, 1, 64] {
             let room = MemoryLimit::of(1024, beside);
-            let mut taken = MemoryShare::new(&room);
-            assert!(taken.hold(768) && !room.was_too_small());
-            assert!(!taken.hold(769) && room.was_too_small());
-            assert_eq!((taken.held, taken.most, room.most()), (769, 769, 768));
+            let mut taken = MemoryShare::new(room.room());
+            assert!(taken.hold(768) && !taken.hold(769));
+            assert_eq!((taken.held, taken.most, room.most()), (769, 768, 768));
         }
         assert!(MemoryShare::new(MemoryLimit::any()).hold(u64::MAX));
     }
@@ -131,10 +204,10 @@ mod tests {
         let room = MemoryLimit::of(1024, 2);
         let (told, heard) = channel();
         thread::scope(|scope| {
-            let mut first = MemoryShare::new(&room);
+            let mut first = MemoryShare::new(room.room());
             assert!(first.hold(200));
             scope.spawn(|| {
-                let mut second = MemoryShare::new(&room);
+                let mut second = MemoryShare::new(room.room());
                 assert!(second.hold(100), "a small one does not wait");
                 told.send("small").expect("somebody hears");
                 assert!(second.hold(300));

@@ -2,14 +2,15 @@
 //! the first run that breaks it.
 
 use std::ops::{ControlFlow, Range};
+use std::{io, iter, mem};
 
 use super::graph::{Arc, Graph};
 use super::known::{Queue, StateTable};
-use super::limits::{Limits, MemoryShare};
-use super::rounds::TooLarge;
+use super::limits::{Limits, MemoryShare, Room};
+use super::rounds::{Round, TooLarge};
+use super::spill::{Disk, Numbers};
 use super::together::{self, Chunk};
-use super::{Bits, END, Ending, Findings, Places, Run, Step, System, steps};
-use crate::engine::watchdog::Steps;
+use super::{Bits, END, Ending, Findings, Places, Run, System, TRIED, steps};
 use crate::engine::world::World;
 
 /// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
@@ -36,6 +37,8 @@ pub fn watched<S: System>(
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stop {
     Enough,
+    /// Memory does not suffice.
+    Full,
     Unfinished,
 }
 
@@ -68,10 +71,15 @@ pub(super) struct Search<'a, S: System> {
     pub(super) share_out: Option<(usize, ShareOut<S>)>,
     pub(super) known: StateTable<S::Part>,
     pub(super) graph: Graph,
+    /// Starts that were met.
+    begun: u32,
     looked_at: usize,
     steps: u64,
+    /// The bytes of steps that are made and not taken yet, where states are on disk.
+    making: u64,
     /// The state that is shown: of the next one only what differs is put.
     pub(super) shown: Option<Box<S::State>>,
+    room: Room<'a>,
     taken: MemoryShare<'a>,
     /// The situations that occurred, a bit for each.
     occurred: u64,
@@ -89,9 +97,12 @@ impl<'a, S: System> Search<'a, S> {
             share_out: None,
             known: StateTable::new(),
             graph: Graph::new(system.broken_by_endless_runs().is_some()),
+            begun: 0,
             looked_at: 0,
             steps: 0,
+            making: 0,
             shown: None,
+            room: limits.room,
             taken: MemoryShare::new(limits.room),
             occurred: 0,
             has_ended: false,
@@ -106,17 +117,25 @@ impl<'a, S: System> Search<'a, S> {
         most_steps: u64,
         watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Findings<S::Demand> {
-        for (start, state) in (0..).zip(starts) {
-            self.meet_start(start, state);
+        let mut starts = starts.into_iter().peekable();
+        if let Some(first) = starts.peek() {
+            self.take_up(first);
         }
-        let making = Steps::begin();
-        let mut stop = self.look_at_all(most_steps, &making, watch).break_value();
-        // What follows makes no step that was not made before, and may take its time.
-        making.leave();
+        let mut stop = self.meet_starts(starts.skip(self.begun as usize)).break_value();
+        stop = stop.or_else(|| self.look_at_all(most_steps, watch).break_value());
         if let (None, Some(demand)) = (stop, self.system.broken_by_endless_runs()) {
-            stop = self.look_for_rounds(demand).err().map(|TooLarge| Stop::Unfinished);
+            stop = self.look_for_rounds(demand).err();
         }
-        let broken = std::mem::take(&mut self.broken);
+        if stop == Some(Stop::Full) {
+            self.taken.was_too_small();
+        }
+        let broken = mem::take(&mut self.broken).into_iter().map(|broken| self.run(broken)).collect();
+        // The last word: a run may have to be read, too.
+        let is_whole = matches!(stop, None | Some(Stop::Enough)) && self.known.fault().is_none();
+        self.known.leave_disk(is_whole);
+        if let (Some(spill), Some(fault)) = (self.room.spill, self.known.fault()) {
+            spill.note(fault.clone());
+        }
         let situations = self.system.covers().into_iter().zip(0..);
         let occurred = situations.filter(|(_, bit)| self.occurred >> bit & 1 == 1).map(|(name, _)| name);
         let mut covered: Vec<_> = occurred.chain(self.has_ended.then_some(END)).collect();
@@ -126,72 +145,236 @@ impl<'a, S: System> Search<'a, S> {
             looked_at: self.looked_at as u64,
             steps: self.steps,
             bytes: self.taken.most,
-            is_whole: stop != Some(Stop::Unfinished),
-            broken: broken.into_iter().map(|broken| self.run(broken)).collect(),
+            is_whole,
+            broken: if self.known.fault().is_some() { Vec::new() } else { broken },
             covered,
         }
     }
 
-    fn meet_start(&mut self, start: u32, mut state: S::State) {
-        self.system.make_canonical(&mut state);
-        self.known.queue(self.system, &state, Places::MAX);
-        let mut queue = self.known.queued();
-        if self.known.meet_next(&mut queue).1 {
-            self.graph.add_start(start);
+    /// Meets the starts that are left.
+    fn meet_starts(&mut self, mut starts: impl Iterator<Item = S::State>) -> ControlFlow<Stop> {
+        loop {
+            let most = if self.known.disk.is_some() { self.for_steps() } else { 0 };
+            // They take at most as much in the table as in the queue.
+            if !self.taken.hold(self.bytes() + 2 * most) {
+                self.spill()?;
+            }
+            let mut queued = 0;
+            while queued < BETWEEN || self.known.queued_bytes() < most {
+                let Some(mut state) = starts.next() else { break };
+                self.system.make_canonical(&mut state);
+                self.known.queue(self.system, &state, Places::MAX);
+                self.shown = Some(Box::new(state));
+                queued += 1;
+            }
+            if queued == 0 {
+                return ControlFlow::Continue(());
+            }
+            self.known.show_last();
+            let mut queue = self.known.queued();
+            if !self.known.look_up_on_disk(iter::once(&mut queue), self.workers()) {
+                return ControlFlow::Break(Stop::Unfinished);
+            }
+            for _ in 0..queued {
+                if self.known.meet_next(&mut queue).1 {
+                    self.graph.add_start(self.begun);
+                }
+                self.begun += 1;
+            }
         }
-        self.known.give_back(queue);
-        self.known.show_last();
-        self.shown = Some(Box::new(state));
+    }
+
+    fn workers(&self) -> usize {
+        self.share_out.map_or(1, |(workers, _)| workers)
     }
 
     /// The state of a node. It is to be given back as what is shown.
     pub(super) fn state(&mut self, node: usize) -> Option<Box<S::State>> {
         let mut state = self.shown.take()?;
-        self.known.show(self.system, node, &mut state);
-        Some(state)
+        self.known.show(self.system, node, &mut state).then_some(state)
     }
 
     /// Makes all steps from all nodes.
     fn look_at_all(
         &mut self,
         most_steps: u64,
-        making: &Steps,
         watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> ControlFlow<Stop> {
         while self.looked_at < self.known.len() {
-            let waiting = self.known.len() - self.looked_at;
-            if let (Some((workers, share_out)), Some(state)) = (self.share_out, &self.shown)
-                && waiting >= together::FEWEST
-                && self.known.is_bytes()
-            {
-                making.leave();
-                let nodes = self.looked_at..self.looked_at + waiting.min(together::MOST);
-                for chunk in share_out((self.system, &self.known), state, nodes.clone(), workers) {
-                    self.take(chunk, most_steps, watch)?;
+            let (before, chunks) = (self.looked_at, self.make_steps()?);
+            match chunks.into_iter().try_for_each(|chunk| self.take(chunk, most_steps, watch)) {
+                // What was not taken is made again.
+                ControlFlow::Break(Stop::Full) if self.looked_at > before || self.known.disk.is_none() => {
+                    self.spill()?;
                 }
-                continue;
+                flow => flow?,
             }
-            let Some(state) = self.state(self.looked_at) else { break };
-            // A search may wait for memory that another one has.
-            making.leave();
-            self.may_go_on(watch)?;
-            let node = self.looked_at;
-            let flow = self.look((node, &state), most_steps, making);
-            self.shown = Some(state);
-            flow?;
         }
         ControlFlow::Continue(())
+    }
+
+    /// The steps from the next nodes: if states are on disk, from as many as there is memory for.
+    fn make_steps(&mut self) -> ControlFlow<Stop, Vec<Chunk<S::Demand>>> {
+        if self.known.fault().is_some() {
+            return ControlFlow::Break(Stop::Unfinished);
+        }
+        let (mut chunks, mut next) = (Vec::new(), self.looked_at);
+        self.making = 0;
+        loop {
+            let nodes = next..self.known.len().min(next + self.at_once(next));
+            let made = self.make_steps_from(nodes.clone())?;
+            next += made.iter().map(|chunk| chunk.nodes.len()).sum::<usize>();
+            if self.known.disk.is_none() {
+                return ControlFlow::Continue(made);
+            }
+            self.making += made.iter().map(Chunk::bytes).sum::<u64>();
+            chunks.extend(made);
+            if next < nodes.end || next == self.known.len() || self.making >= self.for_steps() {
+                break;
+            }
+        }
+        // The states to which they lead take at most as much as they do.
+        if !self.taken.fits(self.bytes() + self.for_steps()) {
+            self.spill()?;
+        }
+        let queues = chunks.iter_mut().map(|chunk| &mut chunk.queue);
+        if !self.known.look_up_on_disk(queues, self.workers()) {
+            return ControlFlow::Break(Stop::Unfinished);
+        }
+        ControlFlow::Continue(chunks)
+    }
+
+    /// The number of nodes from this one on whose steps are made at once.
+    fn at_once(&self, next: usize) -> usize {
+        // They take a quarter of the memory for steps, if those from one state take 1 KiB.
+        let most = if self.known.disk.is_some() { self.for_steps() >> 12 } else { u64::MAX };
+        match self.share_out {
+            Some(_) if self.known.is_bytes() && self.known.len() - next >= together::FEWEST => {
+                (together::MOST as u64).min(most.max(BETWEEN as u64)) as usize
+            }
+            _ => BETWEEN,
+        }
+    }
+
+    fn make_steps_from(&mut self, nodes: Range<usize>) -> ControlFlow<Stop, Vec<Chunk<S::Demand>>> {
+        let Some(mut state) = self.shown.take().filter(|_| self.known.load(nodes.clone())) else {
+            return ControlFlow::Break(Stop::Unfinished);
+        };
+        let chunks = match self.share_out {
+            Some((workers, share_out)) if nodes.len() >= together::FEWEST => {
+                share_out((self.system, &self.known), &state, nodes, workers)
+            }
+            _ => {
+                let chunk = together::chunk(self.system, &mut self.known, nodes, &mut state);
+                vec![Chunk { queue: self.known.queued(), ..chunk }]
+            }
+        };
+        self.shown = Some(state);
+        ControlFlow::Continue(chunks)
+    }
+
+    /// The bytes that the search takes.
+    fn bytes(&self) -> u64 {
+        self.known.bytes() + self.graph.bytes() + self.making
+    }
+
+    /// The bytes that steps may take at a time where states are on disk.
+    fn for_steps(&self) -> u64 {
+        self.taken.for_steps(self.graph.bytes() + self.known.disk.as_ref().map_or(0, Disk::bytes))
+    }
+
+    /// Writes the states in memory to disk, if there is a folder for them, and memory for steps.
+    fn spill(&mut self) -> ControlFlow<Stop> {
+        if self.for_steps() == 0 {
+            return ControlFlow::Break(Stop::Full);
+        }
+        self.write()
+    }
+
+    /// Writes the states in memory to disk, if there is a folder for them.
+    fn write(&mut self) -> ControlFlow<Stop> {
+        let Some(spill) = self.room.spill else { return ControlFlow::Break(Stop::Full) };
+        let question = self.room.question.filter(|_| self.known.is_bytes());
+        let disk = self.known.disk.get_or_insert_with(|| Disk::new(spill, question));
+        // What is broken is not written down.
+        if !self.broken.is_empty() {
+            disk.forget_question();
+        }
+        let counts = [self.begun.into(), self.looked_at as u64, self.steps];
+        let seen = [self.occurred, self.has_ended.into()];
+        if !self.known.spill(counts.into_iter().chain(seen).chain(self.graph.added())) {
+            return ControlFlow::Break(Stop::Unfinished);
+        }
+        self.graph.is_on_disk();
+        ControlFlow::Continue(())
+    }
+
+    /// Takes up the search from this start that was killed, if there was one.
+    fn take_up(&mut self, start: &S::State) {
+        let (Some(spill), Some(question)) = (self.room.spill, self.room.question) else { return };
+        if self.system.places(start) > 0 {
+            return;
+        }
+        let mut disk = Disk::new(spill, Some(question));
+        while let Some(mut numbers) = disk.take_up() {
+            if let Err(error) = self.go_back_to(&mut numbers) {
+                disk.is_damaged(&error);
+            }
+        }
+        self.known.take_up(disk);
+        if self.known.disk.is_some() && self.known.fault().is_none() && !self.leads_where_it_led(start) {
+            self.known.is_foreign();
+        }
+    }
+
+    /// Is as far as the search was that wrote these numbers.
+    fn go_back_to(&mut self, numbers: &mut Numbers) -> io::Result<()> {
+        self.begun = numbers.next()? as u32;
+        self.looked_at = numbers.next()? as usize;
+        self.steps = numbers.next()?;
+        self.occurred = numbers.next()?;
+        self.has_ended = numbers.next()? != 0;
+        self.graph.add_again(|| numbers.next())
+    }
+
+    /// Whether it begins with the first state on disk, and the steps from some states find there what they found.
+    fn leads_where_it_led(&mut self, start: &S::State) -> bool {
+        let mut state = start.clone();
+        self.system.make_canonical(&mut state);
+        let is_first = self.known.is_at(self.system, &state, 0);
+        self.shown = Some(Box::new(state));
+        let ends = [0..self.looked_at.min(TRIED), self.looked_at.saturating_sub(TRIED)..self.looked_at];
+        is_first && ends.into_iter().all(|nodes| self.finds_again(nodes))
+    }
+
+    /// Whether the steps from these nodes, all of which are on disk, lead to those that were first found from them, in
+    /// their order, and to others that were found before.
+    fn finds_again(&mut self, nodes: Range<usize>) -> bool {
+        let mut found = self.graph.found_from(&nodes);
+        let ControlFlow::Continue(mut chunks) = self.make_steps_from(nodes) else { return false };
+        if !self.known.look_up_on_disk(chunks.iter_mut().map(|chunk| &mut chunk.queue), self.workers()) {
+            return false;
+        }
+        let is_again = |node: Option<u32>| {
+            let Some(node) = node.map(|node| node as usize) else { return false };
+            if found.contains(&node) && node == found.start {
+                found.start += 1;
+            }
+            node < found.start
+        };
+        chunks.iter().flat_map(|chunk| chunk.queue.found()).all(is_again) && found.is_empty()
     }
 
     /// Whether there is memory for the next node, and nobody ends the search before it.
     fn may_go_on(&mut self, watch: &mut dyn FnMut(u64) -> ControlFlow<()>) -> ControlFlow<Stop> {
         let is_due = self.looked_at.is_multiple_of(BETWEEN);
-        let has_room = !is_due || self.taken.hold(self.known.bytes() + self.graph.bytes());
-        if has_room && watch(1 + self.looked_at as u64).is_continue() {
-            ControlFlow::Continue(())
-        } else {
-            ControlFlow::Break(Stop::Unfinished)
+        if is_due && !self.taken.hold(self.bytes()) {
+            return ControlFlow::Break(Stop::Full);
         }
+        if watch(1 + self.looked_at as u64).is_break() {
+            return ControlFlow::Break(Stop::Unfinished);
+        }
+        ControlFlow::Continue(())
     }
 
     /// Takes the steps from the next nodes, which a worker has made.
@@ -246,63 +429,6 @@ impl<'a, S: System> Search<'a, S> {
         ControlFlow::Continue(())
     }
 
-    /// Makes all steps from the next node, whose state it is.
-    fn look(
-        &mut self,
-        (node, state): (usize, &S::State),
-        most_steps: u64,
-        making: &Steps,
-    ) -> ControlFlow<Stop> {
-        making.next();
-        let system = self.system;
-        self.looked_at += 1;
-        self.graph.go_on(|| system.owed(state));
-        let (mut made, before) = (Vec::new(), self.steps);
-        let mut is_still = true;
-        system.each_step(state, |step| {
-            making.next();
-            let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
-            system.make_canonical(&mut to);
-            self.known.queue(system, &to, system.differing(state, &to));
-            is_still &= !is_bound;
-            made.push((occurs, is_bound.then_some(acting)));
-            if breaks.is_empty() {
-                return ControlFlow::Continue(());
-            }
-            // What is broken is noted at once, whatever becomes of the next step.
-            self.meet(node, most_steps, &mut made)?;
-            let number = (self.steps - before - 1) as u32;
-            breaks
-                .into_iter()
-                .try_for_each(|demand| self.note(Violation { demand, node, how: How::Step(number) }))
-        })?;
-        self.meet(node, most_steps, &mut made)?;
-        let is_last = self.steps == before;
-        self.has_ended |= is_last;
-        if is_still {
-            for demand in system.broken_at_end(state, &[]) {
-                self.note(Violation { demand, node, how: How::Still })?;
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// Meets the states that are queued, to which steps from the node lead: of each step the situations that it is, and
-    /// who acts if it is bound to be made.
-    fn meet(
-        &mut self,
-        node: usize,
-        most_steps: u64,
-        made: &mut Vec<(u64, Option<Bits>)>,
-    ) -> ControlFlow<Stop> {
-        let mut queue = self.known.queued();
-        for step in made.drain(..) {
-            self.step(node, most_steps, &mut queue, step)?;
-        }
-        self.known.give_back(queue);
-        ControlFlow::Continue(())
-    }
-
     /// Keeps what is broken for the first time.
     fn note(&mut self, new: Violation<S::Demand>) -> ControlFlow<Stop> {
         if self.broken.iter().any(|broken| broken.demand == new.demand) {
@@ -335,7 +461,7 @@ impl<'a, S: System> Search<'a, S> {
             let Some(state) = self.state(pair[0]) else { break };
             let number = steps(self.system, &state).position(|mut step| {
                 self.system.make_canonical(&mut step.state);
-                self.known.find(self.system, &step.state) == Some(pair[1] as u32)
+                self.known.is_at(self.system, &step.state, pair[1])
             });
             numbers.extend(number.map(|number| number as u32));
             self.shown = Some(state);
@@ -360,14 +486,15 @@ impl<'a, S: System> Search<'a, S> {
 
     /// Looks for runs that go round and owe the same thing throughout. The one that gets there first counts, unless a
     /// run that breaks the same demand stays in a state that is found before.
-    fn look_for_rounds(&mut self, demand: S::Demand) -> Result<(), TooLarge> {
-        let Self { system, known, graph, shown, taken, .. } = self;
-        let awake = |node: usize| -> Bits {
-            let Some(state) = shown else { return 0 };
-            known.show(*system, node, state);
-            system.awake(state)
-        };
-        let Some((node, round)) = graph.first_round(awake, taken)? else { return Ok(()) };
+    fn look_for_rounds(&mut self, demand: S::Demand) -> Result<(), Stop> {
+        let mut round = self.first_round();
+        if round.is_err() {
+            // Without the states there may be memory for the graph.
+            self.write().break_value().map_or(Ok(()), Err)?;
+            round = self.first_round();
+        }
+        let round = round.map_err(|TooLarge| Stop::Full)?;
+        let Some((node, round)) = round else { return Ok(()) };
         let new = Violation { demand, node, how: How::Round(round) };
         match self.broken.iter_mut().find(|broken| broken.demand == demand) {
             Some(known) if known.node <= node => {}
@@ -375,6 +502,18 @@ impl<'a, S: System> Search<'a, S> {
             None => self.broken.push(new),
         }
         Ok(())
+    }
+
+    fn first_round(&mut self) -> Result<Option<Round>, TooLarge> {
+        self.making = 0;
+        let bytes = self.bytes();
+        let Self { system, known, graph, shown, taken, .. } = self;
+        taken.hold(bytes);
+        let awake = |node: usize| -> Bits {
+            let Some(state) = shown else { return 0 };
+            if known.show(*system, node, state) { system.awake(state) } else { 0 }
+        };
+        graph.first_round(awake, taken)
     }
 }
 

@@ -130,6 +130,13 @@ impl Slots {
         self.slots.len() / 8 * 12 + 64
     }
 
+    /// Those that are taken, in the order of their hashes: a hash, and its node.
+    pub(super) fn into_sorted(mut self) -> Vec<u64> {
+        self.slots.retain(|&slot| slot != FREE);
+        self.slots.sort_unstable();
+        self.slots
+    }
+
     /// The slot that a hash asks for. Larger hashes ask for later ones.
     const fn place(&self, hash: HashOfState) -> usize {
         ((hash as u64 * self.slots.len() as u64) >> HashOfState::BITS) as usize

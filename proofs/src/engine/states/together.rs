@@ -27,6 +27,13 @@ pub(super) struct Chunk<D> {
     pub(super) nodes: Vec<(usize, Bits, Option<Vec<D>>)>,
 }
 
+impl<D> Chunk<D> {
+    /// The bytes that it takes while its states are looked for on disk.
+    pub(super) fn bytes(&self) -> u64 {
+        (self.queue.bytes() + size_of_val(&self.steps[..]) + size_of_val(&self.nodes[..])) as u64
+    }
+}
+
 /// Searches as [`search`](super::search) does, on so many threads at a time if states are kept in bytes of their own.
 pub fn search_together<S>(
     system: &S,
@@ -61,10 +68,13 @@ where
     let (task, each) = (Task::current(), nodes.len().div_ceil(workers));
     thread::scope(|scope| {
         let begin = |first: usize| {
-            let (nodes, state) = (first..nodes.end.min(first + each), state.clone());
+            let (nodes, mut state) = (first..nodes.end.min(first + each), state.clone());
             scope.spawn(move || {
                 let _working = task.enter();
-                chunk(system, known, nodes, state)
+                let mut table = (known, Queue::default());
+                let chunk = chunk(system, &mut table, nodes, &mut state);
+                known.look_up(&mut table.1);
+                Chunk { queue: table.1, ..chunk }
             })
         };
         let running: Vec<_> = nodes.clone().step_by(each).map(begin).collect();
@@ -72,39 +82,71 @@ where
     })
 }
 
-/// The steps from these nodes, up to one that breaks enough.
-fn chunk<S: System>(
+/// The table of states as a worker that makes steps uses it.
+pub(super) trait Table<S: System> {
+    /// Makes of `state`, which was shown last, that of a node. False if it cannot be read.
+    fn show(&mut self, system: &S, node: usize, state: &mut S::State) -> bool;
+
+    /// Puts a state into the queue to which a step leads from the one that is shown.
+    fn queue(&mut self, system: &S, shown: &S::State, to: &S::State);
+}
+
+/// For one worker alone.
+impl<S: System> Table<S> for StateTable<S::Part> {
+    fn show(&mut self, system: &S, node: usize, state: &mut S::State) -> bool {
+        Self::show(self, system, node, state)
+    }
+
+    fn queue(&mut self, system: &S, shown: &S::State, to: &S::State) {
+        Self::queue(self, system, to, system.differing(shown, to));
+    }
+}
+
+/// For one of several, if states have no parts.
+impl<S: System> Table<S> for (&StateTable<S::Part>, Queue) {
+    fn show(&mut self, system: &S, node: usize, state: &mut S::State) -> bool {
+        self.0.read(system, node, state)
+    }
+
+    fn queue(&mut self, system: &S, _: &S::State, to: &S::State) {
+        self.1.write(system, to);
+    }
+}
+
+/// The steps from these nodes, up to one that breaks enough. The states to which they lead are in the table's queue.
+pub(super) fn chunk<S: System>(
     system: &S,
-    known: &StateTable<S::Part>,
+    table: &mut impl Table<S>,
     nodes: Range<usize>,
-    mut state: S::State,
+    state: &mut S::State,
 ) -> Chunk<S::Demand> {
     let making = Steps::begin();
     let mut chunk = Chunk { queue: Queue::default(), steps: Vec::new(), nodes: Vec::new() };
     let is_enough = |breaks: &[S::Demand]| breaks.iter().any(|&demand| system.is_enough(demand));
     for node in nodes {
         making.next();
-        known.read(system, node, &mut state);
+        if !table.show(system, node, state) {
+            break;
+        }
         let (before, mut is_still) = (chunk.steps.len(), true);
-        let mut flow = system.each_step(&state, |step| {
+        let mut flow = system.each_step(state, |step| {
             making.next();
             let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
             system.make_canonical(&mut to);
-            chunk.queue.write(system, &to);
+            table.queue(system, state, &to);
             is_still &= !is_bound;
             let flow = if is_enough(&breaks) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
             chunk.steps.push((occurs, is_bound.then_some(acting), breaks));
             flow
         });
-        let at_end = is_still.then(|| system.broken_at_end(&state, &[]));
+        let at_end = is_still.then(|| system.broken_at_end(state, &[]));
         if at_end.as_deref().is_some_and(is_enough) {
             flow = ControlFlow::Break(());
         }
-        chunk.nodes.push((chunk.steps.len() - before, system.owed(&state), at_end));
+        chunk.nodes.push((chunk.steps.len() - before, system.owed(state), at_end));
         if flow.is_break() {
             break;
         }
     }
-    known.look_up(&mut chunk.queue);
     chunk
 }

@@ -222,7 +222,8 @@ fn everybody_who_is_awake_acts_in_a_round() {
 #[test]
 fn a_search_that_would_take_too_much_memory_is_not_whole() {
     let all = found(&GRAPH);
-    let in_room = |bytes| search(&GRAPH, [0], Limits { room: &MemoryLimit::of(bytes, 1), ..Limits::NONE });
+    let in_room =
+        |bytes| search(&GRAPH, [0], Limits { room: MemoryLimit::of(bytes, 1).room(), ..Limits::NONE });
     assert_eq!(in_room(2 * all.bytes), all);
     let cut_off = in_room(8);
     assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 0, vec![]));
@@ -230,8 +231,11 @@ fn a_search_that_would_take_too_much_memory_is_not_whole() {
     let owing = Graphic { owing: &[3, 4], ..GRAPH };
     let all = found(&owing);
     assert!(all.is_whole && all.broken.len() == 1);
-    let cut_off =
-        search(&owing, [0], Limits { room: &MemoryLimit::of(all.bytes * 4 / 3 - 4, 1), ..Limits::NONE });
+    let cut_off = search(
+        &owing,
+        [0],
+        Limits { room: MemoryLimit::of(all.bytes * 4 / 3 - 4, 1).room(), ..Limits::NONE },
+    );
     assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 7, vec![]));
 }
 
