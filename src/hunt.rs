@@ -39,7 +39,8 @@ Examples:
   tautline hunt --scheme frontier --rule published --robots 2 --size 3x1
   tautline hunt --scheme frontier --robots 2 --size 3x3 --max-losses 1
   tautline hunt --scheme kit --rule published --size 5x1
-  tautline hunt --scheme kit --robots 2 --size 3x2 --max-walls 4";
+  tautline hunt --scheme kit --robots 2 --size 3x2 --max-walls 4
+  tautline hunt --scheme kit --robots 2 --size 5x1 --range 4";
 
 /// Search all layouts of an area with few walls for runs that break a clause, and store the smallest of each.
 ///
@@ -75,6 +76,9 @@ pub(super) struct Hunt {
     /// sixteenths for each fix of one robot; or 1 for one fix of a run.
     #[arg(long, value_name = "CELLS", value_parser = real)]
     error: Option<f64>,
+    /// How many cells far robots that keep in touch hear each other, 2 to 5. Without it 10 m, and a cell is 3 m wide.
+    #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
+    range: Option<u16>,
     /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of
     /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
     #[arg(long, value_name = "WxH")]
@@ -219,6 +223,7 @@ impl Hunt {
             max_misses: self.max_misses,
             max_losses: self.max_losses,
             error_cells: self.error,
+            range_cells: self.range,
             resume: self.resume.as_deref(),
         }
     }

@@ -40,7 +40,7 @@ pub(super) struct ShardArgs {
     /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
     #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
     #[arg(conflicts_with_all = ["scheme", "rule", "robots", "max_walls", "max_cells"])]
-    #[arg(conflicts_with_all = ["max_misses", "max_losses", "error", "size"])]
+    #[arg(conflicts_with_all = ["max_misses", "max_losses", "error", "range", "size"])]
     #[arg(conflicts_with_all = ["resume", "out", "force"])]
     pub(super) shard: Option<u32>,
 }

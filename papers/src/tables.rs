@@ -75,6 +75,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &rescue_table2::RescueTable2,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,
+    &kit::KitRange,
     &margins::Margins,
     &frontier_fig7::FrontierFig7,
     &locate_fig8::LocateFig8,

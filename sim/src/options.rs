@@ -210,7 +210,7 @@ impl Extra {
     pub const RANGE: &'static Self = &Self {
         takes: Takes::Word("CELLS"),
         about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep \
-                in touch hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or \
+                in touch hear 2 to 5 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or \
                 more; without it 60",
         read: |text, options| put(whole(text).map(Some), &mut options.range_cells),
         typed: |options| words(options.range_cells),

@@ -277,6 +277,7 @@ fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8
         max_misses: Some(max_misses),
         max_losses: None,
         error_cells: None,
+        range_cells: None,
         resume: None,
     };
     let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");

@@ -28,6 +28,7 @@ fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losse
         max_cells: None,
         max_losses: Some(max_losses).filter(|&losses| losses > 0),
         error_cells: None,
+        range_cells: None,
         resume: None,
     }
 }

@@ -183,12 +183,12 @@ fn speeds_and_their_spread_are_those_that_are_told() {
 }
 
 #[test]
-fn a_shorter_range_keeps_robots_nearer() {
+fn robots_are_never_farther_apart_than_their_range() {
     let with = |range, robots| {
         let usual = setup(RuleName::Repaired, robots, generated("walls:6x5:0.1", 4), 2);
         Setup { options: Options { range_cells: Some(range), ..Options::default() }, ..usual }
     };
-    for range in [2, 3] {
+    for range in [2, 3, 4, 5] {
         let setup = with(range, 2);
         let mut widest = 0;
         let report = explore(&setup, &mut |made| {
@@ -203,8 +203,11 @@ fn a_shorter_range_keeps_robots_nearer() {
     let wrong = |range, robots| wrong(&with(range, robots)).unwrap_or_default();
     assert!(wrong(0, 2).contains("below one path"), "{}", wrong(0, 2));
     assert!(wrong(1, 2).contains("no robot can drive"), "{}", wrong(1, 2));
-    assert!(wrong(4, 2).contains("more than the 10 m"), "{}", wrong(4, 2));
-    assert!(wrong(2, 3).contains("stay tied within 10 m"), "{}", wrong(2, 3));
+    assert!(wrong(6, 2).contains("more than the 5"), "{}", wrong(6, 2));
+    for range in [2, 3, 4, 5] {
+        let report = run(&with(range, 3));
+        assert_eq!((report.violations, report.stopped), (vec![], Stopped::Explored), "range {range}");
+    }
 }
 
 #[test]
@@ -242,6 +245,7 @@ fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> A
         max_misses: None,
         max_losses: None,
         error_cells: None,
+        range_cells: None,
         resume: None,
     }
 }

@@ -3,6 +3,7 @@
 use super::rule::Records;
 use super::stance::{SEEN, Stance};
 use super::team::Kit;
+use super::tether::Formation;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
 
 /// The team's knowledge, and the drives admitted.
@@ -83,11 +84,15 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Those of the steps that the conditions let `robot` take from where it stands.
     pub(super) fn admitted(&self, robot: usize, steps: Steps) -> Steps {
+        if steps.is_empty() { steps } else { self.admitted_in(&self.formation(), robot, steps) }
+    }
+
+    /// Those of the steps that the conditions let `robot` take from where it stands in this formation.
+    pub(super) fn admitted_in(&self, formation: &Formation<ROBOTS>, robot: usize, steps: Steps) -> Steps {
         let Some(Stance::Stands(from)) = self.stance(robot).filter(|_| !steps.is_empty()) else {
             return Steps::NONE;
         };
-        let formation = self.formation();
-        let bonds = self.bonds(robot, &formation);
-        steps.filter(|step| self.lets(&bonds, &formation, Stance::Drives { from, to: from.after(step) }))
+        let bonds = self.bonds(robot, formation);
+        steps.filter(|step| self.lets(&bonds, formation, Stance::Drives { from, to: from.after(step) }))
     }
 }

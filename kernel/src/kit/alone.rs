@@ -24,7 +24,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             self.lets(&bonds, formation, Stance::Drives { from, to: from.after(step) })
         };
         let is_goal = |node: Cell| self.uncovered_by_all(node).iter().any(|step| lets(node, step));
-        self.way(formation.ends[robot], lets, is_goal, below)
+        self.way(formation.stances[robot].to(), lets, is_goal, below)
     }
 
     /// The shortest way from a node over known paths that may be driven to a goal, if it has less than `below` drives.

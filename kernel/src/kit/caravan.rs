@@ -12,19 +12,19 @@
 use super::alone::Way;
 use super::rule::Condition;
 use super::sets::{first_robots, robots};
+use super::stance::Stance;
 use super::team::Kit;
-use super::tether::Formation;
+use super::tether::{FAR, Formation};
 use crate::ground::{Cell, Grid, Step, Steps};
-
-/// More drives than there can be between two robots.
-const FAR: u32 = 1 << 16;
 
 /// No robot.
 const NOBODY: u8 = u8::MAX;
 
 /// Who leads, and what for.
-struct Lead {
+struct Lead<const ROBOTS: usize> {
     leader: usize,
+    /// The drives between each two robots that are tied.
+    between: [[u32; ROBOTS]; ROBOTS],
     /// The robot that shifts, and whereto, if the ends of a path are taken.
     shift: Option<(usize, Step)>,
 }
@@ -32,62 +32,70 @@ struct Lead {
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The part of `robot` in a team of any number but two. `None` if nobody has one.
     pub(super) fn together(&self, robot: usize) -> Option<Steps> {
-        let formation = self.planned();
-        let is_robot = |other: &usize| *other < formation.count;
-        let way =
-            |other| Some(other).filter(is_robot).and_then(|other| self.alone(other, &formation, u16::MAX));
-        let ways = core::array::from_fn(way);
-        if ways.iter().any(Option::is_some) {
-            let sides = self.going_alone(robot, &ways, &formation);
-            return Some(self.admitted(robot, sides));
+        let formation = self.formation();
+        let ends = formation.stances.map(Stance::to);
+        let planned = formation.with_stances(ends.map(Stance::Stands));
+        let count = usize::from(self.count);
+        if let Some(own) = self.alone(robot, &planned, u16::MAX) {
+            let sides = self.going_alone(robot, own, &planned);
+            return Some(self.admitted_in(&planned.with_stances(formation.stances), robot, sides));
+        }
+        let others = || (0..count).filter(|&other| other != robot);
+        if others().any(|other| self.alone(other, &planned, u16::MAX).is_some()) {
+            return Some(Steps::NONE);
         }
         if !self.rule.has(Condition::Caravan) {
             return None;
         }
-        let lead = self.lead(&formation)?;
-        let part = |robot: usize| self.part_of(robot, &lead, &formation);
+        let lead = self.lead(&ends)?;
+        let part = |robot: usize| self.part_of(robot, &lead, &ends);
         let own = part(robot);
-        let is_any = !own.is_empty() || (0..formation.count).any(|other| !part(other).is_empty());
+        let is_any = !own.is_empty() || others().any(|other| !part(other).is_empty());
         is_any.then_some(own)
     }
 
-    /// The sides that `robot` takes that has a way alone, as others may have: those with which it makes no longer the way of
-    /// one that has a shorter way.
-    fn going_alone(
-        &self,
-        robot: usize,
-        ways: &[Option<Way>; ROBOTS],
-        formation: &Formation<ROBOTS>,
-    ) -> Steps {
-        let rank = |other: usize| ways[other].map_or((u16::MAX, other), |way| (way.drives, other));
-        let Some(own) = ways[robot] else { return Steps::NONE };
-        let is_first = |other: usize| rank(other) < rank(robot);
-        if !self.rule.has(Condition::Meanwhile) && (0..ROBOTS).any(is_first) {
+    /// The sides that `robot` takes that has its own way alone: those with which it makes no longer the way of one that has
+    /// a shorter way.
+    fn going_alone(&self, robot: usize, own: Way, planned: &Formation<ROBOTS>) -> Steps {
+        let shorter: [Option<Way>; ROBOTS] = core::array::from_fn(|other| {
+            let below = own.drives + u16::from(other < robot);
+            if other == robot || other >= self.count.into() || below == 0 {
+                None
+            } else {
+                self.alone(other, planned, below)
+            }
+        });
+        if !self.rule.has(Condition::Meanwhile) && shorter.iter().any(Option::is_some) {
             return Steps::NONE;
         }
         own.sides.filter(|step| {
-            let after = self.with_robot_at(formation, robot, formation.ends[robot].after(step));
-            let below = |other: usize| rank(other).0.saturating_add(1);
-            (0..ROBOTS)
-                .filter(|&other| is_first(other))
-                .all(|other| self.alone(other, &after, below(other)).is_some())
+            let after = planned.with_robot_at(robot, planned.stances[robot].to().after(step));
+            let is_kept = |(other, way): (usize, &Option<Way>)| {
+                way.is_none_or(|way| self.alone(other, &after, way.drives + 1).is_some())
+            };
+            shorter.iter().enumerate().all(is_kept)
         })
     }
 
     /// Who leads: of those nearest to an uncovered side the first. `None` if nobody has a way to one.
-    fn lead(&self, formation: &Formation<ROBOTS>) -> Option<Lead> {
-        let (drives, leader, node) = self.nearest(formation.ends())?;
+    fn lead(&self, all: &[Cell; ROBOTS]) -> Option<Lead<ROBOTS>> {
+        let ends = &all[..self.count.into()];
+        let (drives, leader, node) = self.nearest(ends)?;
         let sides = self.uncovered_by_all(node);
-        let is_taken = |step: Step| formation.ends().contains(&node.after(step));
+        let is_taken = |step: Step| ends.contains(&node.after(step));
         let is_stuck = drives == 0 && sides.iter().all(is_taken) && self.rule.has(Condition::MakesRoom);
         let other_end = sides.iter().next().filter(|_| is_stuck).map(|step| node.after(step));
-        let shift = other_end.and_then(|other_end| self.shift(formation.ends(), [node, other_end]));
-        Some(Lead { leader, shift })
+        let shift = other_end.and_then(|other_end| self.shift(ends, [node, other_end]));
+        let mut between = [[FAR; ROBOTS]; ROBOTS];
+        if shift.is_none() {
+            between.iter_mut().zip(ends).for_each(|(drives, &end)| *drives = self.drives(end, all));
+        }
+        Some(Lead { leader, between, shift })
     }
 
     /// The sides of where `robot` stands that it takes, if it is its part.
-    fn part_of(&self, robot: usize, lead: &Lead, formation: &Formation<ROBOTS>) -> Steps {
-        let at = formation.ends[robot];
+    fn part_of(&self, robot: usize, lead: &Lead<ROBOTS>, ends: &[Cell; ROBOTS]) -> Steps {
+        let (at, count) = (ends[robot], usize::from(self.count));
         if let Some((shifts, step)) = lead.shift {
             let steps = if shifts == robot { Steps::only(step) } else { Steps::NONE };
             return self.admitted(robot, steps);
@@ -97,10 +105,16 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             let way = self.way(at, |_, _| true, is_goal, u16::MAX);
             return self.admitted(robot, way.map_or(Steps::NONE, |way| way.sides));
         }
-        let now = drives_to(lead.leader, formation);
-        let is_nearer =
-            |step: Step| drives_to(lead.leader, &self.with_robot_at(formation, robot, at.after(step))) < now;
-        let free = self.paths(at).filter(|step| !formation.ends().contains(&at.after(step)));
+        let now = drives_to(lead.leader, &lead.between[..count]);
+        let is_nearer = |step: Step| {
+            let mut after = lead.between;
+            after[robot] = self.drives(at.after(step), ends);
+            for other in (0..ROBOTS).filter(|&other| other != robot) {
+                after[other][robot] = after[robot][other];
+            }
+            drives_to(lead.leader, &after[..count]) < now
+        };
+        let free = self.paths(at).filter(|step| !ends[..count].contains(&at.after(step)));
         self.admitted(robot, free).filter(is_nearer)
     }
 
@@ -181,20 +195,18 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 }
 
-/// The drives of all robots to the leader, each over those that it is tied to.
-fn drives_to<const ROBOTS: usize>(leader: usize, formation: &Formation<ROBOTS>) -> u32 {
-    let between = |one: usize, other: usize| formation.near[one].drives(formation.ends[other]).unwrap_or(FAR);
+/// The drives of all robots to the leader, each over those that it is tied to, of the drives between each two of them.
+fn drives_to<const ROBOTS: usize>(leader: usize, between: &[[u32; ROBOTS]]) -> u32 {
     let mut to_leader = [FAR; ROBOTS];
     to_leader[leader] = 0;
-    for _ in 1..formation.count {
-        for one in 0..formation.count {
-            for other in 0..formation.count {
-                let over = to_leader[other].saturating_add(between(one, other)).min(FAR);
-                to_leader[one] = to_leader[one].min(over);
+    for _ in 1..between.len() {
+        for (one, drives) in between.iter().enumerate() {
+            for (other, &drives) in drives.iter().enumerate().take(between.len()) {
+                to_leader[one] = to_leader[one].min(to_leader[other].saturating_add(drives)).min(FAR);
             }
         }
     }
-    to_leader[..formation.count].iter().sum()
+    to_leader[..between.len()].iter().sum()
 }
 
 #[cfg(test)]
@@ -231,7 +243,8 @@ mod tests {
 
     /// Who shifts, and whereto.
     fn shift(kit: &Trio) -> Option<(usize, Side)> {
-        let (robot, step) = kit.lead(&kit.planned()).expect("an uncovered side").shift?;
+        let (robot, step) =
+            kit.lead(&kit.robots.map(|robot| robot.stance.to())).expect("an uncovered side").shift?;
         let Step::Cross(side) = step else { panic!("it shifts to another node") };
         Some((robot, side))
     }

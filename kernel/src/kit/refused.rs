@@ -29,8 +29,6 @@ pub enum SetupError {
     OneNode(Cell),
     /// The robots do not hear each other within this reach.
     OutOfContact(Reach),
-    /// A team of so many has a shorter reach than the paper's: it could not stay tied.
-    ShortReach(usize),
 }
 
 impl fmt::Display for SetupError {
@@ -56,9 +54,6 @@ impl fmt::Display for SetupError {
                  columns and rows between them add up to at most {}",
                 reach.squared()
             ),
-            Self::ShortReach(robots) => {
-                write!(f, "{robots} robots stay tied within 10 m, and not within a shorter reach")
-            }
         }
     }
 }

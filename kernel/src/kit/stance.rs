@@ -19,16 +19,18 @@ impl Reach {
     /// The paper's 10 m: (10 m / 3 m)² = 11.1.
     pub const PAPER: Self = Self { squared: 11 };
 
-    /// So many paths, two or three. Within one path no robot could drive, and more than the paper's 10 m are not planned for.
+    /// The most paths that are planned for, 15 m.
+    pub const MOST_PATHS: u16 = 5;
+
+    /// So many paths, from two on: within one path no robot could drive.
     pub const fn of_paths(paths: u16) -> Option<Self> {
         match paths {
-            2 => Some(Self { squared: 4 }),
-            3 => Some(Self { squared: 9 }),
+            2..=Self::MOST_PATHS => Some(Self { squared: (paths * paths) as u8 }),
             _ => None,
         }
     }
 
-    /// The largest squared distance of two nodes in contact, in squared paths: at most 11.
+    /// The largest squared distance of two nodes in contact, in squared paths.
     pub const fn squared(self) -> u8 {
         self.squared
     }
@@ -141,11 +143,12 @@ mod tests {
     }
 
     #[test]
-    fn a_shorter_reach_is_two_or_three_paths() {
-        let [two, three] = [2, 3].map(|paths| Reach::of_paths(paths).expect("a reach"));
+    fn another_reach_is_two_to_five_paths() {
+        let [two, three, five] = [2, 3, 5].map(|paths| Reach::of_paths(paths).expect("a reach"));
         assert!(two.joins(HERE, Cell::new(2, 0)) && !two.joins(HERE, Cell::new(2, 1)));
         assert!(three.joins(HERE, Cell::new(2, 2)) && !three.joins(HERE, Cell::new(3, 1)));
-        assert_eq!([0, 1, 4].map(Reach::of_paths), [None; 3]);
+        assert!(five.joins(HERE, Cell::new(4, 3)) && !five.joins(HERE, Cell::new(5, 1)));
+        assert_eq!([0, 1, 6, u16::MAX].map(Reach::of_paths), [None; 4]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::refused::{Misuse, SetupError};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
 use super::sets::{first_robots, sets};
-use super::stance::{Reach, SEEN, Stance};
+use super::stance::{SEEN, Stance};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 
@@ -115,9 +115,6 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         }
         if nodes > NODES {
             return Err(SetupError::TooManyNodes { nodes, most: NODES });
-        }
-        if robots > 2 && rule.reach != Reach::PAPER && rule.has(Condition::Tether) {
-            return Err(SetupError::ShortReach(robots));
         }
         if let Some(&outside) = starts.iter().find(|&&start| !area.contains(start)) {
             return Err(SetupError::Outside(outside));
@@ -324,7 +321,9 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return self.rest(robot, if is_over { Task::Done } else { Task::Stays });
         }
         let blocked = self.known(EdgeMark::Wall, self.robots[robot].stance.to());
-        self.fall_back(robot, Steps::ALL.without(Step::Stay).minus(blocked), oracle)
+        let all = Steps::ALL.without(Step::Stay).minus(blocked);
+        let left = if self.rule.fallback == Fallback::Admitted { self.admitted(robot, all) } else { all };
+        self.fall_back(robot, left, oracle)
     }
 
     /// Any of the sides that are `left` of its part of the joint way.
@@ -348,7 +347,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         };
         let least = left.iter().map(distance).min();
         let good = match self.rule.fallback {
-            Fallback::Nearest => left.filter(|step| Some(distance(step)) == least),
+            Fallback::Nearest | Fallback::Admitted => left.filter(|step| Some(distance(step)) == least),
             Fallback::Random => left,
         };
         match one_of(good, oracle) {
@@ -405,6 +404,7 @@ fn one_of(steps: Steps, oracle: &mut dyn Oracle) -> Option<Side> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::stance::Reach;
     use super::*;
     use crate::ground::{Area, TinyGrid};
 

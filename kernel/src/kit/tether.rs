@@ -2,77 +2,63 @@
 //! team of three and more known paths join it with them (KIT-13). The second one is the condition *Tether*, which is
 //! ours.
 //!
-//! A *field* is 3×3 nodes, 4×2, or 2×4: any two nodes of a field are in reach. Two robots are *tied* if known paths within one
+//! A *field* is a rectangle any two nodes of which are in reach, and that is in no larger one: within the paper's 10 m, 3×3
+//! nodes, 4×2, or 2×4. Two robots are *tied* if known paths within one
 //! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
 //! it all the way; radio alone, through a wall, promises no way back.
 
-use super::around::{HERE, IN_REACH, Places, bit, offsets, place_of};
+use core::cell::OnceCell;
+
+use super::around::{HERE, Places, SIDE, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
 use super::sets::{Set, first_robots, robots, sets};
-use super::stance::Stance;
+use super::stance::{Reach, Stance};
 use super::team::Kit;
 use crate::ground::{Cell, Grid, Side, Step};
 
-/// Drives that lead to any node of a field over paths within it, at most.
-const MAX_DRIVES: usize = 8;
+/// More drives than there can be between two robots.
+pub(super) const FAR: u32 = 1 << 16;
 
-/// The fields that have the node in the middle.
-const FIELDS: [Places; 25] = {
-    let mut fields = [0; 25];
-    let sizes = [(3, 3), (4, 2), (2, 4)];
-    let mut number = 0;
-    let mut size = 0;
-    while size < sizes.len() {
-        let (columns, rows): (i16, i16) = sizes[size];
-        let mut corner = 0;
-        while corner < columns * rows {
-            let mut place = 0;
-            while place < columns * rows {
-                let column = place % columns - corner % columns;
-                fields[number] |= 1 << bit(column, place / columns - corner / columns);
-                place += 1;
+/// Drives that lead to any node of a field over paths within it, at most: the largest ones have 20 nodes.
+const MAX_DRIVES: usize = 19;
+
+/// Calls `each` with the fields that have the node in the middle: the place of the first node of each, its nodes from there on,
+/// and the bit of the one in the middle among them. No field has more than six rows, so that its nodes fit in half a word.
+fn fields(reach: Reach, mut each: impl FnMut(u32, u64, u64)) {
+    let squared = i16::from(reach.squared());
+    let rows = |columns: i16| match squared - (columns - 1) * (columns - 1) {
+        rest @ 0.. => rest.isqrt() + 1,
+        _ => 0,
+    };
+    for columns in (1..=squared.isqrt() + 1).filter(|&columns| rows(columns) > rows(columns + 1)) {
+        let row = (1 << columns) - 1;
+        let field = (0..rows(columns)).fold(0, |field, number| field | row << (SIDE * number));
+        for row in 0..rows(columns) {
+            for column in 0..columns {
+                each(bit(-column, -row), field, 1 << (SIDE * row + column));
             }
-            corner += 1;
-            number += 1;
         }
-        size += 1;
-    }
-    fields
-};
-
-/// The nodes that known paths within one field join with a node.
-#[derive(Clone, Copy)]
-pub(super) struct Zone {
-    node: Cell,
-    /// Those at most so many drives away.
-    within: [Places; MAX_DRIVES + 1],
-}
-
-impl Zone {
-    /// The drives to `node`, if it is joined.
-    pub(super) fn drives(&self, node: Cell) -> Option<u32> {
-        let place = place_of(self.node, node)?;
-        self.within.iter().position(|nodes| nodes & place != 0).map(|drives| drives as u32)
-    }
-
-    fn has(&self, node: Cell) -> bool {
-        place_of(self.node, node).is_some_and(|place| self.within[MAX_DRIVES] & place != 0)
     }
 }
 
-/// Where all robots are and go, and what is joined with the nodes where they go.
-#[derive(Clone, Copy)]
+/// Where all robots are, and what is joined with the nodes where they go, as far as somebody has asked.
+#[derive(Clone)]
 pub(super) struct Formation<const ROBOTS: usize> {
     pub(super) stances: [Stance; ROBOTS],
-    pub(super) ends: [Cell; ROBOTS],
-    pub(super) near: [Zone; ROBOTS],
-    pub(super) count: usize,
+    joined: [OnceCell<Places>; ROBOTS],
 }
 
 impl<const ROBOTS: usize> Formation<ROBOTS> {
-    /// Where the robots of the team go.
-    pub(super) fn ends(&self) -> &[Cell] {
-        &self.ends[..self.count]
+    /// This formation with a robot that stands at this node.
+    pub(super) fn with_robot_at(&self, robot: usize, node: Cell) -> Self {
+        let mut after = self.clone();
+        (after.stances[robot], after.joined[robot]) = (Stance::Stands(node), OnceCell::new());
+        after
+    }
+
+    /// This formation with other stances of robots that go to the same nodes.
+    pub(super) fn with_stances(&self, stances: [Stance; ROBOTS]) -> Self {
+        Self { stances, ..self.clone() }
     }
 }
 
@@ -86,83 +72,97 @@ pub(super) struct Bonds<const ROBOTS: usize> {
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
-    /// Whether robots have to stay tied.
-    fn ties(&self) -> bool {
-        self.count > 2 && self.rule.has(Condition::Tether)
-    }
-
     /// Where all robots are.
     pub(super) fn formation(&self) -> Formation<ROBOTS> {
-        let stances = self.robots.map(|robot| robot.stance);
-        let ends = stances.map(Stance::to);
-        let near = core::array::from_fn(|robot| {
-            let node = ends[robot];
-            let is_alone = robot >= self.count.into() || !self.ties();
-            if is_alone { Zone { node, within: [HERE; MAX_DRIVES + 1] } } else { self.near(node, None) }
-        });
-        Formation { stances, ends, near, count: self.count.into() }
+        let joined = [const { OnceCell::new() }; ROBOTS];
+        Formation { stances: self.robots.map(|robot| robot.stance), joined }
     }
 
-    /// Where all robots will stand.
-    pub(super) fn planned(&self) -> Formation<ROBOTS> {
-        let formation = self.formation();
-        Formation { stances: formation.ends.map(Stance::Stands), ..formation }
+    /// Whether a robot of this formation is tied to one that goes to `node`.
+    fn is_tied(&self, formation: &Formation<ROBOTS>, robot: usize, node: Cell) -> bool {
+        let Formation { stances, joined } = formation;
+        let end = stances[robot].to();
+        place_of(end, node).is_some_and(|place| {
+            joined[robot].get_or_init(|| self.joined::<1>(end, None, !0)[0]) & place != 0
+        })
     }
 
-    /// This formation with a robot at this node.
-    pub(super) fn with_robot_at(
+    /// The drives from `node` to each of `ends` that known paths within one field join with it; to the others it is far.
+    pub(super) fn drives(&self, node: Cell, ends: &[Cell; ROBOTS]) -> [u32; ROBOTS] {
+        let places = ends.map(|end| place_of(node, end).unwrap_or(0));
+        let wanted = places.iter().fold(0, |wanted, place| wanted | place);
+        let [_, within @ ..] = self.joined::<{ MAX_DRIVES + 2 }>(node, None, wanted);
+        places.map(|place| {
+            within.iter().position(|nodes| nodes & place != 0).map_or(FAR, |drives| drives as u32)
+        })
+    }
+
+    /// The nodes that known paths within one field, and the one that `also` leads over, join with a node, as far as they are
+    /// `wanted`; and then those that they join with no drive, with one at most, and so on.
+    fn joined<const WITHIN: usize>(
         &self,
-        formation: &Formation<ROBOTS>,
-        robot: usize,
         node: Cell,
-    ) -> Formation<ROBOTS> {
-        let mut after = *formation;
-        after.stances[robot] = Stance::Stands(node);
-        after.ends[robot] = node;
-        after.near[robot] = self.near(node, None);
-        after
-    }
-
-    /// The nodes joined with `node` by known paths, and by the one that `also` leads over.
-    pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Zone {
+        also: Option<Step>,
+        wanted: Places,
+    ) -> [Places; WITHIN] {
+        let disc = in_reach(self.rule.reach) | HERE;
         let (mut east, mut south): (Places, Places) = (0, 0);
-        for offset in offsets(IN_REACH | HERE) {
-            let paths = self.paths(node.at_offset(offset.0, offset.1));
-            let place = 1 << bit(offset.0, offset.1);
-            east |= if paths.has(Step::Cross(Side::East)) { place } else { 0 };
-            south |= if paths.has(Step::Cross(Side::South)) { place } else { 0 };
+        let (mut reached, mut new) = (HERE, HERE);
+        while let Some((columns, rows)) = offsets(new).next() {
+            let place = 1 << bit(columns, rows);
+            let paths = self.paths(node.at_offset(columns, rows));
+            let also = also.filter(|_| place == HERE);
+            let paths = also.map_or(paths, |also| paths.with(also));
+            let beyond = |side: Side| {
+                let step = Step::Cross(side);
+                if paths.has(step) { moved(place, step) } else { 0 }
+            };
+            let [to_east, to_south, to_west, to_north] =
+                [Side::East, Side::South, Side::West, Side::North].map(beyond);
+            east |= to_east >> 1 | to_west;
+            south |= to_south >> SIDE | to_north;
+            let beside = (to_east | to_south | to_west | to_north) & disc & !reached;
+            (reached, new) = (reached | beside, new & !place | beside);
         }
-        match also {
-            Some(Step::Cross(Side::East)) => east |= HERE,
-            Some(Step::Cross(Side::South)) => south |= HERE,
-            Some(Step::Cross(Side::West)) => east |= HERE >> 1,
-            Some(Step::Cross(Side::North)) => south |= HERE >> 8,
-            Some(Step::Stay) | None => {}
-        }
-        let mut within = [HERE; MAX_DRIVES + 1];
-        for field in FIELDS {
-            let mut joined = HERE;
-            for nodes in &mut within[1..] {
-                let along = (joined & east) << 1 | joined >> 1 & east;
-                joined |= (along | (joined & south) << 8 | joined >> 8 & south) & field;
-                *nodes |= joined;
+        let wanted = wanted & reached;
+        let mut within = [HERE; WITHIN];
+        fields(self.rule.reach, |first, field, middle| {
+            let known = if WITHIN == 1 { within[0] } else { HERE };
+            if Places::from(field) << first & wanted & !known == 0 {
+                return;
             }
-        }
-        Zone { node, within }
+            let (east, south) = ((east >> first) as u64, (south >> first) as u64);
+            let mut joined = middle;
+            for drives in 2.. {
+                let along = (joined & east) << 1 | joined >> 1 & east;
+                let across = (joined & south) << SIDE | joined >> SIDE & south;
+                let new = (along | across) & field & !joined;
+                if new == 0 {
+                    break;
+                }
+                joined |= new;
+                if WITHIN > 1
+                    && let Some(nodes) = within.get_mut(drives)
+                {
+                    *nodes |= Places::from(joined) << first;
+                }
+            }
+            within[0] |= Places::from(joined) << first;
+        });
+        within
     }
 
     /// The bonds of `robot` to the others of this formation.
     pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
         let others = first_robots(self.entered.into()) & !(1 << robot);
-        let Formation { stances, ends, near, .. } = formation;
+        let stances = &formation.stances;
         let heard = sets(others, |one, other| self.rule.hears(stances[one], stances[other]));
         let mut tied = [0; ROBOTS];
-        if self.ties() {
-            tied = sets(others, |one, other| near[one].has(ends[other]));
-            for set in &mut tied {
-                if !robots(*set).any(|other| near[other].has(ends[robot])) {
-                    *set = 0;
-                }
+        if self.count > 2 && self.rule.has(Condition::Tether) {
+            let is_tied = |one: usize, other: usize| self.is_tied(formation, one, stances[other].to());
+            tied = sets(others, is_tied);
+            for set in tied.iter_mut().filter(|set| !robots(**set).any(|other| is_tied(other, robot))) {
+                *set = 0;
             }
         }
         Bonds { robot, heard, tied }
@@ -171,25 +171,28 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Whether the conditions let the robot of these bonds be on `path`.
     pub(super) fn lets(&self, bonds: &Bonds<ROBOTS>, formation: &Formation<ROBOTS>, path: Stance) -> bool {
         let (from, to) = (path.from(), path.to());
-        let Formation { stances, ends, near, .. } = formation;
+        let stances = &formation.stances;
         let is_taken = |(other, &stance)| other != bonds.robot && !self.rule.keeps_apart(path, stance);
-        let entered = stances.iter().take(self.entered.into());
-        if entered.enumerate().any(is_taken) {
+        if stances.iter().take(self.entered.into()).enumerate().any(is_taken) {
             return false;
         }
         let is_heard = |set: &Set| robots(*set).any(|other| self.rule.hears(stances[other], path));
         if !bonds.heard.iter().all(|set| *set == 0 || is_heard(set)) {
             return false;
         }
-        if bonds.tied.iter().all(|&set| set == 0) {
+        let all = bonds.tied.iter().fold(0, |all, set| all | set);
+        if all == 0 {
             return true;
         }
+        let place = |other: usize| place_of(to, stances[other].to()).unwrap_or(0);
         let back = Step::ALL.into_iter().find(|&step| to.after(step) == from);
-        let is_new = back.is_some_and(|step| !self.paths(to).has(step));
-        let here = is_new.then(|| self.near(to, back));
-        let is_tied = |other: usize| match &here {
-            Some(here) => here.has(ends[other]),
-            None => near[other].has(to),
+        let new = back.filter(|&step| !self.paths(to).has(step)).map(|_| {
+            let wanted = robots(all).fold(0, |wanted, other| wanted | place(other));
+            self.joined::<1>(to, back, wanted)[0]
+        });
+        let is_tied = |other: usize| match new {
+            Some(joined) => joined & place(other) != 0,
+            None => self.is_tied(formation, other, to),
         };
         bonds.tied.iter().all(|&set| set == 0 || robots(set).any(is_tied))
     }
@@ -198,11 +201,23 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 #[cfg(test)]
 mod tests {
     use super::super::rule::Rule;
-    use super::super::stance::Reach;
     use super::*;
     use crate::ground::{Area, EdgeMark, TinyGrid};
 
     const FAR: u32 = u32::MAX;
+
+    /// Sizes of fields: columns and rows.
+    type Sizes = &'static [(i16, i16)];
+
+    fn reaches() -> [(Reach, Sizes); 4] {
+        let paths = |paths| Reach::of_paths(paths).expect("a reach");
+        [
+            (paths(2), &[(1, 3), (2, 2), (3, 1)]),
+            (Reach::PAPER, &[(2, 4), (3, 3), (4, 2)]),
+            (paths(4), &[(1, 5), (3, 4), (4, 3), (5, 1)]),
+            (paths(5), &[(1, 6), (4, 5), (5, 4), (6, 1)]),
+        ]
+    }
 
     /// The drives from the middle of an area of 7×7 nodes to each of its nodes, over the paths of `map` between nodes that are
     /// at most so many columns and rows away, the first and last ones of each.
@@ -212,7 +227,7 @@ mod tests {
         };
         let mut drives = [[FAR; 7]; 7];
         drives[3][3] = 0;
-        for _ in 0..9 {
+        for _ in 0..=MAX_DRIVES {
             for node in map.area().cells().filter(|&node| is_within(node)) {
                 let open = map.sides(EdgeMark::Open, node);
                 for beyond in open.iter().map(|step| node.after(step)).filter(|&node| is_within(node)) {
@@ -225,11 +240,28 @@ mod tests {
         drives
     }
 
+    /// The fewest drives from the middle within any field of these sizes.
+    fn fewest(map: &TinyGrid, sizes: Sizes) -> [[u32; 7]; 7] {
+        let mut least = [[FAR; 7]; 7];
+        for &(wide, high) in sizes {
+            for (column, row) in
+                (1 - wide..=0).flat_map(|column| (1 - high..=0).map(move |row| (column, row)))
+            {
+                let flooded = flooded(map, (column, column + wide - 1), (row, row + high - 1));
+                for node in map.area().cells() {
+                    let (x, y) = (node.x as usize, node.y as usize);
+                    least[y][x] = least[y][x].min(flooded[y][x]);
+                }
+            }
+        }
+        least
+    }
+
     #[test]
     fn a_node_is_joined_by_the_paths_within_one_field() {
         let area = Area::new(Cell::new(0, 0), Cell::new(6, 6)).expect("an area");
         let (middle, mut number) = (Cell::new(3, 3), 1_u64);
-        for round in 0..200 {
+        for (round, (reach, sizes)) in (0..200).zip(reaches().into_iter().cycle()) {
             let mut map = TinyGrid::new(area).expect("49 nodes");
             for edge in area.edges() {
                 number =
@@ -238,39 +270,42 @@ mod tests {
                     map.put_edge(EdgeMark::Open, edge);
                 }
             }
-            let mut least = [[FAR; 7]; 7];
-            for (wide, high) in [(3, 3), (4, 2), (2, 4)] {
-                for (column, row) in
-                    (1 - wide..=0).flat_map(|column| (1 - high..=0).map(move |row| (column, row)))
-                {
-                    let flooded = flooded(&map, (column, column + wide - 1), (row, row + high - 1));
-                    for node in area.cells() {
-                        let (x, y) = (node.x as usize, node.y as usize);
-                        least[y][x] = least[y][x].min(flooded[y][x]);
-                    }
-                }
-            }
+            let least = fewest(&map, sizes);
             let starts = [2, 3, 4].map(|x| Cell::new(x, 3));
-            let kit = Kit::<_, 3, 49>::new(Rule::REPAIRED, map, &starts).expect("a team");
-            let near = kit.near(middle, None);
+            let kit = Kit::<_, 3, 49>::new(Rule { reach, ..Rule::REPAIRED }, map, &starts).expect("a team");
+            let [all, within @ ..] = kit.joined::<{ MAX_DRIVES + 2 }>(middle, None, !0);
             for node in area.cells() {
-                let drives = least[node.y as usize][node.x as usize];
-                assert_eq!(near.drives(node), (drives < FAR).then_some(drives), "{node} in {map:?}");
-                assert_eq!(near.has(node), drives < FAR, "{node} in {map:?}");
+                let place = place_of(middle, node).expect("it is near");
+                let drives = within.iter().position(|nodes| nodes & place != 0);
+                let least = least[node.y as usize][node.x as usize];
+                assert_eq!(drives, (least < FAR).then_some(least as usize), "{node} in {map:?}");
+                let [wanted] = kit.joined(middle, None, place);
+                assert_eq!([all & place != 0, wanted & place != 0], [least < FAR; 2], "{node} in {map:?}");
             }
         }
     }
 
     #[test]
-    fn any_two_nodes_of_a_field_are_in_reach() {
-        for field in FIELDS {
-            assert!(field & HERE != 0);
-            for one in offsets(field) {
-                for other in offsets(field) {
+    fn fields_are_the_largest_rectangles_any_two_nodes_of_which_are_in_reach() {
+        for (reach, sizes) in reaches() {
+            let mut count = 0;
+            fields(reach, |first, field, middle| {
+                count += 1;
+                let field = Places::from(field) << first;
+                assert!(Places::from(middle) << first == HERE && field & HERE != 0);
+                for (one, other) in
+                    offsets(field).flat_map(|one| offsets(field).map(move |other| (one, other)))
+                {
                     let [one, other] =
-                        [one, other].map(|offset| Cell::new(0, 0).at_offset(offset.0, offset.1));
-                    assert!(Reach::PAPER.joins(one, other), "{one} {other}");
+                        [one, other].map(|(columns, rows)| Cell::new(0, 0).at_offset(columns, rows));
+                    assert!(reach.joins(one, other), "{one} {other}");
                 }
+            });
+            assert_eq!(count, sizes.iter().map(|(columns, rows)| columns * rows).sum::<i16>());
+            for &(columns, rows) in sizes {
+                let last = |columns: i16, rows: i16| Cell::new(columns - 1, rows - 1);
+                let larger = [last(columns + 1, rows), last(columns, rows + 1)];
+                assert!(larger.iter().all(|&last| !reach.joins(Cell::new(0, 0), last)), "{columns}×{rows}");
             }
         }
     }

@@ -4,8 +4,8 @@
 //! A *joint way* of two robots is made of single drives over paths driven before, after each of which both stand in reach of
 //! each other and at different nodes; it ends where an uncovered side is admitted for one of them. Whoever has the turn takes
 //! a drive with which a shortest joint way can begin. All pairs of nodes in reach are flooded at once: of each node one word
-//! has a bit for each place of the other robot around it. A first flood goes from where the robots go as far as the nearest
-//! uncovered side, and a second one comes back from all that are so near.
+//! has a bit for each place of the other robot around it. The flood goes from where the robots go as far as the nearest
+//! uncovered side, and comes back from all that are so near.
 //!
 //! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone, the
 //! others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no others.
@@ -69,110 +69,70 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let admitted = if self.rule().has(Condition::Apart) { around } else { around | HERE };
         let pair = place_of(at, other)? & admitted;
         let place = self.place(at).filter(|_| pair != 0)?;
-        let ends = [at, other];
-        let length = self.joint_length((place, pair), admitted, ends)?;
-        if length == 0 {
+        if self.goals(place, pair, admitted) != 0 {
             return Some(Steps::NONE);
         }
-        let mut near: Pairs<NODES> = [0; NODES];
+        // Each drive changes the sum of all columns and rows by one, so pairs beside one are a drive farther or nearer: the
+        // second bit of their drives tells which.
+        let (mut near, mut second): (Pairs<NODES>, Pairs<NODES>) = ([0; NODES], [0; NODES]);
         let mut levels = [Level::<NODES>::NONE, Level::NONE];
         let [new, next] = &mut levels;
-        self.put_goals(new, admitted, ends, length);
-        for step in 1..=length {
+        new.add(place, pair);
+        let mut drives = 0_u32;
+        loop {
+            next.clear();
             for (node, places) in new.nodes() {
                 near[node] |= places;
+                second[node] |= if drives & 2 == 0 { 0 } else { places };
+                next.add(node, self.goals(node, places, admitted));
             }
-            if step < length {
-                self.spread(new, next, &near, admitted);
-                core::mem::swap(new, next);
+            if next.count > 0 {
+                break;
             }
+            self.spread(new, next, |node| admitted & !near[node]);
+            if next.count == 0 {
+                return None;
+            }
+            core::mem::swap(new, next);
+            drives += 1;
         }
-        let open = self.known(EdgeMark::Open, at);
-        let nearer = open.filter(|step| {
+        for before in (1..drives).rev() {
+            core::mem::swap(new, next);
+            let is_second = |node: usize| if before & 2 == 0 { !second[node] } else { second[node] };
+            self.spread(new, next, |node| near[node] & is_second(node));
+        }
+        let nearer = self.known(EdgeMark::Open, at).filter(|step| {
             let node = self.place(at.after(step));
-            node.is_some_and(|node| near[node] & moved(pair, step.reverse()) & admitted != 0)
+            node.is_some_and(|node| next.pairs[node] & moved(pair, step.reverse()) & admitted != 0)
         });
         Some(self.admitted(robot, nearer))
     }
 
-    /// The single drives from this pair of nodes to the nearest one with an uncovered side.
-    fn joint_length(&self, (place, pair): (usize, Places), admitted: Places, ends: [Cell; 2]) -> Option<u32> {
-        let mut near: Pairs<NODES> = [0; NODES];
-        let mut levels = [Level::<NODES>::NONE, Level::NONE];
-        let [new, next] = &mut levels;
-        new.add(place, pair);
-        // Each drive leads to at least one pair of nodes that was not near before.
-        for length in 0..NODES as u32 * Places::BITS {
-            if new.count == 0 {
-                break;
-            }
-            for (node, places) in new.nodes() {
-                near[node] |= places;
-                let at = self.node(node);
-                let is_goal = |offset: (i16, i16)| {
-                    let goals = self.goals(at.at_offset(offset.0, offset.1), admitted, ends);
-                    goals & 1 << bit(-offset.0, -offset.1) != 0
-                };
-                if self.goals(at, admitted, ends) & places != 0 || offsets(places).any(is_goal) {
-                    return Some(length);
-                }
-            }
-            self.spread(new, next, &near, admitted);
-            core::mem::swap(new, next);
-        }
-        None
+    /// Those of the places of the other robot around a node for which an uncovered side is admitted for one of both.
+    fn goals(&self, node: usize, places: Places, admitted: Places) -> Places {
+        let at = self.node(node);
+        let uncovered = |node: Cell| self.uncovered_by_all(node).iter();
+        let own = uncovered(at).fold(0, |goals, step| goals | moved(admitted, step));
+        offsets(places & !own).fold(places & own, |goals, (columns, rows)| {
+            let place = 1 << bit(columns, rows);
+            let mut after = uncovered(at.at_offset(columns, rows)).map(|step| moved(place, step));
+            if after.any(|place| place & admitted != 0) { goals | place } else { goals }
+        })
     }
 
-    /// The places of the other robot for which an uncovered side of `node` is admitted for the one that stands there.
-    fn goals(&self, node: Cell, admitted: Places, ends: [Cell; 2]) -> Places {
-        if self.known(EdgeMark::Open, node).is_empty() && !ends.contains(&node) {
-            return 0;
-        }
-        let uncovered = self.uncovered_by_all(node);
-        uncovered.iter().fold(0, |goals, step| goals | admitted & moved(admitted, step))
-    }
-
-    /// Adds the pairs of nodes where an uncovered side is admitted for one robot or the other, as far as one of them can come to
-    /// its node in so many drives.
-    fn put_goals(&self, level: &mut Level<NODES>, admitted: Places, ends: [Cell; 2], drives: u32) {
-        let area = self.union.area();
-        let far = i16::try_from(drives).unwrap_or(i16::MAX);
-        let rows = |cell: Cell| cell.y.saturating_sub(far)..=cell.y.saturating_add(far);
-        let columns = |cell: Cell| cell.x.saturating_sub(far)..=cell.x.saturating_add(far);
-        let [one, other] = ends;
-        let (first, last) = (area.first(), area.last());
-        let y = first.y.max(*rows(one).start().min(rows(other).start()))
-            ..=last.y.min(*rows(one).end().max(rows(other).end()));
-        for y in y {
-            let x = first.x.max(*columns(one).start().min(columns(other).start()))
-                ..=last.x.min(*columns(one).end().max(columns(other).end()));
-            for x in x {
-                let node = Cell::new(x, y);
-                let goals = self.goals(node, admitted, ends);
-                let Some(place) = self.place(node).filter(|_| goals != 0) else { continue };
-                level.add(place, goals);
-                for offset in offsets(goals) {
-                    if let Some(place) = self.place(node.at_offset(offset.0, offset.1)) {
-                        level.add(place, 1 << bit(-offset.0, -offset.1));
-                    }
-                }
-            }
-        }
-    }
-
-    /// Makes `next` the pairs of nodes that are one drive from those in `new` and not among those `near`.
-    fn spread(&self, new: &Level<NODES>, next: &mut Level<NODES>, near: &Pairs<NODES>, admitted: Places) {
+    /// Makes `next` those of the pairs one drive from those in `new` that are `among` those of their nodes.
+    fn spread(&self, new: &Level<NODES>, next: &mut Level<NODES>, among: impl Fn(usize) -> Places) {
         next.clear();
         for (place, places) in new.nodes() {
             let node = self.node(place);
             for step in self.known(EdgeMark::Open, node).iter() {
                 if let Some(beyond) = self.place(node.after(step)) {
-                    next.add(beyond, moved(places, step.reverse()) & admitted & !near[beyond]);
+                    next.add(beyond, moved(places, step.reverse()) & among(beyond));
                 }
             }
             for offset in offsets(places) {
                 for step in self.known(EdgeMark::Open, node.at_offset(offset.0, offset.1)).iter() {
-                    next.add(place, moved(1 << bit(offset.0, offset.1), step) & admitted & !near[place]);
+                    next.add(place, moved(1 << bit(offset.0, offset.1), step) & among(place));
                 }
             }
         }

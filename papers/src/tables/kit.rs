@@ -12,16 +12,18 @@
 mod drawn;
 mod lattice;
 mod printed;
+mod range;
 
 use std::num::NonZeroU32;
 
 use tautline_kernel::ground::Cell;
-use tautline_kernel::kit::Rule;
+use tautline_kernel::kit::{Reach, Rule};
 
 use self::lattice::{FAMILIES, Family};
+pub use self::range::KitRange;
 use super::paper;
 use super::prelude::*;
-use tautline_sim::kit::{self, Pace, REACH_MILLIMETRES};
+use tautline_sim::kit::{self, PATH_MILLIMETRES, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::Layout;
 
 /// Paths of every layout, and how many of them are explored at the paper's 88 %.
@@ -289,6 +291,11 @@ fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Ou
         TeamRule::Ahead => (Rule::AHEAD, vec![start; team.robots]),
         TeamRule::Repaired => (Rule::REPAIRED, kit::starts(layout, start, team.robots)),
     };
+    driven(rule, layout, starts, pace, seed)
+}
+
+/// The run of robots from `starts` until all paths are driven, or no new one has been for long.
+fn driven(rule: Rule, layout: &Layout, starts: Vec<Cell>, pace: Pace, seed: u64) -> Outcome {
     let mut outcome = Outcome { paths: Vec::new(), overlaps: Vec::new(), nodes: vec![0], is_cut: false };
     let Ok(mut course) = kit::course(rule, layout, &starts, pace, seed) else { return outcome };
     let mut found = starts;
@@ -314,7 +321,9 @@ fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Ou
     }
     outcome.paths.sort_unstable();
     outcome.nodes.sort_unstable();
-    outcome.is_cut = course.apart() > REACH_MILLIMETRES * REACH_MILLIMETRES;
+    let reach = i64::from(rule.reach.squared()) * PATH_MILLIMETRES.pow(2);
+    outcome.is_cut =
+        course.apart() > if rule.reach == Reach::PAPER { REACH_MILLIMETRES.pow(2) } else { reach };
     outcome
 }
 

@@ -73,7 +73,7 @@ const fn paths(rule: &'static str, farthest: fn() -> [u32; 2]) -> Row {
     Row { rule, kept: Kept::Centres, lattice: Lattice::Paths, farthest }
 }
 
-const ROWS: [Row; 9] = [
+const ROWS: [Row; 11] = [
     chain("chain, published", Kept::Centres, || published().centres),
     chain("chain, published", Kept::Cells, || published().cells),
     chain("chain, repaired", Kept::Centres, || covered(&chain::Rule::REPAIRED).centres),
@@ -83,6 +83,8 @@ const ROWS: [Row; 9] = [
     paths("KIT, repaired, 10 m", || within(Reach::PAPER)),
     paths("KIT, --range 3", || Reach::of_paths(3).map_or([0; 2], within)),
     paths("KIT, --range 2", || Reach::of_paths(2).map_or([0; 2], within)),
+    paths("KIT, --range 4", || Reach::of_paths(4).map_or([0; 2], within)),
+    paths("KIT, --range 5", || Reach::of_paths(5).map_or([0; 2], within)),
 ];
 
 /// Neighbours whose centres are within r_cov, as CHAIN-3 has them.

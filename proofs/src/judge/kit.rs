@@ -1,4 +1,4 @@
-//! The judge of KIT: runs of two robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11),
+//! The judge of KIT: runs of two robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11, KIT-14),
 //! of three and more by the repaired rule ([`Party`]: KIT-8), what two robots say to each other ([`Talk`]: KIT-4,
 //! KIT-5), and the fields of a message ([`Wire`]: KIT-9). It knows the sentences of `SPEC.md` alone.
 
@@ -23,6 +23,8 @@ pub struct Run {
     pub reading: Reading,
     /// How fast they drive.
     pub speeds: Speeds,
+    /// When they have to hear each other, if that is the clause.
+    pub contact: Contact,
     /// The nodes, and the walls that the robots meet.
     pub lattice: Lattice,
     /// Where each robot starts.
@@ -49,6 +51,15 @@ pub enum Speeds {
     Any,
     /// At equal speeds.
     Equal,
+}
+
+/// When robots have to hear each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Contact {
+    /// At every moment.
+    AllTheTime,
+    /// Where both stand.
+    AtNodes,
 }
 
 /// A step of one robot.
@@ -95,16 +106,17 @@ pub enum Sees {
     Robot,
 }
 
-plain!(Run { reading, speeds, lattice, starts, steps, round });
+plain!(Run { reading, speeds, contact, lattice, starts, steps, round });
 plain!(Reading one of Published, Ahead);
 plain!(Speeds one of Any, Equal);
+plain!(Contact one of AllTheTime, AtNodes);
 plain!(Step { robot, what, looks });
 plain!(What one of Arrives, Drives, Stays, IsDone);
 plain!(Look { side, sees });
 plain!(Sees one of Free, Obstacle, Robot);
 
 /// The clauses that a step breaks, and those that an end breaks.
-const BY_STEP: [&str; 5] = ["KIT-1", "KIT-2", "KIT-3", "KIT-10", "KIT-11"];
+const BY_STEP: [&str; 6] = ["KIT-1", "KIT-2", "KIT-3", "KIT-10", "KIT-11", "KIT-14"];
 const BY_END: [&str; 2] = ["KIT-6", "KIT-8"];
 
 /// The clause that a run without end breaks.
@@ -129,6 +141,11 @@ impl Case for Run {
         must(are_there, "both robots start at one node").map_err(whole)?;
         must((self.clause == "KIT-2") <= (self.speeds == Speeds::Equal), "KIT-2 is about equal speeds")
             .map_err(whole)?;
+        must(
+            (self.contact == Contact::AtNodes) <= (self.clause == "KIT-1"),
+            "KIT-1 alone is judged at nodes",
+        )
+        .map_err(whole)?;
         must((self.clause == BY_ROUND) == (self.round > 0), "KIT-7 is broken by a round alone")
             .map_err(whole)?;
         must(self.round <= self.steps.len(), "there are not so many steps").map_err(whole)?;
@@ -263,7 +280,9 @@ impl Run {
             team.stances[robot] = [team.stances[robot][1]; 2];
             team.first = 1 - robot;
             team.stays[1 - robot] = false;
-            return Ok(false);
+            let [one, other] = team.stances;
+            let both_stand = !team.drives(0) && !team.drives(1);
+            return Ok(self.contact == Contact::AtNodes && both_stand && !in_reach(one[0], other[0]));
         }
         must(team.may_decide(robot), "this robot may not decide now")?;
         let before = team.clone();
@@ -276,7 +295,10 @@ impl Run {
         let from = before.stances[robot][0];
         let side = step.looks.last().map_or(usize::MAX, |look| look.side);
         let to = beside(from, side).ok_or("a robot drives nowhere")?;
-        let is_broken = !is_marked || self.is_broken_by(&before, (robot, [from, to]), &team.seen);
+        let mut is_broken = !is_marked || self.is_broken_by(&before, (robot, [from, to]), &team.seen);
+        if self.clause == "KIT-14" && step.looks.len() == 1 && before.driven.contains(&path(from, to)) {
+            is_broken = self.at_once(&before, robot) != self.shortest(&before, robot);
+        }
         team.stances[robot] = [from, to];
         team.headings[robot] = Some(side);
         team.entered = 2;
@@ -342,7 +364,7 @@ impl Run {
         let other_drives = team.drives(1 - robot);
         let is_equal = self.speeds == Speeds::Equal;
         match self.clause {
-            "KIT-1" | "KIT-2" => other.is_some_and(|[left, goal]| {
+            "KIT-1" | "KIT-2" if self.contact == Contact::AllTheTime => other.is_some_and(|[left, goal]| {
                 // At equal speeds the one that leaves later is not at its end while the other one is where it left.
                 let is_late = is_equal && other_drives;
                 let corners = [(from, left), (from, goal), (to, goal)];
@@ -364,6 +386,35 @@ impl Run {
             }
             _ => false,
         }
+    }
+
+    /// The sides of covered paths through which a robot can drive after one look.
+    fn at_once(&self, team: &Team, robot: usize) -> Vec<usize> {
+        let from = team.stances[robot][0];
+        let can_drive = |&side: &usize| {
+            let looks = vec![Look { side, sees: Sees::Free }];
+            let is_covered = beside(from, side).is_some_and(|to| team.driven.contains(&path(from, to)));
+            is_covered && self.look(&mut team.clone(), &Step { robot, what: What::Drives, looks }).is_ok()
+        };
+        (0..4).filter(can_drive).collect()
+    }
+
+    /// The sides of covered paths with which a shortest joint way begins: a robot drives there in contact with both ends of
+    /// the other one's path, and to neither of them.
+    fn shortest(&self, team: &Team, robot: usize) -> Vec<usize> {
+        let (from, other) = (team.stances[robot][0], team.stances[1 - robot]);
+        let now = self.joint_way(team, team.goals());
+        let begins = |&side: &usize| {
+            let Some(to) = beside(from, side).filter(|&to| team.driven.contains(&path(from, to))) else {
+                return false;
+            };
+            let mut goals = team.goals();
+            goals[robot] = to;
+            let is_in_contact =
+                other.iter().all(|&end| end != to && in_reach(from, end) && in_reach(to, end));
+            is_in_contact && self.joint_way(team, goals).is_some_and(|then| now == Some(then + 1))
+        };
+        (0..4).filter(begins).collect()
     }
 
     /// The fewest single drives over covered paths, in contact and to different nodes, until a robot could drive

@@ -3,10 +3,13 @@
 use tautline_kernel::kit::Condition::{
     Apart, Beside, Caravan, Flags, FromInReach, MakesRoom, Marked, NextInReach, Regroup, Repeats, Stays, Turn,
 };
-use tautline_kernel::kit::{Answers as Answering, Fallback, Filter, Records, Rule};
+use tautline_kernel::kit::Fallback::{self, Admitted, Nearest, Random};
+use tautline_kernel::kit::Records::{self, Others, Union};
+use tautline_kernel::kit::Runs::{self, Ahead, Every};
+use tautline_kernel::kit::{Answers as Answering, Filter, Rule};
 
 use super::lattices::{Lattices, Pass, Size};
-use super::local::{self, Two};
+use super::local::{self, AtEqualSpeeds, Two};
 use super::pairs::{self, Certainty};
 use super::talks::{self, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
@@ -35,28 +38,30 @@ const UNMARKED: NamedRule<Rule> =
 const OLD_PATHS: NamedRule<Rule> =
     NamedRule::new("old paths alone are filtered", Rule { filter: Filter::OldPaths, ..Rule::REPAIRED });
 const OTHERS: NamedRule<Rule> =
-    NamedRule::new("the other's record alone counts", Rule { records: Records::Others, ..Rule::REPAIRED });
+    NamedRule::new("the other's record alone counts", Rule { records: Others, ..Rule::REPAIRED });
 const NO_LOOK_BESIDE: NamedRule<Rule> =
     NamedRule::new("neighbours are not looked at", Rule::REPAIRED.without(Beside));
 const NO_CARAVAN: NamedRule<Rule> = NamedRule::new("each goes alone", Rule::REPAIRED.without(Caravan));
 const NO_ROOM: NamedRule<Rule> = NamedRule::new("nobody makes room", Rule::REPAIRED.without(MakesRoom));
 
-/// The readings of the published rule but for the main one: where KIT runs, whose record counts, and which side is
-/// taken where none is left.
-const READINGS: [(&str, Rule); 7] = [
-    ("ahead", Rule::AHEAD),
-    ("the other's record", Rule { records: Records::Others, ..Rule::PUBLISHED }),
-    ("ahead + the other's record", Rule { records: Records::Others, ..Rule::AHEAD }),
-    ("any side", Rule { fallback: Fallback::Random, ..Rule::PUBLISHED }),
-    ("ahead + any side", Rule { fallback: Fallback::Random, ..Rule::AHEAD }),
-    (
-        "the other's record + any side",
-        Rule { records: Records::Others, fallback: Fallback::Random, ..Rule::PUBLISHED },
-    ),
-    (
-        "ahead + the other's record + any side",
-        Rule { records: Records::Others, fallback: Fallback::Random, ..Rule::AHEAD },
-    ),
+/// The published rule by a reading of where KIT runs, whose record counts, and which side is taken where none is left.
+const fn reading(runs: Runs, records: Records, fallback: Fallback) -> Rule {
+    Rule { runs, records, fallback, ..Rule::PUBLISHED }
+}
+
+/// The readings of the published rule but for the main one.
+const READINGS: [(&str, Rule); 11] = [
+    ("ahead", reading(Ahead, Union, Nearest)),
+    ("the other's record", reading(Every, Others, Nearest)),
+    ("ahead + the other's record", reading(Ahead, Others, Nearest)),
+    ("any side", reading(Every, Union, Random)),
+    ("ahead + any side", reading(Ahead, Union, Random)),
+    ("the other's record + any side", reading(Every, Others, Random)),
+    ("ahead + the other's record + any side", reading(Ahead, Others, Random)),
+    ("filtered", reading(Every, Union, Admitted)),
+    ("ahead + filtered", reading(Ahead, Union, Admitted)),
+    ("the other's record + filtered", reading(Every, Others, Admitted)),
+    ("ahead + the other's record + filtered", reading(Ahead, Others, Admitted)),
 ];
 
 /// When a robot answers, otherwise than the main reading has it.
@@ -65,7 +70,16 @@ const ANSWERING: [(&str, Rule); 2] = [
     ("the first goes first", Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED }),
 ];
 
-const REFUTED: &[Reading<Rule>] = &readings(READINGS, [Verdict::Refuted; 7]);
+const REFUTED: &[Reading<Rule>] = &readings(READINGS, [Verdict::Refuted; 11]);
+
+/// The readings of sentences that hold in a larger bound where KIT runs at every node and a robot stays rather than go out of
+/// reach: but for that of these in which the other's record alone counts, whose states are too many.
+const STAYING: &[Reading<Rule>] = {
+    let [a, b, c, d, e, f, g, stays, ahead, _, other] = READINGS;
+    let mut expected = [Verdict::Refuted; 10];
+    expected[7] = Verdict::Holds;
+    &readings([a, b, c, d, e, f, g, stays, ahead, other], expected)
+};
 
 /// The ambiguities that these readings are about. Under *every* two robots have the paper's 78 % and keep its contact more
 /// often, so that it is the more charitable one, though *ahead* is closer to the words.
@@ -86,14 +100,20 @@ static PAPER: Paper = Paper {
             ],
         },
         Ambiguity {
-            words: "“turned to a filtered direction randomly”, where no direction is unexplored",
+            words: "“the robot does the processing again for all the directions regardless of whether direction is open or \
+                    not. Then it will get the direction that has smallest communication distance”",
             interpretations: &[
                 Interpretation::new(
                     "nearest side",
-                    "one that leads to an unexplored side soonest",
+                    "of all sides the one that leads nearest to the other",
+                    Probable,
+                ),
+                Interpretation::new("any side", "any of all sides", Literal),
+                Interpretation::new(
+                    "filtered",
+                    "all sides are filtered again, and the nearest of what is left is taken, if any is",
                     Charitable,
                 ),
-                Interpretation::new("any side", "any of them", Literal),
             ],
         },
     ],
@@ -181,6 +201,8 @@ const fn side_by_side(demand: Demand) -> Lattices<3> {
 
 const AT_EQUAL_SPEEDS: Lattices<2> =
     Lattices { sizes: &ROWS, speeds: Speeds::Equal, ..published(Demand::Contact) };
+/// Contact is judged where both robots stand.
+const AT_NODES: Lattices<2> = Lattices { demand: Demand::AtNodes, ..AT_EQUAL_SPEEDS };
 const APART_AT_EQUAL_SPEEDS: Lattices<2> =
     Lattices { sizes: &SMALL, speeds: Speeds::Equal, ..published(Demand::Apart) };
 
@@ -230,6 +252,13 @@ pub static CLAUSES: [Clause; 14] = [
             &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[])
                 .under(REFUTED)
                 .of(&PAPER),
+            &Check::new(PUBLISHED, &AT_NODES, Verdict::Refuted, &[]).under(STAYING).of(&PAPER),
+            &Check::new(
+                NamedRule::new("at-nodes", Two::at_nodes(Rule::PUBLISHED)),
+                &local::AT_NODES,
+                Verdict::Holds,
+                &[NamedRule::new(NO_NEXT.name, Two::at_nodes(Rule::PUBLISHED.without(NextInReach)))],
+            ),
             &Check::new(
                 NamedRule::new("ahead", Rule::AHEAD),
                 &published(Demand::Contact),
@@ -258,7 +287,13 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-2",
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
-            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED).of(&PAPER),
+            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(STAYING).of(&PAPER),
+            &Check::new(
+                NamedRule::new("filtered", AtEqualSpeeds(Rule::PUBLISHED)),
+                &local::TWO,
+                Verdict::Holds,
+                &[NamedRule::new(NO_NEXT.name, AtEqualSpeeds(Rule::PUBLISHED.without(NextInReach)))],
+            ),
             &Check::new(
                 REPAIRED,
                 &repaired_at_equal_speeds(Demand::Contact),
@@ -440,6 +475,11 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-14",
         sentence: "Of two robots one that drives a path again MUST be able to take each side that begins a shortest way, and no \
                    other.",
-        checks: &[&Check::new(REPAIRED, &repaired(Demand::AnyShortest), Verdict::Holds, &[NO_STAY, NO_NEXT])],
+        checks: &[
+            &Check::new(PUBLISHED, &published(Demand::AnyShortest), Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
+            &Check::new(REPAIRED, &repaired(Demand::AnyShortest), Verdict::Holds, &[NO_STAY, NO_NEXT]),
+        ],
     },
 ];

@@ -6,6 +6,7 @@ use tautline_kernel::kit::{Next, Rule, Sight};
 
 use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
+use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
 use crate::run::{self, Ending, Scripted};
 
@@ -79,10 +80,11 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
     pub fn scripted(&self) -> Option<Scripted> {
         let Self { setting, run } = self;
         let (speeds, clause) = match (setting.speeds, run.demand) {
+            // A run that loses contact where both stand has lost it before.
+            (_, Demand::AtNodes) | (Speeds::OneByOne, _) => return None,
             (Speeds::Any, demand) => (ANY_SPEEDS, demand.clause(ROBOTS)),
             (Speeds::Equal, Demand::Contact) => (EQUAL_SPEEDS, "KIT-2"),
             (Speeds::Equal, demand) => (EQUAL_SPEEDS, demand.clause(ROBOTS)),
-            (Speeds::OneByOne, _) => return None,
         };
         let (walls, steps) = self.given()?;
         let starts = self.starts()?.to_vec();
@@ -144,7 +146,7 @@ pub fn case<const ROBOTS: usize>(
     steps: Vec<Successor<ROBOTS>>,
     round: usize,
 ) -> Option<Box<dyn AnyCase>> {
-    let Setting { rule, area, speeds, .. } = *setting;
+    let Setting { rule, area, speeds, demand, .. } = *setting;
     let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
     let barred =
         walls.iter().map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side())))).collect();
@@ -165,7 +167,8 @@ pub fn case<const ROBOTS: usize>(
         }
         _ => return None,
     };
-    let run = judge::Run { clause, reading, speeds, lattice, starts, steps, round };
+    let contact = if demand == Some(Demand::AtNodes) { Contact::AtNodes } else { Contact::AllTheTime };
+    let run = judge::Run { clause, reading, speeds, contact, lattice, starts, steps, round };
     (ROBOTS == 2 && judge::Run::knows(clause)).then(|| Box::new(run) as Box<dyn AnyCase>)
 }
 

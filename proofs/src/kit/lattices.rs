@@ -149,7 +149,8 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             Starts::Anywhere => "all starts",
             Starts::SideBySide => "all starts side by side",
         };
-        format!("all layouts of {} nodes, {starts}, {robots}, {speeds}{answers}", sizes.join(", "))
+        let at_nodes = if self.demand == Demand::AtNodes { ", where both stand" } else { "" };
+        format!("all layouts of {} nodes, {starts}, {robots}, {speeds}{answers}{at_nodes}", sizes.join(", "))
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {

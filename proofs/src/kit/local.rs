@@ -1,7 +1,7 @@
 //! Two robots that keep in touch, as a local rule: KIT-1 to KIT-3 for every lattice and every order of events, by the
 //! kernel's own conditions. One robot acts at a time.
 
-use tautline_kernel::ground::{Side, Step};
+use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_kernel::kit::{Reach, Rule, Stance};
 
 use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, in_a_row};
@@ -9,6 +9,9 @@ use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, in_a_row};
 /// Two robots: of more the kernel asks that sets of them hear each other.
 pub(super) const TWO: EveryNumber =
     EveryNumber { teams: "two robots", most_robots: 2, ..EveryNumber::DEFAULT };
+
+/// As [`TWO`], looked at where both stand.
+pub(super) const AT_NODES: EveryNumber = EveryNumber { teams: "two robots where both stand", ..TWO };
 
 /// The act of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,11 +24,11 @@ pub enum Doing {
     Idles,
 }
 
-/// The stance of a robot whose state is the step that it takes.
-fn stance(robot: &Robot<Step>) -> Stance {
-    match robot.state {
-        Step::Stay => Stance::Stands(robot.at),
-        Step::Cross(side) => Stance::Drives { from: robot.at, to: robot.at.beyond(side) },
+/// The stance of a robot that takes this step.
+fn stance(at: Cell, step: Step) -> Stance {
+    match step {
+        Step::Stay => Stance::Stands(at),
+        Step::Cross(side) => Stance::Drives { from: at, to: at.beyond(side) },
     }
 }
 
@@ -44,8 +47,7 @@ fn acts(state: Step) -> Vec<Act<Step, Doing>> {
 fn admits(plans: &[Plan<Step, Doing>], may_drive: impl Fn(Stance, Stance) -> bool) -> bool {
     let is_admitted = |own: &Plan<Step, Doing>, other: &Plan<Step, Doing>| match own.act {
         Doing::Leaves(side) => {
-            let path = Stance::Drives { from: own.robot.at, to: own.robot.at.beyond(side) };
-            may_drive(path, stance(&other.robot))
+            may_drive(stance(own.robot.at, Step::Cross(side)), stance(other.robot.at, other.robot.state))
         }
         Doing::Arrives | Doing::Idles => true,
     };
@@ -54,9 +56,9 @@ fn admits(plans: &[Plan<Step, Doing>], may_drive: impl Fn(Stance, Stance) -> boo
         && is_admitted(&plans[1], &plans[0])
 }
 
-fn are_in_a_row(robots: &[Robot<Step>]) -> bool {
+fn are_in_a_row<S: PartialEq>(robots: &[Robot<S>], stands: &S) -> bool {
     let (columns, rows) = robots[0].at.apart(robots[1].at);
-    robots.iter().all(|robot| robot.state == Step::Stay) && columns + rows == 1
+    robots.iter().all(|robot| robot.state == *stands) && columns + rows == 1
 }
 
 /// A promise about two robots.
@@ -64,6 +66,8 @@ fn are_in_a_row(robots: &[Robot<Step>]) -> bool {
 pub enum Promise {
     /// They hear each other (KIT-1, KIT-2).
     Contact,
+    /// They hear each other where both stand (KIT-1).
+    AtNodes,
     /// They are at least one path apart (KIT-3).
     Apart,
 }
@@ -83,6 +87,11 @@ impl Two {
     /// Contact at every moment, by this rule.
     pub const fn in_contact(rule: Rule) -> Self {
         Self { rule, promise: Promise::Contact, of_nodes: false }
+    }
+
+    /// Contact where both stand, by this rule.
+    pub const fn at_nodes(rule: Rule) -> Self {
+        Self { rule, promise: Promise::AtNodes, of_nodes: false }
     }
 
     /// Robots that are apart at every moment, by this rule.
@@ -105,16 +114,19 @@ impl Local for Two {
 
     fn admits(&self, plans: &[Plan<Step, Doing>]) -> bool {
         admits(plans, |path, other| match self.promise {
-            Promise::Contact => self.rule.hears(other, path),
+            Promise::Contact | Promise::AtNodes => self.rule.hears(other, path),
             Promise::Apart => self.rule.keeps_apart(path, other),
         })
     }
 
     fn keeps(&self, robots: &[Robot<Step>]) -> bool {
-        let (one, other) = (stance(&robots[0]), stance(&robots[1]));
+        let (one, other) = (stance(robots[0].at, robots[0].state), stance(robots[1].at, robots[1].state));
         match (self.promise, self.of_nodes) {
             (Promise::Contact, true) => Reach::PAPER.joins(one.from(), other.from()),
             (Promise::Contact, false) => one.is_sure_of(other, Reach::PAPER),
+            (Promise::AtNodes, _) => {
+                !(one.stands() && other.stands()) || Reach::PAPER.joins(one.to(), other.to())
+            }
             (Promise::Apart, true) => one.from() != other.from(),
             (Promise::Apart, false) => one.is_apart_from(other),
         }
@@ -123,16 +135,98 @@ impl Local for Two {
     fn reach(&self) -> (i16, Far) {
         match (self.promise, self.of_nodes) {
             (Promise::Contact, _) => (4, Far::Broken),
+            // Two that drive towards each other come from two nodes farther away.
+            (Promise::AtNodes, _) => (5, Far::Broken),
             (Promise::Apart, true) => (0, Far::Fine),
             (Promise::Apart, false) => (2, Far::Fine),
         }
     }
 
     fn may_start(&self, robots: &[Robot<Step>]) -> bool {
-        are_in_a_row(robots)
+        are_in_a_row(robots, &Step::Stay)
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<Step>> {
         in_a_row(robots, Step::Stay)
+    }
+}
+
+/// The step that a robot takes, and when it has left: a third of those that leave one after the other.
+type Timed = (Step, u8);
+
+/// Two robots by this rule at equal speeds: of two that drive, the one that has left first arrives first (KIT-2).
+#[derive(Clone, Copy, Debug)]
+pub struct AtEqualSpeeds(pub Rule);
+
+/// Whether a robot that has left at one time has left before one that has left at the other.
+const fn is_before(time: u8, other: u8) -> bool {
+    other == (time + 1) % 3
+}
+
+impl Local for AtEqualSpeeds {
+    type State = Timed;
+    type Act = (Doing, u8);
+
+    fn states(&self) -> Vec<Timed> {
+        let drive = |side| [0, 1, 2].map(|time| (Step::Cross(side), time));
+        [(Step::Stay, 0)].into_iter().chain(Side::ALL.into_iter().flat_map(drive)).collect()
+    }
+
+    fn acts(&self, (step, time): Timed) -> Vec<Act<Timed, (Doing, u8)>> {
+        let timed = |act: &Act<Step, Doing>, time: u8| {
+            let end =
+                |&(goes, step): &(bool, Step)| (goes, (step, if step == Step::Stay { 0 } else { time }));
+            let ends = act.ends.iter().map(end).collect();
+            Act { act: (act.act, time), step: act.step, ends, needs_open: act.needs_open }
+        };
+        let all = acts(step);
+        let times = |act: &Act<Step, Doing>| match act.act {
+            Doing::Leaves(_) => vec![timed(act, 0), timed(act, 1), timed(act, 2)],
+            Doing::Arrives | Doing::Idles => vec![timed(act, time)],
+        };
+        all.iter().flat_map(times).collect()
+    }
+
+    fn admits(&self, plans: &[Plan<Timed, (Doing, u8)>]) -> bool {
+        let is_admitted = |own: &Plan<Timed, (Doing, u8)>, other: &Plan<Timed, (Doing, u8)>| {
+            let (step, time) = other.robot.state;
+            let stands = step == Step::Stay;
+            match own.act {
+                (Doing::Leaves(side), new) => {
+                    let path = stance(own.robot.at, Step::Cross(side));
+                    let is_next = if stands { new == 0 } else { is_before(time, new) };
+                    is_next && self.0.hears(stance(other.robot.at, step), path)
+                }
+                (Doing::Arrives, own) => stands || is_before(own, time),
+                (Doing::Idles, _) => true,
+            }
+        };
+        plans.iter().any(|plan| plan.act.0 == Doing::Idles)
+            && is_admitted(&plans[0], &plans[1])
+            && is_admitted(&plans[1], &plans[0])
+    }
+
+    fn keeps(&self, robots: &[Robot<Timed>]) -> bool {
+        let [one, other] = [0, 1].map(|robot| stance(robots[robot].at, robots[robot].state.0));
+        let near = |one: Cell, other: Cell| Reach::PAPER.joins(one, other);
+        let [time, later] = [0, 1].map(|robot| robots[robot].state.1);
+        // The later one is not at its end while the other one is where it left.
+        let both_drive = !one.stands() && !other.stands();
+        near(one.from(), other.from())
+            && near(one.to(), other.to())
+            && (near(one.to(), other.from()) || both_drive && is_before(later, time))
+            && (near(one.from(), other.to()) || both_drive && is_before(time, later))
+    }
+
+    fn reach(&self) -> (i16, Far) {
+        (4, Far::Broken)
+    }
+
+    fn may_start(&self, robots: &[Robot<Timed>]) -> bool {
+        are_in_a_row(robots, &(Step::Stay, 0))
+    }
+
+    fn start(&self, robots: usize) -> Vec<Robot<Timed>> {
+        in_a_row(robots, (Step::Stay, 0))
     }
 }

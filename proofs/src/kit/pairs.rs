@@ -8,7 +8,7 @@ use crate::engine::{Choices, Outcome, Replay, assume, outcomes, require};
 use crate::judge::AnyCase;
 use crate::judge::kit::{Sent, Wire};
 
-/// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in reach.
+/// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in the paper's reach.
 const OFFSETS: u32 = 9;
 
 /// Parts of a path at which robots are looked at.
@@ -22,10 +22,10 @@ fn stance(at: Cell, oracle: &mut dyn Oracle) -> Stance {
     }
 }
 
-/// Two robots, the first at 0,0.
-fn pair(oracle: &mut dyn Oracle) -> [Stance; 2] {
+/// Two robots, the first at 0,0 and the other one at one of so many offsets.
+fn pair(offsets: u32, oracle: &mut dyn Oracle) -> [Stance; 2] {
     let one = stance(Cell::new(0, 0), oracle);
-    let [columns, rows] = [(); 2].map(|()| oracle.pick(OFFSETS) as i16 - 4);
+    let [columns, rows] = [(); 2].map(|()| oracle.pick(offsets) as i16 - offsets as i16 / 2);
     [one, stance(Cell::new(columns, rows), oracle)]
 }
 
@@ -65,7 +65,8 @@ pub(super) fn pairs() -> String {
 /// The largest distances of two robots of which that is so, squared, in squared paths: while both stand, and wherever they
 /// are on their paths.
 pub fn farthest(is: impl Fn(Stance, Stance) -> bool) -> [u32; 2] {
-    let pairs = outcomes(|oracle| Some(pair(oracle))).filter(|&[one, other]| is(one, other));
+    let offsets = 2 * u32::from(Reach::MOST_PATHS + 1) + 1;
+    let pairs = outcomes(|oracle| Some(pair(offsets, oracle))).filter(|&[one, other]| is(one, other));
     let mut farthest = [0; 2];
     for [one, other] in pairs {
         // Distance is convex, so it is largest where each is at an end of its path.
@@ -84,7 +85,7 @@ pub fn farthest(is: impl Fn(Stance, Stance) -> bool) -> [u32; 2] {
 
 /// KIT-1: who is sure to hear another one is at most 10 m from it, wherever the two are on their paths.
 pub(super) fn contact(sure: &Certainty, oracle: &mut dyn Oracle) -> Outcome {
-    let [one, other] = pair(oracle);
+    let [one, other] = pair(OFFSETS, oracle);
     assume((sure.contact)(one, other))?;
     // 10 m are 10/3 of a path.
     let squared = distance_squared([one, other], parts(oracle));
@@ -97,7 +98,7 @@ pub(super) fn contact(sure: &Certainty, oracle: &mut dyn Oracle) -> Outcome {
 
 /// KIT-3: who is sure to be apart from another one is at least 3 m from it, wherever the two are on their paths.
 pub(super) fn apart(sure: &Certainty, oracle: &mut dyn Oracle) -> Outcome {
-    let [one, other] = pair(oracle);
+    let [one, other] = pair(OFFSETS, oracle);
     assume((sure.apart)(one, other))?;
     let squared = distance_squared([one, other], parts(oracle));
     require(squared >= PARTS.pow(2), "robots that are sure to be apart are at least 3 m apart")?;
@@ -204,7 +205,7 @@ mod tests {
     /// distance of their ends.
     fn count(is: impl Fn(Stance, Stance) -> bool) -> (usize, i64, i64) {
         let pairs: Vec<[Stance; 2]> =
-            outcomes(|oracle| Some(pair(oracle))).filter(|&[one, other]| is(one, other)).collect();
+            outcomes(|oracle| Some(pair(OFFSETS, oracle))).filter(|&[one, other]| is(one, other)).collect();
         let corners = [[0, 0], [0, PARTS], [PARTS, 0], [PARTS, PARTS]];
         let distances = || {
             let all = pairs.iter().flat_map(|&pair| corners.map(|parts| distance_squared(pair, parts)));

@@ -5,6 +5,7 @@
 use std::collections::HashSet;
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
+use tautline_kernel::kit::Reach;
 
 /// The robots' findings on a lattice.
 #[derive(Clone, Copy)]
@@ -13,13 +14,16 @@ pub(super) struct Findings<'a, const ROBOTS: usize> {
     pub(super) map: &'a TinyGrid,
     /// Where a robot is besides the node that is told, if it is on a path.
     pub(super) left: [Option<Cell>; ROBOTS],
+    /// How far robots hear each other.
+    pub(super) reach: Reach,
 }
 
-/// Whether robots at these nodes, 3 m apart, are at most 10 m apart.
-fn hear(one: Cell, other: Cell) -> bool {
+/// Whether robots at these nodes, 3 m apart, are at most 10 m apart, or at most as many paths as they hear.
+pub(super) fn hear(reach: Reach, one: Cell, other: Cell) -> bool {
     let metres = |nodes: u16| 3 * u32::from(nodes);
     let (dx, dy) = one.apart(other);
-    metres(dx).pow(2) + metres(dy).pow(2) <= 100
+    let most = if reach == Reach::PAPER { 100 } else { 9 * u32::from(reach.squared()) };
+    metres(dx).pow(2) + metres(dy).pow(2) <= most
 }
 
 impl<const ROBOTS: usize> Findings<'_, ROBOTS> {
@@ -45,7 +49,7 @@ impl<const ROBOTS: usize> Findings<'_, ROBOTS> {
                     [cells[which], self.left[which].unwrap_or(cells[which])]
                 }
             };
-            ends(one).iter().all(|&one| ends(other).iter().all(|&other| hear(one, other)))
+            ends(one).iter().all(|&one| ends(other).iter().all(|&other| hear(self.reach, one, other)))
         };
         let mut reached = vec![0];
         let mut place = 0;
@@ -123,7 +127,8 @@ mod tests {
         let area = Area::new(Cell::new(0, 0), Cell::new(5, 0)).expect("an area");
         let mut map = TinyGrid::new(area).expect("a map");
         let found = |map: &TinyGrid, cells: [i16; 2]| {
-            Findings { map, left: [None; 2] }.distance(cells.map(|x| Cell::new(x, 0)), 0b11)
+            Findings { map, left: [None; 2], reach: Reach::PAPER }
+                .distance(cells.map(|x| Cell::new(x, 0)), 0b11)
         };
         assert_eq!(found(&map, [0, 1]), Some(0));
         for x in 0..4 {

@@ -429,17 +429,38 @@ mod tests {
     }
 
     #[test]
-    fn a_shorter_reach_keeps_contact_and_apart() {
-        for paths in [2, 3] {
+    fn two_robots_of_another_reach_break_nothing_within_it() {
+        for paths in 2..=Reach::MOST_PATHS {
             let rule = Rule { reach: Reach::of_paths(paths).expect("a reach"), ..Rule::REPAIRED };
             for size in [(5, 1), (3, 2)] {
                 let setting = Setting::new(rule, size).expect("a lattice");
                 let found = search(&SymmetricLattice::new(setting), setting.starts(), Limits::NONE);
-                let keeps =
-                    found.broken.iter().all(|run| !matches!(run.demand, Demand::Contact | Demand::Apart));
-                assert!(found.is_whole && keeps, "{size:?}: {:?}", found.broken);
-                let is_driven = !found.broken.iter().any(|run| run.demand == Demand::Covers);
-                assert_eq!(is_driven, paths == 3, "{paths} paths, {size:?}");
+                assert!(
+                    found.is_whole && found.broken.is_empty(),
+                    "{paths} paths, {size:?}: {:?}",
+                    found.broken
+                );
+            }
+        }
+    }
+
+    #[test]
+    #[ignore = "takes a minute: cargo test --release -p tautline-proofs --lib -- --ignored --nocapture three_robots_of_another"]
+    fn three_robots_of_another_reach_break_nothing_side_by_side() {
+        for paths in 2..=Reach::MOST_PATHS {
+            let rule = Rule { reach: Reach::of_paths(paths).expect("a reach"), ..Rule::REPAIRED };
+            for size in [(2, 2), (4, 1), (5, 1), (3, 2)] {
+                let setting = Setting::<3> {
+                    starts: Starts::SideBySide,
+                    ..Setting::new(rule, size).expect("a lattice")
+                };
+                let found = search(&setting, setting.starts(), Limits::NONE);
+                println!("{paths} paths, {size:?}: {} states", found.states);
+                assert!(
+                    found.is_whole && found.broken.is_empty(),
+                    "{paths} paths, {size:?}: {:?}",
+                    found.broken
+                );
             }
         }
     }

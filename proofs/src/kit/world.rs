@@ -21,6 +21,8 @@ pub type Team<const ROBOTS: usize> = Kit<TinyGrid, ROBOTS, 64>;
 pub enum Demand {
     /// KIT-1, KIT-2, KIT-12
     Contact,
+    /// KIT-1, judged where all robots stand alone
+    AtNodes,
     /// KIT-3
     Apart,
     /// KIT-6
@@ -44,7 +46,7 @@ impl Demand {
     pub const fn clause(self, robots: usize) -> &'static str {
         match self {
             Self::Contact if robots > 2 => "KIT-12",
-            Self::Contact => "KIT-1",
+            Self::Contact | Self::AtNodes => "KIT-1",
             Self::Apart => "KIT-3",
             Self::Moves => "KIT-6",
             Self::Ends => "KIT-7",
@@ -59,6 +61,7 @@ impl Demand {
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Contact => "the robots hear each other all the way",
+            Self::AtNodes => "the robots hear each other where both stand",
             Self::Apart => "the robots stay 3 m apart",
             Self::Moves => "a robot moves while an uncovered side is within reach",
             Self::Ends => "no run goes on for ever",
@@ -248,10 +251,15 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         std::array::from_fn(|robot| world.team.stance(robot).map_or(Cell::new(0, 0), Stance::to))
     }
 
+    /// What a team that stands has found.
+    fn findings<'a>(&self, map: &'a TinyGrid) -> Findings<'a, ROBOTS> {
+        Findings { map, left: [None; ROBOTS], reach: self.rule.reach }
+    }
+
     /// Whether a new path is within reach of a team that stands.
     fn is_owed(&self, world: &World<ROBOTS>) -> bool {
         let map = self.found(world);
-        Findings { map: &map, left: [None; ROBOTS] }.distance(Self::ends(world), u8::MAX).is_some()
+        self.findings(&map).distance(Self::ends(world), u8::MAX).is_some()
     }
 
     /// Whether this is looked at, and promised to so many robots that start so.
@@ -259,6 +267,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let is_promised = match demand {
             Demand::Shortens | Demand::AnyShortest => ROBOTS == 2,
             Demand::Whole => ROBOTS > 2 && self.starts == Starts::SideBySide,
+            // Who keeps in touch all the way does so at nodes.
+            Demand::AtNodes => self.demand.is_some(),
             Demand::Contact
             | Demand::Apart
             | Demand::Moves

@@ -179,6 +179,8 @@ pub enum Bound {
     Losses,
     /// How far a fix may be off.
     Error,
+    /// How far robots hear each other.
+    Range,
     /// The file in which the hunt is kept.
     Resume,
 }
@@ -192,6 +194,7 @@ impl Bound {
             Self::Misses => "max-misses",
             Self::Losses => "max-losses",
             Self::Error => "error",
+            Self::Range => "range",
             Self::Resume => "resume",
         }
     }
@@ -231,6 +234,8 @@ pub struct Asked<'a> {
     pub max_losses: Option<u8>,
     /// [`Bound::Error`], in cells.
     pub error_cells: Option<f64>,
+    /// [`Bound::Range`], in cells.
+    pub range_cells: Option<u16>,
     /// [`Bound::Resume`]
     pub resume: Option<&'a Path>,
 }
@@ -249,6 +254,7 @@ impl Asked<'_> {
             max_misses: None,
             max_losses: None,
             error_cells: None,
+            range_cells: None,
             resume: None,
         }
     }
@@ -265,7 +271,8 @@ impl Asked<'_> {
         clause: Option<ClauseId>,
     ) -> Result<Setup, Diagnostic> {
         let base = Setup::choose_base(&mut layout, starts.first().copied())?;
-        let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
+        let mut setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
+        setup.options.range_cells = self.range_cells;
         Ok(Setup { limits: Limits::stopping_at(clause), ..setup.starting_in(starts) })
     }
 
@@ -280,6 +287,7 @@ impl Asked<'_> {
             (Bound::Misses, self.max_misses.is_some()),
             (Bound::Losses, self.max_losses.is_some()),
             (Bound::Error, self.error_cells.is_some()),
+            (Bound::Range, self.range_cells.is_some()),
             (Bound::Resume, self.resume.is_some()),
         ];
         let refused = given.into_iter().find(|(bound, is_given)| *is_given && !hunt.takes().contains(bound));
@@ -345,7 +353,14 @@ pub enum Facts {
         error: Option<f64>,
     },
     /// Of states.
-    States { size: String, states: u64, steps: u64, max_walls: Option<u32> },
+    States {
+        size: String,
+        states: u64,
+        steps: u64,
+        max_walls: Option<u32>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        range: Option<u16>,
+    },
 }
 
 /// The bound up to which every layout was covered, if any was.

@@ -70,7 +70,7 @@ impl<C: Crew> Each for Traps<C> {
                 "leave `resume` out; a smaller `size` or `budget` makes it shorter",
             ),
             Bound::Cells => ("the areas of agents are bounded by their size", "give `size` for the layouts"),
-            Bound::Misses | Bound::Losses | Bound::Error => {
+            Bound::Misses | Bound::Losses | Bound::Error | Bound::Range => {
                 ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
             }
         };

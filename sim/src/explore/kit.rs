@@ -129,31 +129,30 @@ fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
         let what = "this layout has one node, and no path to drive";
         return Err(Diagnostic::of_field("layout", what, "take a layout of at least two free cells"));
     }
+    let rule = Kit { reach: reach(setup.options.range_cells)?, ..rule };
     if !setup.choices.is_empty() {
         return scripted::start(setup, rule);
     }
     let cells = setup.starts();
-    let rule = Kit { reach: reach(setup)?, ..rule };
     let course = course(rule, &setup.layout, &cells, pace(setup), setup.seed);
     let course = course.map_err(fault)?;
     let (due, reach) = (paths(&setup.layout, setup.base), rule.reach);
     Ok(Box::new(KitTeam { course, due, cells, idle: 0, reach, drive: None }))
 }
 
-/// How far the robots of `setup` hear each other.
-fn reach(setup: &Setup) -> Result<Reach, Diagnostic> {
-    let Some(paths) = setup.options.range_cells else { return Ok(Reach::PAPER) };
+/// How far robots hear each other: so many paths, or the paper's 10 m.
+fn reach(paths: Option<u16>) -> Result<Reach, Diagnostic> {
+    let Some(paths) = paths else { return Ok(Reach::PAPER) };
     Reach::of_paths(paths).ok_or_else(|| {
+        let most = Reach::MOST_PATHS;
         let what = match paths {
             0 => "a range of 0 cells is below one path".to_owned(),
             1 => "within 1 cell no robot can drive while another one stays in range".to_owned(),
-            paths => format!("a range of {paths} cells is more than the 10 m that robots plan for"),
+            paths => format!("a range of {paths} cells is more than the {most} that robots plan for"),
         };
-        Diagnostic::of_field(
-            "range",
-            what,
-            "give `range` 2 or 3 cells, or leave it out for 10 m, which are 3.33 cells",
-        )
+        let remedy =
+            format!("give `range` 2 to {most} cells, or leave it out for 10 m, which are 3.33 cells");
+        Diagnostic::of_field("range", what, remedy)
     })
 }
 
@@ -172,7 +171,6 @@ fn fault(refused: SetupError) -> Diagnostic {
         SetupError::TooManyNodes { .. } => {
             ("layout", "take a layout of at most 64 columns and rows".to_owned())
         }
-        SetupError::ShortReach(_) => ("range", "leave `range` out, or give `robots` 1 or 2".to_owned()),
         SetupError::Outside(_) | SetupError::OneNode(_) | SetupError::OutOfContact(_) => {
             ("starts", "give each robot a start beside another one's".to_owned())
         }
@@ -249,7 +247,7 @@ impl Team for KitTeam {
     }
 
     fn layers(&self) -> Vec<Layer> {
-        shown::layers()
+        shown::layers(self.reach)
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {

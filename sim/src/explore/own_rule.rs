@@ -143,6 +143,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
                 states: cases,
                 steps: cases,
                 max_walls: None,
+                range: None,
             },
             is_complete,
             done: Done::WallsDone(None),

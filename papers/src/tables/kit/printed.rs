@@ -61,15 +61,20 @@ impl Team {
     }
 }
 
-/// The figure for people.
-pub(super) fn told(figure: Figure, settings: &Settings, merged: &Summary) -> String {
+/// What was measured.
+pub(super) fn head(settings: &Settings) -> String {
     let Settings { layouts, seed, speed, spread } = *settings;
     let (speed, spread) = (f64::from(speed.get()) / 1000.0, f64::from(spread) / 10.0);
-    let head = format!(
+    format!(
         "Lattices with {PATHS} paths, {} of each family, seeds from {seed}; {speed} m/s, drives up to {spread} % \
          faster or slower; means with 95 % intervals\n\n",
         counted(layouts, "layout"),
-    );
+    )
+}
+
+/// The figure for people.
+pub(super) fn told(figure: Figure, settings: &Settings, merged: &Summary) -> String {
+    let head = head(settings);
     let body = match figure {
         Figure::Time => times(merged),
         Figure::Overlap => overlaps(merged),

@@ -4,7 +4,7 @@ use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 use tautline_kernel::kit::{Condition, Stance};
 
 use super::{Demand, Setting, Speeds, World};
-use crate::kit::plain::Findings;
+use crate::kit::plain::{Findings, hear};
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
     pub(super) fn broken_by_marks(&self, world: &World<ROBOTS>) -> Vec<Demand> {
@@ -20,6 +20,16 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             |node| Steps::ALL.filter(|step| matches!(step, Step::Cross(side) if is_covered(node, side)));
         let is_right = |robot| self.area.cells().all(|node| world.team.covered(robot, node) == sides(node));
         if (0..ROBOTS).all(is_right) { Vec::new() } else { vec![Demand::Marks] }
+    }
+
+    /// The demand broken by an arrival.
+    pub(super) fn broken_by_arrival(&self, world: &World<ROBOTS>, robot: usize) -> Option<Demand> {
+        let others: Vec<(usize, Stance)> =
+            world.team.stances().enumerate().filter(|&(other, _)| other != robot).collect();
+        let stands = world.team.stance(robot)?;
+        let all_stand = others.iter().all(|(_, other)| other.stands());
+        (self.is_wanted(Demand::AtNodes) && all_stand && !self.is_in_contact(&others, stands))
+            .then_some(Demand::AtNodes)
     }
 
     /// The demands broken by a drive that `robot` begins.
@@ -59,11 +69,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// Whether the robots are connected while one of them drives this path.
     fn is_in_contact(&self, others: &[(usize, Stance)], path: Stance) -> bool {
-        let hear = |one: Stance, other: Stance| {
-            let near = |one: Cell, other: Cell| {
-                let (dx, dy) = one.apart(other);
-                9 * (u32::from(dx).pow(2) + u32::from(dy).pow(2)) <= 100
-            };
+        let are_sure = |one: Stance, other: Stance| {
+            let near = |one, other| hear(self.rule.reach, one, other);
             let both = near(one.from(), other.from()) && near(one.to(), other.to());
             // Of two robots of one speed, who has left later is not at its end while the other is where it left.
             let late = near(one.to(), other.from())
@@ -76,7 +83,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let mut rest: Vec<Stance> = others.iter().map(|&(_, stance)| stance).collect();
         let mut place = 0;
         while place < reached.len() {
-            let (near, far): (Vec<_>, Vec<_>) = rest.iter().partition(|&&other| hear(reached[place], other));
+            let (near, far): (Vec<_>, Vec<_>) =
+                rest.iter().partition(|&&other| are_sure(reached[place], other));
             reached.extend(near);
             rest = far;
             place += 1;
@@ -92,7 +100,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let mut after = cells;
         after[robot] = to;
         let is_nearer = |left, movers| {
-            let found = Findings { map: &map, left };
+            let found = Findings { left, ..self.findings(&map) };
             match (found.distance(after, movers), found.distance(cells, movers)) {
                 (Some(after), Some(before)) => after < before,
                 (_, None) | (None, Some(_)) => false,
@@ -111,7 +119,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let cells = Self::ends(world);
         let left =
             |other: usize| world.team.stance(other).filter(|stance| !stance.stands()).map(Stance::from);
-        let now = Findings { map: &map, left: std::array::from_fn(left) };
+        let now = Findings { left: std::array::from_fn(left), ..self.findings(&map) };
         let goes_alone = self.rule.has(Condition::Meanwhile) && world.fresh & !(1 << robot) != 0;
         let alone = (now, 1 << robot);
         let (found, movers) = if goes_alone && now.distance(cells, alone.1).is_some() {
@@ -144,7 +152,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         }
         let is_left_over = || {
             let map = self.found(world);
-            !is_over || Findings { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
+            !is_over || self.findings(&map).is_left_over(Self::ends(world))
         };
         if self.is_wanted(Demand::Whole) && is_left_over() {
             breaks.push(Demand::Whole);

@@ -45,7 +45,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 }));
                 continue;
             }
-            let breaks = self.broken_by_marks(&after);
+            let mut breaks = self.broken_by_marks(&after);
+            breaks.extend(self.broken_by_arrival(&after, robot));
             turns.push(Successor {
                 world: self.settled(after),
                 events: vec![arrival],
@@ -69,7 +70,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         if self.is_wanted(Demand::AnyShortest) && !sides.is_empty() {
             let due = self.shortest(world, robot);
             if !due.iter().all(|side| sides.contains(side)) || !sides.iter().all(|side| due.contains(side)) {
-                for turned in &mut decided {
+                for turned in decided.iter_mut().filter(|turned| taken(turned).is_some()) {
                     turned.breaks.push(Demand::AnyShortest);
                 }
             }

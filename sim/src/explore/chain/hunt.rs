@@ -40,6 +40,7 @@ impl Hunt for Walls {
     fn refusal(&self, bound: Bound) -> (String, String) {
         let what = match bound {
             Bound::Losses | Bound::Error => "a hunt of chains loses no messages and has no wrong fixes",
+            Bound::Range => "the robots of a chain hear each other as far as their rule says",
             Bound::Walls | Bound::Cells | Bound::Misses | Bound::Resume => {
                 "the robots of a chain have no floor sensors to miss"
             }

@@ -10,7 +10,7 @@ use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Scripted;
 
-use super::EQUAL;
+use super::{EQUAL, reach};
 use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
@@ -107,24 +107,31 @@ fn what<const ROBOTS: usize>(setting: &Setting<ROBOTS>) -> String {
 
 impl Hunt for Searched {
     fn takes(&self) -> &'static [Bound] {
-        &[Bound::Walls]
+        &[Bound::Walls, Bound::Range]
+    }
+
+    fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
+        Asked { range_cells: setup.options.range_cells, ..asked }
     }
 
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
+        let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
         let mut count = Count { is_complete: true, ..Count::default() };
         let found = match robots {
-            1 => self.searched::<1>(&[Pass::ALL], as_it_is, size, asked, &mut count, hunter),
-            2 => self.searched(&[Pass::ALL, Pass::EQUAL], in_one_image, size, asked, &mut count, hunter),
-            _ => self.searched::<3>(&[Pass::ALL, Pass::WHOLE], as_it_is, size, asked, &mut count, hunter),
+            1 => searched::<1>(rule, &[Pass::ALL], as_it_is, size, asked, &mut count, hunter),
+            2 => searched(rule, &[Pass::ALL, Pass::EQUAL], in_one_image, size, asked, &mut count, hunter),
+            _ => searched::<3>(rule, &[Pass::ALL, Pass::WHOLE], as_it_is, size, asked, &mut count, hunter),
         }?;
         let Count { states, steps, cells, .. } = count;
         let max_walls = asked.max_walls;
         let within = max_walls.map(|walls| format!(", at most {}", counted(walls, "wall")));
+        let range = asked.range_cells.map(|cells| format!(", a range of {}", counted(cells, "cell")));
+        let within = within.unwrap_or_default() + &range.unwrap_or_default();
         let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
         Ok(told(
-            (size, robots, &within.unwrap_or_default()),
-            Facts::States { size: size.to_string(), states, steps, max_walls },
+            (size, robots, &within),
+            Facts::States { size: size.to_string(), states, steps, max_walls, range: asked.range_cells },
             (Done::NodesDone(cells), covered),
             &count,
             found,
@@ -154,47 +161,46 @@ fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Diagnostic> {
     Ok((size, robots))
 }
 
-impl Searched {
-    fn searched<const ROBOTS: usize>(
-        &self,
-        passes: &[Pass],
-        search_all: SearchAll<ROBOTS>,
-        size: Size,
-        asked: &Asked<'_>,
-        count: &mut Count,
-        hunter: &mut dyn Hunter,
-    ) -> Result<Vec<Finding>, Diagnostic> {
-        let mut all: Vec<Broken<ROBOTS>> = Vec::new();
-        'lattices: for lattice in lattices(size) {
-            for &pass in passes {
-                // Runs at equal speeds are runs, and less is demanded of them.
-                let is_kept = all.iter().all(|broken| broken.demand != Demand::Contact);
-                if pass.speeds == Speeds::Equal && is_kept {
-                    continue;
-                }
-                let Some(setting) = pass.setting(self.0, lattice, asked) else { continue };
-                let is_known =
-                    |clause: ClauseId| all.iter().any(|broken: &Broken<ROBOTS>| broken.clause == clause);
-                if pass.demand.is_some_and(|demand| is_known(pass.clause(demand, ROBOTS))) {
-                    continue;
-                }
-                let looked = search_all(setting, asked, count, hunter);
-                let mut demands: Vec<Demand> = looked.broken.iter().map(|run| run.demand).collect();
-                demands.retain(|&demand| !is_known(pass.clause(demand, ROBOTS)));
-                all.extend(demands.into_iter().filter_map(|demand| {
-                    let clause = pass.clause(demand, ROBOTS);
-                    Some(Broken { clause, demand, found: fewest(setting, demand, Most::NONE)? })
-                }));
-                if !looked.is_whole {
-                    count.is_complete = false;
-                    break 'lattices;
-                }
+/// The smallest counterexample of each clause, on all lattices up to a size.
+fn searched<const ROBOTS: usize>(
+    rule: Kit,
+    passes: &[Pass],
+    search_all: SearchAll<ROBOTS>,
+    size: Size,
+    asked: &Asked<'_>,
+    count: &mut Count,
+    hunter: &mut dyn Hunter,
+) -> Result<Vec<Finding>, Diagnostic> {
+    let mut all: Vec<Broken<ROBOTS>> = Vec::new();
+    'lattices: for lattice in lattices(size) {
+        for &pass in passes {
+            // Runs at equal speeds are runs, and less is demanded of them.
+            let is_kept = all.iter().all(|broken| broken.demand != Demand::Contact);
+            if pass.speeds == Speeds::Equal && is_kept {
+                continue;
             }
-            count.cells = Some((lattice.0 * lattice.1) as usize);
+            let Some(setting) = pass.setting(rule, lattice, asked) else { continue };
+            let is_known =
+                |clause: ClauseId| all.iter().any(|broken: &Broken<ROBOTS>| broken.clause == clause);
+            if pass.demand.is_some_and(|demand| is_known(pass.clause(demand, ROBOTS))) {
+                continue;
+            }
+            let looked = search_all(setting, asked, count, hunter);
+            let mut demands: Vec<Demand> = looked.broken.iter().map(|run| run.demand).collect();
+            demands.retain(|&demand| !is_known(pass.clause(demand, ROBOTS)));
+            all.extend(demands.into_iter().filter_map(|demand| {
+                let clause = pass.clause(demand, ROBOTS);
+                Some(Broken { clause, demand, found: fewest(setting, demand, Most::NONE)? })
+            }));
+            if !looked.is_whole {
+                count.is_complete = false;
+                break 'lattices;
+            }
         }
-        all.sort_by_key(|broken| broken.clause);
-        all.iter().map(|broken| quarry(asked, broken)).collect()
+        count.cells = Some((lattice.0 * lattice.1) as usize);
     }
+    all.sort_by_key(|broken| broken.clause);
+    all.iter().map(|broken| quarry(asked, broken)).collect()
 }
 
 /// A counterexample of a search as one that can be stored.

@@ -11,7 +11,7 @@ use tautline_proofs::kit::counterexample::{self, ANY_SPEEDS, EQUAL_SPEEDS};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
-use super::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes};
+use super::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes, reach};
 use crate::diagnostic::Diagnostic;
 use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
@@ -38,6 +38,7 @@ pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn AnyCase>> 
         RuleId::REPAIRED => Kit::REPAIRED,
         _ => return None,
     };
+    let rule = Kit { reach: reach(setup.options.range_cells).ok()?, ..rule };
     match setup.robots {
         2 => written_down::<2>(setup, rule, clause),
         3 => written_down::<3>(setup, rule, clause),

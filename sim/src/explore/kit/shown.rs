@@ -20,26 +20,32 @@ const KINDS: &[Kind] =
 const DRIVEN: u8 = 1;
 const BLOCKED: u8 = 2;
 
-pub(super) fn layers() -> Vec<Layer> {
-    const REACH: Zone = Zone {
-        name: "in reach",
-        about: "at most 10 m from node to node",
-        has: |one, other| Reach::PAPER.joins(one, other),
-    };
+/// The zone of robots that hear so many paths far, and first that of the paper's 10 m.
+static ZONES: [Zone; Reach::MOST_PATHS as usize + 1] =
+    [in_reach::<0>(), in_reach::<1>(), in_reach::<2>(), in_reach::<3>(), in_reach::<4>(), in_reach::<5>()];
+
+const fn in_reach<const PATHS: u16>() -> Zone {
+    let about = if PATHS == 0 { "at most 10 m from node to node" } else { "in range from node to node" };
+    let has = |one, other| Reach::of_paths(PATHS).unwrap_or(Reach::PAPER).joins(one, other);
+    Zone { name: "in reach", about, has }
+}
+
+pub(super) fn layers(reach: Reach) -> Vec<Layer> {
     const RECORD: &[Value] =
         &[Value { name: "driven", ink: Ink::Open }, Value { name: "seen blocked", ink: Ink::Wall }];
+    let paths = if reach == Reach::PAPER { 0 } else { usize::from(reach.squared().isqrt()) };
+    let (metres, thousandths) = match paths {
+        0 => (REACH_MILLIMETRES / 1000, (REACH_MILLIMETRES * 1000 / PATH_MILLIMETRES) as u32),
+        paths => (paths as i64 * PATH_MILLIMETRES / 1000, paths as u32 * 1000),
+    };
     let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
     vec![
         layer(
             "links",
             "robots that hear each other at the nodes where they go",
-            Shape::Links(Joins::All, &[REACH]),
+            Shape::Links(Joins::All, &ZONES[paths..=paths]),
         ),
-        layer(
-            "radio circle",
-            "10 m: so far a robot is heard",
-            Shape::Circle((REACH_MILLIMETRES * 1000 / PATH_MILLIMETRES) as u32),
-        ),
+        layer("radio circle", &format!("{metres} m: so far a robot is heard"), Shape::Circle(thousandths)),
         layer(
             "records",
             "what the followed robot has driven and seen blocked itself",
