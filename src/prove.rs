@@ -94,8 +94,8 @@ pub(super) struct Deciding {
     /// is left open. Without it they take what they need.
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
-    /// A folder, empty or of the same command that was killed, in which a search over states goes on for which --memory does
-    /// not suffice. Of a rule over states it is taken up there.
+    /// A folder, empty or of the same command that was killed, in which a search over states goes on for which --memory
+    /// does not suffice. Of a rule over states it is taken up there.
     #[arg(long, value_name = "DIR", requires = "memory")]
     spill: Option<PathBuf>,
     /// Seconds that one step may take: a team move, a case, a step between states. Where one does not end by then and
@@ -476,7 +476,7 @@ fn certify((row, room): (&Row, &MemoryLimit), folder: &Path, replaceable: &Repla
     let Row { clause, number, check, .. } = *row;
     let limits = states::Limits { room: room.room(), ..states::Limits::NONE };
     let (path, content) = if let Some(terms) = check.certificate() {
-        let name = format!("{}_{}.v", clause.id.replace('-', "_"), check.rule());
+        let name = format!("{}_{}", clause.id, check.rule()).replace('-', "_") + ".v";
         (folder.join(name), terms.map(String::into_bytes))
     } else {
         let path = refutation::path(folder, clause, number).with_extension("cert");

@@ -16,7 +16,7 @@ use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, viewers, whole};
 use crate::value_parser::chosen;
 use tautline_field::draw::{self, field::picture};
-use tautline_field::radio::{ChannelName, FREE_SPACE};
+use tautline_field::radio::{ChannelName, FREE_SPACE, Lake};
 use tautline_field::rescue::{
     Assignments, CallTimes, Event, LogEntry, Ordinal, Report, RobotFailures, SchemeName, Setting, Summary,
     rescue, seconds, trace,
@@ -35,6 +35,7 @@ Examples:
   tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999
   tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999 --rule published --format json
   tautline rescue --obstacle 100,100,200,200 --robot 20,150 --wfr-at 350 --seeds 7
+  tautline rescue --obstacle u:75,75,225,225 --robot 150,150 --seeds 0..999
   tautline rescue --wfr 2 --robots 3 --loss 0.1 --events 3 --rule published
   tautline rescue --nodes 300 --scheme flooding --channel shared --noise-db 2
   tautline rescue --wfr 3 --robots 3 --seeds 8 --rule published --trace rescue.jsonl --html rescue.html
@@ -68,10 +69,10 @@ pub(super) struct Rescue {
     /// The radio range, in metres.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, default_value_t = 25.0, value_parser = real)]
     range: f64,
-    /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. May be given
-    /// repeatedly.
-    #[arg(long, value_name = "W,N,E,S", allow_hyphen_values = true)]
-    obstacle: Vec<Metres<4>>,
+    /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. Before them its shape,
+    /// if it is no rectangle: l, u, c, spiral, ring, or rows of # and . with / between them. May be given repeatedly.
+    #[arg(long, value_name = "[SHAPE:]W,N,E,S", allow_hyphen_values = true)]
+    obstacle: Vec<Lake>,
     /// How calls are broadcast.
     #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "k-fnf")]
     scheme: SchemeName,
@@ -247,7 +248,7 @@ impl Rescue {
             nodes: self.nodes,
             area_m: self.area.0,
             range_m: self.range,
-            obstacles_m: self.obstacle.iter().map(|&Metres(sides)| sides).collect(),
+            obstacles_m: self.obstacle.iter().flat_map(|Lake(parts)| parts.iter().copied()).collect(),
             wfrs: self.wfr.unwrap_or(self.wfr_at.len().max(1)),
             wfrs_at: self.wfr_at.clone(),
             robots: self.robots.unwrap_or(self.robot.len().max(1)),

@@ -563,6 +563,10 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
         assert_eq!(drawn.matches("class=\"trail\"").count(), trails, "{figure}");
         assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
     }
+    let shapes = json(folder, &["reproduce", "rescue-shapes", "--runs", "3"], 0);
+    let of = |place: usize| &shapes["densities"][place];
+    assert_eq!((&of(0)["shape"], &of(5)["shape"]), (&"rectangle".into(), &"ring".into()));
+    assert!((0..6).all(|place| of(place)["told_arrive"]["mean"] == 1.0), "{shapes}");
     let scarce = ["reproduce", "rescue-fig6", "--nodes", "2", "--runs", "1"];
     let (told, said) = files::left_out(folder, &[&scarce[..], &["--svg", "none.svg"]].concat());
     assert_eq!(told, printed(folder, &scarce, 0));
@@ -617,7 +621,7 @@ fn a_directional_antenna_and_what_noise_does_to_a_scan() {
 #[test]
 fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
     let folder = folder();
-    let wrong: [&[&str]; 16] = [
+    let wrong: [&[&str]; 20] = [
         &["rescue-fig7", "--nodes", "1"],
         &["rescue-fig7", "--nodes", "300,"],
         &["rescue-fig7", "--range", "0"],
@@ -631,6 +635,10 @@ fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
         &["rescue-fig9", "--obstacle", "200,90,100,210"],
         &["rescue-fig9", "--obstacle", "0,0,inf,300"],
         &["rescue-fig9", "--obstacle", "0,0,300,300"],
+        &["rescue-fig9", "--obstacle", "o:0,0,30,30"],
+        &["rescue-fig9", "--obstacle", "##/#:0,0,30,30"],
+        &["rescue-fig7", "--near", "0"],
+        &["rescue-fig7", "--scan", "never"],
         &["rescue-fig10", "--runs", "1", "--svg", "."],
         &["antenna-fig4", "--distance", "0"],
         &["antenna-fig4", "--noise-db", "0,21"],
@@ -1235,7 +1243,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
     assert_eq!(printed(folder, &["man", "--out", "man1"], 0), "");
     let stored = names(&folder.join("man1"));
     let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
-    assert_eq!((stored.len(), of_tables), (1 + 19 + 28, 28), "{stored:?}");
+    assert_eq!((stored.len(), of_tables), (1 + 19 + 30, 30), "{stored:?}");
     for name in stored {
         let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
         let title = name.strip_suffix(".1").expect("section 1");

@@ -25,4 +25,4 @@ pub use ear::{Ear, NEAREST_M, ROBOT_REACH, Signal};
 pub use journey::{End, Journey, Site};
 pub use shortest::shortest_m;
 pub use tree::{Tree, hops};
-pub use walker::{Equipment, Gait, Walker};
+pub use walker::{Equipment, Gait, Scans, Walker};

@@ -294,8 +294,8 @@ fn a_search_whose_graph_does_not_fit_is_open() {
     assert_eq!((files(&folder), room.fault()), (vec![], None));
 }
 
-/// Every state of the ring is a start: `RING_STATES` of each of eight machines, 8 unless it says otherwise. What is found is
-/// printed: `cargo test -p tautline-library --test all twice_the_memory -- --ignored --nocapture`.
+/// Every state of the ring is a start: `RING_STATES` of each of eight machines, 8 unless it says otherwise. What is
+/// found is printed: `cargo test -p tautline-library --test all twice_the_memory -- --ignored --nocapture`.
 #[test]
 #[ignore = "it takes a minute"]
 fn a_search_of_twice_the_memory_comes_to_its_end() {

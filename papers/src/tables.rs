@@ -72,6 +72,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &rescue_fig8::RescueFig8,
     &journeys::RESCUE_FIG9,
     &journeys::RESCUE_FIG10,
+    &journeys::RESCUE_SHAPES,
     &rescue_table2::RescueTable2,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,

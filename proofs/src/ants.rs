@@ -1,5 +1,6 @@
 //! Ants (ANTS): what is promised of agents that go where they have been least, over all states on small floors.
 
+mod apart;
 pub mod clauses;
 mod replaced;
 mod ties;

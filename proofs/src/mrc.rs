@@ -20,6 +20,15 @@ pub enum Misreading {
     OneCall,
 }
 
+/// Whose service the SBit of a call stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Served {
+    /// Any robot's: step 5 sets it when the robot hears whom the WFR has chosen.
+    ByAny,
+    /// The robot's own.
+    ByItself,
+}
+
 /// Robots and WFRs that are observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject {
@@ -27,16 +36,18 @@ pub struct Subject {
     pub rule: Rule,
     /// How they misread what they hear, as a mutant does.
     pub misread: Option<Misreading>,
+    /// How robots understand the SBit.
+    pub served: Served,
 }
 
 impl Subject {
     /// Robots and WFRs that follow `rule`.
     pub const fn rescuing(rule: Rule) -> Self {
-        Self { rule, misread: None }
+        Self { rule, misread: None, served: Served::ByAny }
     }
 
     /// The repaired rule, misreading.
     pub const fn misreading(misread: Misreading) -> Self {
-        Self { rule: Rule::REPAIRED, misread: Some(misread) }
+        Self { misread: Some(misread), ..Self::rescuing(Rule::REPAIRED) }
     }
 }

@@ -9,6 +9,15 @@ pub mod spread;
 
 use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};
 
+/// What k counts where a packet comes twice.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Counted {
+    /// The senders that a node hears besides the first.
+    Senders,
+    /// The packets after the first one.
+    Packets,
+}
+
 /// The nodes of a network that is observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject {
@@ -16,14 +25,17 @@ pub struct Subject {
     pub conditions: Conditions,
     /// Whether k = ∞ is taken for k = 1, as a mutant does.
     pub takes_endless_for_one: bool,
+    /// What k counts.
+    pub counted: Counted,
 }
 
 impl Subject {
     /// As published.
-    pub const PUBLISHED: Self = Self { conditions: Conditions::PUBLISHED, takes_endless_for_one: false };
+    pub const PUBLISHED: Self =
+        Self { conditions: Conditions::PUBLISHED, takes_endless_for_one: false, counted: Counted::Senders };
 
     /// Repaired.
-    pub const REPAIRED: Self = Self { conditions: Conditions::REPAIRED, takes_endless_for_one: false };
+    pub const REPAIRED: Self = Self { conditions: Conditions::REPAIRED, ..Self::PUBLISHED };
 
     /// Nodes that follow the repaired rule without one condition.
     pub const fn hearing_without(condition: Condition) -> Self {

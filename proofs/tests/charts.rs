@@ -6,13 +6,14 @@ use tautline_kernel::mrc::{Condition, Rule};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::mrc::chart::chart;
 use tautline_proofs::mrc::space::{Until, search};
-use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Served, Setting};
 
 const NO_FAULT: Faults = Faults::any(0);
 
 /// One robot, one WFR, one event, all one hop away.
 const LEAST: Setting = Setting {
     rule: Rule::PUBLISHED,
+    served: Served::ByAny,
     robots: 1,
     wfrs: 1,
     events: 1,

@@ -107,7 +107,7 @@ fn the_readings_that_are_decided_are_those_of_the_papers() {
         let all: BTreeSet<String> = names.collect();
         check.paper().is_some_and(|paper| all == paper.readings().into_iter().collect())
     };
-    for scheme in ["CHAIN", "ANTS", "BRICKS", "MRC", "KIT", "FRONTIER", "PACK"] {
+    for scheme in ["CHAIN", "ANTS", "BRICKS", "NOTICE", "MRC", "KIT", "POSITION", "FRONTIER", "PACK"] {
         let of = clauses().filter(|clause| clause.scheme() == scheme).flat_map(|clause| clause.checks);
         assert!(of.into_iter().any(|check| has_all(*check)), "{scheme}");
     }

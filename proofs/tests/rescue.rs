@@ -15,13 +15,14 @@ use tautline_kernel::mrc::{Condition, Rule, Task};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::mrc::space::{Findings, Until, search};
-use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, LossKind, Setting, State};
+use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, LossKind, Served, Setting, State};
 
 use self::model::Rescue;
 
 const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faults: Faults) -> Setting {
     Setting {
         rule: Rule::REPAIRED,
+        served: Served::ByAny,
         robots,
         wfrs,
         events,

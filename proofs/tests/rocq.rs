@@ -166,7 +166,7 @@ fn clauses_about_two_robots_have_certificates() {
     let mut left = Vec::new();
     for clause in ledger::clauses() {
         for check in clause.checks {
-            let name = format!("{}_{}", clause.id.replace('-', "_"), check.rule());
+            let name = format!("{}_{}", clause.id, check.rule()).replace('-', "_");
             match check.certificate() {
                 Some(Ok(terms)) => is_up_to_date(&format!("{name}.v"), &terms),
                 Some(Err(why)) => left.push(format!("{name}: {why}")),

@@ -4,12 +4,15 @@
 //! barred, and it scans again without it, so that it goes along the rim. A step that takes it out of hearing, behind a
 //! corner, it takes back, and bars that direction, too. Once it has gone another way no direction is barred any more.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, RobotId, Strength};
 use tautline_kernel::tan::{Heading, Homing, Nav, Nearness, Order, Stage};
 
 use super::{Antenna, Ear, Signal};
 use crate::radio::{Field, Point, Problem, Radio};
+use tautline_sim::named_values::NamedValues;
 
 /// How fast a robot is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -47,6 +50,28 @@ impl Gait {
     }
 }
 
+/// When a robot turns its antenna once round [Jiang 2011, 3.4, step 3].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scans {
+    /// When it hears the NAV that it has asked for, and when the signal gets weaker or its way is barred.
+    Again,
+    /// When it hears the NAV that it has asked for. Then it walks straight on until it is there, or asks again where it
+    /// hears nothing or its way is barred.
+    Once,
+}
+
+impl NamedValues for Scans {
+    const WORDS: &'static [(Self, &'static str, &'static str)] = &[
+        (
+            Self::Again,
+            "again",
+            "For each signal that it asks for, and when that gets weaker or its way is barred",
+        ),
+        (Self::Once, "once", "For each signal that it asks for"),
+    ];
+}
+
 /// A robot's equipment to find its way with.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Equipment {
@@ -60,6 +85,8 @@ pub struct Equipment {
     pub near_m: f64,
     /// When it is at a node, by the strength of its signal.
     pub nearness: Nearness,
+    /// When it turns its antenna once round.
+    pub scans: Scans,
 }
 
 /// How often a robot asks one node in vain.
@@ -75,12 +102,19 @@ impl Equipment {
     /// # Errors
     /// [`Problem::Deviation`] if that is not from 0 to 20 dB.
     pub fn new(radio: Radio, noise_db: f64) -> Result<Self, Problem> {
+        Self::near(radio, noise_db, (super::ROBOT_REACH - 1.0) * radio.range_m())
+    }
+
+    /// As [`Self::new`], at a node when it is `near_m` off.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn near(radio: Radio, noise_db: f64, near_m: f64) -> Result<Self, Problem> {
         let (ear, antenna) = (Ear::new(radio, noise_db)?, Antenna::DIRECTIONAL);
-        let near_m = (super::ROBOT_REACH - 1.0) * radio.range_m();
         let [near, half] = [near_m, near_m / 2.0].map(|distance_m| ear.expected(&antenna, distance_m));
         let closer = half.0.abs_diff(near.0).try_into().unwrap_or(u16::MAX);
         let nearness = Nearness { near, closer, times: HALVINGS };
-        Ok(Self { ear, antenna, gait: Gait::WALKING, near_m, nearness })
+        Ok(Self { ear, antenna, gait: Gait::WALKING, near_m, nearness, scans: Scans::Again })
     }
 
     /// How far to walk towards a node that is heard so strong on the axis of `antenna`: a step, or half the way.
@@ -244,6 +278,11 @@ impl Walker {
         let once_ns = gait.walk_ns(stride_m) + gait.measure_ns;
         if let Some(heard) = self.measure(field, signal, chance) {
             self.barred = HeadingSet::NONE;
+            let heard = match self.equipment.scans {
+                Scans::Again => heard,
+                // It goes on however weak the signal gets.
+                Scans::Once => heard.max(strongest),
+            };
             self.homing = self.homing.measure(Some(heard));
             return once_ns;
         }
@@ -257,7 +296,10 @@ impl Walker {
 
     fn bump(&mut self) {
         self.barred.bar(self.facing);
-        self.homing = self.homing.bump();
+        self.homing = match self.equipment.scans {
+            Scans::Again => self.homing.bump(),
+            Scans::Once => self.homing.measure(None),
+        };
     }
 
     /// Turns the shorter way, and says how long that takes.
@@ -375,6 +417,21 @@ mod tests {
         act(&mut walker, &field, Some(Signal::plain(node)));
         assert_eq!(walker.stage(), Stage::Arrived);
         assert_eq!(walker.trail()[..3], [start, at(10.5, 48.8), start]);
+    }
+
+    /// A direction is off by up to 7.5°, so that one scan leads past a node, and out of hearing of it.
+    #[test]
+    fn one_scan_leads_past_the_node_and_another_one_back_to_it() {
+        let node = at(30.0, 52.5);
+        let field = field(node, vec![]);
+        let arrives = |scans| {
+            let mut walker = led(at(10.0, 50.0));
+            walker.equipment.scans = scans;
+            act(&mut walker, &field, Some(Signal::plain(node)));
+            walker.stage()
+        };
+        assert_eq!(arrives(Scans::Again), Stage::Arrived);
+        assert!(matches!(arrives(Scans::Once), Stage::Asking { .. }));
     }
 
     #[test]

@@ -19,12 +19,12 @@ use tautline_sim::layout::{Layout, generate};
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
 
-/// The largest of them.
-const MOST_ROBOTS: u16 = TEAMS[TEAMS.len() - 1];
+/// The team that the paper says is best.
+const BEST: u16 = 8;
 
 /// Every rule, with every team size.
-fn teams() -> impl Iterator<Item = (RuleId, u16)> {
-    FRONTIER.rules.iter().flat_map(|rule| TEAMS.map(|robots| (rule.name, robots)))
+fn teams(settings: &Settings) -> impl Iterator<Item = (RuleId, u16)> {
+    FRONTIER.rules.iter().flat_map(|rule| settings.robots.iter().map(|&robots| (rule.name, robots)))
 }
 
 /// The most cells that robots enter in a run.
@@ -36,7 +36,7 @@ pub struct FrontierFig7;
 
 settings! {
     /// How much is measured.
-    #[derive(Copy, Eq)]
+    #[derive(Eq)]
     pub struct Settings {
         /// Random layouts
         pub layouts: u32 = 1000, one("runs", "COUNT", from_to(1..=100_000));
@@ -48,6 +48,8 @@ settings! {
         pub rows: u16 = 7, one("rows", "ROWS", from_to(1..=32));
         /// Blocked cells of each layout
         pub blocked: u16 = 4, one("blocked", "CELLS", from_to(0..=512));
+        /// Robots of each team
+        pub robots: Vec<u16> = TEAMS.to_vec(), list("robots", from_to(1..=16));
     }
 }
 
@@ -94,6 +96,13 @@ pub struct Line {
     pub double: Option<Estimate>,
 }
 
+impl Settings {
+    /// The most robots of a team.
+    fn most(&self) -> u16 {
+        self.robots.iter().copied().max().unwrap_or(0)
+    }
+}
+
 impl Table for FrontierFig7 {
     type Settings = Settings;
     type Job = Job;
@@ -118,38 +127,34 @@ impl Table for FrontierFig7 {
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         let Settings { layouts, columns, rows, blocked, .. } = *settings;
-        let cells = columns * rows;
-        if blocked + MOST_ROBOTS > cells {
-            let what = format!("{blocked} blocked of {cells} cells leave no room for {MOST_ROBOTS} robots");
+        let (cells, most) = (columns * rows, settings.most());
+        if blocked + most > cells {
+            let what = format!("{blocked} blocked of {cells} cells leave no room for {most} robots");
             return Err(Diagnostic::usage(what, "give fewer blocked cells, or more columns and rows").into());
         }
         Ok(runs([()], |()| layouts))
     }
 
-    fn parts(&self, _: &Job) -> u64 {
-        teams().count() as u64
-    }
-
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Vec<Outcome>, Halt> {
         let seed = run.seed(settings.seed);
         let (layout, starts) = drawn(settings, seed)?;
-        teams().map(|(rule, robots)| follow(rule, &layout, &starts[..robots.into()], seed)).collect()
+        teams(settings).map(|(rule, robots)| follow(rule, &layout, &starts[..robots.into()], seed)).collect()
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let outcomes = |wanted: (RuleId, u16)| -> Vec<Outcome> {
-            let place = teams().position(|team| team == wanted);
+            let place = teams(settings).position(|team| team == wanted);
             results.iter().filter_map(|(_, outcomes)| outcomes.get(place?).copied()).collect()
         };
         let line = |(rule, robots)| {
             Line::of(rule, robots, &outcomes((rule, robots)), &outcomes((RuleId::REPAIRED, robots)))
         };
-        Ok(Summary { settings: *settings, lines: teams().map(line).collect() })
+        Ok(Summary { settings: settings.clone(), lines: teams(settings).map(line).collect() })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         type Part<'a> = (&'a str, fn(&Line) -> Option<Estimate>);
-        let Settings { layouts, columns, rows, blocked, .. } = settings;
+        let Settings { layouts, columns, rows, blocked, robots: sizes, .. } = settings;
         let moves = format!(
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
         );
@@ -163,10 +168,10 @@ impl Table for FrontierFig7 {
             ("Runs in which two robots are in one cell, in %", |line| line.double),
         ];
         let part = |(title, of): Part<'_>| {
-            let rules = merged.lines.chunks(TEAMS.len());
+            let rules = merged.lines.chunks(sizes.len());
             let mut columns = Columns::of(rules).title(title).left("rule", 15, |teams| teams[0].rule);
-            for (place, robots) in TEAMS.into_iter().enumerate() {
-                columns = columns.estimate(counted(robots, "robot"), 15, 1, move |teams| of(&teams[place]));
+            for (place, robots) in sizes.iter().enumerate() {
+                columns = columns.estimate(counted(*robots, "robot"), 15, 1, move |teams| of(&teams[place]));
             }
             columns.text()
         };
@@ -174,11 +179,13 @@ impl Table for FrontierFig7 {
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        judged(&merged.lines)
+        let mut sentences = judged(&merged.lines);
+        sentences.extend(best_of_all(&merged.lines));
+        sentences
     }
 
     /// Team moves over robots, a line for each rule.
-    fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
+    fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let series = |lines: &[Line]| {
             let is_whole = |line: &&Line| line.whole.is_some_and(|whole| whole.mean > 50.0);
             let whole = lines.iter().filter(is_whole);
@@ -189,7 +196,7 @@ impl Table for FrontierFig7 {
             }
         };
         let (x, y) = (Axis::new("robots", ""), Axis::new("team moves", "").showing([0.0, 0.0]));
-        let series = merged.lines.chunks(TEAMS.len()).map(series);
+        let series = merged.lines.chunks(settings.robots.len()).map(series);
         Ok(LineChart::new("Team moves until every cell is explored", x, y, series).without_empty().svg())
     }
 
@@ -217,7 +224,7 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
         if layout.reachable(&cells[..1]).len() < cells.len() {
             continue;
         }
-        let starts = (0..MOST_ROBOTS).map(|_| cells.swap_remove(below(cells.len(), &mut dice)));
+        let starts = (0..settings.most()).map(|_| cells.swap_remove(below(cells.len(), &mut dice)));
         return Ok((layout, starts.collect()));
     }
     let what = format!("of {MOST_DRAWN} layouts with {blocked} blocked cells none is connected");
@@ -243,6 +250,11 @@ fn follow(rule: RuleId, layout: &Layout, starts: &[Cell], seed: u64) -> Result<O
 }
 
 impl Line {
+    /// The mean of the team moves, where a run explores every cell.
+    fn mean(&self) -> f64 {
+        self.moves.map_or(f64::INFINITY, |moves| moves.mean)
+    }
+
     fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], repaired: &[Outcome]) -> Self {
         let percent =
             |is_such: fn(&Outcome) -> bool| share(outcomes, is_such).map(|share| share.times(100.0));
@@ -271,13 +283,14 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
     let is_whole = estimate(|line| line.explored, "published", 1).map(|explored| explored.mean >= 100.0);
     let is_alone = estimate(|line| line.double, "published", 8).map(|double| double.mean <= 0.0);
+    let largest = lines.iter().map(|line| line.robots).max().unwrap_or(BEST);
     let [eight, six] = [8, 6].map(|robots| ends(estimate(|line| line.moves, "wanders", robots)));
     vec![
         Judgement::new(
             "“performs better when team of robots has 8 members”",
             "robots that wander",
             format!(
-                "{} team moves with 6 and {} with 8, repaired {} and {}; 8 is the largest team that is compared",
+                "{} team moves with 6 and {} with 8, repaired {} and {}; {largest} is the largest team that is compared",
                 moves("wanders", 6),
                 moves("wanders", 8),
                 moves("repaired", 6),
@@ -307,4 +320,34 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
             is_alone.map_or(Verdict::Open, Verdict::of),
         ),
     ]
+}
+
+/// The paper's sentence about eight robots, where larger teams are measured, too: no larger team of robots that wander, as of
+/// repaired ones, explores every cell in fewer team moves.
+fn best_of_all(lines: &[Line]) -> Vec<Judgement> {
+    let of = |rule: &str| -> Vec<&Line> { lines.iter().filter(|line| line.rule.as_str() == rule).collect() };
+    let judged = |(rule, who): (&str, &str)| {
+        let lines = of(rule);
+        let eight = lines.iter().find(|line| line.robots == BEST)?;
+        let larger = lines.iter().filter(|line| line.robots > BEST);
+        let fastest = larger.min_by(|one, other| one.mean().total_cmp(&other.mean()))?;
+        let ends = |line: &Line| line.moves.and_then(|moves| moves.interval);
+        let measured = format!(
+            "{} team moves with {BEST}, {} with {}",
+            text(eight.moves, 1),
+            text(fastest.moves, 1),
+            fastest.robots
+        );
+        let is_best = below(ends(eight), ends(fastest));
+        Some(Judgement::new(
+            "“performs better when team of robots has 8 members”, best of all",
+            who,
+            measured,
+            is_best,
+        ))
+    };
+    [("wanders", "robots that wander"), ("repaired", "repaired robots")]
+        .into_iter()
+        .filter_map(judged)
+        .collect()
 }

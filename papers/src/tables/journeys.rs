@@ -21,7 +21,8 @@ use self::world::World;
 use super::notice_fig5::{NODES, RANGE_M, SIDE_M};
 pub use super::paper::Verdict;
 use super::prelude::*;
-use tautline_sim::value_parser::Metres;
+use tautline_field::radio::{Lake, SHAPES};
+use tautline_field::tan::Scans;
 
 /// Figure 6.
 pub const RESCUE_FIG6: Journeys = Journeys::of(
@@ -68,6 +69,17 @@ pub const RESCUE_FIG10: Journeys = Journeys::of(
     ],
 );
 
+/// Obstacles of any shape, which the paper “might have problems” with (5).
+pub const RESCUE_SHAPES: Journeys = Journeys::of(
+    Figure::Shapes,
+    "rescue-shapes",
+    [
+        "the ways of a robot round a large obstacle by its shape: how many arrive, and how far they walk",
+        "How far a robot walks round obstacles of any shape",
+        "some seconds",
+    ],
+);
+
 /// Journeys of a robot to the node that waits for rescue.
 #[derive(Clone, Copy, Debug)]
 pub struct Journeys {
@@ -86,29 +98,36 @@ enum Figure {
     OneObstacle,
     /// Figure 10: round four.
     FourObstacles,
+    /// Round one of each shape.
+    Shapes,
 }
+
+/// West, north, east and south of an obstacle in the middle of the paper's square of 300 m.
+const MIDDLE: [f64; 4] = [75.0, 75.0, 225.0, 225.0];
 
 impl Figure {
     /// The numbers of nodes: those of the paper, or, where it gives none, the middle one.
     fn nodes(self) -> Vec<usize> {
         match self {
             Self::Ratios => NODES.to_vec(),
-            Self::Trajectories | Self::OneObstacle | Self::FourObstacles => vec![700],
+            Self::Trajectories | Self::OneObstacle | Self::FourObstacles | Self::Shapes => vec![700],
         }
     }
 
-    /// West, north, east and south of the obstacles, for the paper's square of 300 m. The paper draws its own; these
-    /// are ours: large lakes that stop signals and robots.
-    fn obstacles(self) -> Vec<[f64; 4]> {
+    /// The obstacles, for the paper's square of 300 m. The paper draws its own; these are ours: large lakes that stop
+    /// signals and robots.
+    fn obstacles(self) -> Vec<Lake> {
         match self {
-            Self::Trajectories | Self::Ratios => Vec::new(),
-            Self::OneObstacle => vec![[100.0, 90.0, 200.0, 210.0]],
-            Self::FourObstacles => vec![
+            Self::Trajectories | Self::Ratios | Self::Shapes => Vec::new(),
+            Self::OneObstacle => vec![Lake(vec![[100.0, 90.0, 200.0, 210.0]])],
+            Self::FourObstacles => [
                 [40.0, 50.0, 130.0, 120.0],
                 [170.0, 30.0, 240.0, 130.0],
                 [60.0, 170.0, 120.0, 270.0],
                 [160.0, 180.0, 260.0, 240.0],
-            ],
+            ]
+            .map(|sides| Lake(vec![sides]))
+            .into(),
         }
     }
 
@@ -116,7 +135,7 @@ impl Figure {
     fn drawn(self) -> &'static [Way] {
         match self {
             Self::Trajectories | Self::Ratios => &[Way::Reich, Way::Tan, Way::Verma],
-            Self::OneObstacle | Self::FourObstacles => &[Way::Tan],
+            Self::OneObstacle | Self::FourObstacles | Self::Shapes => &[Way::Tan],
         }
     }
 }
@@ -159,13 +178,17 @@ settings! {
         pub side_m: f64 = SIDE_M, one("side", "METRES", real);
         /// The radio range, in metres
         pub range_m: f64 = RANGE_M, one("range", "METRES", real);
-        /// An obstacle by its sides; may be given again [default: those of the figure]
-        pub obstacles_m: Vec<[f64; 4]> = Vec::new(),
-            repeated("obstacle", "W,N,E,S", |sides| format!("{sides:?}"), sides);
+        /// An obstacle by its sides, and its shape: l, u, c, spiral, ring, or rows of # and . with / between them; may be given again [default: those of the figure]
+        pub obstacles_m: Vec<Lake> = Vec::new(),
+            repeated("obstacle", "[SHAPE:]W,N,E,S", |lake| format!("{lake:?}"), str::parse::<Lake>);
         /// The k of k-FNF, whose tree TAN uses
         pub k: Senders = Senders::ONE, one("k", "K", Senders::read);
         /// The standard deviation of the strengths that robots measure, in dB
         pub noise_db: f64 = 0.0, one("noise-db", "DB", real);
+        /// When a robot turns its antenna once round
+        pub scan: Scans = Scans::Again, word("scan", "WHEN");
+        /// How near it comes to a node before it asks for the next, in percent of the range
+        pub near_percent: f64 = 1.0, one("near", "PERCENT", percent_of_range);
         /// Topologies for each number of nodes
         pub topologies: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
         /// The seed of all topologies
@@ -173,11 +196,14 @@ settings! {
     }
 }
 
-fn sides(text: &str) -> Result<[f64; 4], String> {
-    text.parse().map(|Metres(sides)| sides)
+fn percent_of_range(text: &str) -> Result<f64, &'static str> {
+    text.parse()
+        .ok()
+        .filter(|percent| (0.01..=100.0).contains(percent))
+        .ok_or("write a number from 0.01 to 100")
 }
 
-/// One topology, by the place of the number of nodes.
+/// One topology, by the place of the number of nodes, or of nodes and shape.
 type Job = Run<usize>;
 
 /// The whole figure.
@@ -189,11 +215,16 @@ pub struct Summary {
     obstacles: Vec<[f64; 4]>,
     k: Senders,
     noise_db: f64,
+    scan: Scans,
+    near_percent: f64,
     topologies: u32,
     seed: u64,
-    /// Density by density.
+    /// Density by density, of each shape by shape.
     pub densities: Vec<Density>,
 }
+
+/// A case: the number of nodes, the shape of the obstacle, and the settings with that obstacle.
+type Measured = (usize, Option<&'static str>, Settings);
 
 impl Journeys {
     const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
@@ -202,6 +233,7 @@ impl Journeys {
             "rescue-fig7 --nodes 700 --k 8 --format json",
             "rescue-fig6 --svg ways.svg",
             "rescue-fig10 --noise-db 2 --obstacle 40,50,130,120 --obstacle 170,30,240,130",
+            "rescue-fig9 --obstacle u:100,90,200,210 --scan once",
         ];
         let pictures = &[(
             "svg",
@@ -233,6 +265,31 @@ impl Journeys {
         }
         whole
     }
+
+    /// The shapes of the obstacle that each number of nodes is measured with; none if the settings have the obstacles.
+    fn shapes(&self) -> Vec<Option<&'static str>> {
+        match self.figure {
+            Figure::Shapes => SHAPES.iter().map(|(name, _)| Some(*name)).collect(),
+            Figure::Trajectories | Figure::Ratios | Figure::OneObstacle | Figure::FourObstacles => vec![None],
+        }
+    }
+
+    /// The cases, place by place.
+    fn cases(&self, settings: &Settings) -> Result<Vec<Measured>, Halt> {
+        let (whole, shapes) = (self.whole(settings), self.shapes());
+        let mut cases = Vec::new();
+        for &nodes in &whole.nodes {
+            for &shape in &shapes {
+                let mut own = whole.clone();
+                if let Some(shape) = shape {
+                    let lake = Lake::new(shape, MIDDLE.map(|at| at * whole.side_m / SIDE_M));
+                    own.obstacles_m.push(lake.map_err(|what| Diagnostic::usage(what, "take another shape"))?);
+                }
+                cases.push((nodes, shape, own));
+            }
+        }
+        Ok(cases)
+    }
 }
 
 impl Table for Journeys {
@@ -246,26 +303,39 @@ impl Table for Journeys {
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let settings = self.whole(settings);
-        for &nodes in &settings.nodes {
-            World::new(&settings, nodes, 0).map_err(usage)?;
+        let cases = self.cases(settings)?;
+        for (nodes, _, own) in &cases {
+            World::new(own, *nodes, 0).map_err(usage)?;
         }
-        Ok(runs(0..settings.nodes.len(), |_| settings.topologies))
+        Ok(runs(0..cases.len(), |_| settings.topologies))
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
-        let settings = self.whole(settings);
-        let nodes = settings.nodes.get(run.at).copied().unwrap_or_default();
-        let world = World::new(&settings, nodes, run.number).map_err(usage)?;
+        let (nodes, _, own) = self.cases(settings)?.swap_remove(run.at);
+        let world = World::new(&own, nodes, run.number).map_err(usage)?;
         Sample::of(&world).map_err(usage)
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
-        let Settings { nodes, side_m, range_m, obstacles_m, k, noise_db, topologies, seed } =
-            self.whole(settings);
-        let nodes = nodes.into_iter().enumerate();
-        let densities = nodes.map(|(density, nodes)| Density::of(nodes, &at(&results, density))).collect();
-        Ok(Summary { side_m, range_m, obstacles: obstacles_m, k, noise_db, topologies, seed, densities })
+        let cases = self.cases(settings)?.into_iter().enumerate();
+        let densities =
+            cases.map(|(place, (nodes, shape, _))| Density::of(nodes, shape, &at(&results, place))).collect();
+        let Settings {
+            side_m, range_m, obstacles_m, k, noise_db, scan, near_percent, topologies, seed, ..
+        } = self.whole(settings);
+        let obstacles = obstacles_m.into_iter().flat_map(|Lake(parts)| parts).collect();
+        Ok(Summary {
+            side_m,
+            range_m,
+            obstacles,
+            k,
+            noise_db,
+            scan,
+            near_percent,
+            topologies,
+            seed,
+            densities,
+        })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
@@ -273,6 +343,9 @@ impl Table for Journeys {
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
+        if self.figure == Figure::Shapes {
+            return merged.densities.iter().filter_map(Density::problems).collect();
+        }
         let judged = |place: usize, claim: Claim| {
             let of = move |density: &Density| {
                 let Decision { difference, verdict, .. } = density.claims[place];
@@ -287,8 +360,8 @@ impl Table for Journeys {
     fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         match self.figure {
             Figure::Ratios => Ok(drawn::chart(&merged.densities).svg()),
-            Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles => {
-                drawn::picture(&self.whole(settings), self.figure.drawn(), &merged.densities)
+            Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles | Figure::Shapes => {
+                drawn::picture(&self.cases(settings)?, self.figure.drawn(), &merged.densities)
             }
         }
     }

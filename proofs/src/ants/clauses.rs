@@ -5,31 +5,84 @@ use std::convert::Infallible;
 use tautline_kernel::ants::Rule;
 use tautline_kernel::floor::Replaced::{Beside, Counted};
 
+use super::apart::{self, Apart, Entered, Pile};
 use super::{replaced, ties};
-use crate::ambiguity::Paper;
+use crate::ambiguity::Charity::{Literal, Probable};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, readings};
 use crate::decide::{EveryAnswer, Verdict};
 use crate::floor::plans::Area;
-use crate::floor::series::{Deception, Floors, MISSED, Subject};
+use crate::floor::series::Deception::CountsNothing;
+use crate::floor::series::Given::{Dark, DarkUncountedStart, UncountedStart};
+use crate::floor::series::{Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::{Demand, Series};
 
 const PUBLISHED: NamedRule<Subject<Rule>> = NamedRule::new("published", Subject::of(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject<Rule>> = NamedRule::new("repaired", Subject::of(Rule::Repaired));
 
-static PAPER: Paper = Paper { ambiguities: &[MISSED], excluded: &[], repairs: &["repaired"] };
+static PAPER: Paper = Paper {
+    ambiguities: &[
+        MISSED,
+        Ambiguity {
+            words: "“Each time it steps into a cell, it updates its value”",
+            interpretations: &[
+                Interpretation::new(
+                    "counted start",
+                    "an agent steps into the cell where it starts",
+                    Probable,
+                ),
+                Interpretation::new("uncounted start", "that cell says 0 until one steps into it", Literal),
+            ],
+        },
+        HOW_OFTEN,
+    ],
+    excluded: &[],
+    repairs: &["repaired"],
+};
 
 const BESIDE: NamedRule<Rule> = NamedRule::new("beside", Rule::Published(Beside));
 const COUNTED: NamedRule<Rule> = NamedRule::new("counted", Rule::Published(Counted));
 const READINGS: [(&str, Rule); 2] = [(BESIDE.name, BESIDE.rule), (COUNTED.name, COUNTED.rule)];
-const EXPLORING: [(&str, Subject<Rule>); 2] =
-    [(BESIDE.name, Subject::of(BESIDE.rule)), (COUNTED.name, Subject::of(COUNTED.rule))];
+
+const LOSING: Subject<Rule> = Subject::of(Rule::PUBLISHED);
+const STAYING: Subject<Rule> = Subject::of(BESIDE.rule);
+const COUNTING: Subject<Rule> = Subject::of(COUNTED.rule);
+
+const EXPLORING: [(&str, Subject<Rule>); 11] = [
+    ("beside", STAYING),
+    ("counted", COUNTING),
+    ("uncounted start", LOSING.on(UncountedStart)),
+    ("beside + uncounted start", STAYING.on(UncountedStart)),
+    ("counted + uncounted start", COUNTING.on(UncountedStart)),
+    ("in the dark", LOSING.on(Dark)),
+    ("beside + in the dark", STAYING.on(Dark)),
+    ("counted + in the dark", COUNTING.on(Dark)),
+    ("uncounted start + in the dark", LOSING.on(DarkUncountedStart)),
+    ("beside + uncounted start + in the dark", STAYING.on(DarkUncountedStart)),
+    ("counted + uncounted start + in the dark", COUNTING.on(DarkUncountedStart)),
+];
+
+/// Where the sensors that are missed are finitely many, everything is explored.
+const HOLDS_BUT_IN_THE_DARK: [Verdict; 11] = [
+    Verdict::Holds,
+    Verdict::Holds,
+    Verdict::Holds,
+    Verdict::Holds,
+    Verdict::Holds,
+    Verdict::Refuted,
+    Verdict::Refuted,
+    Verdict::Refuted,
+    Verdict::Refuted,
+    Verdict::Refuted,
+    Verdict::Refuted,
+];
 
 /// Ants that lose what a missed sensor counts.
 const LOST: &[NamedRule<Rule>] = &[NamedRule::new("the missed sensor is lost", Rule::PUBLISHED)];
 
 /// Ants whose sensors count nothing.
 const fn uncounted(scheme: Rule) -> NamedRule<Subject<Rule>> {
-    NamedRule::new("sensors count nothing", Subject { scheme, deception: Deception::CountsNothing })
+    NamedRule::new("sensors count nothing", Subject::of(scheme).deceived(CountsNothing))
 }
 
 /// A run is over when every cell is explored, since crossings go on to grow for ever.
@@ -41,6 +94,10 @@ const EXPLORES: Floors<Infallible> = Floors::new(
     ],
     Demand::Explores,
 );
+
+/// As [`EXPLORES`], without the floors on which no sensor is missed, where piles are single sensors.
+const EXPLORES_APART: Floors<Infallible> =
+    Floors::new(&[Series::missing(Area::blocked(3, 3), 1, 2)], Demand::Explores);
 
 const KEEPS: EveryAnswer<Rule> = EveryAnswer {
     body: replaced::keeps,
@@ -56,8 +113,14 @@ pub static CLAUSES: [Clause; 3] = [
                finite number of times.",
         checks: &[
             &Check::new(PUBLISHED, &EXPLORES, Verdict::Holds, &[])
-                .under(&readings(EXPLORING, [Verdict::Holds; 2]))
+                .under(&readings(EXPLORING, HOLDS_BUT_IN_THE_DARK))
                 .of(&PAPER),
+            &Check::new(
+                NamedRule::new("apart", Subject::of(Apart)),
+                &EXPLORES_APART,
+                Verdict::Holds,
+                &[NamedRule::new("sensors count nothing", Subject::of(Apart).deceived(CountsNothing))],
+            ),
             &Check::new(REPAIRED, &EXPLORES, Verdict::Holds, &[uncounted(Rule::Repaired)]),
         ],
     },
@@ -81,9 +144,45 @@ pub static CLAUSES: [Clause; 3] = [
                 .judged(replaced::replacement),
             &Check::new(BESIDE, &KEEPS, Verdict::Holds, LOST),
             &Check::new(COUNTED, &KEEPS, Verdict::Holds, LOST),
+            &Check::new(
+                NamedRule::new("apart", Pile::entered as Entered),
+                &EveryAnswer {
+                    body: apart::keeps,
+                    range: apart::piles,
+                    covers: &["both are missed", "both are seen", "one is missed"],
+                },
+                Verdict::Holds,
+                &[NamedRule::new("the missed sensor is lost", apart::losing)],
+            ),
             &Check::new(NamedRule::new("repaired", Rule::Repaired), &KEEPS, Verdict::Refuted, &[])
                 .because("the repair loses counts as well")
                 .judged(replaced::replacement),
         ],
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::states::steps;
+    use crate::floor::team::Team;
+
+    /// A cell in the dark reads 0 however often an ant has been there; of equals an ant goes to the first in the order of
+    /// the compass.
+    #[test]
+    fn an_ant_goes_to_and_fro_between_a_cell_and_one_in_the_dark_and_never_to_the_third() {
+        for subject in [LOSING, STAYING, COUNTING] {
+            let series = Series::missing(Area::blocked(3, 1), 1, 1);
+            let teams = series.teams(&subject.on(Dark), Demand::Explores);
+            let lit = teams.into_iter().find(|team| (team.plan.free, team.dark) == (0b111, 0b100));
+            let lit = lit.expect("three cells, the eastern one in the dark");
+            let team = Team { series, ..lit };
+            let mut state = team.starts().nth(1).expect("a start in the middle");
+            for _ in 0..1000 {
+                let made = steps(&team, &state).next().expect("it goes on");
+                state = made.state;
+            }
+            assert!(!state.sensors.is_explored(&team.plan), "{subject:?}");
+        }
+    }
+}

@@ -20,33 +20,40 @@ use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::Verdict;
-use crate::floor::series::{Deception, Floors, MISSED, Subject};
+use crate::floor::series::Given::Dark;
+use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
 use crate::floor::team::{Demand, Demands, Series};
 use crate::step_checks;
 
 /// Agents that follow `scheme`, under this name.
-const fn named<S>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
+const fn named<S: Copy>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
     NamedRule::new(name, Subject::of(scheme))
 }
 
 /// Agents of `scheme` of which some beside each other act at once, under this name.
-const fn at_once<S>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
-    NamedRule::new(name, Subject { scheme, deception: Deception::ActsAtOnce })
+const fn at_once<S: Copy>(name: &'static str, scheme: S) -> NamedRule<Subject<S>> {
+    NamedRule::new(name, Subject::of(scheme).deceived(Deception::ActsAtOnce))
 }
 
 const PUBLISHED: NamedRule<Subject<Rule>> = named("published", Rule::PUBLISHED);
 const REPAIRED: NamedRule<Subject<Rule>> = named("repaired", Rule::REPAIRED);
 const ROBUST: NamedRule<Subject<Rule>> = named("robust", Rule::ROBUST);
 
-/// The readings of the published rule but for the main one: whether a cell is marked in which another agent is, and what
-/// becomes of a sensor that was missed, where some are.
-const READINGS: [(&str, Subject<Rule>); 5] = [
+/// The readings of the published rule but for the main one: whether a cell is marked in which another agent is, and where
+/// some sensors are missed, which ones, and what becomes of them.
+const READINGS: [(&str, Subject<Rule>); 11] = [
     ("alone", Subject::of(Rule::PUBLISHED.with(Alone))),
     ("beside", replacing(Rule::PUBLISHED, Replaced::Beside)),
     ("alone + beside", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside)),
     ("counted", replacing(Rule::PUBLISHED, Replaced::Counted)),
     ("alone + counted", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted)),
+    ("in the dark", Subject::of(Rule::PUBLISHED).on(Dark)),
+    ("alone + in the dark", Subject::of(Rule::PUBLISHED.with(Alone)).on(Dark)),
+    ("beside + in the dark", replacing(Rule::PUBLISHED, Replaced::Beside).on(Dark)),
+    ("alone + beside + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside).on(Dark)),
+    ("counted + in the dark", replacing(Rule::PUBLISHED, Replaced::Counted).on(Dark)),
+    ("alone + counted + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted).on(Dark)),
 ];
 
 static PAPER: Paper = Paper {
@@ -59,6 +66,7 @@ static PAPER: Paper = Paper {
             ],
         },
         MISSED,
+        HOW_OFTEN,
     ],
     excluded: &[],
     repairs: &["repaired", "robust"],
@@ -68,11 +76,20 @@ const fn replacing(rule: Rule, replaced: Replaced) -> Subject<Rule> {
     Subject::of(Rule { replaced, ..rule })
 }
 
-const REFUTED: &[Reading<Subject<Rule>>] = &readings(READINGS, [Verdict::Refuted; 5]);
+const REFUTED: &[Reading<Subject<Rule>>] = &readings(READINGS, [Verdict::Refuted; 11]);
 /// That which differs where no sensor is missed.
 const SEEING: &[Reading<Subject<Rule>>] = REFUTED.split_at(1).0;
 /// An agent that marks no cell in which another one is shuts nobody in.
 const KNOWS_ALONE: &[Reading<Subject<Rule>>] = &readings([READINGS[0]], [Verdict::Holds]);
+
+/// Alone, an agent beside a cell in the dark never takes itself for done.
+const BEFORE_THE_END: &[Reading<Subject<Rule>>] = &readings(READINGS, {
+    let mut expected = [Verdict::Refuted; 11];
+    expected[6] = Verdict::Holds;
+    expected[8] = Verdict::Holds;
+    expected[10] = Verdict::Holds;
+    expected
+});
 
 const NO_CORNERS: Rule = Rule::REPAIRED.without(Corners);
 const NOT_ALONE: NamedRule<Subject<Rule>> =
@@ -221,7 +238,7 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &refuted(PUBLISHED, &Floors::broken_on(PAIR, &TOGETHER, Knowing)).under(KNOWS_ALONE).of(&PAPER),
             &holds(REPAIRED, &Floors::shared(&TOGETHER, Knowing), &[NOT_ALONE]),
-            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(REFUTED).of(&PAPER),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(BEFORE_THE_END).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
             &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[]),

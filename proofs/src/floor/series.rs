@@ -37,6 +37,49 @@ pub(crate) const MISSED: Ambiguity = Ambiguity {
     ],
 };
 
+/// Which sensors are missed.
+pub(crate) const HOW_OFTEN: Ambiguity = Ambiguity {
+    words: "“the percentage of undetected sensors, due to adverse light conditions … amounts to 5.56% of all sensors”",
+    interpretations: &[
+        Interpretation::new("anew", "each scan misses some, a finite number in all", Charitable),
+        Interpretation::new("in the dark", "every scan misses those of the same cells", Literal),
+    ],
+};
+
+/// The readings of the floor, which agents know nothing of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Given {
+    /// Those of the published rule.
+    AsPublished,
+    /// The cell in which an agent starts counts nothing until the agent enters it.
+    UncountedStart,
+    /// In some cells, as many as sensors may be missed, sensors are always missed.
+    Dark,
+    /// Both.
+    DarkUncountedStart,
+}
+
+impl Given {
+    /// Whether some sensors are always missed.
+    pub(crate) const fn is_dark(self) -> bool {
+        match self {
+            Self::Dark | Self::DarkUncountedStart => true,
+            Self::AsPublished | Self::UncountedStart => false,
+        }
+    }
+
+    /// Whether the cells where agents start count nothing.
+    pub(crate) const fn is_uncounted(self) -> bool {
+        match self {
+            Self::UncountedStart | Self::DarkUncountedStart => true,
+            Self::AsPublished | Self::Dark => false,
+        }
+    }
+}
+
+/// How far sensors count crossings where some are always missed.
+const IN_THE_DARK: u32 = 8;
+
 /// How the observer of a mutant is deceived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Deception {
@@ -54,12 +97,24 @@ pub(crate) struct Subject<S> {
     pub(crate) scheme: S,
     /// The deception of whoever observes the agents.
     pub(crate) deception: Deception,
+    /// The floor on which they are.
+    pub(crate) given: Given,
 }
 
-impl<S> Subject<S> {
+impl<S: Copy> Subject<S> {
     /// Agents that follow `scheme`.
     pub(crate) const fn of(scheme: S) -> Self {
-        Self { scheme, deception: Deception::None }
+        Self { scheme, deception: Deception::None, given: Given::AsPublished }
+    }
+
+    /// The agents on such a floor.
+    pub(crate) const fn on(self, given: Given) -> Self {
+        Self { given, ..self }
+    }
+
+    /// The agents, whose observer is deceived.
+    pub(crate) const fn deceived(self, deception: Deception) -> Self {
+        Self { deception, ..self }
     }
 }
 
@@ -98,12 +153,22 @@ impl Series {
         let series = match (subject.deception, self.turns) {
             (Deception::ActsAtOnce, Turns::Overlapping) => Self { turns: Turns::Free, ..self },
             (Deception::CountsNothing, _) => Self { most_crossings: Some(1), ..self },
+            // Ants that go to and fro in the dark count up for ever; they come to no more elsewhere.
+            (Deception::None, _) if subject.given.is_dark() => {
+                Self { most_crossings: Some(IN_THE_DARK), ..self }
+            }
             (Deception::None | Deception::ActsAtOnce, _) => self,
         };
         let scheme = subject.scheme.with_patience(self.patience);
         let mut plans: Vec<FloorPlan> = self.area.plans().collect();
         plans.sort_by_key(FloorPlan::barriers);
-        plans.into_iter().map(|plan| Team { plan, scheme, series, demand }).collect()
+        let (given, most) = (subject.given, u32::from(self.max_misses));
+        let team = move |plan: FloorPlan| {
+            let free = if given.is_dark() && most > 0 { plan.free } else { 0 };
+            let dark = (0..=free).filter(move |dark| dark & !free == 0 && dark.count_ones() <= most);
+            dark.map(move |dark| Team { plan, scheme, series, demand, given, dark })
+        };
+        plans.into_iter().flat_map(team).collect()
     }
 
     /// The words for it in a bound, `who` standing for its agents.

@@ -60,7 +60,7 @@ impl<D: SensorData, M: Copy + PartialEq, A: Copy + PartialEq> State<D, M, A> {
         S: Scheme<Sensor = D, Memory = M, Act = A>,
     {
         let mut sensors = Sensors { all: [D::default(); CELLS], placed: [0; CELLS] };
-        D::settle(&mut Small { plan, sensors: &mut sensors }, cells);
+        D::settle(&mut Small { plan, sensors: &mut sensors, dark: 0 }, cells);
         Self { sensors, bodies: Body::crew(scheme, cells), misses: 0, streak: (0, 0) }
     }
 
@@ -162,11 +162,14 @@ impl<D: SensorData> Sensors<D> {
 pub(crate) struct Small<'a, D> {
     pub(crate) plan: &'a FloorPlan,
     pub(crate) sensors: &'a mut Sensors<D>,
+    /// The cells that read as if nobody had been there.
+    pub(crate) dark: u16,
 }
 
 impl<D: SensorData> Floor<D> for Small<'_, D> {
     fn sensor(&self, cell: Cell) -> Option<D> {
-        self.plan.place(cell).map(|place| self.sensors.all[place])
+        let place = self.plan.place(cell)?;
+        Some(if self.dark >> place & 1 == 1 { D::default() } else { self.sensors.all[place] })
     }
 
     fn put(&mut self, cell: Cell, sensor: D) {

@@ -11,6 +11,7 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View, unseen};
 use super::plans::{Area, FloorPlan};
+use super::series::Given;
 use super::small::{Misses, PartOf, Small, StateOf};
 use crate::engine::states::{Bits, Places, Run, Step as Made, System};
 use crate::engine::world::{self, World, any_of, picked};
@@ -133,6 +134,9 @@ pub(crate) struct Team<S: Demands> {
     pub(crate) scheme: S,
     pub(crate) series: Series,
     pub(crate) demand: Demand<S::Own>,
+    pub(crate) given: Given,
+    /// The cells whose sensors are always missed.
+    pub(crate) dark: u16,
 }
 
 /// The turn of an agent.
@@ -153,6 +157,9 @@ impl<S: Demands> Team<S> {
     /// The start with the agents in these cells.
     fn start(&self, cells: &[Cell]) -> StateOf<S> {
         let mut state = StateOf::<S>::start(&self.scheme, &self.plan, cells);
+        if self.given.is_uncounted() {
+            state.sensors.count_to(0);
+        }
         self.forget(&mut state);
         state
     }
@@ -356,13 +363,17 @@ impl<S: Demands> World for Team<S> {
             S::fail(body);
             return action;
         }
-        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors };
+        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, dark: 0 };
         let (act, is_due) = if let Some(act) = body.pending.take() {
             (act, true)
         } else {
-            let mut world = Misses::new(world, &mut state.misses, self.series.max_misses);
+            let most = if self.given.is_dark() { 0 } else { self.series.max_misses };
+            let mut world = Misses::new(world, &mut state.misses, most);
+            // The sensor underfoot is always found.
+            floor.dark = self.dark & !self.plan.place(body.cell).map_or(0, |place| 1 << place);
             let view = S::Sensor::look(&floor, body.cell, &mut world);
-            if !world.missed.is_empty() {
+            floor.dark = 0;
+            if !world.missed.is_empty() || self.dark != 0 {
                 action.unseen = unseen(&floor, &view, body.cell).collect();
             }
             let act = self.scheme.decide(&mut body.memory, &view);

@@ -303,7 +303,7 @@ impl<S: Scheme> World for Floors<S> {
         let mut is_early = false;
         let mut misses = Misses::new(world, &mut state.misses, self.misses);
         for body in state.bodies.iter_mut().filter(|body| body.is_awake()) {
-            let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors };
+            let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, dark: 0 };
             let view = S::Sensor::look(&floor, body.cell, &mut misses);
             let act = self.scheme.decide(&mut body.memory, &view);
             body.carry_out(&self.scheme, &mut floor, &act);

@@ -18,6 +18,19 @@ pub struct Exact {
     pub is_told: bool,
 }
 
+/// A robot at exact distances from four anchors, of which the published way takes the three that are heard strongest.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Strongest {
+    /// The clause that it is said to break.
+    pub clause: &'static str,
+    /// A, B and C, and the one that is left out, in metres.
+    pub anchors: [Place; 4],
+    /// Where the robot is, in metres.
+    pub robot: Place,
+    /// Whether a position is returned.
+    pub is_told: bool,
+}
+
 /// Three anchors and distances to them, before and after a motion, by the published way.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Moved {
@@ -34,6 +47,7 @@ pub struct Moved {
 }
 
 plain!(Exact { anchors, robot, is_told });
+plain!(Strongest { anchors, robot, is_told });
 plain!(Moved { anchors, distances, motion, is_told });
 
 /// Whether three places are on one line, or two of them are one.
@@ -58,6 +72,29 @@ impl Case for Exact {
         must(!self.anchors.contains(&self.robot), "the robot is on an anchor").map_err(whole)?;
         must(self.is_told == is_told(self.anchors), "the equations return something else").map_err(whole)?;
         // The equations are right: a position that they return from exact distances is that of the robot.
+        must(!self.is_told, "the position is where the robot is").map_err(whole)
+    }
+}
+
+impl Case for Strongest {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let whole = |what| Objection { at: 0, what };
+        let Self { anchors: [taken @ .., left], robot, .. } = *self;
+        must(self.clause == "POSITION-1", "the judge does not know this clause").map_err(whole)?;
+        let is_one = (0..4).any(|place| self.anchors[..place].contains(&self.anchors[place]));
+        must(!is_one, "two anchors are one").map_err(whole)?;
+        let is_one_line = is_line(taken) && is_line([taken[0], taken[1], left]);
+        must(!is_one_line, "the anchors are on one line").map_err(whole)?;
+        must(!self.anchors.contains(&robot), "the robot is on an anchor").map_err(whole)?;
+        let far = |anchor: Place| (anchor.0 - robot.0).pow(2) + (anchor.1 - robot.1).pow(2);
+        let is_strongest = taken.into_iter().all(|taken| far(taken) <= far(left));
+        must(is_strongest, "a stronger anchor is left out").map_err(whole)?;
+        let is_due = !is_line(taken) && is_told(taken);
+        must(self.is_told == is_due, "the equations return something else").map_err(whole)?;
         must(!self.is_told, "the position is where the robot is").map_err(whole)
     }
 }

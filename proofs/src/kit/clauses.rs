@@ -252,13 +252,6 @@ pub static CLAUSES: [Clause; 14] = [
             &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[])
                 .under(REFUTED)
                 .of(&PAPER),
-            &Check::new(PUBLISHED, &AT_NODES, Verdict::Refuted, &[]).under(STAYING).of(&PAPER),
-            &Check::new(
-                NamedRule::new("at-nodes", Two::at_nodes(Rule::PUBLISHED)),
-                &local::AT_NODES,
-                Verdict::Holds,
-                &[NamedRule::new(NO_NEXT.name, Two::at_nodes(Rule::PUBLISHED.without(NextInReach)))],
-            ),
             &Check::new(
                 NamedRule::new("ahead", Rule::AHEAD),
                 &published(Demand::Contact),
@@ -280,6 +273,13 @@ pub static CLAUSES: [Clause; 14] = [
                     NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule)),
                     NamedRule::new(NO_FROM.name, Two::in_contact(NO_FROM.rule)),
                 ],
+            ),
+            &Check::new(PUBLISHED, &AT_NODES, Verdict::Refuted, &[]).under(STAYING).of(&PAPER),
+            &Check::new(
+                NamedRule::new("at-nodes", Two::at_nodes(Rule::PUBLISHED)),
+                &local::AT_NODES,
+                Verdict::Holds,
+                &[NamedRule::new(NO_NEXT.name, Two::at_nodes(Rule::PUBLISHED.without(NextInReach)))],
             ),
         ],
     },

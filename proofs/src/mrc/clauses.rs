@@ -7,7 +7,7 @@ use tautline_kernel::mrc::Condition::{
 use tautline_kernel::mrc::{Condition, Rule};
 
 use super::within::Within;
-use super::{Demand, Faults, Leases, LossKind, Misreading, Setting, Subject, records};
+use super::{Demand, Faults, Leases, LossKind, Misreading, Served, Setting, Subject, records};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, readings};
@@ -77,8 +77,8 @@ const fn chosen(conditions: &[Condition]) -> Subject {
     Subject::rescuing(rule)
 }
 
-/// The readings of a WFR's choice: at each MOVE, at the first, or when a window closes; and whether a MOVE that comes
-/// later is answered.
+/// The readings of a WFR's choice: at each MOVE, at the first, or when a window closes; whether a MOVE that comes later is
+/// answered; and whose service the SBit stands for.
 static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {
@@ -101,23 +101,61 @@ static PAPER: Paper = Paper {
                 Interpretation::new("answered", "a MOVE after the choice is answered with it", Charitable),
             ],
         },
+        Ambiguity {
+            words: "“represents if the associated WFR node has been served by the mobile robot”; “every mobile robot \
+                    will set the SBit as 1”",
+            interpretations: &[
+                Interpretation::new("told", "each robot that is told of a choice sets it", Charitable),
+                Interpretation::new("own", "the robot that is chosen sets it, and no other", Literal),
+            ],
+        },
     ],
     excluded: &[("anew", "answered")],
     repairs: &["repaired"],
 };
 
-const READINGS: [(&str, Subject); 4] = [
+/// The reading whose robots take the SBit for their own service.
+const fn own(subject: Subject) -> Subject {
+    Subject { served: Served::ByItself, ..subject }
+}
+
+/// The readings of a WFR's choice and of late MOVEs.
+const CHOICES: [(&str, Subject); 4] = [
     ("first", chosen(&[])),
     ("first + answered", chosen(&[AnswersAgain])),
     ("window", chosen(&[Window])),
     ("window + answered", chosen(&[Window, AnswersAgain])),
 ];
-const REFUTED: &[Reading<Subject>] = &readings(READINGS, [Verdict::Refuted; 4]);
-const HOLDS: &[Reading<Subject>] = &readings(READINGS, [Verdict::Holds; 4]);
-const HOLDS_IN_A_WINDOW: &[Reading<Subject>] =
-    &readings(READINGS, [Verdict::Refuted, Verdict::Refuted, Verdict::Holds, Verdict::Holds]);
-const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] =
-    &readings(READINGS, [Verdict::Refuted, Verdict::Refuted, Verdict::Refuted, Verdict::Holds]);
+
+const READINGS: [(&str, Subject); 9] = [
+    ("own", own(PUBLISHED.rule)),
+    CHOICES[0],
+    ("first + own", own(CHOICES[0].1)),
+    CHOICES[1],
+    ("first + answered + own", own(CHOICES[1].1)),
+    CHOICES[2],
+    ("window + own", own(CHOICES[2].1)),
+    CHOICES[3],
+    ("window + answered + own", own(CHOICES[3].1)),
+];
+const REFUTED: &[Reading<Subject>] = &readings(READINGS, [Verdict::Refuted; 9]);
+const HOLDS_IF_IT_STANDS: &[Reading<Subject>] = &readings(READINGS, {
+    let mut expected = [Verdict::Holds; 9];
+    expected[0] = Verdict::Refuted;
+    expected
+});
+const HOLDS_IN_A_WINDOW: &[Reading<Subject>] = &readings(READINGS, {
+    let mut expected = [Verdict::Refuted; 9];
+    expected.split_at_mut(5).1.copy_from_slice(&[Verdict::Holds; 4]);
+    expected
+});
+
+/// A WFR that is asked again by the robot that it has not chosen may have called anew since, and answers for that call.
+const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] = &readings(READINGS, {
+    let mut expected = [Verdict::Refuted; 9];
+    expected[7] = Verdict::Holds;
+    expected
+});
 
 const REDECIDE: Subject = Subject::rescuing(Rule::REPAIRED.without(ChoiceStands));
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
@@ -127,6 +165,7 @@ const NO_CONSENT: Subject = Subject::rescuing(Rule::REPAIRED.without(Consent));
 /// The settings of a rescue.
 const TWO: Setting = Setting {
     rule: Rule::REPAIRED,
+    served: Served::ByAny,
     robots: 2,
     wfrs: 2,
     events: 2,
@@ -138,6 +177,8 @@ const TWO: Setting = Setting {
 const TWO_LONGER: Setting = Setting { events: 3, max_hops: 1, ..TWO };
 const THREE_AND_TWO: Setting = Setting { robots: 3, max_hops: 1, ..TWO };
 const TWO_AND_ONE: Setting = Setting { wfrs: 1, ..TWO };
+/// For a robot alone all readings are alike but for what is lost. Two whose SBits are their own go round in too many ways.
+const ALONE: Setting = Setting { robots: 1, max_hops: 1, ..TWO_AND_ONE };
 const ONE_AND_TWO: Setting = Setting { robots: 1, events: 3, ..TWO };
 const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
 
@@ -148,7 +189,7 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(HOLDS)
+                .under(HOLDS_IF_IT_STANDS)
                 .of(&PAPER),
             &Check::new(
                 REPAIRED,
@@ -229,6 +270,9 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[])
+                .under(&readings(CHOICES, [Verdict::Refuted; 4]))
+                .of(&PAPER),
+            &Check::new(PUBLISHED, &Within(Demand::IsServed, ALONE), Verdict::Refuted, &[])
                 .under(REFUTED)
                 .of(&PAPER),
             &Check::new(

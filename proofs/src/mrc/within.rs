@@ -7,7 +7,7 @@ use tautline_kernel::mrc::{Rule, Upward, Word};
 use super::chart::chart;
 use super::space::{self, Ending, Refutation};
 use super::state::{Action, Message, place};
-use super::{Demand, Faults, Setting, Subject};
+use super::{Demand, Faults, Served, Setting, Subject};
 use crate::decide::{
     Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
 };
@@ -25,7 +25,7 @@ const MOST_STEPS: u64 = 20_000_000;
 
 impl Within {
     fn setting(&self, observed: &Subject) -> Setting {
-        Setting { rule: observed.rule, ..self.1 }
+        Setting { rule: observed.rule, served: observed.served, ..self.1 }
     }
 
     fn evidence(setting: &Setting, broken: &Refutation) -> Evidence {
@@ -152,7 +152,10 @@ impl fmt::Display for Counts {
 /// A run by the published rule, written down for the judge; `None` if more happens in it than the judge knows.
 fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
     let Refutation { demand, start, ref actions, ref ending } = *broken;
-    if setting.rule != Rule::PUBLISHED || matches!(ending, Ending::Round(_)) {
+    if setting.rule != Rule::PUBLISHED
+        || setting.served != Served::ByAny
+        || matches!(ending, Ending::Round(_))
+    {
         return None;
     }
     let mut state = setting.start(start as u32);

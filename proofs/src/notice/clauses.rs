@@ -2,13 +2,32 @@
 
 use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 
-use super::{Subject, networks, random};
-use crate::clause::{Check, Clause, NamedRule};
+use super::{Counted, Subject, networks, random};
+use crate::ambiguity::Charity::{Charitable, Literal};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
+use crate::clause::{Check, Clause, NamedRule, Reading, readings};
 use crate::decide::{RandomAnswers, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLISHED);
 const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::REPAIRED);
+
+const PACKETS: [(&str, Subject); 1] =
+    [("packets", Subject { counted: Counted::Packets, ..Subject::PUBLISHED })];
+const UNREFUTED: &[Reading<Subject>] = &readings(PACKETS, [Verdict::Unrefuted]);
+const REFUTED: &[Reading<Subject>] = &readings(PACKETS, [Verdict::Refuted]);
+
+static PAPER: Paper = Paper {
+    ambiguities: &[Ambiguity {
+        words: "“if it hears k nodes forwarding the packet”; “receives totally k NOTICE packets”",
+        interpretations: &[
+            Interpretation::new("senders", "k counts nodes, each of them once", Charitable),
+            Interpretation::new("packets", "k counts packets, also one that comes twice", Literal),
+        ],
+    }],
+    excluded: &[],
+    repairs: &[],
+};
 
 /// Runs of random networks.
 const RUNS: u64 = 500;
@@ -58,7 +77,9 @@ pub static CLAUSES: [Clause; 6] = [
                 },
                 Verdict::Unrefuted,
                 &UNFROZEN,
-            ),
+            )
+            .under(UNREFUTED)
+            .of(&PAPER),
         ],
     },
     Clause {
@@ -76,7 +97,9 @@ pub static CLAUSES: [Clause; 6] = [
                 },
                 Verdict::Unrefuted,
                 &FORGETFUL,
-            ),
+            )
+            .under(UNREFUTED)
+            .of(&PAPER),
         ],
     },
     Clause {
@@ -111,8 +134,12 @@ pub static CLAUSES: [Clause; 6] = [
         id: "NOTICE-5",
         sentence: "Every node that links connect to the source MUST receive the event.",
         checks: &[
-            &Check::new(PUBLISHED, &networks::REACH_WITH_ONE, Verdict::Refuted, &[]),
-            &Check::new(PUBLISHED, &networks::REACH_WITH_TWO, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &networks::REACH_WITH_ONE, Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
+            &Check::new(PUBLISHED, &networks::REACH_WITH_TWO, Verdict::Refuted, &[])
+                .under(REFUTED)
+                .of(&PAPER),
             &Check::new(PUBLISHED, &networks::REACH_WITH_ALL, Verdict::Holds, &FINITE),
         ],
     },
@@ -132,7 +159,9 @@ pub static CLAUSES: [Clause; 6] = [
                 },
                 Verdict::Unrefuted,
                 &ANOTHER_PARENT,
-            ),
+            )
+            .under(UNREFUTED)
+            .of(&PAPER),
         ],
     },
 ];

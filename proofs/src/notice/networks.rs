@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
-use super::Subject;
 pub use super::shapes::SMALL;
 use super::shapes::shapes;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
+use super::{Counted, Subject};
 use crate::decide::{
     Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
 };
@@ -26,6 +26,7 @@ use crate::plural::counted;
 pub struct Case {
     links: Links<SMALL>,
     rule: Rule,
+    counted: Counted,
     demands: &'static [Demand],
 }
 
@@ -95,12 +96,12 @@ impl Case {
     pub fn new(pairs: impl IntoIterator<Item = (usize, usize)>, rule: Rule) -> Self {
         let mut links = Links::NONE;
         pairs.into_iter().for_each(|(one, other)| links.add(one, other));
-        Self { links, rule, demands: &Demand::ALL }
+        Self { links, rule, counted: Counted::Senders, demands: &Demand::ALL }
     }
 
     /// The network after its source has sent.
     pub fn start(&self) -> Spread<SMALL> {
-        Spread::start(&self.links)
+        Spread::start(&self.links, self.counted)
     }
 
     /// The demands that are broken at some point of a run.
@@ -197,10 +198,10 @@ impl fmt::Display for Class {
 impl Networks {
     fn cases(self, observed: &Subject) -> impl Iterator<Item = Case> {
         let rules = self.rules.list(observed);
-        let demands = self.demand.alone();
+        let (counted, demands) = (observed.counted, self.demand.alone());
         shapes().into_iter().flat_map(move |links| {
             let rules = rules.clone();
-            rules.into_iter().map(move |rule| Case { links, rule, demands })
+            rules.into_iter().map(move |rule| Case { links, rule, counted, demands })
         })
     }
 
@@ -208,7 +209,7 @@ impl Networks {
     fn explore(self, observed: &Subject) -> Tally {
         let mut tally = Tally::default();
         for (place, case) in (0..).zip(self.cases(observed)) {
-            let found = search(&case, [Spread::start(&case.links)], Limits::NONE);
+            let found = search(&case, [case.start()], Limits::NONE);
             tally.cases += found.looked_at;
             for situation in found.covered {
                 cover(&mut tally.covered, situation);
@@ -245,7 +246,8 @@ fn show(observed: &Subject) -> Vec<Findings> {
         let _working = task.enter();
         let look = |&links: &Links<SMALL>| {
             let _working = task.enter();
-            search(&Case { links, rule, demands: &Demand::ALL }, [Spread::start(&links)], Limits::NONE)
+            let case = Case { links, rule, counted: observed.counted, demands: &Demand::ALL };
+            search(&case, [case.start()], Limits::NONE)
         };
         let found: Vec<_> = shapes.par_iter().map(look).collect();
         let mut shown = Findings { rule, tally: Tally::default(), broken: Vec::new() };
@@ -263,14 +265,13 @@ impl Networks {
     /// The events when these choices are made, in lines.
     fn story(self, observed: &Subject, choices: &[u32]) -> String {
         let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
-        let Some(Case { links, rule, .. }) = self.cases(observed).nth(place as usize) else {
-            return String::new();
-        };
+        let Some(case) = self.cases(observed).nth(place as usize) else { return String::new() };
+        let Case { links, rule, .. } = case;
         let pairs =
             (0..SMALL).flat_map(|one| ones(links.0[one] >> one).map(move |beyond| (one, one + beyond)));
         let pairs: Vec<String> = pairs.map(|(one, other)| format!("{one}-{other}")).collect();
         let mut lines = vec![format!("The source is 0, the links are {}.", pairs.join(" "))];
-        let mut spread = Spread::start(&links);
+        let mut spread = case.start();
         for &choice in choices {
             let Some(&event) = spread.events().get(choice as usize) else { break };
             spread = spread.after(&rule, &links, event);
@@ -350,7 +351,7 @@ impl Method<Subject> for Networks {
         let mut script = Script::new(choices);
         let cases: Vec<Case> = self.cases(observed).collect();
         let case = &cases[script.choose(cases.len())?];
-        let (of, run) = script.play(case, (0, Spread::start(&case.links)), |_| true)?;
+        let (of, run) = script.play(case, (0, case.start()), |_| true)?;
         let seen = Depiction::Story(self.story(observed, &choices.once));
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand.1, seen } })
     }
@@ -369,7 +370,7 @@ impl Method<Subject> for Networks {
         let search = |class| {
             let mut searched = Searched::default();
             for (place, case) in cases.iter().filter(|(_, case)| Class::of(case) == class) {
-                let found = search(case, [Spread::start(&case.links)], Limits::NONE);
+                let found = search(case, [case.start()], Limits::NONE);
                 let run = found.broken.into_iter().next();
                 let shortest = run.map(|Run { steps, .. }| {
                     (steps.len(), self.story(observed, &[&[*place], &steps[..]].concat()))
@@ -382,10 +383,15 @@ impl Method<Subject> for Networks {
     }
 
     fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
-        let (Demand::Reaches, Rules::Only(k @ 1..)) = (self.demand, self.rules) else { return None };
+        let (Demand::Reaches, Rules::Only(k @ 1..), Counted::Senders) =
+            (self.demand, self.rules, observed.counted)
+        else {
+            return None;
+        };
         let (&place, choices) = choices.once.split_first()?;
-        let Case { links, rule, .. } = self.cases(observed).nth(place as usize)?;
-        let (mut spread, mut steps) = (Spread::start(&links), Vec::new());
+        let case = self.cases(observed).nth(place as usize)?;
+        let (mut spread, mut steps) = (case.start(), Vec::new());
+        let Case { links, rule, .. } = case;
         for &choice in choices {
             let event = *spread.events().get(choice as usize)?;
             spread = spread.after(&rule, &links, event);
@@ -440,7 +446,7 @@ mod tests {
         type Action = Event;
 
         fn init_states(&self) -> Vec<Spread<SMALL>> {
-            vec![Spread::start(&self.links)]
+            vec![self.start()]
         }
 
         fn actions(&self, spread: &Spread<SMALL>, events: &mut Vec<Event>) {
@@ -470,17 +476,18 @@ mod tests {
             for &(one, other) in pairs {
                 links.add(one, other);
             }
-            let rule = observed.farthest(k);
+            let (rule, counted) = (observed.farthest(k), observed.counted);
+            let asked = |demand: Demand| Case { links, rule, counted, demands: demand.alone() };
             let broken = demands.into_iter().filter(|&demand| {
-                let case = Case { links, rule, demands: demand.alone() };
-                let found = search(&case, [Spread::start(&links)], Limits::NONE);
+                let case = asked(demand);
+                let found = search(&case, [case.start()], Limits::NONE);
                 let theirs = case.checker().threads(1).spawn_bfs().join();
                 assert_eq!(theirs.discovery("keeps").is_some(), !found.broken.is_empty(), "{demand:?}");
                 !found.broken.is_empty()
             });
             let broken: Vec<Demand> = broken.collect();
-            let case = Case { links, rule, demands: Demand::Once.alone() };
-            let ours = search(&case, [Spread::start(&links)], Limits::NONE).states;
+            let case = asked(Demand::Once);
+            let ours = search(&case, [case.start()], Limits::NONE).states;
             let theirs = case.checker().threads(1).spawn_bfs().join().unique_state_count();
             (ours, theirs, broken)
         };
@@ -497,6 +504,28 @@ mod tests {
         assert_eq!(compared(&tail, last, all), (102, 3561, vec![Demand::NearestParent]));
         let last_of_equals = Subject::hearing_without(Condition::FirstHeard);
         assert_eq!(compared(&round, last_of_equals, all), (70, 2689, vec![Demand::NearestParent]));
+    }
+
+    /// Where k counts packets, the copy of one silences the only node on the way: three nodes in a row are enough.
+    #[test]
+    fn a_packet_that_comes_twice_silences_the_only_node_on_the_way() {
+        let packets = Subject { counted: Counted::Packets, ..Subject::PUBLISHED };
+        let (_, story) = broken(REACH_WITH_ONE, packets);
+        let expected = "The source is 0, the links are 0-1 1-2.\n1 hears 0, not for the last time, and waits.\n\
+                        1 hears 0 and is silent.\nNothing more happens; 2 has not heard of the event.\n";
+        assert_eq!(story, expected);
+    }
+
+    /// What counts plays no part in who is whose parent, and who forwards does so once. Of five nodes the states would be too many.
+    #[test]
+    fn where_packets_are_counted_parents_make_the_same_kind_of_tree() {
+        let packets = Subject { counted: Counted::Packets, ..Subject::PUBLISHED };
+        let rule = packets.farthest(Some(Count::ONE));
+        for links in shapes().into_iter().filter(|links| links.component().count_ones() < SMALL as u32) {
+            let case = Case { links, rule, counted: packets.counted, demands: &Demand::ALL };
+            let found = search(&case, [case.start()], Limits::NONE);
+            assert!(found.broken.iter().all(|run| run.demand.0.is_of_ends()), "{links:?}");
+        }
     }
 
     #[test]

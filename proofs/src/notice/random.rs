@@ -56,7 +56,7 @@ fn spread_at_random(observed: &Subject, oracle: &mut dyn Oracle, demand: Demand)
             }
         }
     }
-    let mut spread = Spread::start(&links);
+    let mut spread = Spread::start(&links, observed.counted);
     for happened in 0.. {
         let events = spread.events();
         let choice = if happened < MOST_EVENTS { oracle.pick(events.len().max(1) as u32) } else { 0 };

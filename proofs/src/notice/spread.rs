@@ -6,8 +6,9 @@ use core::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
-use tautline_kernel::notice::{Node, Reaction, Rule, Stage, Surroundings};
+use tautline_kernel::notice::{Count, Node, Reaction, Rule, Stage, Surroundings};
 
+use super::Counted;
 use crate::engine::{Stop, require};
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
@@ -67,6 +68,7 @@ pub enum Event {
 /// An event on its way through a network.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Spread<const NODES: usize> {
+    counted: Counted,
     /// The nodes.
     pub nodes: [Node; NODES],
     /// The hop count of each node's last NOTICE.
@@ -109,8 +111,9 @@ pub(super) fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
 
 impl<const NODES: usize> Spread<NODES> {
     /// The source has sent.
-    pub(super) fn start(links: &Links<NODES>) -> Self {
+    pub(super) fn start(links: &Links<NODES>, counted: Counted) -> Self {
         let mut spread = Self {
+            counted,
             nodes: core::array::from_fn(|id| Node::new(NodeId(id as u32), NodeId(0))),
             sent: [0; NODES],
             under_way: [0; NODES],
@@ -137,6 +140,14 @@ impl<const NODES: usize> Spread<NODES> {
     pub(super) fn hears(&self, rule: &Rule, from: usize, to: usize) -> Node {
         let mut node = self.nodes[to];
         hear(&mut node, rule, Notice { hops: self.sent[from], ..notice(from) });
+        let comes_again = node == self.nodes[to] && matches!(node.stage(), Stage::Waiting { .. });
+        if comes_again && self.counted == Counted::Packets {
+            // A copy counts as a sender that nobody has heard, and that is nobody's parent: the source is nearer.
+            (1..=Count::MOST).map(usize::from).find(|copy| {
+                let copy = Notice { hops: u16::MAX - 1, ..notice(from + copy * NODES) };
+                hear(&mut node, rule, copy) != Reaction::Ignored
+            });
+        }
         node
     }
 

@@ -7,13 +7,47 @@ use super::minima;
 use super::refused;
 use super::swarm::{self, Best, Conduct};
 use super::way::{self, Way};
-use crate::clause::{Check, Clause, NamedRule};
+use crate::ambiguity::Charity::{Charitable, Literal};
+use crate::ambiguity::{Ambiguity, Interpretation, Paper};
+use crate::clause::{Check, Clause, NamedRule, readings};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 
 const PUBLISHED: NamedRule<Way> = NamedRule::new("published", way::published);
 const REPAIRED: NamedRule<Way> = NamedRule::new("repaired", way::repaired);
 const METRES: NamedRule<Way> = NamedRule::new("metres", way::metres);
 const DECIBELS: NamedRule<Way> = NamedRule::new("decibels", way::decibels);
+
+/// The readings of four anchors, of which three are taken.
+const OF_FOUR: [(&str, Way); 3] = [
+    ("renamed", way::renamed_strongest),
+    ("told best", way::published_best),
+    ("renamed + told best", way::renamed_best),
+];
+
+static PAPER: Paper = Paper {
+    ambiguities: &[
+        Ambiguity {
+            words: "equation (8) divides by x_c − x_b",
+            interpretations: &[
+                Interpretation::new(
+                    "printed",
+                    "A, B and C are in the order in which they are heard",
+                    Literal,
+                ),
+                Interpretation::new("renamed", "A, B and C are renamed where it divides by 0", Charitable),
+            ],
+        },
+        Ambiguity {
+            words: "“selects the best three anchors”",
+            interpretations: &[
+                Interpretation::new("strongest", "the three that are heard strongest", Literal),
+                Interpretation::new("told best", "the three, on no line, with the least bound", Charitable),
+            ],
+        },
+    ],
+    excluded: &[],
+    repairs: &["repaired", "metres", "decibels"],
+};
 
 /// Random triples of anchors.
 const TRIPLES: u64 = 20_000;
@@ -94,7 +128,22 @@ pub static CLAUSES: [Clause; 7] = [
                 Verdict::Refuted,
                 &[],
             )
+            .under(&readings([("renamed", way::renamed as Way)], [Verdict::Holds]))
+            .of(&PAPER)
             .judged(lattice::exact),
+            &Check::new(
+                NamedRule::new("published", way::published_strongest as Way),
+                &EveryAnswer {
+                    body: lattice::is_exact_of_four,
+                    range: lattice::places_of_four,
+                    covers: &["four anchors"],
+                },
+                Verdict::Refuted,
+                &[],
+            )
+            .under(&readings(OF_FOUR, [Verdict::Refuted, Verdict::Refuted, Verdict::Holds]))
+            .of(&PAPER)
+            .judged(lattice::exact_of_strongest),
             &Check::new(REPAIRED, &EXACT, Verdict::Holds, &INEXACT),
             &Check::new(METRES, &EXACT, Verdict::Holds, &INEXACT),
             &Check::new(DECIBELS, &EXACT, Verdict::Holds, &INEXACT),
@@ -146,7 +195,10 @@ pub static CLAUSES: [Clause; 7] = [
         id: "POSITION-4",
         sentence: "When anchors are moved, turned and mirrored, positions MUST be moved, turned and mirrored with them.",
         checks: &[
-            &Check::new(PUBLISHED, &FOLLOWS, Verdict::Refuted, &[]).judged(lattice::turned),
+            &Check::new(PUBLISHED, &FOLLOWS, Verdict::Refuted, &[])
+                .under(&readings([("renamed", way::renamed as Way)], [Verdict::Holds]))
+                .of(&PAPER)
+                .judged(lattice::turned),
             &Check::new(REPAIRED, &FOLLOWS, Verdict::Holds, &UNMOVED),
             &Check::new(METRES, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
             &Check::new(DECIBELS, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),

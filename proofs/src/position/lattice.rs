@@ -4,10 +4,10 @@
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::position::{Area, Point, Range};
 
-use super::way::{Way, WayResult};
+use super::way::{Way, WayResult, strongest};
 use crate::engine::{Choices, Outcome, Replay, Stop, assume, require};
 use crate::judge::AnyCase;
-use crate::judge::position::{Exact, Moved};
+use crate::judge::position::{Exact, Moved, Strongest};
 
 /// The side of the lattice of three anchors and a robot, and of that of four.
 const SIDES: [u32; 2] = [4, 3];
@@ -74,7 +74,22 @@ pub(super) fn places_of_three() -> String {
 /// [`Stop`] if the clause is broken.
 pub(super) fn is_exact_of_three(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
     // The first of the two cases has three anchors.
-    is_exact(way, &mut First { oracle, has_picked: false })
+    is_exact(way, &mut First { oracle, first: Some(0) })
+}
+
+/// The bound of [`is_exact_of_four`], in words.
+pub(super) fn places_of_four() -> String {
+    let [_, four] = SIDES;
+    format!("four anchors and a robot at any places of {four}×{four}")
+}
+
+/// POSITION-1 of four anchors, of which the best three are taken.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn is_exact_of_four(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
+    // The second of the two cases has four.
+    is_exact(way, &mut First { oracle, first: Some(1) })
 }
 
 /// A place of a lattice in whole metres, or tenths of a length, as the judge reads it.
@@ -82,28 +97,43 @@ fn written(place: Point, per_metre: f64) -> (i32, i32) {
     ((place.x_m * per_metre).round() as i32, (place.y_m * per_metre).round() as i32)
 }
 
-/// The anchors and the robot that these choices of [`is_exact_of_three`] make, written down for the judge.
-pub(super) fn exact(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+/// The anchors and the robot that these choices make, and whether a position is returned.
+fn told(way: Way, choices: &Choices, (count, side): (usize, u32)) -> Option<(Vec<Range>, Point, bool)> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);
-    let anchors = anchors(&mut replay, 3, SIDES[0]).ok()?;
-    let at = place(&mut replay, SIDES[0]);
+    let anchors = anchors(&mut replay, count, side).ok()?;
+    let at = place(&mut replay, side);
     let ranges: Vec<Range> =
         anchors.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at))).collect();
     let is_told = way(&ranges, None).is_ok();
-    let anchors = [anchors[0], anchors[1], anchors[2]].map(|anchor| written(anchor, 1.0));
+    Some((ranges, at, is_told))
+}
+
+/// The case of [`is_exact_of_three`] that these choices make, written down for the judge.
+pub(super) fn exact(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let (ranges, at, is_told) = told(*way, choices, (3, SIDES[0]))?;
+    let anchors = [0, 1, 2].map(|number| written(ranges[number].anchor, 1.0));
     Some(Box::new(Exact { clause: "POSITION-1", anchors, robot: written(at, 1.0), is_told }))
 }
 
-/// The plain case of the first choice.
+/// The case of [`is_exact_of_four`] that these choices make, written down for the judge.
+pub(super) fn exact_of_strongest(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+    let (ranges, at, is_told) = told(*way, choices, (4, SIDES[1]))?;
+    let mut taken = strongest(&ranges);
+    taken.extend(ranges.iter().find(|range| !taken.contains(range)));
+    let anchors = <[Range; 4]>::try_from(taken).ok()?.map(|range| written(range.anchor, 1.0));
+    Some(Box::new(Strongest { clause: "POSITION-1", anchors, robot: written(at, 1.0), is_told }))
+}
+
+/// One case of the first choice.
 struct First<'a> {
     oracle: &'a mut dyn Oracle,
-    has_picked: bool,
+    first: Option<u32>,
 }
 
 impl Oracle for First<'_> {
     fn pick(&mut self, below: u32) -> u32 {
-        if std::mem::replace(&mut self.has_picked, true) { self.oracle.pick(below) } else { 0 }
+        self.first.take().unwrap_or_else(|| self.oracle.pick(below))
     }
 }
 

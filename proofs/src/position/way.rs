@@ -2,7 +2,7 @@
 
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
-    Area, Fix, Point, Range, Refusal, Residual, Signal, closed_form, linear, locate,
+    Area, Fix, Point, Range, Refusal, Residual, Signal, bound, closed_form, linear, locate,
 };
 
 /// A way from distances to a position. The rectangle is for the ways that keep to one.
@@ -40,6 +40,68 @@ pub(super) fn signal() -> Option<Signal> {
 /// Equations (5) to (8).
 pub(super) fn published(ranges: &[Range], _: Option<Area>) -> Result<WayResult, Refusal> {
     closed_form(ranges).map(WayResult::one)
+}
+
+/// Equations (5) to (8), with the anchors in the first order in which they divide by no 0.
+pub(super) fn renamed(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
+    let mut ranges = ranges.to_vec();
+    for _ in 1..ranges.len() {
+        match published(&ranges, area) {
+            Err(Refusal::Division) => ranges.rotate_left(1),
+            found => return found,
+        }
+    }
+    published(&ranges, area)
+}
+
+/// The three of `ranges` that come first in the order of `rank`.
+fn best_three<R: PartialOrd>(ranges: &[Range], rank: impl Fn([Range; 3]) -> Option<R>) -> Vec<Range> {
+    let mut best: Option<(R, [Range; 3])> = None;
+    for (third, &c) in ranges.iter().enumerate() {
+        for (second, &b) in ranges.iter().enumerate().take(third) {
+            for &a in ranges.iter().take(second) {
+                let Some(rank) = rank([a, b, c]) else { continue };
+                if best.as_ref().is_none_or(|(least, _)| rank < *least) {
+                    best = Some((rank, [a, b, c]));
+                }
+            }
+        }
+    }
+    best.map_or_else(|| ranges.to_vec(), |(_, three)| three.to_vec())
+}
+
+/// The three anchors that are heard strongest, which are the nearest.
+pub(super) fn strongest(ranges: &[Range]) -> Vec<Range> {
+    best_three(ranges, |three| Some(three.iter().map(|range| range.distance_m).sum::<f64>()))
+}
+
+/// The three anchors, not on one line, that tell a robot best where all of them put it.
+fn best_told(ranges: &[Range]) -> Vec<Range> {
+    let (Some(signal), Ok(at)) = (signal(), linear(ranges)) else { return ranges.to_vec() };
+    best_three(ranges, |three| {
+        let bound = bound(three.iter().map(|range| range.anchor), at, &signal);
+        bound.filter(|_| linear(&three).is_ok()).map(|bound| bound.rms_m())
+    })
+}
+
+/// [`published`], of the strongest three.
+pub(super) fn published_strongest(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
+    published(&strongest(ranges), area)
+}
+
+/// [`renamed`], of the strongest three.
+pub(super) fn renamed_strongest(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
+    renamed(&strongest(ranges), area)
+}
+
+/// [`published`], of the three that tell best.
+pub(super) fn published_best(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
+    published(&best_told(ranges), area)
+}
+
+/// [`renamed`], of the three that tell best.
+pub(super) fn renamed_best(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
+    renamed(&best_told(ranges), area)
 }
 
 /// Linear least squares.

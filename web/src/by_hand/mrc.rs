@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::mrc::{Phase, Rule, Task};
 use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{
-    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Setting, State, WFRS, chart,
+    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Served, Setting, State, WFRS, chart,
 };
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
@@ -66,6 +66,7 @@ fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
     let rule = if settings.rule == "published" { Rule::PUBLISHED } else { Rule::REPAIRED };
     Ok(Setting {
         rule: settings.on.map_or(rule, |on| rule.with_in_force(on)),
+        served: Served::ByAny,
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),
         events: number(settings, "events", 2, 9)?,

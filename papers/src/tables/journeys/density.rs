@@ -11,10 +11,15 @@ use super::world::{Sample, Walk};
 pub struct Density {
     /// The number of nodes.
     pub nodes: usize,
+    /// The shape of the obstacle, where shapes are compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<&'static str>,
     /// The share of the topologies in which links lead from the robot to the WFR: no journey succeeds in the others.
     pub linked: Estimate,
     /// The share of those in which the robot hears the call by k-FNF: without it no journey by TAN begins.
     pub told: Option<Estimate>,
+    /// The share of those in which the robot arrives by TAN.
+    pub told_arrive: Option<Estimate>,
     /// Way by way.
     pub ways: Vec<Line>,
     /// How many hops the robots have by TAN's trees for each hop that the shortest chain of links has, where TAN
@@ -43,7 +48,7 @@ pub struct Line {
 
 impl Density {
     /// Of all topologies with so many nodes.
-    pub(super) fn of(nodes: usize, samples: &[&Sample]) -> Self {
+    pub(super) fn of(nodes: usize, shape: Option<&'static str>, samples: &[&Sample]) -> Self {
         let part = |share: Option<Estimate>| share.map(|share| rounded(share, 1e4));
         let linked = count(samples, |sample| sample.fewest_hops.is_some());
         let of_linked = |is_such: &dyn Fn(&Sample) -> bool| {
@@ -73,8 +78,13 @@ impl Density {
         let longest = longest.max_by(|(one, _), (other, _)| one.total_cmp(other));
         Self {
             nodes,
+            shape,
             linked: part(Estimate::share(linked, samples.len() as u32)).unwrap_or(Estimate::NOTHING),
             told: of_linked(&|sample| sample.tree_hops.is_some()),
+            told_arrive: part(Estimate::share(
+                count(samples, |sample| sample.walked[tan].is_some()),
+                count(samples, |sample| sample.tree_hops.is_some()),
+            )),
             ways: Way::ALL.into_iter().enumerate().map(line).collect(),
             hops: estimates::ratio(hops),
             claims: Claim::ALL.map(decision).into(),
@@ -83,5 +93,21 @@ impl Density {
             })),
             longest: longest.map(|(_, topology)| topology),
         }
+    }
+    /// Whether TAN has problems with this shape: robots that hear the call do not arrive.
+    pub(super) fn problems(&self) -> Option<Judgement> {
+        let arrive = self.told_arrive?;
+        let measured = format!(
+            "{} % hear the call, {} % of these arrive",
+            percent(self.told, 1),
+            percent(Some(arrive), 1)
+        );
+        let verdict = Verdict::of(arrive.mean < 1.0);
+        Some(Judgement::new(
+            "“might have problems … obstacles of any shapes” (5)",
+            self.shape?,
+            measured,
+            verdict,
+        ))
     }
 }

@@ -10,9 +10,13 @@ use tautline_field::draw::field::{self, Map, Terminus, Trail};
 use tautline_field::tan::End;
 
 /// The journeys by some ways in the topology in which the shortest is the longest.
-pub(super) fn picture(settings: &Settings, ways: &[Way], densities: &[Density]) -> Result<String, Halt> {
-    let drawn = densities.iter().find_map(|density| Some((density.nodes, density.longest?)));
-    let (nodes, topology) = drawn.ok_or_else(|| {
+pub(super) fn picture(
+    cases: &[(usize, Option<&str>, Settings)],
+    ways: &[Way],
+    densities: &[Density],
+) -> Result<String, Halt> {
+    let drawn = cases.iter().zip(densities).find_map(|(case, density)| Some((case, density.longest?)));
+    let (&(nodes, _, ref settings), topology) = drawn.ok_or_else(|| {
         let remedy = "take more topologies or nodes";
         Diagnostic::usage("there is no topology to draw in which all arrive", remedy)
     })?;

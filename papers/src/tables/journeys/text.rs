@@ -4,15 +4,25 @@ use super::super::prelude::*;
 use super::claims::CLOSE;
 use super::density::Density;
 use super::{Settings, Way};
+use tautline_field::tan::Scans;
 
 /// The figure for people.
 pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
-    let obstacles = match settings.obstacles_m.len() {
+    let is_by_shape = densities.iter().any(|density| density.shape.is_some());
+    let obstacles = match settings.obstacles_m.len() + usize::from(is_by_shape) {
         0 => "no obstacle".to_owned(),
         some => counted(some, "obstacle"),
     };
+    let scan = match settings.scan {
+        Scans::Again => "",
+        Scans::Once => ", one scan for each signal",
+    };
+    let near = match settings.near_percent {
+        near if near.total_cmp(&1.0).is_eq() => String::new(),
+        near => format!(", at a node within {near} % of the range"),
+    };
     let heading = format!(
-        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for each number of nodes, seed {}",
+        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for each number of nodes, seed {}{scan}{near}",
         settings.range_m,
         settings.k.0.get(),
         settings.noise_db,
@@ -21,6 +31,9 @@ pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
         side = settings.side_m,
     );
     let mut table = Figures::new(heading, densities);
+    if is_by_shape {
+        table.row("shape", |density| density.shape.unwrap_or_default().to_owned());
+    }
     table.row("nodes", |density| density.nodes.to_string());
     table.row("linked", |density| percent(density.linked, 1));
     table.row("told", |density| percent(density.told, 1));

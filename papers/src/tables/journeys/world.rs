@@ -8,10 +8,10 @@ use tautline_proofs::engine::SeededOracle;
 use super::super::prelude::*;
 use super::{Settings, Way};
 use tautline_field::radio::{
-    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Problem, Radio,
+    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Lake, Model, Network, Obstacle, Point, Problem, Radio,
 };
 use tautline_field::rescue::seconds;
-use tautline_field::tan::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
+use tautline_field::tan::{End, Equipment, Journey, ROBOT_REACH, Site, Tree, hops, shortest_m};
 
 /// A topology with a robot as the last node of its field.
 pub(super) struct World {
@@ -58,13 +58,16 @@ impl World {
         let radio = Radio::new(settings.range_m, Model::Disc)?;
         let stream = (settings.seed, u64::from(topology));
         let chance = &mut SeededOracle::new(stream.0, 2 * stream.1);
-        let obstacles: Vec<Obstacle> = settings.obstacles_m.iter().copied().map(Into::into).collect();
+        let parts = settings.obstacles_m.iter().flat_map(|Lake(parts)| parts);
+        let obstacles: Vec<Obstacle> = parts.copied().map(Into::into).collect();
         let field = Field::random(area, obstacles, nodes, chance)?;
         let field = field.with(&[field.place(chance)?])?;
         let network = Network::new(&field, radio, chance)?;
         let Senders(k) = settings.k;
+        let near_m = (ROBOT_REACH - 1.0) * settings.near_percent * radio.range_m();
+        let equipment = Equipment::near(radio, settings.noise_db, near_m)?;
         Ok(Self {
-            equipment: Equipment::new(radio, settings.noise_db)?,
+            equipment: Equipment { scans: settings.scan, ..equipment },
             rule: Rule::new(Scheme::Farthest { k: Some(k) }, radio.range_um(), LONGEST_WAIT_NS),
             robot: NodeId(nodes as u32),
             wfr: NodeId(chance.pick(nodes as u32)),

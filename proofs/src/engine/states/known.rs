@@ -171,8 +171,8 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         disk.look_up(queues.flat_map(Queue::unknown).collect(), workers)
     }
 
-    /// Makes of `state`, which was shown last, the state of a node: only the parts that they do not share are put. False
-    /// if it cannot be read.
+    /// Makes of `state`, which was shown last, the state of a node: only the parts that they do not share are put.
+    /// False if it cannot be read.
     pub(super) fn show<S: System<Part = P>>(
         &mut self,
         system: &S,

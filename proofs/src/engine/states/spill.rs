@@ -97,7 +97,7 @@ impl SpillFault {
     pub const fn remedy(&self) -> &'static str {
         match self {
             Self::Unwritable(_) => {
-                "make room there, or name a folder on a larger disk; what is whole there is taken up by the same command"
+                "make room there, or name a folder on a larger disk: the same command takes up what is whole there"
             }
             Self::Unreadable(_) => "see that the folder can be read, and run the same command again",
             Self::Damaged | Self::Foreign => "empty the folder, and run the same command again",
@@ -198,8 +198,8 @@ impl Disk {
         }
     }
 
-    /// Writes states, of which the first has the next number; their slots in the order of their hashes; and numbers. What
-    /// cannot be written to its end is removed. False if it cannot.
+    /// Writes states, of which the first has the next number; their slots in the order of their hashes; and numbers.
+    /// What cannot be written to its end is removed. False if it cannot.
     pub(super) fn write(
         &mut self,
         (codes, sorted): (&Codes, &[u64]),

@@ -2,6 +2,8 @@
 
 use tautline_kernel::mrc::Rule;
 
+use crate::mrc::Served;
+
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;
 /// Most WFRs of a setting.
@@ -84,6 +86,8 @@ pub enum Leases {
 pub struct Setting {
     /// The rule of robots and WFRs.
     pub rule: Rule,
+    /// How robots understand the SBit.
+    pub served: Served,
     /// Robots, at most [`ROBOTS`].
     pub robots: usize,
     /// WFRs, at most [`WFRS`].
@@ -103,7 +107,7 @@ pub struct Setting {
 impl Setting {
     /// The bound, in words.
     pub fn bound(&self) -> String {
-        let Self { rule: _, robots, wfrs, events, max_hops, faults, lossy, leases } = *self;
+        let Self { rule: _, served: _, robots, wfrs, events, max_hops, faults, lossy, leases } = *self;
         let count =
             |number: usize, one: &str| format!("{number} {one}{}", if number == 1 { "" } else { "s" });
         let hops = match max_hops {

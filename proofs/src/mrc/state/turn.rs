@@ -1,7 +1,7 @@
 //! A turn: the state after an action, what the machines send then, and what the observer notes.
 
 use tautline_kernel::mrc::{
-    Bid, Condition, Downward, Mail, Phase, Robot, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
+    Bid, Condition, Downward, Mail, Phase, Resb, Robot, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
 };
 use tautline_kernel::net::{Call, Epoch, Notice, RobotId};
 
@@ -9,6 +9,20 @@ use super::action::{Action, Actor, Message};
 use super::demand::Demand;
 use super::setting::{ROBOTS, Setting, WFRS};
 use super::{State, node, place, robot_id};
+use crate::mrc::Served;
+
+/// A robot that hears that another one is chosen, and keeps the SBit of the call clear: it executes step 2 with the
+/// records that it had.
+fn pass_over(robot: Robot<WFRS>, resb: Resb) -> (Robot<WFRS>, Option<Upward>) {
+    match robot.task() {
+        Task::Asking { call, .. } | Task::Leased { call } if call.wfr == resb.call.wfr => {
+            let mut requests = robot.requests().copied();
+            let requests = std::array::from_fn(|_| requests.next());
+            Robot::kept(*robot.rule(), robot.id(), requests, Task::Leased { call }).arrive()
+        }
+        Task::Asking { .. } | Task::Leased { .. } | Task::Free => (robot, None),
+    }
+}
 
 impl State {
     /// The state after `action`, which must be one of [`Self::actions`].
@@ -91,7 +105,10 @@ impl State {
             Message::Resb(resb) => {
                 let (robot, before) =
                     (usize::from(resb.robot.0), self.robots[usize::from(resb.robot.0)].task());
-                self.turn_robot(robot, |robot| robot.receive(Downward::Resb(resb)));
+                self.turn_robot(robot, |robot| match setting.served {
+                    Served::ByItself if resb.chosen != Some(resb.robot) => pass_over(robot, resb),
+                    Served::ByAny | Served::ByItself => robot.receive(Downward::Resb(resb)),
+                });
                 let task = self.robots[robot].task();
                 let asked = |task: Task| match task {
                     Task::Asking { call, .. } => Some(call),
@@ -268,5 +285,28 @@ impl State {
                 self.cut[robot][wfr] = self.cut[robot][wfr].filter(|&epoch| is_of_use(epoch));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::mrc::Rule;
+    use tautline_kernel::net::NodeId;
+
+    use super::*;
+
+    /// “If a mobile node is not selected, it can reply to another un-replied notification packet”: not where its SBit stays clear.
+    #[test]
+    fn a_robot_whose_sbit_stays_clear_asks_the_same_wfr_again_and_again() {
+        let call = |wfr| Call { wfr: NodeId(wfr), epoch: Epoch(1) };
+        let hears = |robot: Robot<WFRS>, (wfr, hops)| {
+            robot.receive(Downward::Notice(Notice { call: call(wfr), hops, sender: NodeId(9) })).0
+        };
+        let robot = [(1, 0), (2, 3)].into_iter().fold(Robot::new(Rule::PUBLISHED, RobotId(1)), hears);
+        let resb = Resb { call: call(1), robot: RobotId(1), chosen: Some(RobotId(0)) };
+        let asks = |turn: (_, Option<Upward>)| turn.1.map(|sent| sent.call);
+        assert_eq!(asks(robot.receive(Downward::Resb(resb))), Some(call(2)));
+        let (same, sent) = pass_over(robot, resb);
+        assert_eq!((same, sent.map(|sent| sent.call)), (robot, Some(call(1))));
     }
 }
