@@ -323,6 +323,7 @@ def hunt(
     max_misses: int | None = None,
     max_losses: int | None = None,
     error: float | None = None,
+    message_range: int | None = None,
     budget: int | None = None,
 ) -> HuntReport: ...
 def hunt_rule(rule: Rule, *, budget: int | None = None, patience_s: float = 10.0) -> OwnHuntReport: ...

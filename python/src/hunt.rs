@@ -82,7 +82,7 @@ impl Hunter for StopHunter<'_> {
 #[pyfunction]
 #[pyo3(signature = (
     scheme="chain", *, rule="repaired", robots=None, size=None, max_walls=None, max_cells=None, max_misses=None,
-    max_losses=None, error=None, budget=None
+    max_losses=None, error=None, message_range=None, budget=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn hunt(
@@ -96,6 +96,7 @@ pub(crate) fn hunt(
     max_misses: Option<u8>,
     max_losses: Option<u8>,
     error: Option<f64>,
+    message_range: Option<u16>,
     budget: Option<u64>,
 ) -> PyResult<HuntReport> {
     let scheme = self::scheme(py, scheme)?;
@@ -103,7 +104,7 @@ pub(crate) fn hunt(
     let hunt = scheme.hunt(rule).map_err(|fault| raised(py, &fault))?;
     let size = size.map(|(width, height)| Size::new(width, height).map_err(|problem| raised(py, &problem)));
     let size = size.transpose()?;
-    let (error_cells, resume) = (error, None);
+    let (error_cells, range_cells, resume) = (error, message_range, None);
     let asked = Asked {
         scheme,
         rule,
@@ -115,6 +116,7 @@ pub(crate) fn hunt(
         max_misses,
         max_losses,
         error_cells,
+        range_cells,
         resume,
     };
     let found = wait_for(py, |is_stopped| {
