@@ -399,14 +399,15 @@ fn unfinished(rows: &[Row], room: &MemoryLimit) -> String {
 
 /// The rows as a CI shows them.
 fn findings(rows: &[Row], room: &MemoryLimit) -> Result<Vec<Case>, Halt> {
+    let cut_off = cut_off(room);
     let found = rows.iter().map(|row| {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
         let variants = of_variants(row).into_iter().map(|words| words + "\n");
-        let outcome = match (row.is_as_registered(), row.undecided, cut_off(room)) {
+        let outcome = match (row.is_as_registered(), row.undecided, &cut_off) {
             (true, ..) => Outcome::Expected,
             (false, Some(undecided), _) => Outcome::Unfinished(format!("{undecided}\n")),
-            (false, None, Some(why)) => Outcome::Unfinished(why),
+            (false, None, Some(why)) => Outcome::Unfinished(why.clone()),
             (false, None, None) => Outcome::Broken(
                 format!("{verdict}, registered as {registered}"),
                 variants.collect::<String>() + story(row, None)?.trim_start(),

@@ -61,6 +61,20 @@ pub const fn readings<R: Copy, const N: usize>(
     readings
 }
 
+/// The readings that these rules are, of which those with these numbers hold and all others are refuted.
+pub const fn holding<R: Copy, const N: usize, const HELD: usize>(
+    rules: [(&'static str, R); N],
+    numbers: [usize; HELD],
+) -> [Reading<R>; N] {
+    let mut all = readings(rules, [Verdict::Refuted; N]);
+    let mut place = 0;
+    while place < HELD {
+        all[numbers[place]].expected = Verdict::Holds;
+        place += 1;
+    }
+    all
+}
+
 /// One way to decide a clause about rules of type `R`.
 pub struct Check<R: 'static> {
     /// The rule it is about.

@@ -12,7 +12,7 @@ use std::num::NonZeroU32;
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
-use tautline_kernel::kit::{Condition, Kit, Next, Rule, SetupError, Sight, Stance, touch};
+use tautline_kernel::kit::{Condition, Kit, Next, Reach, Rule, SetupError, Sight, Stance, touch};
 
 use crate::layout::Layout;
 use crate::layout::generate;
@@ -20,8 +20,16 @@ use crate::layout::generate;
 /// From a node to the next.
 pub const PATH_MILLIMETRES: i64 = 3000;
 
-/// As far as two robots hear each other.
+/// As far as two robots hear each other in the paper.
 pub const REACH_MILLIMETRES: i64 = 10_000;
+
+/// As far as two robots hear each other.
+pub fn reach_millimetres(reach: Reach) -> i64 {
+    match reach {
+        Reach::PAPER => REACH_MILLIMETRES,
+        _ => i64::from(reach.squared().isqrt()) * PATH_MILLIMETRES,
+    }
+}
 
 /// How far beyond the next node a robot sees.
 const BEYOND_MILLIMETRES: i64 = 500;

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_sim::value_parser::Metres;
 
 /// An obstacle: west, north, east and south of the rectangles that it consists of, in metres.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -69,12 +70,10 @@ impl FromStr for Lake {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let (picture, sides) = text.split_once(':').unwrap_or(("rectangle", text));
-        let numbers: Option<Vec<f64>> = sides.split(',').map(|part| part.trim().parse().ok()).collect();
-        let sides: Option<[f64; 4]> = numbers.and_then(|numbers| numbers.try_into().ok());
-        let sides = sides.ok_or(
+        let Metres(sides) = sides.parse().map_err(|_| {
             "write west, north, east and south in metres, for example 50,100,150,200, and before them a shape if it is \
-             no rectangle, for example u:50,100,150,200",
-        )?;
+             no rectangle, for example u:50,100,150,200"
+        })?;
         Self::new(picture, sides)
     }
 }

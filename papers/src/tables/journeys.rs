@@ -274,21 +274,21 @@ impl Journeys {
         }
     }
 
+    /// The case at this place.
+    fn case(&self, settings: &Settings, place: usize) -> Result<Measured, Halt> {
+        let (mut own, shapes) = (self.whole(settings), self.shapes());
+        let (nodes, shape) = (own.nodes[place / shapes.len()], shapes[place % shapes.len()]);
+        if let Some(shape) = shape {
+            let lake = Lake::new(shape, MIDDLE.map(|at| at * own.side_m / SIDE_M));
+            own.obstacles_m.push(lake.map_err(|what| Diagnostic::usage(what, "take another shape"))?);
+        }
+        Ok((nodes, shape, own))
+    }
+
     /// The cases, place by place.
     fn cases(&self, settings: &Settings) -> Result<Vec<Measured>, Halt> {
-        let (whole, shapes) = (self.whole(settings), self.shapes());
-        let mut cases = Vec::new();
-        for &nodes in &whole.nodes {
-            for &shape in &shapes {
-                let mut own = whole.clone();
-                if let Some(shape) = shape {
-                    let lake = Lake::new(shape, MIDDLE.map(|at| at * whole.side_m / SIDE_M));
-                    own.obstacles_m.push(lake.map_err(|what| Diagnostic::usage(what, "take another shape"))?);
-                }
-                cases.push((nodes, shape, own));
-            }
-        }
-        Ok(cases)
+        let count = self.whole(settings).nodes.len() * self.shapes().len();
+        (0..count).map(|place| self.case(settings, place)).collect()
     }
 }
 
@@ -311,7 +311,7 @@ impl Table for Journeys {
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
-        let (nodes, _, own) = self.cases(settings)?.swap_remove(run.at);
+        let (nodes, _, own) = self.case(settings, run.at)?;
         let world = World::new(&own, nodes, run.number).map_err(usage)?;
         Sample::of(&world).map_err(usage)
     }

@@ -17,13 +17,13 @@ mod range;
 use std::num::NonZeroU32;
 
 use tautline_kernel::ground::Cell;
-use tautline_kernel::kit::{Reach, Rule};
+use tautline_kernel::kit::Rule;
 
 use self::lattice::{FAMILIES, Family};
 pub use self::range::KitRange;
 use super::paper;
 use super::prelude::*;
-use tautline_sim::kit::{self, PATH_MILLIMETRES, Pace, REACH_MILLIMETRES};
+use tautline_sim::kit::{self, Pace};
 use tautline_sim::layout::Layout;
 
 /// Paths of every layout, and how many of them are explored at the paper's 88 %.
@@ -276,10 +276,7 @@ impl Table for Kit {
 
     /// A repaired team always keeps in touch, and one or two of its robots drive every path.
     fn is_broken(&self, merged: &Summary) -> bool {
-        let is_broken = |line: &&Line| {
-            let is_any = |share: Option<Estimate>| share.is_some_and(|share| share.mean > 0.0);
-            is_any(line.ended) && line.team.robots < 3 || is_any(line.cut)
-        };
+        let is_broken = |line: &&Line| is_any(line.ended) && line.team.robots < 3 || is_any(line.cut);
         let mut repaired = merged.lines.iter().filter(|line| line.team.rule == TeamRule::Repaired);
         repaired.any(|line| is_broken(&line))
     }
@@ -321,9 +318,7 @@ fn driven(rule: Rule, layout: &Layout, starts: Vec<Cell>, pace: Pace, seed: u64)
     }
     outcome.paths.sort_unstable();
     outcome.nodes.sort_unstable();
-    let reach = i64::from(rule.reach.squared()) * PATH_MILLIMETRES.pow(2);
-    outcome.is_cut =
-        course.apart() > if rule.reach == Reach::PAPER { REACH_MILLIMETRES.pow(2) } else { reach };
+    outcome.is_cut = course.apart() > kit::reach_millimetres(rule.reach).pow(2);
     outcome
 }
 
@@ -339,8 +334,12 @@ impl Outcome {
 
     /// The directions that are explored at nodes when all of so many nodes are found, two for each path.
     fn directions(&self, nodes: usize) -> Option<f64> {
-        let end = self.found(nodes)?;
-        Some(2.0 * f64::from(self.paths.iter().filter(|&&driven| driven <= end).count() as u32))
+        Some(self.directions_by(self.found(nodes)?))
+    }
+
+    /// The directions that are explored at nodes by this time, in milliseconds.
+    fn directions_by(&self, end: u64) -> f64 {
+        2.0 * f64::from(self.paths.iter().filter(|&&driven| driven <= end).count() as u32)
     }
 
     /// Of so many explored paths, those driven by one robot alone, in percent.
@@ -358,9 +357,6 @@ impl Outcome {
 
 impl Line {
     fn of(family: Family, team: Team, outcomes: &[&Outcome]) -> Self {
-        let path = |number: usize| {
-            mean(outcomes.iter().filter_map(|outcome| outcome.paths.get(number - 1)).map(|&end| seconds(end)))
-        };
         let is_team = team.robots > 1;
         let efficiency = |explored| mean(outcomes.iter().filter_map(|outcome| outcome.efficiency(explored)));
         let node = |number: usize| {
@@ -371,8 +367,8 @@ impl Line {
             family: family.name,
             team,
             efficiency: efficiency(EXPLORED).filter(|_| is_team),
-            most: path(EXPLORED),
-            all: path(PATHS),
+            most: until(EXPLORED, outcomes),
+            all: until(PATHS, outcomes),
             cut: in_percent(outcomes, |outcome| outcome.is_cut).filter(|_| is_team),
             reached: in_percent(outcomes, |outcome| outcome.paths.len() >= EXPLORED),
             explored: mean(outcomes.iter().map(|outcome| outcome.explored())),
@@ -406,6 +402,16 @@ impl Race {
             behind: in_percent(&all, |&[other, team]| is_sooner(other, team)),
         }
     }
+}
+
+/// Seconds until so many paths are explored, over the runs in which they are.
+fn until(paths: usize, outcomes: &[&Outcome]) -> Option<Estimate> {
+    mean(outcomes.iter().filter_map(|outcome| outcome.paths.get(paths - 1)).map(|&end| seconds(end)))
+}
+
+/// Whether some of the runs are such.
+fn is_any(share: Option<Estimate>) -> bool {
+    share.is_some_and(|share| share.mean > 0.0)
 }
 
 /// The share of those that are such, in percent.

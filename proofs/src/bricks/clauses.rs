@@ -18,7 +18,7 @@ use super::tree::mdfs::Mdfs;
 use super::tree::{AmongChildren, Child, Own, labels};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
-use crate::clause::{Check, Clause, NamedRule, Reading, readings};
+use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::Verdict;
 use crate::floor::series::Given::Dark;
 use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
@@ -48,12 +48,12 @@ const READINGS: [(&str, Subject<Rule>); 11] = [
     ("alone + beside", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside)),
     ("counted", replacing(Rule::PUBLISHED, Replaced::Counted)),
     ("alone + counted", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted)),
-    ("in the dark", Subject::of(Rule::PUBLISHED).on(Dark)),
-    ("alone + in the dark", Subject::of(Rule::PUBLISHED.with(Alone)).on(Dark)),
-    ("beside + in the dark", replacing(Rule::PUBLISHED, Replaced::Beside).on(Dark)),
-    ("alone + beside + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside).on(Dark)),
-    ("counted + in the dark", replacing(Rule::PUBLISHED, Replaced::Counted).on(Dark)),
-    ("alone + counted + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted).on(Dark)),
+    ("in the dark", Subject::of(Rule::PUBLISHED).on(&[Dark])),
+    ("alone + in the dark", Subject::of(Rule::PUBLISHED.with(Alone)).on(&[Dark])),
+    ("beside + in the dark", replacing(Rule::PUBLISHED, Replaced::Beside).on(&[Dark])),
+    ("alone + beside + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside).on(&[Dark])),
+    ("counted + in the dark", replacing(Rule::PUBLISHED, Replaced::Counted).on(&[Dark])),
+    ("alone + counted + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted).on(&[Dark])),
 ];
 
 static PAPER: Paper = Paper {
@@ -76,20 +76,14 @@ const fn replacing(rule: Rule, replaced: Replaced) -> Subject<Rule> {
     Subject::of(Rule { replaced, ..rule })
 }
 
-const REFUTED: &[Reading<Subject<Rule>>] = &readings(READINGS, [Verdict::Refuted; 11]);
+const REFUTED: &[Reading<Subject<Rule>>] = &holding(READINGS, []);
 /// That which differs where no sensor is missed.
 const SEEING: &[Reading<Subject<Rule>>] = REFUTED.split_at(1).0;
 /// An agent that marks no cell in which another one is shuts nobody in.
-const KNOWS_ALONE: &[Reading<Subject<Rule>>] = &readings([READINGS[0]], [Verdict::Holds]);
+const KNOWS_ALONE: &[Reading<Subject<Rule>>] = &holding([READINGS[0]], [0]);
 
 /// Alone, an agent beside a cell in the dark never takes itself for done.
-const BEFORE_THE_END: &[Reading<Subject<Rule>>] = &readings(READINGS, {
-    let mut expected = [Verdict::Refuted; 11];
-    expected[6] = Verdict::Holds;
-    expected[8] = Verdict::Holds;
-    expected[10] = Verdict::Holds;
-    expected
-});
+const BEFORE_THE_END: &[Reading<Subject<Rule>>] = &holding(READINGS, [6, 8, 10]);
 
 const NO_CORNERS: Rule = Rule::REPAIRED.without(Corners);
 const NOT_ALONE: NamedRule<Subject<Rule>> =

@@ -1,6 +1,7 @@
 //! The checks of agents on small floors, whatever their scheme: which plans, how many agents, what they miss, whether
 //! they fail, and what is demanded of every state.
 
+use tautline_kernel::conditions;
 use tautline_kernel::ground::{Area as Rect, Cell};
 
 use super::look::Report;
@@ -46,34 +47,13 @@ pub(crate) const HOW_OFTEN: Ambiguity = Ambiguity {
     ],
 };
 
-/// The readings of the floor, which agents know nothing of.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Given {
-    /// Those of the published rule.
-    AsPublished,
-    /// The cell in which an agent starts counts nothing until the agent enters it.
-    UncountedStart,
-    /// In some cells, as many as sensors may be missed, sensors are always missed.
-    Dark,
-    /// Both.
-    DarkUncountedStart,
-}
-
-impl Given {
-    /// Whether some sensors are always missed.
-    pub(crate) const fn is_dark(self) -> bool {
-        match self {
-            Self::Dark | Self::DarkUncountedStart => true,
-            Self::AsPublished | Self::UncountedStart => false,
-        }
-    }
-
-    /// Whether the cells where agents start count nothing.
-    pub(crate) const fn is_uncounted(self) -> bool {
-        match self {
-            Self::UncountedStart | Self::DarkUncountedStart => true,
-            Self::AsPublished | Self::Dark => false,
-        }
+conditions! {
+    /// What is so on the floor by another reading than the published one; agents know nothing of it.
+    pub enum Given {
+        /// The cell in which an agent starts counts nothing until the agent enters it.
+        UncountedStart,
+        /// In some cells, as many as sensors may be missed, sensors are always missed.
+        Dark,
     }
 }
 
@@ -98,18 +78,18 @@ pub(crate) struct Subject<S> {
     /// The deception of whoever observes the agents.
     pub(crate) deception: Deception,
     /// The floor on which they are.
-    pub(crate) given: Given,
+    pub(crate) given: Conditions,
 }
 
 impl<S: Copy> Subject<S> {
     /// Agents that follow `scheme`.
     pub(crate) const fn of(scheme: S) -> Self {
-        Self { scheme, deception: Deception::None, given: Given::AsPublished }
+        Self { scheme, deception: Deception::None, given: Conditions::of(&[]) }
     }
 
     /// The agents on such a floor.
-    pub(crate) const fn on(self, given: Given) -> Self {
-        Self { given, ..self }
+    pub(crate) const fn on(self, given: &[Given]) -> Self {
+        Self { given: Conditions::of(given), ..self }
     }
 
     /// The agents, whose observer is deceived.
@@ -154,7 +134,7 @@ impl Series {
             (Deception::ActsAtOnce, Turns::Overlapping) => Self { turns: Turns::Free, ..self },
             (Deception::CountsNothing, _) => Self { most_crossings: Some(1), ..self },
             // Ants that go to and fro in the dark count up for ever; they come to no more elsewhere.
-            (Deception::None, _) if subject.given.is_dark() => {
+            (Deception::None, _) if subject.given.has(Given::Dark) => {
                 Self { most_crossings: Some(IN_THE_DARK), ..self }
             }
             (Deception::None | Deception::ActsAtOnce, _) => self,
@@ -164,7 +144,7 @@ impl Series {
         plans.sort_by_key(FloorPlan::barriers);
         let (given, most) = (subject.given, u32::from(self.max_misses));
         let team = move |plan: FloorPlan| {
-            let free = if given.is_dark() && most > 0 { plan.free } else { 0 };
+            let free = if given.has(Given::Dark) && most > 0 { plan.free } else { 0 };
             let dark = (0..=free).filter(move |dark| dark & !free == 0 && dark.count_ones() <= most);
             dark.map(move |dark| Team { plan, scheme, series, demand, given, dark })
         };

@@ -11,7 +11,7 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View, unseen};
 use super::plans::{Area, FloorPlan};
-use super::series::Given;
+use super::series::{Conditions, Given};
 use super::small::{Misses, PartOf, Small, StateOf};
 use crate::engine::states::{Bits, Places, Run, Step as Made, System};
 use crate::engine::world::{self, World, any_of, picked};
@@ -134,7 +134,7 @@ pub(crate) struct Team<S: Demands> {
     pub(crate) scheme: S,
     pub(crate) series: Series,
     pub(crate) demand: Demand<S::Own>,
-    pub(crate) given: Given,
+    pub(crate) given: Conditions,
     /// The cells whose sensors are always missed.
     pub(crate) dark: u16,
 }
@@ -157,7 +157,7 @@ impl<S: Demands> Team<S> {
     /// The start with the agents in these cells.
     fn start(&self, cells: &[Cell]) -> StateOf<S> {
         let mut state = StateOf::<S>::start(&self.scheme, &self.plan, cells);
-        if self.given.is_uncounted() {
+        if self.given.has(Given::UncountedStart) {
             state.sensors.count_to(0);
         }
         self.forget(&mut state);
@@ -367,7 +367,7 @@ impl<S: Demands> World for Team<S> {
         let (act, is_due) = if let Some(act) = body.pending.take() {
             (act, true)
         } else {
-            let most = if self.given.is_dark() { 0 } else { self.series.max_misses };
+            let most = if self.given.has(Given::Dark) { 0 } else { self.series.max_misses };
             let mut world = Misses::new(world, &mut state.misses, most);
             // The sensor underfoot is always found.
             floor.dark = self.dark & !self.plan.place(body.cell).map_or(0, |place| 1 << place);

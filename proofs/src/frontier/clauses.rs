@@ -15,7 +15,7 @@ use super::pairs;
 use super::place::{self, ErrorBudget};
 use super::readings::{PAPER, READINGS, adaptive};
 use super::world::Demand;
-use crate::clause::{Check, Clause, NamedRule, Reading, readings};
+use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::{EveryAnswer, EveryState, Verdict};
 use crate::local::EveryNumber;
 use crate::step_checks;
@@ -39,27 +39,16 @@ const NEIGHBOURS_ALONE: NamedRule<Rule> =
 const ADAPTIVE: NamedRule<Rule> = NamedRule::new("literal-T", adaptive(Rule::LITERAL));
 const NEVER_ADAPTED: NamedRule<Rule> = NamedRule::new("the threshold stays as it is given", Rule::LITERAL);
 
-/// The readings, of which those with these numbers hold and all others are refuted.
-const fn holding<const N: usize>(numbers: [usize; N]) -> [Reading<Rule>; 15] {
-    let mut all = readings(READINGS, [Verdict::Refuted; 15]);
-    let mut place = 0;
-    while place < N {
-        all[numbers[place]].expected = Verdict::Holds;
-        place += 1;
-    }
-    all
-}
-
-const REFUTED: [Reading<Rule>; 15] = holding([]);
+const REFUTED: [Reading<Rule>; 15] = holding(READINGS, []);
 /// Those as (11) is corrected: as it is printed, a robot alone never moves, so that nothing is shown.
 const MARKS: [Reading<Rule>; 7] =
     [REFUTED[0], REFUTED[1], REFUTED[2], REFUTED[7], REFUTED[8], REFUTED[9], REFUTED[10]];
 /// Robots that wander do not stop while a cell is left out, unless they go to no unexplored one.
-const COVERS: [Reading<Rule>; 15] = holding([0, 2]);
+const COVERS: [Reading<Rule>; 15] = holding(READINGS, [0, 2]);
 /// As (11) is printed, robots move only if they wander, and then to where others have started.
-const APART: [Reading<Rule>; 15] = holding([3, 5, 11, 13]);
+const APART: [Reading<Rule>; 15] = holding(READINGS, [3, 5, 11, 13]);
 /// Robots that go to no unexplored cell, at once or after a move, end unless they wander.
-const ENDS: [Reading<Rule>; 15] = holding([3, 4, 5, 6, 7, 9, 11, 12, 13, 14]);
+const ENDS: [Reading<Rule>; 15] = holding(READINGS, [3, 4, 5, 6, 7, 9, 11, 12, 13, 14]);
 
 /// One condition taken out of a rule, under its name.
 const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
@@ -199,10 +188,8 @@ step_checks! { Occupancy;
 /// Equation (11) with the distance to the nearest side of the cell.
 const SIDES: NamedRule<Occupancy> = NamedRule::new("sides", Occupancy::Rim);
 /// The readings of its distance but for the one to the midpoint: to the circle's rim it is the corrected equation.
-const OCCUPANCIES: [Reading<Occupancy>; 2] = readings(
-    [("circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)],
-    [Verdict::Holds, Verdict::Refuted],
-);
+const OCCUPANCIES: [Reading<Occupancy>; 2] =
+    holding([("circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)], [0]);
 
 /// The clauses.
 pub static CLAUSES: [Clause; 12] = [

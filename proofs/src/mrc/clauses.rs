@@ -10,7 +10,7 @@ use super::within::Within;
 use super::{Demand, Faults, Leases, LossKind, Misreading, Served, Setting, Subject, records};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
-use crate::clause::{Check, Clause, NamedRule, Reading, readings};
+use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::{EveryAnswer, Verdict};
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
@@ -138,24 +138,12 @@ const READINGS: [(&str, Subject); 9] = [
     CHOICES[3],
     ("window + answered + own", own(CHOICES[3].1)),
 ];
-const REFUTED: &[Reading<Subject>] = &readings(READINGS, [Verdict::Refuted; 9]);
-const HOLDS_IF_IT_STANDS: &[Reading<Subject>] = &readings(READINGS, {
-    let mut expected = [Verdict::Holds; 9];
-    expected[0] = Verdict::Refuted;
-    expected
-});
-const HOLDS_IN_A_WINDOW: &[Reading<Subject>] = &readings(READINGS, {
-    let mut expected = [Verdict::Refuted; 9];
-    expected.split_at_mut(5).1.copy_from_slice(&[Verdict::Holds; 4]);
-    expected
-});
+const REFUTED: &[Reading<Subject>] = &holding(READINGS, []);
+const HOLDS_IF_IT_STANDS: &[Reading<Subject>] = &holding(READINGS, [1, 2, 3, 4, 5, 6, 7, 8]);
+const HOLDS_IN_A_WINDOW: &[Reading<Subject>] = &holding(READINGS, [5, 6, 7, 8]);
 
 /// A WFR that is asked again by the robot that it has not chosen may have called anew since, and answers for that call.
-const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] = &readings(READINGS, {
-    let mut expected = [Verdict::Refuted; 9];
-    expected[7] = Verdict::Holds;
-    expected
-});
+const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] = &holding(READINGS, [7]);
 
 const REDECIDE: Subject = Subject::rescuing(Rule::REPAIRED.without(ChoiceStands));
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
@@ -270,7 +258,7 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
             &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(&readings(CHOICES, [Verdict::Refuted; 4]))
+                .under(&holding(CHOICES, []))
                 .of(&PAPER),
             &Check::new(PUBLISHED, &Within(Demand::IsServed, ALONE), Verdict::Refuted, &[])
                 .under(REFUTED)

@@ -5,7 +5,7 @@ use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastH
 use super::{Counted, Subject, networks, random};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
-use crate::clause::{Check, Clause, NamedRule, Reading, readings};
+use crate::clause::{Check, Clause, NamedRule, Reading, holding, readings};
 use crate::decide::{RandomAnswers, Verdict};
 use crate::step_checks;
 
@@ -15,7 +15,7 @@ const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::REPAIRE
 const PACKETS: [(&str, Subject); 1] =
     [("packets", Subject { counted: Counted::Packets, ..Subject::PUBLISHED })];
 const UNREFUTED: &[Reading<Subject>] = &readings(PACKETS, [Verdict::Unrefuted]);
-const REFUTED: &[Reading<Subject>] = &readings(PACKETS, [Verdict::Refuted]);
+const REFUTED: &[Reading<Subject>] = &holding(PACKETS, []);
 
 static PAPER: Paper = Paper {
     ambiguities: &[Ambiguity {

@@ -9,7 +9,7 @@ use super::swarm::{self, Best, Conduct};
 use super::way::{self, Way};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
-use crate::clause::{Check, Clause, NamedRule, readings};
+use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 
 const PUBLISHED: NamedRule<Way> = NamedRule::new("published", way::published);
@@ -128,7 +128,7 @@ pub static CLAUSES: [Clause; 7] = [
                 Verdict::Refuted,
                 &[],
             )
-            .under(&readings([("renamed", way::renamed as Way)], [Verdict::Holds]))
+            .under(&holding([("renamed", way::renamed as Way)], [0]))
             .of(&PAPER)
             .judged(lattice::exact),
             &Check::new(
@@ -141,7 +141,7 @@ pub static CLAUSES: [Clause; 7] = [
                 Verdict::Refuted,
                 &[],
             )
-            .under(&readings(OF_FOUR, [Verdict::Refuted, Verdict::Refuted, Verdict::Holds]))
+            .under(&holding(OF_FOUR, [2]))
             .of(&PAPER)
             .judged(lattice::exact_of_strongest),
             &Check::new(REPAIRED, &EXACT, Verdict::Holds, &INEXACT),
@@ -196,7 +196,7 @@ pub static CLAUSES: [Clause; 7] = [
         sentence: "When anchors are moved, turned and mirrored, positions MUST be moved, turned and mirrored with them.",
         checks: &[
             &Check::new(PUBLISHED, &FOLLOWS, Verdict::Refuted, &[])
-                .under(&readings([("renamed", way::renamed as Way)], [Verdict::Holds]))
+                .under(&holding([("renamed", way::renamed as Way)], [0]))
                 .of(&PAPER)
                 .judged(lattice::turned),
             &Check::new(REPAIRED, &FOLLOWS, Verdict::Holds, &UNMOVED),

@@ -3,9 +3,9 @@
 
 use tautline_kernel::kit::{Reach, Rule};
 
+use super::super::prelude::*;
 use super::lattice::FAMILIES;
-use super::{EXPLORED, Outcome, PATHS, Settings, driven, in_percent};
-use crate::tables::prelude::*;
+use super::{EXPLORED, Outcome, PATHS, Settings, driven, in_percent, is_any, until};
 use tautline_sim::kit::{Pace, starts};
 
 /// Ranges in paths, of 3 m each; `None` is the paper's 10 m.
@@ -94,9 +94,9 @@ impl Table for KitRange {
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Summary, Halt> {
         let mut lines = Vec::new();
         for (place, family) in FAMILIES.into_iter().enumerate() {
+            let here = at(&results, place);
             for (number, team) in teams().enumerate() {
-                let of_family = results.iter().filter(|(run, _)| run.at == place);
-                let outcomes: Vec<&Outcome> = of_family.filter_map(|(_, all)| all.get(number)).collect();
+                let outcomes: Vec<&Outcome> = here.iter().filter_map(|all| all.get(number)).collect();
                 lines.push(Line::of(family.name, team, &outcomes));
             }
         }
@@ -124,31 +124,21 @@ impl Table for KitRange {
 
     /// A repaired team always keeps within its range, and drives every path.
     fn is_broken(&self, merged: &Summary) -> bool {
-        let is_any = |share: Option<Estimate>| share.is_some_and(|share| share.mean > 0.0);
         merged.lines.iter().any(|line| is_any(line.cut) || is_any(line.ended))
     }
 }
 
 impl Line {
     fn of(family: &'static str, (robots, paths): Team, outcomes: &[&Outcome]) -> Self {
-        let path = |number: usize| {
-            mean(outcomes.iter().filter_map(|outcome| outcome.paths.get(number - 1)).map(|&end| seconds(end)))
-        };
-        let directions = |after: u32| {
-            let explored = |outcome: &&Outcome| {
-                2.0 * f64::from(
-                    outcome.paths.iter().filter(|&&end| end <= u64::from(after) * 1000).count() as u32
-                )
-            };
-            mean(outcomes.iter().map(explored))
-        };
+        let directions =
+            |after: u32| mean(outcomes.iter().map(|outcome| outcome.directions_by(u64::from(after) * 1000)));
         Self {
             family,
             robots,
             range_m: paths.map_or(10, |paths| 3 * paths),
             directions: AFTER.into_iter().filter_map(directions).collect(),
-            most: path(EXPLORED),
-            all: path(PATHS),
+            most: until(EXPLORED, outcomes),
+            all: until(PATHS, outcomes),
             cut: in_percent(outcomes, |outcome| outcome.is_cut),
             ended: in_percent(outcomes, |outcome| !outcome.is_whole()),
         }

@@ -182,23 +182,20 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         if !self.load(node..node + 1) {
             return false;
         }
-        let Self { parts, codes, places, width, shown, disk, on_disk, .. } = self;
-        let code = match node.checked_sub(*on_disk) {
-            Some(place) => codes.entry(place),
-            None => disk.as_ref().and_then(|disk| disk.code(node)).unwrap_or_default(),
-        };
-        if *places == 0 {
+        let mut shown = mem::take(&mut self.shown);
+        let (code, width) = (self.code(node).unwrap_or_default(), self.width);
+        if self.places == 0 {
             system.read(state, code);
-            return true;
         }
-        for place in 0..*places {
-            let number_in = |bytes: &[u8]| number(&bytes[place * *width..(place + 1) * *width]);
+        for place in 0..self.places {
+            let number_in = |bytes: &[u8]| number(&bytes[place * width..(place + 1) * width]);
             let number = number_in(code);
             if number != number_in(&shown.bytes) {
-                system.put(state, place, &parts.parts[number as usize]);
-                shown.put(place, *width, number);
+                system.put(state, place, &self.parts.parts[number as usize]);
+                shown.put(place, width, number);
             }
         }
+        self.shown = shown;
         true
     }
 

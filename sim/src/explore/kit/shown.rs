@@ -4,7 +4,7 @@
 use tautline_kernel::kit::Reach;
 
 use crate::explore::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
-use crate::kit::{Course, Drive, PATH_MILLIMETRES, REACH_MILLIMETRES};
+use crate::kit::{Course, Drive, PATH_MILLIMETRES, reach_millimetres};
 
 /// The places of the records and of the messages among the layers.
 const RECORDS: usize = 2;
@@ -34,10 +34,8 @@ pub(super) fn layers(reach: Reach) -> Vec<Layer> {
     const RECORD: &[Value] =
         &[Value { name: "driven", ink: Ink::Open }, Value { name: "seen blocked", ink: Ink::Wall }];
     let paths = if reach == Reach::PAPER { 0 } else { usize::from(reach.squared().isqrt()) };
-    let (metres, thousandths) = match paths {
-        0 => (REACH_MILLIMETRES / 1000, (REACH_MILLIMETRES * 1000 / PATH_MILLIMETRES) as u32),
-        paths => (paths as i64 * PATH_MILLIMETRES / 1000, paths as u32 * 1000),
-    };
+    let millimetres = reach_millimetres(reach);
+    let (metres, thousandths) = (millimetres / 1000, (millimetres * 1000 / PATH_MILLIMETRES) as u32);
     let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
     vec![
         layer(
