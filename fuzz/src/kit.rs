@@ -45,7 +45,7 @@ pub fn kit(bytes: &[u8]) {
     let mut oracle = Tape(&numbers);
     let rule = match oracle.pick(4) {
         0 => Rule::PUBLISHED,
-        1 => Rule { reach: Reach::of_paths(oracle.pick(2) as u16 + 2).expect("a reach"), ..Rule::REPAIRED },
+        1 => Rule { reach: Reach::of_paths(oracle.pick(4) as u16 + 2).expect("a reach"), ..Rule::REPAIRED },
         _ => Rule::REPAIRED,
     };
     message(&rule, &mut oracle);
