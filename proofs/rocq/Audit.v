@@ -8,7 +8,7 @@ From Tautline Require Heard Reach ChainEnds Reel Scripts ReelTie Admission Admis
   Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants ExplorersEndless Pack PackTie Trees TreesEnd TreesAlone TreesTie AloneTie
+  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants ExplorersEndless Pack PackTie Trees TreesEnd TreesAlone TreesOne TreesTie AloneTie
   Labels Turns Children Fixes FixesTie
   Sides Joint JointEnds JointTie Entering Fused FusedTie Patience PatienceTie.
 Local Open Scope nat_scope.
@@ -197,6 +197,8 @@ Check TreesEnd.BRICKS_6.
 Print Assumptions TreesEnd.BRICKS_6.
 Check TreesEnd.BRICKS_11.
 Print Assumptions TreesEnd.BRICKS_11.
+Check TreesOne.BRICKS_10.
+Print Assumptions TreesOne.BRICKS_10.
 Check TreesAlone.BRICKS_12.
 Print Assumptions TreesAlone.BRICKS_12.
 Check Children.BRICKS_13.
@@ -371,14 +373,16 @@ Check PackTie.kernel_runs_are_runs.
 Print Assumptions PackTie.kernel_runs_are_runs.
 Check TreesTie.kernel_trees_run.
 Print Assumptions TreesTie.kernel_trees_run.
+Check AloneTie.kernel_helpers_run.
+Print Assumptions AloneTie.kernel_helpers_run.
 Check AloneTie.kernel_helpers_alone.
 Print Assumptions AloneTie.kernel_helpers_alone.
 Check Labels.label_answers_agree.
 Print Assumptions Labels.label_answers_agree.
 Check Children.child_answers_agree.
 Print Assumptions Children.child_answers_agree.
-Check TreesTie.four_moves_are_not_enough.
-Print Assumptions TreesTie.four_moves_are_not_enough.
+Check TreesTie.four_moves_are_not_enough_for_brick_tree.
+Print Assumptions TreesTie.four_moves_are_not_enough_for_brick_tree.
 Check TreesTie.two_moves_are_not_enough_for_brick_tree.
 Print Assumptions TreesTie.two_moves_are_not_enough_for_brick_tree.
 

@@ -9,7 +9,6 @@ Section Helpers.
   Notation floor := (Trees.floor cell).
   Notation Wall := (Trees.Wall cell). Notation Open := (Trees.Open cell). Notation Visited := (Trees.Visited cell).
   Notation Unexplored := (Trees.Unexplored cell). Notation Explored := (Trees.Explored cell).
-  Notation accessible := (Trees.accessible cell).
 
   (** Nothing beside a cell is so. *)
   Definition none (f : floor) (c : cell) (P : note cell -> Prop) : Prop := forall d, beside c d -> ~ P (f d).
@@ -41,11 +40,9 @@ Section Helpers.
       none f c (child_of c) -> none f c (of_tree (lt m)) -> f c = Open m q -> becomes cell f c (Visited q) g ->
       helps f c m g q.
 
-  (** From a visited cell it goes to one that is not, or to where more was left, or is done. *)
+  (** From a visited cell it goes to where more was left, or is done. *)
   Inductive act (f : floor) (used : list nat) (c : cell) : floor -> list nat -> option cell -> Prop :=
-  | is_visited : forall e next, f c = Visited e ->
-      match next with Some d => beside c d /\ accessible f d \/ e = Some d | None => e = None end ->
-        act f used c f used next
+  | is_visited : forall e, f c = Visited e -> act f used c f used e
   | is_not : forall g used' m h next, joined f used c g used' m -> helps g c m h next -> act f used c h used' next.
 
   (** An agent alone, from one cell of an unexplored floor: the floor, the labels, where it is, and how many turns. *)
@@ -152,7 +149,7 @@ Section Helpers.
     intros f used at_ k A; induction A as [f s I F O | f used c g used' next k A [I [B S]] H].
     { split; [exact I|]. split; [|right; auto]. rewrite Nat.mul_comm; cbn [Nat.add]. apply Ants.sum_most.
       intros d _; destruct (f d); cbn; lia. }
-    destruct H as [e next F N | g used' m h next J H].
+    destruct H as [e F | g used' m h next J H].
     { exfalso; destruct S as [[m [l [C _ _ _]]]|[E _]]; [|congruence].
       destruct (chain_open f m _ c C (or_introl eq_refl)) as [q [F' _]]; congruence. }
     assert (inside g /\ turns_left g <= turns_left f /\ exists l, climbs g m (c :: l)) as [I' [T [l C]]].

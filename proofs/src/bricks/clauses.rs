@@ -15,7 +15,7 @@ use super::floors::{
 };
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
-use super::tree::{AmongChildren, Child, Own, labels};
+use super::tree::{Going, Own, To, labels};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
@@ -23,7 +23,7 @@ use crate::decide::Verdict;
 use crate::floor::series::Given::Dark;
 use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
-use crate::floor::team::{Demand, Demands, Series};
+use crate::floor::team::{Demand, Demands};
 use crate::step_checks;
 
 /// Agents that follow `scheme`, under this name.
@@ -122,6 +122,11 @@ const NO_EXITS: NamedRule<Subject<TreeRule>> =
 const PARENTS_MARKED: NamedRule<Subject<TreeRule>> =
     named("cells marked that have children", TreeRule::TREE.without(Childless));
 const BELIEVING: NamedRule<Subject<TreeRule>> = named("what is seen is believed", TreeRule::TREE);
+
+/// Helpers that go where `to` says.
+const fn going(name: &'static str, to: To) -> NamedRule<Subject<Going>> {
+    named(name, Going { rule: TreeRule::HELPERS, to })
+}
 
 /// The words for a rule without [`LowerOnly`].
 const TWICE_ADOPTED: &str = "cells of the same tree adopted once more";
@@ -316,15 +321,15 @@ pub static CLAUSES: [Clause; 15] = [
     },
     Clause {
         id: "BRICKS-10",
-        sentence: "As long as there has been one tree at most, an agent MUST make at most four moves a cell.",
-        checks: &[
-            &holds(
-                TREE,
-                &Floors::new(&COUNTED, own(Own::Bounded)),
-                &[named(TWICE_ADOPTED, TreeRule::TREE.without(LowerOnly))],
-            ),
-            &holds(HELPERS, &Floors::new(&COUNTED, own(Own::Bounded)), &[]),
-        ],
+        sentence: "As long as there has been one tree at most, an agent MUST make at most two moves a cell.",
+        checks: &[&holds(
+            going("helpers", To::Ruled),
+            &Floors::new(&COUNTED, own(Own::Bounded)),
+            &[
+                going("open cells beside a visited one before its parent", To::OpenBeside),
+                named(TWICE_ADOPTED, Going { rule: TreeRule::HELPERS.without(LowerOnly), to: To::Ruled }),
+            ],
+        )],
     },
     Clause {
         id: "BRICKS-11",
@@ -344,15 +349,8 @@ pub static CLAUSES: [Clause; 15] = [
                 &Floors::new(&ONE_COUNTED, own(Own::Twice)),
                 &[named(TWICE_ADOPTED, TreeRule::HELPERS.without(LowerOnly))],
             ),
-            &refuted(
-                TREE,
-                &Floors::broken_on(
-                    Series { area: BEHIND_A_WALL.area, ..ONE_COUNTED[0] },
-                    &ONE_COUNTED,
-                    own(Own::Twice),
-                ),
-            )
-            .because("the rule helpers makes no more than two"),
+            &refuted(TREE, &Floors::broken_on(BEHIND_A_WALL, &ONE_COUNTED, own(Own::Twice)))
+                .because("the rule helpers makes no more than two"),
         ],
     },
     Clause {
@@ -361,9 +359,9 @@ pub static CLAUSES: [Clause; 15] = [
         checks: &[
             &holds(TREE, &Floors::shared(&TREES, own(Own::LeastEntered)), &[]),
             &holds(
-                named("helpers", AmongChildren { rule: TreeRule::HELPERS, goes_to: Child::Ruled }),
+                going("helpers", To::Ruled),
                 &Floors::new(&THREE, own(Own::LeastEntered)),
-                &[named("the first child", AmongChildren { rule: TreeRule::HELPERS, goes_to: Child::First })],
+                &[going("the first child", To::FirstChild)],
             ),
         ],
     },

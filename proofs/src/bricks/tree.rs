@@ -15,7 +15,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Scan};
 use tautline_kernel::ground::{Cell, Side, Step};
 
-pub(super) use self::demands::{AmongChildren, Child, Own};
+pub(super) use self::demands::{Going, Own, To};
 use crate::floor::crew::{Scheme, SensorData, Sight};
 
 /// A rule by which agents search in trees.

@@ -185,12 +185,11 @@ fn back_to_work(view: &View) -> Option<Next> {
     beside(State::Explored).or_else(parent).or_else(|| beside(State::Open)).map(Next::Goes)
 }
 
-/// Where an agent goes from a cell that another one has marked. Only bricks have something unexplored beside them; elsewhere
-/// that is a sensor that was missed.
+/// Where an agent goes from a cell that another one has marked: through the side that the cell stores. So helpers with
+/// one tree go down to no cell twice (BRICKS-10). Agents that mark bricks look beside first: the side may lead far.
 fn follow(rule: Rule, view: &View) -> Next {
-    let way_on = view.way_on().filter(|_| rule.has(Condition::Bricks)).map(Next::Explores);
-    let on = way_on.or_else(|| back_to_work(view));
-    on.or_else(|| view.here.side.map(Next::Goes)).unwrap_or(Next::Done)
+    let beside = if rule.has(Condition::Bricks) { leave(view) } else { Next::Done };
+    if beside == Next::Done { view.here.side.map_or(Next::Done, Next::Goes) } else { beside }
 }
 
 /// The agent's action in a cell that it cannot mark as it stands, and whose sensor is to store `here`.

@@ -61,8 +61,8 @@ impl<T: TreeRule> Demands for T {
             ),
             Own::Rising => (!do_labels_rise(&state.sensors, plan), "labels never fall towards the root"),
             Own::Bounded => (
-                founded::<T>(state) <= 1 && is_beyond(4),
-                "with one tree an agent makes at most four moves a cell",
+                founded::<T>(state) <= 1 && is_beyond(2),
+                "with one tree an agent makes at most two moves a cell",
             ),
             Own::Twice => (is_beyond(2), "an agent alone makes at most two moves a cell"),
             Own::LeastEntered => return None,
@@ -117,23 +117,25 @@ fn goes_to_least_entered(view: &View, next: Next) -> bool {
     entered(view, side).is_none_or(|often| Some(often) == least)
 }
 
-/// A rule, and which one of several children its agents go to.
+/// A rule, and where its agents go to cells that they know.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(in crate::bricks) struct AmongChildren {
+pub(in crate::bricks) struct Going {
     pub(in crate::bricks) rule: Rule,
-    pub(in crate::bricks) goes_to: Child,
+    pub(in crate::bricks) to: To,
 }
 
-/// A child that an agent goes to.
+/// Where an agent goes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(in crate::bricks) enum Child {
-    /// The one that the rule says.
+pub(in crate::bricks) enum To {
+    /// Where the rule says.
     Ruled,
-    /// The first in the order of the compass: a mutant's.
-    First,
+    /// If to a child, to the first in the order of the compass: a mutant's.
+    FirstChild,
+    /// From a visited cell to the first open one beside it: a mutant's.
+    OpenBeside,
 }
 
-impl TreeRule for AmongChildren {
+impl TreeRule for Going {
     type Memory = Agent;
 
     fn memory(&self, id: u8) -> Agent {
@@ -142,13 +144,14 @@ impl TreeRule for AmongChildren {
 
     fn decide(&self, agent: &mut Agent, view: &View) -> Act {
         let mut act = agent.decide(self.rule, view);
+        let Next::Goes(side) = act.next else { return act };
         let is_child = |side: &Side| entered(view, *side).is_some();
-        if self.goes_to == Child::First
-            && let Next::Goes(side) = act.next
-            && is_child(&side)
-        {
-            act.next = Next::Goes(COMPASS.into_iter().find(is_child).unwrap_or(side));
-        }
+        let first = match self.to {
+            To::FirstChild if is_child(&side) => COMPASS.into_iter().find(is_child),
+            To::OpenBeside if view.here.state == State::Visited => view.trees().next().map(|(side, _)| side),
+            To::Ruled | To::FirstChild | To::OpenBeside => None,
+        };
+        act.next = Next::Goes(first.unwrap_or(side));
         act
     }
 
