@@ -145,10 +145,9 @@ fn drawn_run(rule: Rule, agents: usize, misses: u32, draw: &mut Draw, met: &mut 
     run(rule, floor, &starts, order, &mut eyes, met)
 }
 
-/// An order of two agents of brick-tree, in which the first makes more than four moves a cell of 6×2, though there is one
-/// tree; where they start, and the cells with a wall to the south.
-const MANY_MOVES: ([(i16, i16); 2], [(i16, i16); 2], &str) =
-    ([(3, 0), (0, 1)], [(1, 0), (4, 0)], "000000100000000000000110000000000001100000001000000000000");
+/// An order of two agents of brick-tree in 6×2 cells, in which the first makes more than four moves a cell, though there
+/// is one tree.
+const MANY_MOVES: &str = "000000100000000000000110000000000001100000001000000000000";
 
 /// The lowest `bits` of the labels of the first trees, of those around a byte more, and of the last ones, of agents
 /// with the least ids, those around half of them, and the greatest.
@@ -195,11 +194,10 @@ pub(super) fn terms() -> String {
     }
     assert_eq!(met.len(), 3, "{met:?}");
     let mut sees = Eyes::all();
-    let (starts, walls, order) = MANY_MOVES;
-    let is_wall = |edge: Edge| edge.side() == Side::South && walls.contains(&edge.cell().into());
-    let order = order.bytes().map(|digit| usize::from(digit - b'0'));
-    let floor_of_many = floor((6, 2), |_| true, is_wall);
-    let many = run(Rule::TREE, floor_of_many, &starts.map(Cell::from), order, &mut sees, &mut met);
+    let has_wall = |edge: Edge| edge.side() == Side::South && [(1, 0), (4, 0)].contains(&edge.cell().into());
+    let starts = [Cell::new(3, 0), Cell::new(0, 1)];
+    let order = MANY_MOVES.bytes().map(|digit| usize::from(digit - b'0'));
+    let many = run(Rule::TREE, floor((6, 2), |_| true, has_wall), &starts, order, &mut sees, &mut met);
     text += &definition("runs_of_many_moves", kind, &list([many]));
     let is_wall = |edge: Edge| edge == Edge::new(Cell::new(1, 0), Side::South);
     let alone = run(
