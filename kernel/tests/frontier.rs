@@ -70,10 +70,9 @@ fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) 
     let (at, aim) = team.robots[robot];
     let mut own = Robot::new(team.map, at, &[]);
     if let Some(aim) = aim {
-        // A robot that has arrived on its way keeps what it has claimed; it takes itself to be where it was.
+        // A robot that goes round a small obstacle keeps what it has claimed.
         own.tries(Side::East, aim);
-        own.looked(rule, Sight::Open);
-        own.arrived(&rule.without(Condition::Track), at);
+        own.looked(rule, Sight::Small);
     }
     let other = |&(cell, aim): &(Cell, Option<Cell>)| Other { cell, place: Place::midpoint(cell), aim };
     let others: Vec<Other> = team
@@ -142,6 +141,37 @@ fn a_robot_to_which_the_others_leave_no_cell_goes_to_the_nearest_or_stands_witho
 }
 
 #[test]
+fn a_robot_keeps_to_its_claim_and_goes_to_a_nearest_cell_once_it_has_met_another_one() {
+    // The other robot is nearer to the near cell.
+    let map = explored_but(&[(3, 1), (6, 6)]);
+    let (at, near, far) = (Cell::new(3, 4), Cell::new(3, 1), Cell::new(6, 6));
+    let goes = |rule: Rule, sight: Option<Sight>| {
+        let mut robot = Robot::new(map, at, &[]);
+        if let Some(sight) = sight {
+            robot.tries(Side::South, near);
+            robot.looked(&rule, sight);
+        }
+        let other = Cell::new(3, 2);
+        let others = [Other { cell: other, place: Place::midpoint(other), aim: None }];
+        let (mut reached, mut queue) =
+            ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
+        let (mut rounds, mut pairs) = (0, [None; 4]);
+        let mut scratch =
+            Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+        let view = View { others: &others, slot: Slot::Own };
+        match robot.next(&rule, view, &mut scratch, &mut Nth(0)) {
+            Next::Tries { aim, .. } => aim,
+            next @ (Next::Waits | Next::Stops | Next::Done) => panic!("{next:?}"),
+        }
+    };
+    let without = Rule::REPAIRED.without(Condition::Keep);
+    assert_eq!([goes(Rule::REPAIRED, None), goes(without, None)], [far, far]);
+    for sight in [Sight::Small, Sight::Robot] {
+        assert_eq!([goes(Rule::REPAIRED, Some(sight)), goes(without, Some(sight))], [near, far], "{sight:?}");
+    }
+}
+
+#[test]
 fn a_robot_goes_round_a_small_obstacle_with_its_claim_and_stores_it_only_without_detour() {
     let (here, east) = (Cell::new(3, 3), Cell::new(4, 3));
     let met = |rule: Rule| {
@@ -198,8 +228,8 @@ fn ways(map: &TinyMap, from: Cell) -> BTreeMap<Cell, u32> {
     ways
 }
 
-/// The aims of all robots: all pairs of all robots are compared.
-fn aims(team: &Team) -> Vec<Option<Cell>> {
+/// The aims of all robots, those with a claim without news, if they keep to it: all pairs of all robots are compared.
+fn aims(team: &Team, keep: bool) -> Vec<Option<Cell>> {
     let mut pairs = Vec::new();
     for (robot, &(at, aim)) in team.robots.iter().enumerate() {
         for (cell, distance) in ways(&team.map, at) {
@@ -221,7 +251,13 @@ fn aims(team: &Team) -> Vec<Option<Cell>> {
         }
     }
     let nearest = |robot: usize| pairs.iter().find(|pair| pair.1 == robot).map(|&(_, _, cell)| cell);
-    aims.iter().enumerate().map(|(robot, aim)| aim.or_else(|| nearest(robot))).collect()
+    let is_kept = |robot: usize, aim: &Cell| {
+        let (at, claimed) = team.robots[robot];
+        let ways = ways(&team.map, at);
+        !keep || claimed.and_then(|claimed| ways.get(&claimed)).is_none_or(|way| ways[aim] <= *way)
+    };
+    let aims = aims.into_iter().enumerate();
+    aims.map(|(robot, aim)| aim.filter(|aim| is_kept(robot, aim)).or_else(|| nearest(robot))).collect()
 }
 
 /// The sides through which a robot may go.
@@ -256,18 +292,20 @@ const TURNS: [fn(Cell) -> Cell; 3] = [
 proptest! {
     #[test]
     fn a_robot_finds_the_pair_that_comparing_all_pairs_finds(team in teams()) {
-        for (robot, aim) in aims(&team).into_iter().enumerate() {
-            let told = match next(&team, robot, &Rule::REPAIRED, 0) {
-                Next::Tries { aim, .. } => Some(aim),
-                Next::Waits | Next::Stops | Next::Done => None,
-            };
-            prop_assert_eq!(told, aim, "robot {} of {:?}", robot, team);
+        for (rule, keep) in [(Rule::REPAIRED, true), (Rule::REPAIRED.without(Condition::Keep), false)] {
+            for (robot, aim) in aims(&team, keep).into_iter().enumerate() {
+                let told = match next(&team, robot, &rule, 0) {
+                    Next::Tries { aim, .. } => Some(aim),
+                    Next::Waits | Next::Stops | Next::Done => None,
+                };
+                prop_assert_eq!(told, aim, "robot {} of {:?}", robot, team);
+            }
         }
     }
 
     #[test]
     fn robots_that_decide_alone_go_to_different_cells_while_there_are_enough(team in teams()) {
-        let aims = aims(&team);
+        let aims = aims(&team, false);
         let cells: BTreeSet<Cell> = team.robots.iter().flat_map(|&(at, _)| ways(&team.map, at).into_keys()).collect();
         let is_apart = aims.iter().flatten().collect::<BTreeSet<_>>().len() == aims.iter().flatten().count();
         let reach_all = team.robots.iter().all(|&(at, _)| ways(&team.map, at).len() == cells.len());

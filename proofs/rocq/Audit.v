@@ -8,7 +8,8 @@ From Tautline Require Heard Reach ChainEnds Reel Scripts ReelTie Admission Admis
   Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie
   MrcTie KitTie Local LocalChain Certificate Certified Ants Frontier Spread SpreadTie Machines Choices Asking Records
   Ways MachinesTie Homing HomingTie Refined
-  Explorers ExplorersEnd ExplorersTie AntsTie ExplorersMutants ExplorersEndless Pack PackTie Trees TreesEnd TreesAlone TreesOne TreesTie AloneTie
+  Explorers ExplorersEnd ExplorersKeep ExplorersTie AntsTie ExplorersMutants ExplorersEndless Pack PackTie Trees TreesEnd
+  TreesAlone TreesOne TreesTie AloneTie
   Labels Turns Children Fixes FixesTie
   Sides Joint JointEnds JointTie Entering Fused FusedTie Patience PatienceTie.
 Local Open Scope nat_scope.
@@ -155,8 +156,12 @@ Check ExplorersEnd.FRONTIER_3.
 Print Assumptions ExplorersEnd.FRONTIER_3.
 Check ExplorersEnd.plain_in_the_end_ends.
 Print Assumptions ExplorersEnd.plain_in_the_end_ends.
-Check ExplorersEndless.repaired_lasting.
-Print Assumptions ExplorersEndless.repaired_lasting.
+Check ExplorersKeep.keeping_ends.
+Print Assumptions ExplorersKeep.keeping_ends.
+Check ExplorersKeep.repaired_keeping.
+Print Assumptions ExplorersKeep.repaired_keeping.
+Check ExplorersKeep.FRONTIER_3.
+Print Assumptions ExplorersKeep.FRONTIER_3.
 Check Explorers.FRONTIER_4.
 Print Assumptions Explorers.FRONTIER_4.
 Check Explorers.FRONTIER_5.
@@ -279,8 +284,8 @@ Check Ants.published_breaks_ANTS_3.
 Print Assumptions Ants.published_breaks_ANTS_3.
 Check ExplorersMutants.without_Route_breaks_FRONTIER_1.
 Print Assumptions ExplorersMutants.without_Route_breaks_FRONTIER_1.
-Check ExplorersEndless.missed_messages_break_FRONTIER_3.
-Print Assumptions ExplorersEndless.missed_messages_break_FRONTIER_3.
+Check ExplorersEndless.without_Keep_breaks_FRONTIER_3.
+Print Assumptions ExplorersEndless.without_Keep_breaks_FRONTIER_3.
 Check Pack.published_breaks_PACK_1.
 Print Assumptions Pack.published_breaks_PACK_1.
 Check Fixes.without_its_bound_FRONTIER_6_breaks.

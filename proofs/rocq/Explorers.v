@@ -10,12 +10,12 @@ Import ListNotations.
 Inductive stance (V : Type) := Stands | Tries (v : V) | Enters (v : V).
 Arguments Stands {V}. Arguments Tries {V} v. Arguments Enters {V} v.
 
-(** A robot: its map, where it is, which cell it has claimed, whether it waits for its slot, and where the others have
-    said that they are and what they have claimed. *)
+(** A robot: its map, where it is, which cell it has claimed, whether it waits for its slot, whether its map has grown since
+    it looked last, and where the others have said that they are and what they have claimed. *)
 Record robot (V : Type) := { explored : list V; blocked : list V; place : V; doing : stance V; aim : option V;
-  waits : bool; told : nat -> V * option V }.
+  waits : bool; news : bool; told : nat -> V * option V }.
 Arguments explored {V} r. Arguments blocked {V} r. Arguments place {V} r. Arguments doing {V} r. Arguments aim {V} r.
-Arguments waits {V} r. Arguments told {V} r.
+Arguments waits {V} r. Arguments news {V} r. Arguments told {V} r.
 
 (** A rule says to which cells a robot may go next, each with the unknown cell that it has claimed then, and whether claims
     are told. *)
@@ -49,6 +49,7 @@ Section Area.
   Definition has (l : list V) (v : V) : bool := existsb (same v) l.
   Definition is_in (i : nat) (l : list nat) : bool := existsb (Nat.eqb i) l.
   Definition join (l m : list V) : list V := l ++ filter (fun v => negb (has l v)) m.
+  Definition grows_by (l m : list V) : bool := negb (forallb (has l) m).
   Definition some (f : nat -> bool) : bool := existsb f (seq 0 N).
   Definition put {A : Type} (f : nat -> A) (i : nat) (x : A) : nat -> A := fun j => if j =? i then x else f j.
 
@@ -77,6 +78,7 @@ Section Area.
     Definition hears (r : robot V) (from : nat) (said : robot V) : robot V :=
       {| explored := join (explored r) (explored said); blocked := join (blocked r) (blocked said);
          place := place r; doing := doing r; aim := aim r; waits := waits r;
+         news := news r || grows_by (explored r) (explored said) || grows_by (blocked r) (blocked said);
          told := put (told r) from (place said, aim said) |}.
     (** [i] tells all but those that miss it. *)
     Definition tells (f : nat -> robot V) (i : nat) (missed : list nat) : nat -> robot V :=
@@ -84,16 +86,17 @@ Section Area.
     Definition is_told (f : nat -> robot V) (i : nat) (by_ : list nat) : nat -> robot V :=
       put f i (fold_left (fun r j => hears r j (f j)) by_ (f i)).
 
+    (** Who has looked has no news any more. *)
     Definition becomes (r : robot V) (d : stance V) (a : option V) (wait : bool) : robot V :=
       {| explored := explored r; blocked := blocked r; place := place r; doing := d; aim := a; waits := wait;
-         told := told r |}.
+         news := match d with Tries _ => news r | Stands | Enters _ => false end; told := told r |}.
     Definition blocks (r : robot V) (v : V) : robot V :=
       {| explored := explored r; blocked := join (blocked r) [v]; place := place r; doing := Stands; aim := None;
-         waits := false; told := told r |}.
+         waits := false; news := grows_by (blocked r) [v]; told := told r |}.
     Definition lands (r : robot V) (v : V) : robot V :=
       {| explored := join (explored r) [v]; blocked := blocked r; place := v; doing := Stands;
          aim := match aim r with Some c => if claims rl && negb (same c v) then Some c else None | None => None end;
-         waits := waits r; told := told r |}.
+         waits := waits r; news := news r || grows_by (explored r) [v]; told := told r |}.
 
     (** Slots count while a robot waits. *)
     Definition settle (w : world V) : world V :=
@@ -197,22 +200,31 @@ Section Area.
         else paired turns u (filter (fun q => negb (same (seeks q) (seeks p)) && negb (same (sought q) (sought p))) ps)
     | _, _ => None
     end.
-  Definition REPAIRED : rule V :=
+  (** It goes to the cell of its pair, or to the one that comes first for it, if it has no pair, or if that is farther, without
+      news, than the cell that it has claimed, or than a nearest one if it has claimed none. *)
+  Definition PAIRED (keeps : bool) : rule V :=
     {| chooses := fun i r =>
          let own := pairs r (place r, aim r) in
          let all := flat_map (pairs r) (seekers i r) in
-         match (match paired N (place r) all with Some p => Some p | None => first own end) with
-         | Some p => match firsts r (sought p) with v :: _ => [(v, sought p)] | [] => [] end
+         match first own with
+         | Some f =>
+             let p := match paired N (place r) all with Some p => p | None => f end in
+             let kept := match aim r with Some a => a | None => sought f end in
+             let c := if keeps &&& negb (news r)
+                        &&& (far (explored r) (place r) kept <? far (explored r) (place r) (sought p))
+                      then sought f else sought p in
+             match firsts r c with v :: _ => [(v, c)] | [] => [] end
          | None => []
          end;
        claims := true |}.
+  Definition REPAIRED : rule V := PAIRED true.
   End Pairs.
 
   (** ** Runs. *)
   (** All robots start in different free cells, and know these. *)
   Definition begins (start : nat -> V) : world V :=
     {| robots := fun i => {| explored := map start (seq 0 N); blocked := []; place := start i; doing := Stands;
-         aim := None; waits := false; told := fun j => (start j, None) |};
+         aim := None; waits := false; news := true; told := fun j => (start j, None) |};
        been := map start (seq 0 N); slot := 0; old := []; tried := false |}.
   (** Of robots that there are not nothing is said. *)
   Definition alike (w w' : world V) : Prop :=
@@ -569,24 +581,67 @@ Section Area.
       apply firsts_some in J; destruct (firsts r c) as [|v m] eqn:F; [congruence|].
       assert (In (v, c) (chooses PLAIN i r)) as X by (apply plain_spec; rewrite F; cbn; auto). now rewrite E in X.
   Qed.
-  Theorem repaired_sensible : forall number rim, sensible (REPAIRED number rim).
+  (** The pair that comes first has a nearest cell. *)
+  Lemma first_nearest : forall number rim r f, first (pairs number rim r (place r, aim r)) = Some f -> In (sought f) (nearest r).
   Proof.
-    intros number rim.
-    assert (forall i r p, match paired N (place r) (flat_map (pairs number rim r) (seekers i r)) with
-      Some p => Some p | None => first (pairs number rim r (place r, aim r)) end = Some p ->
-      In (sought p) (targets r (place r))) as G.
-    { intros i r p E. destruct (paired _ _ _) as [q|] eqn:P.
-      - injection E as <-; apply paired_in in P; destruct P as [I S]; apply in_flat_map in I; destruct I as [s [_ I]].
-        apply in_map_iff in I; destruct I as [c [<- I]]; cbn in S |- *; now rewrite <- S.
-      - apply first_in, in_map_iff in E; destruct E as [c [<- I]]; exact I. }
-    split; intros i r; cbn [chooses REPAIRED]; [intros v c|]; destruct (match paired _ _ _ with Some _ => _ | None => _ end)
-      as [p|] eqn:P.
-    - destruct (firsts r (sought p)) as [|x l] eqn:F; [intros []|]. intros [E|[]]; injection E as -> <-.
-      assert (In v (firsts r (sought p))) as I by (rewrite F; cbn; auto). now apply firsts_spec in I.
-    - intros [].
-    - apply G, firsts_some in P; destruct (firsts r (sought p)); [congruence | discriminate].
-    - intros _; destruct (paired _ _ _); [discriminate|]. apply first_some in P; unfold pairs in P.
-      now apply map_eq_nil in P.
+    intros number rim r f E; set (d := fun p : pair => hd 0 (rank p)).
+    assert (forall ps m, (forall p, m = Some p \/ In p ps -> rank p <> []) -> fold_left (fun m p => match m with
+      Some q => if less (rank p) (rank q) then Some p else m | None => Some p end) ps m = Some f ->
+      forall q, m = Some q \/ In q ps -> d f <= d q) as Least.
+    { clear; induction ps as [|p ps IH]; intros m S E q H; cbn in E; [destruct H as [->|[]]; now injection E as ->|].
+      assert (forall x, m = Some x -> if less (rank p) (rank x) then d p <= d x else d x <= d p) as Le.
+      { intros x X; pose proof (S p (or_intror (or_introl eq_refl))) as Sp; pose proof (S x (or_introl X)) as Sx.
+        unfold d; destruct (rank p) as [|a l], (rank x) as [|b k]; try congruence; cbn [less hd].
+        destruct (a <? b) eqn:L; cbn [orb]; [apply Nat.ltb_lt in L; lia|]. apply Nat.ltb_ge in L.
+        destruct (a =? b) eqn:Eq; cbn [andb]; [apply Nat.eqb_eq in Eq; destruct (less l k); lia | exact L]. }
+      destruct m as [x|]; [specialize (Le x eq_refl); destruct (less (rank p) (rank x))|].
+      - assert (forall q, Some p = Some q \/ In q ps -> d f <= d q) as I
+          by (apply (IH (Some p)); [intros y [Y|Y]; apply S; [injection Y as ->; right; now left | right; now right] | exact E]).
+        specialize (I p (or_introl eq_refl)) as Ip. destruct H as [H|[<-|H]]; [injection H as <-; lia | exact Ip | auto].
+      - assert (forall q, Some x = Some q \/ In q ps -> d f <= d q) as I
+          by (apply (IH (Some x)); [intros y [Y|Y]; apply S; [now left | right; now right] | exact E]).
+        specialize (I x (or_introl eq_refl)) as Ix. destruct H as [H|[<-|H]]; [injection H as <-; exact Ix | lia | auto].
+      - assert (forall q, Some p = Some q \/ In q ps -> d f <= d q) as I
+          by (apply (IH (Some p)); [intros y [Y|Y]; apply S; [injection Y as ->; right; now left | right; now right] | exact E]).
+        destruct H as [H|[<-|H]]; [discriminate | auto | auto]. }
+    pose proof (first_in _ _ E) as I; apply in_map_iff in I; destruct I as [c [<- I]]; cbn [sought pair_of].
+    apply nearest_spec; split; [exact I|]; intros x J. refine (Least _ None _ E (pair_of number rim r (place r, aim r) x) _).
+    - intros p [X|X]; [discriminate | apply in_map_iff in X; destruct X as [y [<- _]]; discriminate].
+    - right; unfold pairs; now apply in_map.
+  Qed.
+  Lemma pair_left : forall number rim i r f, first (pairs number rim r (place r, aim r)) = Some f ->
+    In (sought (match paired N (place r) (flat_map (pairs number rim r) (seekers i r)) with Some p => p | None => f end))
+      (targets r (place r)).
+  Proof.
+    intros number rim i r f F; destruct (paired _ _ _) as [p|] eqn:P; [|apply first_nearest, nearest_spec in F; apply F].
+    apply paired_in in P; destruct P as [I S]; apply in_flat_map in I; destruct I as [s [_ I]].
+    apply in_map_iff in I; destruct I as [d [<- I]]; cbn in S |- *; now rewrite <- S.
+  Qed.
+  (** Where a robot goes: to a cell that is left, and, if it keeps to its claim, to none that is farther. *)
+  Lemma paired_spec : forall number rim k i r v c, In (v, c) (chooses (PAIRED number rim k) i r) ->
+    In c (targets r (place r)) /\ In v (firsts r c) /\ (k = true -> news r = false -> match aim r with
+      | Some a => In a (targets r (place r)) -> far (explored r) (place r) c <= far (explored r) (place r) a
+      | None => In c (nearest r) end).
+  Proof.
+    intros number rim k i r v c; cbn [chooses PAIRED]; destruct (first _) as [f|] eqn:F; [|intros []].
+    pose proof (pair_left number rim i r f F) as Ip; apply first_nearest, nearest_spec in F; destruct F as [If Nf].
+    set (p := match paired _ _ _ with Some p => p | None => f end) in *.
+    match goal with |- context [if ?x then sought f else sought p] => destruct x eqn:B end; rewrite ?lazy_and in B.
+    - destruct (firsts r (sought f)) as [|x l] eqn:Fi; [intros []|]; intros [E|[]]; injection E as -> <-.
+      split; [exact If|]; split; [rewrite Fi; now left|]. intros _ _; destruct (aim r); [now apply Nf | now apply nearest_spec].
+    - destruct (firsts r (sought p)) as [|x l] eqn:Fi; [intros []|]; intros [E|[]]; injection E as -> <-.
+      split; [exact Ip|]; split; [rewrite Fi; now left|]. intros -> Nw; rewrite Nw in B; cbn [negb andb] in B; apply Nat.ltb_ge in B.
+      destruct (aim r) as [a|]; [now intros _|]. apply nearest_spec; split; [exact Ip|]. intros x J; specialize (Nf _ J); lia.
+  Qed.
+  Theorem paired_sensible : forall number rim k, sensible (PAIRED number rim k).
+  Proof.
+    intros number rim k; split; intros i r.
+    - intros v c I; apply paired_spec in I; destruct I as [_ [I _]]; now apply firsts_spec in I.
+    - cbn [chooses PAIRED]; destruct (first _) as [f|] eqn:F; [|intros _; apply first_some in F; unfold pairs in F; now apply map_eq_nil in F].
+      pose proof (pair_left number rim i r f F) as Ip; apply firsts_some in Ip; apply first_nearest, nearest_spec in F.
+      destruct F as [If _]; apply firsts_some in If; intros E; exfalso; revert E.
+      match goal with |- context [if ?x then sought f else _] => destruct x end;
+        match goal with |- match firsts r ?c with _ => _ end = _ -> _ => destruct (firsts r c) end; congruence.
   Qed.
 
   Definition placed (r : robot V) : Prop := In (place r) cells /\ In (place r) (explored r)
@@ -650,7 +705,7 @@ Section Area.
     doing (robots w i) = Stands
     /\ forall c, way (explored (robots w i)) c (place (robots w i)) ->
          In c (explored (robots w i)) \/ In c (blocked (robots w i)).
-  Proof. intros number rim rl w [->| ->]; apply sensible_knows; [apply plain_sensible | apply repaired_sensible]. Qed.
+  Proof. intros number rim rl w [->| ->]; apply sensible_knows; [apply plain_sensible | apply paired_sensible]. Qed.
 
   (** FRONTIER-1: every cell that a robot can reach is explored when the run ends: a robot was there, and it knows that. *)
   Theorem FRONTIER_1 : forall number rim rl w, rl = PLAIN \/ rl = REPAIRED number rim -> run rl w -> ended rl w -> forall i, i < N ->
@@ -661,7 +716,7 @@ Section Area.
     assert (In v (explored (robots w i)) /\ forall c, way (explored (robots w i)) c v ->
       way (explored (robots w i)) c (place (robots w i))) as [X _]; [|exact X].
     induction J as [|v x J [IH Ways] B O].
-    - split; [|auto]. assert (sensible rl) as S by (destruct H as [->| ->]; [apply plain_sensible | apply repaired_sensible]).
+    - split; [|auto]. assert (sensible rl) as S by (destruct H as [->| ->]; [apply plain_sensible | apply paired_sensible]).
       now destruct (placed_always rl w S R i I) as [_ [P _]].
     - assert (In x (explored (robots w i))) as X.
       { destruct (FRONTIER_4 number rim rl w H R E i I) as [_ K]. destruct (K x) as [K'|K']; [apply Ways, way_last, B | exact K' |].

@@ -1,5 +1,5 @@
-(** FRONTIER-3 does not hold of the repaired rule where messages are missed: four robots of the kernel, of which two miss
-    what the other two find, have a run without an end. Each of the two waits for the other one to make way. *)
+(** The condition Keep is needed for FRONTIER-3 where messages are missed: four robots of the kernel, of which two miss what
+    the other two find, have a run without an end without it. Each of the two waits for the other one to make way. *)
 From Coq Require Import Lia Bool List Arith.
 From Tautline Require Import Explorers ExplorersEnd ExplorersTie.
 From Tautline.generated Require Import FrontierEndless.
@@ -11,7 +11,7 @@ Section Like.
 
   Definition like_robot (r r' : robot V) : Prop :=
     explored r = explored r' /\ blocked r = blocked r' /\ place r = place r' /\ doing r = doing r' /\ aim r = aim r'
-    /\ waits r = waits r' /\ forall j, j < N -> told r j = told r' j.
+    /\ waits r = waits r' /\ news r = news r' /\ forall j, j < N -> told r j = told r' j.
   Definition like_robots (f f' : nat -> robot V) : Prop := forall i, i < N -> like_robot (f i) (f' i).
   Definition like (w w' : world V) : Prop :=
     like_robots (robots w) (robots w') /\ slot w = slot w' /\ old w = old w' /\ tried w = tried w'.
@@ -51,7 +51,7 @@ Section Like.
   Lemma hears_like : forall r r' j s s', like_robot r r' -> like_robot s s' ->
     like_robot (hears V same r j s) (hears V same r' j s').
   Proof.
-    intros r r' j s s' [A [B [C [D [E [F G]]]]]] [A' [B' [C' [_ [E' _]]]]]; repeat split; cbn; try congruence.
+    intros r r' j s s' [A [B [C [D [E [F [Nw G]]]]]]] [A' [B' [C' [_ [E' _]]]]]; repeat split; cbn; try congruence.
     intros k K; unfold put; destruct (k =? j); [congruence | auto].
   Qed.
   Lemma put_like : forall f f' i r r', like_robots f f' -> like_robot r r' -> like_robots (put f i r) (put f' i r').
@@ -71,7 +71,7 @@ Section Like.
     destruct (some _ _); [exact L | split; [exact (proj1 L) | auto]].
   Qed.
   Lemma become_like : forall r r' d a b, like_robot r r' -> like_robot (becomes V r d a b) (becomes V r' d a b).
-  Proof. intros r r' d a b [A [B [C [D [E [F G]]]]]]; repeat split; auto. Qed.
+  Proof. intros r r' d a b [A [B [C [D [E [F [Nw G]]]]]]]; repeat split; auto; cbn; now rewrite Nw. Qed.
 
   (** The same event leads both to worlds that are alike so. *)
   Lemma next_like : forall w w' e x, like w w' -> slot w < N -> next V same obstacle N rl w e = Some x ->
@@ -84,13 +84,13 @@ Section Like.
       destruct (R i I) as [_ [_ [_ [_ [_ [<- _]]]]]]; split; [|auto]; cbn.
       destruct (claims rl); [apply tells_like; [|exact I]|]; (apply put_like; [exact R | apply become_like, R, I]).
     - destruct (i <? N) eqn:I; [apply Nat.ltb_lt in I | destruct (doing (robots w i)); discriminate].
-      destruct (R i I) as [A [B [C [D [F [W To]]]]]]; rewrite <- D. destruct (doing (robots w i)) as [|v|v]; try discriminate.
+      destruct (R i I) as [A [B [C [D [F [W [Nw To]]]]]]]; rewrite <- D. destruct (doing (robots w i)) as [|v|v]; try discriminate.
       destruct (negb _); [discriminate|]; rewrite <- (meets_like w w' i v L). destruct (meets V same N w i v) as [|k met] eqn:M.
       + injection E as <-; eexists; split; [reflexivity|]; apply settle_like; split; [|auto]; cbn; rewrite <- F.
         assert (like_robots (put (robots w) i (if obstacle v then blocks V same (robots w i) v else becomes V (robots w i) (Enters v) (aim (robots w i)) false))
           (put (robots w') i (if obstacle v then blocks V same (robots w' i) v else becomes V (robots w' i) (Enters v) (aim (robots w i)) false))) as P.
-        { apply put_like; [exact R|]; destruct (obstacle v); [|apply become_like, R, I]; repeat split; cbn [explored blocked place doing aim waits told blocks];
-            rewrite ?A, ?B; auto. }
+        { apply put_like; [exact R|]; destruct (obstacle v); [|apply become_like, R, I]; repeat split; cbn [explored blocked place doing aim waits news told blocks];
+            rewrite ?A, ?B, ?Nw; auto. }
         destruct (obstacle v); [now apply tells_like | exact P].
       + injection E as <-; eexists; split; [reflexivity|].
         rewrite <- (some_like (waiting V rl w) (waiting V rl w')) by (intros; now apply waiting_like).
@@ -98,30 +98,30 @@ Section Like.
         apply told_like; [|exact I | intros j J; apply filter_In in J; destruct J as [J _]; rewrite <- M in J; now apply meets_robots in J].
         apply tells_like, I; (apply put_like; [exact R | apply become_like, R, I]).
     - destruct (i <? N) eqn:I; [apply Nat.ltb_lt in I | destruct (doing (robots w i)); discriminate].
-      destruct (R i I) as [A [B [C [D [F [W To]]]]]]; rewrite <- D. destruct (doing (robots w i)) as [|v|v]; try discriminate.
+      destruct (R i I) as [A [B [C [D [F [W [Nw To]]]]]]]; rewrite <- D. destruct (doing (robots w i)) as [|v|v]; try discriminate.
       injection E as <-; eexists; split; [reflexivity|]; apply settle_like; split; [|auto]; cbn.
       apply tells_like, I; apply put_like; [exact R|]; unfold lands; repeat split;
-        cbn [explored blocked place doing aim waits told]; rewrite ?A, ?B, ?C, ?F; auto.
+        cbn [explored blocked place doing aim waits news told]; rewrite ?A, ?B, ?C, ?F, ?Nw; auto.
     - rewrite <- (may_tick_like w w' L Sl); destruct (may_tick _ _ _ _); [|discriminate]; injection E as <-.
       eexists; split; [reflexivity|]; split; [exact R|]; cbn; rewrite <- S; repeat split; auto.
       apply filter_ext_in; intros j J; apply in_seq in J; apply moves_like; [exact L | lia].
   Qed.
   Lemma like_sym : forall w w', like w w' -> like w' w.
   Proof.
-    intros w w' [R [S [O T]]]; repeat split; auto; destruct (R i H) as [A [B [C [D [E [F G]]]]]]; auto. intros j J; symmetry; auto.
+    intros w w' [R [S [O T]]]; repeat split; auto; destruct (R i H) as [A [B [C [D [E [F [Nw G]]]]]]]; auto. intros j J; symmetry; auto.
   Qed.
   Lemma like_trans : forall w x y, like w x -> like x y -> like w y.
   Proof.
     intros w x y [R [S [O T]]] [R' [S' [O' T']]]; split; [|repeat split; congruence]; intros i I.
-    destruct (R i I) as [A [B [C [D [E [F G]]]]]], (R' i I) as [A' [B' [C' [D' [E' [F' G']]]]]]; repeat split; try congruence.
+    destruct (R i I) as [A [B [C [D [E [F [Nw G]]]]]]], (R' i I) as [A' [B' [C' [D' [E' [F' [Nw' G']]]]]]]; repeat split; try congruence.
     intros j J; rewrite G, G'; auto.
   Qed.
 End Like.
 
-Lemma repaired_like : forall V same cells beside N number rim i r r', like_robot V N r r' ->
-  chooses (REPAIRED V same cells beside N number rim) i r = chooses (REPAIRED V same cells beside N number rim) i r'.
+Lemma paired_like : forall V same cells beside N number rim k i r r', like_robot V N r r' ->
+  chooses (PAIRED V same cells beside N number rim k) i r = chooses (PAIRED V same cells beside N number rim k) i r'.
 Proof.
-  intros V same cells beside N number rim i r r' [A [B [C [D [E [F G]]]]]].
+  intros V same cells beside N number rim k i r r' [A [B [C [D [E [F [Nw G]]]]]]].
   assert (seekers V same N i r = seekers V same N i r') as S.
   { unfold seekers; rewrite C, E. assert (forall j, In j (seq 0 N) -> told r j = told r' j) as K
       by (intros j J; apply in_seq in J; apply G; lia).
@@ -133,19 +133,8 @@ Proof.
   { intros s; unfold pairs; rewrite T; apply map_ext; intros c; unfold pair_of; now rewrite A, B. }
   assert (forall c, firsts V same cells beside r c = firsts V same cells beside r' c) as Fi
     by (intros c; unfold firsts; now rewrite A, C).
-  cbn [chooses REPAIRED]; rewrite S, P, C, E, (flat_map_ext _ _ P).
-  destruct (match paired _ _ _ _ _ with Some _ => _ | None => _ end); [now rewrite Fi | reflexivity].
-Qed.
-
-(** Repaired robots, too, go as long as they know a way to an unknown cell, and no longer. *)
-Theorem repaired_lasting : forall V same cells beside N number rim, (forall a b : V, same a b = true <-> a = b) ->
-  (forall u v : V, In v (beside u) -> In v cells) -> lasting V same cells beside (REPAIRED V same cells beside N number rim).
-Proof.
-  intros V same cells beside N number rim S B; split; [now apply repaired_sensible|]. intros i r T; cbn [chooses REPAIRED].
-  assert (pairs V same cells beside number rim r (place r, aim r) = []) as -> by (unfold pairs; cbn [fst]; now rewrite T).
-  destruct (paired _ _ _ _ _) as [p|] eqn:P; [exfalso | reflexivity]. apply (paired_in V same cells beside S B) in P; destruct P as [I E].
-  apply in_flat_map in I; destruct I as [s [_ I]]; apply in_map_iff in I; destruct I as [c [<- I]]; cbn in E.
-  rewrite E, T in I; exact I.
+  cbn [chooses PAIRED]; rewrite S, P, A, C, E, Nw, (flat_map_ext _ _ P).
+  destruct (first V _); [now rewrite Fi | reflexivity].
 Qed.
 
 (** ** The run. *)
@@ -157,7 +146,7 @@ Section Lasso.
 
   (** What a robot decides by, and a slot; as data. *)
   Definition shown_robot (r : robot nat) :=
-    (explored r, blocked r, place r, doing r, aim r, waits r, map (told r) (seq 0 N)).
+    (explored r, blocked r, place r, doing r, aim r, waits r, news r, map (told r) (seq 0 N)).
   Definition shown (w : world nat) := (map (fun i => shown_robot (robots w i)) (seq 0 N), slot w, old w, tried w).
   Lemma map_all : forall (A : Type) (f g : nat -> A), map f (seq 0 N) = map g (seq 0 N) -> forall i, i < N -> f i = g i.
   Proof.
@@ -167,7 +156,7 @@ Section Lasso.
   Lemma shown_like : forall w w', shown w = shown w' -> like w w'.
   Proof.
     intros w w' E; unfold shown in E; injection E as E S O T; repeat split; auto; pose proof (map_all _ _ _ E i H) as R;
-      unfold shown_robot in R; injection R as A B C D F G To; auto; exact (map_all _ _ _ To).
+      unfold shown_robot in R; injection R as A B C D F G Nw To; auto; exact (map_all _ _ _ To).
   Qed.
 
   (** Worlds, the events between them, and the last event leads back. *)
@@ -228,12 +217,12 @@ Section Lasso.
   Qed.
 End Lasso.
 
-Definition circle_story : story := snd endless_REPAIRED.
+Definition circle_story : story := snd endless_without_Keep.
 Definition circle : list (event nat) := map snd circle_story.
-Notation rl_ := (repaired 4 3 4).
+Notation rl_ := (without_Keep 4 3 4).
 Notation next_ := (next nat Nat.eqb (obstacle [0]) 4 rl_).
 (** Where the kernel's run comes to its circle. *)
-Notation at_last := (replay [0] 4 rl_ (begins_in 4 [9; 10; 5; 2]) (snd (fst endless_REPAIRED))).
+Notation at_last := (replay [0] 4 rl_ (begins_in 4 [9; 10; 5; 2]) (snd (fst endless_without_Keep))).
 (** The world before each event. *)
 Fixpoint passes (w : world nat) (es : list (event nat)) : list (world nat) :=
   match es with
@@ -254,7 +243,7 @@ Section Circle.
 End Circle.
 
 (** The kernel's run comes to its circle, by the rule in each state, and passes it. *)
-Lemma begins_so : fst (fst (fst endless_REPAIRED)) = ((4, 4, 3), [0]) /\ snd (fst (fst endless_REPAIRED)) = [9; 10; 5; 2].
+Lemma begins_so : fst (fst (fst endless_without_Keep)) = ((4, 4, 3), [0]) /\ snd (fst (fst endless_without_Keep)) = [9; 10; 5; 2].
 Proof. split; reflexivity. Qed.
 Lemma circle_comes_back : match at_last with
   | Some w => match replay [0] 4 rl_ w circle_story with Some _ => True | None => False end /\ comes_back (passes w circle)
@@ -265,14 +254,14 @@ Proof. vm_compute; repeat split. Qed.
 Lemma some_shown : forall (o : option (world nat)) y, option_map (shown 4) o = Some y -> exists x, o = Some x /\ shown 4 x = y.
 Proof. intros [x|] y E; [|discriminate]; exists x; split; [reflexivity|]; cbn in E; congruence. Qed.
 
-Theorem missed_messages_break_FRONTIER_3 : exists s e,
-  endless nat Nat.eqb (cells 4 3) (obstacle [0]) 4 (repaired 4 3 4) s e /\ fair nat 4 (repaired 4 3 4) s e
+Theorem without_Keep_breaks_FRONTIER_3 : exists s e,
+  endless nat Nat.eqb (cells 4 3) (obstacle [0]) 4 (without_Keep 4 3 4) s e /\ fair nat 4 (without_Keep 4 3 4) s e
   /\ at_last = Some (s 0) /\ forall n, e n = nth (n mod length circle) circle Ticks /\ missed nat (e n) = false.
 Proof.
   pose proof circle_comes_back as C; destruct at_last as [w|] eqn:A; [|destruct C]. destruct C as [_ [C1 [C2 C3]]].
   set (ws := passes w circle) in *. assert (0 < length circle) as P by (vm_compute; repeat constructor).
   assert (nth 0 ws (begins nat 4 (fun i => i)) = w) as F by reflexivity. clearbody ws.
-  destruct (lasso (obstacle [0]) 4 rl_ (repaired_like nat Nat.eqb (cells 4 3) (beside 4 3) 4 (fun c => c) (rim 4 3)) ws circle P) with (cells := cells 4 3) as [G H].
+  destruct (lasso (obstacle [0]) 4 rl_ (paired_like nat Nat.eqb (cells 4 3) (beside 4 3) 4 (fun c => c) (rim 4 3) false) ws circle P) with (cells := cells 4 3) as [G H].
   - intros k K; split.
     + rewrite forallb_forall in C2; apply Nat.ltb_lt, (C2 k), in_seq; lia.
     + pose proof (map_all _ _ _ _ C1 k K) as E; unfold nth_world, nth_event in E.

@@ -19,13 +19,14 @@ Section Floor.
 
   Definition plain : rule nat := PLAIN nat Nat.eqb cells beside.
   Definition repaired : rule nat := REPAIRED nat Nat.eqb cells beside N (fun c => c) rim.
+  Definition without_Keep : rule nat := PAIRED nat Nat.eqb cells beside N (fun c => c) rim false.
 
   Section Rule.
     Variable rl : rule nat.
 
     (** The same state, with the robots in a list, so that it is computed once. *)
     Definition listed (w : world nat) : world nat :=
-      let l := map (robots w) (seq 0 N) in with_robots nat w (fun i => nth i l (robots w 0)).
+      match map (robots w) (seq 0 N) with [] => w | r :: l => with_robots nat w (fun i => nth i (r :: l) r) end.
     (** Who may go where. *)
     Definition might (w : world nat) : list (nat * nat) :=
       flat_map (fun i => if may_decide nat rl w i then map (fun p => (i, fst p)) (chooses rl i (robots w i)) else [])
@@ -54,7 +55,9 @@ Section Floor.
 
     Lemma listed_alike : forall w, alike nat N w (listed w).
     Proof.
-      intros w; repeat split; cbn; intros i I; now rewrite map_nth, seq_nth.
+      intros w; unfold listed; destruct (map (robots w) (seq 0 N)) as [|r l] eqn:E; [repeat split|].
+      repeat split; cbn [robots with_robots]; intros i I. rewrite <- E, (nth_indep _ r (robots w 0)) by (rewrite map_length, seq_length; exact I).
+      now rewrite map_nth, seq_nth.
     Qed.
     Lemma replay_runs : forall s w x, run nat Nat.eqb cells obstacle N rl w -> replay w s = Some x ->
       run nat Nat.eqb cells obstacle N rl x.
@@ -117,13 +120,15 @@ Definition is_run (rl : nat -> nat -> nat -> rule nat) (r : run_of_kernel) : boo
 
 Definition plain_of (n columns rows : nat) : rule nat := plain columns rows.
 Definition repaired_of (n columns rows : nat) : rule nat := repaired columns rows n.
+Definition without_Keep_of (n columns rows : nat) : rule nat := without_Keep columns rows n.
 Definition runs_of_kernel : list ((nat -> nat -> nat -> rule nat) * list run_of_kernel) :=
   [(plain_of, runs_PLAIN); (repaired_of, runs_REPAIRED)].
 
-(** Each run is one by its rule, and those of one rule are none by the other one. *)
+(** Each run is one by its rule, those of one rule are none by the other one, and the last one is none without Keep. *)
 Lemma all_are_runs : forallb (fun rs => forallb (is_run (fst rs)) (snd rs)) runs_of_kernel = true
-  /\ forallb (is_run repaired_of) runs_PLAIN = false /\ forallb (is_run plain_of) runs_REPAIRED = false.
-Proof. repeat split; vm_compute; reflexivity. Qed.
+  /\ forallb (is_run repaired_of) runs_PLAIN = false /\ forallb (is_run plain_of) runs_REPAIRED = false
+  /\ match rev runs_REPAIRED with r :: _ => is_run without_Keep_of r = false | [] => False end.
+Proof. split; [|split; [|split]]; vm_compute; reflexivity. Qed.
 
 Theorem kernel_runs_are_runs : forall rl rs n columns rows obstacles starts s known, In (rl, rs) runs_of_kernel ->
   In ((n, columns, rows), obstacles, starts, s, known) rs ->

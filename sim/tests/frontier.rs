@@ -326,6 +326,40 @@ fn hungarian_assignment_anew_at_every_move_ends_in_larger_layouts() {
     assert_eq!(end_of_runs_with_assignments_anew(500), 56_000);
 }
 
+/// The team moves of repaired robots with Keep, those that they take more without it, and in how many of so many runs these
+/// differ, for each of several sizes and shares of blocked cells. All starts are anywhere.
+fn moves_with_keep(layouts: u64) -> (usize, isize, usize) {
+    let (mut moves, mut more, mut differing) = (0, 0, 0);
+    for cells in ["6x7:0.1", "6x7:0.3", "12x14:0.1", "12x14:0.3"] {
+        let generator: Generator = format!("cells:{cells}").parse().expect("a generator");
+        for seed in 0..layouts {
+            let layout = generator.generate(seed).expect("a layout");
+            for robots in [2, 4, 8] {
+                let starts = any_starts(&layout, robots, &mut SeededOracle::new(seed, robots as u64));
+                let [with, without] = [Rule::REPAIRED, Rule::REPAIRED.without(Condition::Keep)].map(|rule| {
+                    let mut team = Explorers::new(rule, &layout, &starts, Options::USUAL, seed);
+                    (0..).find(|_| team.advance().is_err()).expect("every run ends")
+                });
+                moves += with;
+                more += without as isize - with as isize;
+                differing += usize::from(with != without);
+            }
+        }
+    }
+    (moves, more, differing)
+}
+
+#[test]
+fn keep_costs_next_to_nothing() {
+    assert_eq!(moves_with_keep(2), (994, 0, 0));
+}
+
+#[test]
+#[ignore = "6 s of a core: cargo test -p tautline-sim --test all keep_costs -- --ignored"]
+fn keep_costs_next_to_nothing_in_many_layouts() {
+    assert_eq!(moves_with_keep(100), (49_119, 17, 2));
+}
+
 #[test]
 #[ignore = "46 s of a core, and published maps: cargo test -p tautline-sim --release --test all published_maps -- --ignored --nocapture"]
 fn eight_robots_explore_published_maps() {

@@ -163,6 +163,8 @@ pub(super) struct Pairing<'a, 'm, M, I> {
     pub(super) map: &'a M,
     pub(super) rule: &'a Rule,
     pub(super) own: Seeker,
+    /// Whether its way must not be longer than the one to the cell it has claimed, or to a nearest one if it has claimed none.
+    pub(super) is_bound: bool,
     pub(super) others: I,
     pub(super) memory: Search<'m>,
     pub(super) pairs: &'a mut List,
@@ -186,11 +188,23 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
             first = first.or_else(|| list.first().copied().flatten().map(|pair| pair.found()));
             level = next;
             let filled = self.fill_others(each, level);
-            let paired = self.paired(filled);
-            if paired.is_some() {
-                return paired.map(Way::Paired);
+            if let Some(paired) = self.paired(filled) {
+                let near = first.filter(|first| self.is_bound && self.is_within(paired.distance, first));
+                return Some(near.map_or(Way::Paired(paired), Way::Near));
             }
         }
+    }
+
+    /// Whether the cell that the robot has claimed, or the `first` one if it has claimed none, is nearer than `distance`.
+    fn is_within(&mut self, distance: u32, first: &Target) -> bool {
+        let (cell, mut is_nearer) = (self.own.aim.unwrap_or(first.cell), false);
+        if first.distance < distance {
+            search(self.map, self.own.cell, distance - 1, &mut self.memory, |found| {
+                is_nearer = found.cell == cell;
+                if is_nearer { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+        }
+        is_nearer
     }
 
     /// Adds a list for each other robot that may be as near to a cell of the lists as the robots that these are of, and returns how

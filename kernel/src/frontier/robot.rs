@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::map::{BY_NUMBER, Map, Status};
+use super::map::{BY_NUMBER, Map, Status, TinyMap};
 use super::pairs::{Pairing, Scratch, Seeker};
 use super::place::{Place, Threshold};
 use super::rule::{Basis, Condition, Otherwise, Rule, Ties};
@@ -96,6 +96,8 @@ pub struct Robot<M> {
     stance: Stance,
     aim: Option<Cell>,
     waits: bool,
+    /// Whether it has learned anything since it last looked, or will have when it arrives, as far as its rule asks for that.
+    has_news: bool,
     /// The threshold of its next decision, if its rule bases it on the last one.
     threshold: Option<Threshold>,
 }
@@ -107,7 +109,15 @@ impl<M: Map> Robot<M> {
             map.explore(cell);
         }
         map.explore(start);
-        Self { map, at: start, stance: Stance::Stands, aim: None, waits: false, threshold: None }
+        Self {
+            map,
+            at: start,
+            stance: Stance::Stands,
+            aim: None,
+            waits: false,
+            has_news: true,
+            threshold: None,
+        }
     }
 
     /// The robot's map.
@@ -115,7 +125,7 @@ impl<M: Map> Robot<M> {
         &self.map
     }
 
-    /// The robot's map, to be joined with the maps that it hears.
+    /// The robot's map; it has no news of what is changed there.
     pub const fn map_mut(&mut self) -> &mut M {
         &mut self.map
     }
@@ -171,7 +181,7 @@ impl<M: Map> Robot<M> {
             (None, _) => Next::Done,
             (Some(_), Slot::Others) if self.waits => Next::Waits,
             (Some(Way::Taken(_)), _) if !rule.has(Condition::Lapse) => Next::Waits,
-            (Some(Way::Paired(to) | Way::Taken(to)), Slot::Own | Slot::Others) => {
+            (Some(Way::Paired(to) | Way::Taken(to) | Way::Near(to)), Slot::Own | Slot::Others) => {
                 Next::Tries { side: to.first, aim: to.cell }
             }
         }
@@ -229,7 +239,12 @@ impl<M: Map> Robot<M> {
         let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
         let others = others.iter().map(|other| Seeker { cell: other.cell, aim: other.aim });
         let (memory, pairs) = scratch.parts();
-        Pairing { map: &self.map, rule, own, others, memory, pairs }.found()
+        Pairing { map: &self.map, rule, own, is_bound: self.is_bound(rule), others, memory, pairs }.found()
+    }
+
+    /// Whether it goes to no cell that is farther than the one it has claimed, or than a nearest one if it has claimed none.
+    pub const fn is_bound(&self, rule: &Rule) -> bool {
+        rule.has(Condition::Keep) && !self.has_news
     }
 
     /// Any of the first moves of the shortest ways to the nearest unexplored cells.
@@ -264,6 +279,8 @@ impl<M: Map> Robot<M> {
     pub fn looked(&mut self, rule: &Rule, sight: Sight) {
         let Stance::Tries(side) = self.stance else { return };
         let cell = self.at.beyond(side);
+        let is_new = sight == Sight::Open && self.map.status(cell) != Status::Explored;
+        self.has_news = is_new || !rule.has(Condition::Keep);
         let is_obstacle = match sight {
             Sight::Open => {
                 self.stance = Stance::Enters(side);
@@ -279,7 +296,7 @@ impl<M: Map> Robot<M> {
             Sight::Robot => !rule.has(Condition::Tell),
         };
         if is_obstacle && rule.has(Condition::Record) {
-            self.map.block(cell);
+            self.hears(cell, Status::Obstacle);
         }
         self.stance = Stance::Stands;
         self.aim = None;
@@ -292,16 +309,27 @@ impl<M: Map> Robot<M> {
         self.at = if rule.has(Condition::Track) { self.at.beyond(side) } else { fix };
         self.stance = Stance::Stands;
         self.aim = self.aim.filter(|&aim| rule.has(Condition::Claim) && aim != self.at);
-        self.map.explore(self.at);
+        self.hears(self.at, Status::Explored);
     }
 
     /// It hears that `cell` has this status.
     pub fn hears(&mut self, cell: Cell, status: Status) {
+        let before = self.map.status(cell);
         match status {
             Status::Unexplored => {}
             Status::Explored => self.map.explore(cell),
             Status::Obstacle => self.map.block(cell),
         }
+        self.has_news |= self.map.status(cell) != before;
+    }
+}
+
+impl Robot<TinyMap> {
+    /// It hears all that another one knows.
+    pub fn hears_all(&mut self, known: &TinyMap) {
+        let before = self.map;
+        self.map.join(known);
+        self.has_news |= self.map != before;
     }
 }
 

@@ -52,6 +52,10 @@ conditions! {
         /// Repair: what the others have told lapses for a robot to which they leave no cell, since it may be old: the robot
         /// goes to the cell that comes first for it. Without it the robot stands until it hears more.
         Lapse,
+        /// Repair: a robot that has learned nothing since it last looked goes to no cell that is farther than the one it has
+        /// claimed, and to a nearest one if it has claimed none, as after it has met another robot. So each move leads
+        /// nearer to a cell that is left, whatever the others have told.
+        Keep,
     }
 }
 
@@ -172,5 +176,6 @@ impl Rule {
             .without(Condition::Claim)
             .without(Condition::Corner)
             .without(Condition::Lapse)
+            .without(Condition::Keep)
     };
 }

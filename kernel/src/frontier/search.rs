@@ -48,6 +48,8 @@ pub enum Way {
     Paired(Target),
     /// All cells are the others', and this one comes first for the robot.
     Taken(Target),
+    /// The cell of the robot's pair is farther than the robot may go, and this one comes first for it.
+    Near(Target),
 }
 
 /// Tells of the unexplored cells that are reached from `from` through explored ones in at most so many moves, the nearest first,

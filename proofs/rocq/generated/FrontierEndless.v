@@ -3,7 +3,7 @@ From Coq Require Import ZArith NArith List.
 Import ListNotations.
 
 From Tautline Require Import Explorers.
-Definition endless_REPAIRED : (nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)
+Definition endless_without_Keep : (nat * nat * nat) * list nat * list nat * list (list (nat * nat) * bool * event nat)
   * list (list (nat * nat) * bool * event nat) := ((4,4,3),[0],[9;10;5;2],
   [([(0,8);(1,11);(2,6);(3,1)],false,Decides 0 8 8 []);([(1,11);(2,6);(3,1)],false,Looks 0 [] [] 0);
   ([(1,11);(2,6);(3,1)],false,Decides 1 11 11 []);([(2,6);(3,1)],false,Arrives 0 []);

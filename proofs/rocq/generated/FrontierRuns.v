@@ -250,4 +250,28 @@ Definition runs_REPAIRED : list ((nat * nat * nat) * list nat * list nat * list 
   ([(2,3)],false,Decides 2 3 3 []);([],false,Arrives 0 []);([(0,3)],false,Decides 0 3 3 []);
   ([],false,Looks 2 [] [] 0);([],false,Arrives 1 []);([(1,1)],false,Decides 1 1 3 []);([],false,Looks 1 [] [] 0);
   ([],false,Arrives 1 []);([(1,2)],false,Decides 1 2 3 []);([],false,Looks 0 [] [] 0);([],false,Looks 1 [] [] 0)],
-  [([0;1;2;4;6;7],[3;5],2);([0;1;2;4;6;7],[3;5],1);([0;1;2;4;6;7],[3;5],7)])].
+  [([0;1;2;4;6;7],[3;5],2);([0;1;2;4;6;7],[3;5],1);([0;1;2;4;6;7],[3;5],7)]);
+ ((4,4,3),[0],[9;10;5;2],
+  [([(0,8);(1,11);(2,6);(3,1)],false,Decides 0 8 8 []);([(1,11);(2,6);(3,1)],false,Looks 0 [] [] 0);
+  ([(1,11);(2,6);(3,1)],false,Decides 1 11 11 []);([(2,6);(3,1)],false,Arrives 0 []);
+  ([(0,9);(2,4);(3,1)],false,Decides 2 4 4 []);([(0,9);(3,1)],false,Looks 1 [] [] 0);
+  ([(0,9);(3,1)],false,Arrives 1 []);([(0,9);(1,7);(3,1)],false,Looks 2 [] [] 0);
+  ([(0,9);(1,7);(3,1)],false,Decides 0 9 6 []);([(1,7);(3,1)],false,Decides 1 7 7 []);
+  ([(3,1)],false,Decides 3 1 1 [1]);([],false,Looks 1 [] [] 0);([],false,Looks 0 [] [] 0);
+  ([],false,Arrives 2 [1]);([(2,0)],false,Arrives 1 []);([(1,6);(2,0)],false,Arrives 0 []);
+  ([(0,5);(1,11);(2,0)],false,Looks 3 [] [] 0);([(0,5);(1,11);(2,0)],false,Decides 1 11 0 []);
+  ([(0,5);(2,0)],false,Looks 1 [] [] 0);([(0,5);(2,0)],false,Arrives 3 [0;1]);
+  ([(0,5);(2,0);(3,0)],false,Decides 3 0 0 [0;1]);([(0,5);(2,0)],false,Looks 3 [0;1] [] 0);
+  ([(0,5);(2,5);(3,2)],false,Arrives 1 []);([(0,5);(1,10);(2,5);(3,2)],false,Decides 1 10 0 []);
+  ([(0,5);(2,5);(3,2)],false,Decides 2 5 6 [0;1]);([(0,5);(3,2)],false,Looks 1 [] [] 0);
+  ([(0,5);(3,2)],false,Decides 3 2 3 [0;1]);([(0,5)],false,Looks 3 [] [] 0);([(0,5)],false,Looks 2 [] [] 0);
+  ([(0,5)],false,Arrives 2 [0;1]);([(0,5);(2,6)],false,Arrives 3 [0;1]);([(0,5);(2,6);(3,3)],false,Arrives 1 []);
+  ([(0,10);(1,9);(2,6);(3,3)],false,Decides 3 3 3 [0;1]);([(0,10);(1,9);(2,6)],false,Decides 2 6 6 [0;1]);
+  ([(0,10);(1,9)],false,Looks 3 [] [] 0);([(0,10);(1,9)],false,Looks 2 [] [] 0);
+  ([(0,10);(1,9)],false,Arrives 3 [0;1]);([(0,10);(1,9);(3,2)],false,Arrives 2 [0;1]);
+  ([(0,10);(1,9)],false,Decides 0 10 3 []);([(1,9)],false,Looks 0 [] [] 0);([(1,9)],true,Decides 1 9 0 []);
+  ([],true,Looks 1 [] [] 0);([],true,Ticks);([(1,6)],false,Decides 1 6 6 []);([],false,Looks 1 [] [] 1);
+  ([],true,Ticks);([],true,Ticks);([],true,Ticks);([(0,5)],false,Decides 0 5 6 []);([],false,Looks 0 [] [] 0);
+  ([],false,Arrives 0 []);([(0,6)],false,Decides 0 6 6 []);([],false,Looks 0 [] [] 0)],
+  [([1;2;3;4;5;6;7;8;9;10;11],[0],5);([1;2;3;4;5;6;7;8;9;10;11],[0],10);([1;2;3;4;5;6;7;8;9;10;11],[0],6);
+  ([1;2;3;4;5;6;7;8;9;10;11],[0],3)])].

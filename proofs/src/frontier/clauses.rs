@@ -1,8 +1,8 @@
 //! The clauses of frontier cells, in the order of `SPEC.md`.
 
 use tautline_kernel::frontier::Condition::{
-    self, Claim, Corner, Detour, Fuse, Gate, Lapse, Look, Nearer, Record, Route, Share, Sure, Tell, Track,
-    Turn,
+    self, Claim, Corner, Detour, Fuse, Gate, Keep, Lapse, Look, Nearer, Record, Route, Share, Sure, Tell,
+    Track, Turn,
 };
 use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 
@@ -68,6 +68,7 @@ const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
         Sure => "unsure robots move",
         Detour => "small obstacles fill cells",
         Lapse => "stale claims",
+        Keep => "farther cells without news",
     };
     NamedRule::new(name, rule.without(condition))
 }
@@ -366,12 +367,12 @@ pub static CLAUSES: [Clause; 12] = [
     },
     Clause {
         id: "FRONTIER-9",
-        sentence: "A robot with preferences MUST go to the unexplored cell that it is paired with, and to the one that comes first for it if all are the others'.",
+        sentence: "A robot with preferences MUST go to the unexplored cell that it is paired with, and to the one that comes first for it if all are the others', or if, without news, that one is farther than the one that it has claimed, or than a nearest one if it has claimed none.",
         checks: &[&Check::new(
             REPAIRED,
             &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
             Verdict::Holds,
-            &[repaired(Nearer), repaired(Claim), repaired(Corner), repaired(Lapse)],
+            &[repaired(Nearer), repaired(Claim), repaired(Corner), repaired(Lapse), repaired(Keep)],
         )],
     },
     Clause {

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, TinyMap, View,
+    Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -22,7 +22,8 @@ const CELLS: usize = 6;
 const ROBOTS: usize = 3;
 
 /// The situations that must occur.
-pub(super) const COVERS: [&str; 3] = ["a pair of its own", "all cells are the others'", "no cell"];
+pub(super) const COVERS: [&str; 4] =
+    ["a pair of its own", "all cells are the others'", "its own pair is too far", "no cell"];
 
 /// The bound of [`goes`], in words.
 pub(super) fn teams() -> String {
@@ -64,36 +65,41 @@ pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
         .into_iter()
         .map(|cell| (cell, left.get(oracle.pick(left.len() as u32 + 1) as usize).copied()))
         .collect();
+    let (at, claimed) = team[0];
+    let is_known = |cell: &Cell| *cell != at && map.status(*cell) != Status::Unexplored;
+    let has_news = (claimed.is_none() || cells.iter().any(is_known)) && oracle.pick(2) == 1;
     let (paired, nearest) = expected(&map, &team);
-    let next = next(rule, map, &team);
-    match (next, paired.or(nearest)) {
+    let most = claimed.or(nearest).filter(|_| !has_news).and_then(|kept| ways(&map, at, kept));
+    let is_too_far = |cell: &Cell| most.is_some_and(|most| ways(&map, at, *cell) > Some(most));
+    let (expected, situation) = match paired {
+        Some(cell) if is_too_far(&cell) => (nearest, "its own pair is too far"),
+        Some(_) => (paired, "a pair of its own"),
+        None => (nearest, "all cells are the others'"),
+    };
+    match (next(rule, map, &team, has_news), expected) {
         (Next::Done, None) => Ok("no cell"),
         (Next::Tries { side, aim }, Some(cell)) => {
-            require(
-                aim == cell,
-                "a robot goes to the cell of its own pair, or to the nearest if it has none",
-            )?;
-            let (at, _) = team[0];
+            require(aim == cell, "a robot goes to the cell of its own pair, or to the one that comes first")?;
             let is_nearer = ways(&map, at.beyond(side), cell) < ways(&map, at, cell);
             require(is_nearer, "its first move is one of a shortest way")?;
-            Ok(if paired.is_some() { "a pair of its own" } else { "all cells are the others'" })
+            Ok(situation)
         }
         _ => Err(Stop::Violated("a robot goes as long as it reaches an unexplored cell, and no longer")),
     }
 }
 
-/// The next action of the first of the robots.
-fn next(rule: &Rule, map: TinyMap, team: &[Sighting]) -> Next {
+/// The next action of the first of the robots, which may have learned what it knows after it has looked last.
+fn next(rule: &Rule, map: TinyMap, team: &[Sighting], has_news: bool) -> Next {
     let (at, aim) = team[0];
-    let mut own = Robot::new(map, at, &[]);
-    let claimed = aim.or_else(|| map.area().cells().find(|&cell| map.status(cell) == Status::Unexplored));
-    if let Some(claimed) = claimed {
-        own.tries(Side::East, claimed);
+    let known = if has_news { TinyMap::new(map.area()).unwrap_or(map) } else { map };
+    let mut own = Robot::new(known, at, &[]);
+    // A robot keeps what it has claimed when it goes round a small obstacle. It has claimed nothing any more when it has
+    // met another robot, and nothing yet at its start.
+    if aim.is_some() || !has_news {
+        own.tries(Side::East, aim.unwrap_or(at));
+        own.looked(rule, if aim.is_some() { Sight::Small } else { Sight::Robot });
     }
-    // A robot keeps what it has claimed when it arrives; its fix says that it is where it was. It has claimed nothing
-    // any more when it has met another robot.
-    own.looked(rule, if aim.is_some() { Sight::Open } else { Sight::Robot });
-    own.arrived(&rule.without(Condition::Track), at);
+    own.hears_all(&map);
     let other = |&(cell, aim): &Sighting| Other { cell, place: Place::midpoint(cell), aim };
     let others: Vec<Other> = team.iter().skip(1).map(other).collect();
     let (mut reached, mut queue) = ([SearchCell::NEVER; CELLS], [Cell::new(0, 0); CELLS]);

@@ -439,7 +439,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             }
             world.told[other][from] = self.asks().then_some(said);
             if self.rule.has(Condition::Share) {
-                world.robots[other].map_mut().join(&map);
+                world.robots[other].hears_all(&map);
             } else {
                 world.robots[other].hears(cell, status);
             }

@@ -1,7 +1,7 @@
 //! Runs of robots that explore cells, by the plain rule and by the repaired one, in drawn layouts: who might have acted in
 //! each state and what was done, and what each robot knows at the end.
 
-use tautline_kernel::frontier::{Map, Robot, Rule, Sight, Stance, Status, TinyMap};
+use tautline_kernel::frontier::{Condition, Map, Robot, Rule, Sight, Stance, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Event, Setting, Successor, World};
@@ -44,6 +44,9 @@ pub(super) fn terms() -> String {
             obstacles > 10 && meetings > 10 && slots > 5 && missed > 5 && wrong > 3,
             "{obstacles} {meetings} {slots} {missed} {wrong}"
         );
+        if rule.has(Condition::Keep) {
+            runs.push(with_an_end());
+        }
         definition(&format!("runs_{name}"), KIND, &list(runs))
     });
     format!("From Tautline Require Import Explorers.\n{}", terms.concat())
@@ -60,7 +63,16 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
         given.block(cell);
     }
     let setting = Setting { given: Some(given), max_losses: 3, max_wrong: 1, ..setting };
+    story(&setting, (starts, &obstacles), met, |_, turns| draw.below(turns.len() as u64) as usize)
+}
 
+/// A run from these starts among these obstacles, in which of the turns that there are this one is taken.
+fn story<const ROBOTS: usize>(
+    setting: &Setting<ROBOTS>,
+    (starts, obstacles): ([Cell; ROBOTS], &[Cell]),
+    met: &mut Situations,
+    mut taken: impl FnMut(&World<ROBOTS>, &[Successor<ROBOTS>]) -> usize,
+) -> String {
     let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
     let mut world = setting.start(starts).expect("a small area");
     let mut steps = Vec::new();
@@ -70,15 +82,15 @@ fn run<const ROBOTS: usize>(rule: Rule, size: (i16, i16), draw: &mut Draw, met: 
         if turns.is_empty() {
             break;
         }
-        let turn = &turns[draw.below(turns.len() as u64) as usize];
+        let turn = &turns[taken(&world, &turns)];
         assert!(turn.breaks.is_empty(), "{turn:?}");
         steps.push(step(&world, &turns, turn, number, met));
         world = turn.world;
     }
-    let (starts, obstacles) = (list(starts.map(number)), list(obstacles.map(number)));
     let end = world.robots().map(|robot| knows(setting.area, &robot));
-    let (columns, rows) = size;
-    let steps = list(steps);
+    let (columns, rows) = (setting.area.width(), setting.area.height());
+    let (starts, steps) = (list(starts.map(number)), list(steps));
+    let obstacles = list(obstacles.iter().copied().map(number));
     format!("\n (({ROBOTS},{columns},{rows}),{obstacles},{starts},\n  {steps},\n  {})", list(end))
 }
 
@@ -104,7 +116,7 @@ fn step<const ROBOTS: usize>(
     format!("({},{ticks},{})", list(might), event(world, &turn.event, number, met))
 }
 
-/// A run of four repaired robots in 4×3 cells that has no end: two of them miss what the other two find, and each of the
+/// A run of four robots without Keep in 4×3 cells that has no end: two of them miss what the other two find, and each of the
 /// two waits for the other one to make way. Its events, and those that follow each other for ever then.
 const WITHOUT_END: [&str; 2] = [
     "Decides 0 8 8 [] | Looks 0 [] [] 0 | Decides 1 11 11 [] | Arrives 0 [] | Decides 2 4 4 [] | Looks 1 [] [] 0 | \
@@ -118,15 +130,52 @@ const WITHOUT_END: [&str; 2] = [
     "Ticks | Decides 1 9 0 [] | Looks 1 [] [] 1 | Ticks | Ticks | Ticks | Decides 0 10 3 [] | Looks 0 [] [] 0",
 ];
 
-/// That run: after the second part every robot is as it was after the first one.
-pub(super) fn without_end() -> String {
-    let setting = setting::<4>(Rule::REPAIRED, (4, 3)).expect("a small area");
+/// Where that run takes place, and where its robots begin.
+fn place_without_end(rule: Rule) -> (Setting<4>, [Cell; 4]) {
+    let setting = setting::<4>(rule, (4, 3)).expect("a small area");
     let cells: Vec<Cell> = setting.area.cells().collect();
     let mut given = TinyMap::new(setting.area).expect("a small area");
     given.block(cells[0]);
-    let setting = Setting { given: Some(given), max_losses: 24, ..setting };
+    (Setting { given: Some(given), max_losses: 24, ..setting }, [9, 10, 5, 2].map(|place| cells[place]))
+}
+
+/// The run of repaired robots that begins as that one, as long as its events may happen, and in which no more messages are
+/// missed then: it ends.
+fn with_an_end() -> String {
+    let (setting, starts) = place_without_end(Rule::REPAIRED);
     let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
-    let mut world = setting.start([9, 10, 5, 2].map(|place| cells[place])).expect("a small area");
+    let mut said = WITHOUT_END.iter().flat_map(|events| events.split(" | "));
+    let mut draw = Draw(2024);
+    let mut taken = 0;
+    let blocked = [Cell::new(0, 0)];
+    let story = story(&setting, (starts, &blocked), &mut Situations::default(), |world, turns| {
+        let event = |turn: &Successor<4>| event(world, &turn.event, number, &mut Situations::default());
+        if let Some(place) = said.next().and_then(|said| turns.iter().position(|turn| event(turn) == said)) {
+            taken += 1;
+            return place;
+        }
+        said.by_ref().for_each(drop);
+        let is_heard = |turn: &&Successor<4>| match turn.event {
+            Event::Decides(.., missed) | Event::Looks(.., missed, _) | Event::Arrives(.., missed) => {
+                missed == 0
+            }
+            Event::Ticks => true,
+        };
+        let heard: Vec<usize> = (0..turns.len()).filter(|&place| is_heard(&&turns[place])).collect();
+        heard[draw.below(heard.len() as u64) as usize]
+    });
+    assert!(
+        taken >= WITHOUT_END[0].split(" | ").count(),
+        "the first part happens, and its messages are missed"
+    );
+    story
+}
+
+/// That run: after the second part every robot is as it was after the first one.
+pub(super) fn without_end() -> String {
+    let (setting, starts) = place_without_end(Rule::REPAIRED.without(Condition::Keep));
+    let mut world = setting.start(starts).expect("a small area");
+    let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
     let mut met = Situations::default();
     let mut worlds = Vec::new();
     let parts = WITHOUT_END.map(|events| {
@@ -144,7 +193,7 @@ pub(super) fn without_end() -> String {
     });
     assert_eq!(worlds[0], worlds[1], "the second part leads back");
     let run = format!("((4,4,3),[0],[9;10;5;2],\n  {},\n  {})", parts[0], parts[1]);
-    format!("From Tautline Require Import Explorers.\n{}", definition("endless_REPAIRED", ENDLESS, &run))
+    format!("From Tautline Require Import Explorers.\n{}", definition("endless_without_Keep", ENDLESS, &run))
 }
 
 /// The other robots that are met by one that looks.

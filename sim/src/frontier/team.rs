@@ -300,7 +300,7 @@ impl Explorers {
         let mut seekers: Vec<Seeker> = self.told[robot].iter().map(seeker).collect();
         let own = &self.robots[robot];
         seekers[robot] = Seeker { cell: own.at(), aim: own.aim() };
-        let way = self.waves.way(own.map(), &self.rule, robot, &seekers);
+        let way = self.waves.way(own.map(), &self.rule, robot, own.is_bound(&self.rule), &seekers);
         own.follows(&self.rule, way, self.slot(robot))
     }
 
@@ -468,8 +468,9 @@ mod tests {
             for options in radios() {
                 decisions += compared(Rule::REPAIRED, &layout, 1 + seed as usize % 9, options, seed);
             }
+            let conditions = [Condition::Nearer, Condition::Claim, Condition::Corner];
             for condition in
-                [Condition::Nearer, Condition::Claim, Condition::Corner, Condition::Tell, Condition::Lapse]
+                conditions.into_iter().chain([Condition::Tell, Condition::Lapse, Condition::Keep])
             {
                 let rule = Rule::REPAIRED.without(condition);
                 decisions += compared(rule, &layout, 1 + seed as usize % 5, Options::USUAL, seed);

@@ -165,7 +165,14 @@ impl Waves {
     /// The way of the robot `own` to the cell of its pair, or to the one that comes first for it if all cells are the
     /// others'; `None` if it reaches none. `chart` is its repository, and `seekers` are all robots, as far as it has
     /// heard of them.
-    pub(super) fn way(&mut self, chart: &Chart, rule: &Rule, own: usize, seekers: &[Seeker]) -> Option<Way> {
+    pub(super) fn way(
+        &mut self,
+        chart: &Chart,
+        rule: &Rule,
+        own: usize,
+        is_bound: bool,
+        seekers: &[Seeker],
+    ) -> Option<Way> {
         let mut free = self.start(chart, rule, own, seekers);
         let (mut first, mut level, mut taken) = (None, 0, Vec::new());
         loop {
@@ -204,7 +211,13 @@ impl Waves {
                     continue;
                 }
                 if robot == own {
-                    return Some(Way::Paired(found));
+                    let mut nearer =
+                        self.by_robot[own].found.iter().take_while(|to| to.distance < found.distance);
+                    let near = first.filter(|first: &Target| {
+                        let cell = seekers[own].aim.unwrap_or(first.cell);
+                        is_bound && nearer.any(|to| to.cell == cell)
+                    });
+                    return Some(near.map_or(Way::Paired(found), Way::Near));
                 }
                 taken.push(found.cell);
                 free.retain(|&other| other != robot);
