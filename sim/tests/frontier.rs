@@ -338,7 +338,7 @@ fn moves_with_keep(layouts: u64) -> (usize, isize, usize) {
                 let starts = any_starts(&layout, robots, &mut SeededOracle::new(seed, robots as u64));
                 let [with, without] = [Rule::REPAIRED, Rule::REPAIRED.without(Condition::Keep)].map(|rule| {
                     let mut team = Explorers::new(rule, &layout, &starts, Options::USUAL, seed);
-                    (0..).find(|_| team.advance().is_err()).expect("every run ends")
+                    (0..100_000).find(|_| team.advance().is_err()).expect("every run ends")
                 });
                 moves += with;
                 more += without as isize - with as isize;
