@@ -86,8 +86,9 @@ pub(super) struct Deciding {
     /// Store a page with all of it: sentences, verdicts, what they rest on, and counterexamples that play.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Store a certificate for each check that holds as a file in DIR: of a search over all states one that `tautline
-    /// check` checks, of a proof for every number of robots one that Rocq checks. DIR is made if it is not there.
+    /// Store a certificate for each check that holds as a file in DIR: of a search over all states or all layouts one that
+    /// `tautline check` checks, of a proof for every number of robots one that Rocq checks. DIR is made if it is not
+    /// there.
     #[arg(long, value_name = "DIR")]
     certificate: Option<PathBuf>,
     /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice

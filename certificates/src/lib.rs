@@ -11,10 +11,14 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-mod check;
 mod file;
 mod model;
+mod runs;
+mod states;
+mod verdict;
 
-pub use check::{Counts, Refusal, check};
 pub use file::{Fault, File, Header, digest, put, read, take, write};
 pub use model::{Model, Step};
+pub use runs::{Ready, Runs, check_runs};
+pub use states::check_states;
+pub use verdict::{Counts, Refusal};

@@ -61,36 +61,60 @@ pub struct Step<S> {
     pub breaks: Option<String>,
 }
 
-/// Every combination of answers: each answer with the number of those that were possible.
-#[derive(Default)]
+/// Every combination of answers, at most so many of them mishaps: each answer with the number of those that were possible.
+#[derive(Clone)]
 pub(crate) struct Answers {
     given: Vec<(u32, u32)>,
-    asked: usize,
+    /// Answers that were asked for, and mishaps among them.
+    pub(crate) asked: (usize, u32),
+    most_mishaps: u32,
 }
 
 impl Answers {
-    /// The next combination; false if there is none.
-    pub(crate) fn advance(&mut self) -> bool {
-        self.given.truncate(self.asked);
-        self.asked = 0;
-        while let Some((answer, of)) = self.given.pop() {
-            if answer + 1 < of {
+    pub(crate) const fn with_mishaps(most_mishaps: u32) -> Self {
+        Self { given: Vec::new(), asked: (0, 0), most_mishaps }
+    }
+
+    /// The next combination, which begins with as many of these answers as are `kept`; the place of the answer that is
+    /// another one, if there is one. It is asked for from the first answer on.
+    pub(crate) fn advance(&mut self, kept: usize) -> Option<usize> {
+        self.given.truncate(self.asked.0);
+        self.asked = (0, 0);
+        while self.given.len() > kept {
+            if let Some((answer, of)) = self.given.pop().filter(|(answer, of)| answer + 1 < *of) {
                 self.given.push((answer + 1, of));
-                return true;
+                return Some(self.given.len() - 1);
             }
         }
-        false
+        None
+    }
+
+    /// In how many ways they could have come out.
+    pub(crate) fn ways(&self) -> u64 {
+        self.given.iter().fold(1, |ways, &(_, of)| ways.saturating_mul(of.into()))
+    }
+
+    /// The answers that were asked for.
+    pub(crate) fn values(&self) -> Vec<u32> {
+        self.given[..self.asked.0].iter().map(|&(answer, _)| answer).collect()
     }
 }
 
 impl Oracle for Answers {
     #[inline]
     fn pick(&mut self, below: u32) -> u32 {
-        if self.asked == self.given.len() {
+        if self.asked.0 == self.given.len() {
             self.given.push((0, below));
         }
-        let (answer, _) = self.given[self.asked];
-        self.asked += 1;
+        let (answer, _) = self.given[self.asked.0];
+        self.asked.0 += 1;
         answer
+    }
+
+    #[inline]
+    fn mishap(&mut self) -> bool {
+        let is_one = self.asked.1 < self.most_mishaps && self.pick(2) == 1;
+        self.asked.1 += u32::from(is_one);
+        is_one
     }
 }

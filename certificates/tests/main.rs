@@ -1,3 +1,4 @@
 //! The checker by itself.
 
-mod check;
+mod runs;
+mod states;

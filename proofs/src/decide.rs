@@ -305,12 +305,13 @@ pub trait Method<R>: Sync {
         None
     }
 
-    /// The systems whose states it searches for `rule`, all of them, each of which a section of a certificate is about.
+    /// The systems whose states or runs it searches for `rule`, all of them, each of which a section of a certificate is
+    /// about.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or searches something else.
     fn systems(&self, _: &R) -> Result<Systems, MethodError> {
-        let reason = format_args!("the engine {} does not search all states of a system", self.engine());
+        let reason = format_args!("the engine {} searches neither all states nor all layouts", self.engine());
         Err(MethodError::new(reason))
     }
 
@@ -339,7 +340,7 @@ pub trait Method<R>: Sync {
     }
 }
 
-/// Systems whose states are all searched.
+/// Systems whose states or runs are all searched.
 pub type Systems = Vec<Box<dyn AnySystem>>;
 
 /// The class of a counterexample, in words, and its moves.

@@ -75,14 +75,31 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
 }
 
 #[test]
-fn what_holds_without_a_search_over_all_states_is_told_to_get_no_certificate() {
+fn a_search_over_layouts_gets_a_certificate_whose_ends_are_its_runs() {
+    let folder = folder();
+    let folder = folder.path();
+    let proved = ran(folder, &["prove", "CHAIN-14", "--certificate", "certificates"]);
+    assert_eq!((proved.status.code(), &*proved.stderr), (Some(0), &b""[..]));
+    assert_eq!(names(&folder.join("certificates")), ["chain-14-repaired-search.cert"]);
+    let path = "certificates/chain-14-repaired-search.cert";
+    let accepted = printed(folder, &["check", path], 0);
+    assert!(accepted.contains(" 358 ends in 1 system\n  CHAIN-14 as repaired: "), "{accepted}");
+    let bytes = fs::read(folder.join(path)).expect("a certificate");
+    let states = String::from_utf8_lossy(&bytes)
+        .lines()
+        .find_map(|line| line.strip_prefix("states ").map(str::to_owned));
+    let told = json(folder, &["check", path], 0);
+    assert_eq!(states, Some(told["certificates"][0]["accepted"]["states"].to_string()));
+}
+
+#[test]
+fn what_holds_without_a_search_is_told_to_get_no_certificate() {
     let folder = folder();
     let folder = folder.path();
     let proved = ran(folder, &["prove", "KIT-9", "--certificate", "certificates"]);
     assert_eq!(proved.status.code(), Some(0));
     let said = String::from_utf8_lossy(&proved.stderr);
-    let why =
-        "KIT-9 as repaired gets no certificate: the engine exhaustive does not search all states of a system";
+    let why = "KIT-9 as repaired gets no certificate: the engine exhaustive searches neither all states nor all layouts";
     assert!(said.contains(why), "{said}");
     assert_eq!(names(&folder.join("certificates")), [""; 0]);
 }

@@ -11,8 +11,8 @@ use super::invariant::Invariant;
 use super::observed::Subject;
 use super::plain_game::PlainGame;
 
-use crate::decide::{self, Answer, Context, Method, RefutationPlay};
-use crate::engine::tree::{self, Progress, Tree, Watch, Waves};
+use crate::decide::{self, Answer, Context, Method, RefutationPlay, Systems};
+use crate::engine::tree::{self, AllRuns, Progress, Tree, Watch, Waves};
 use crate::engine::{Choices, ScriptError, Until};
 use crate::run::Frame;
 
@@ -232,6 +232,12 @@ impl Method<Subject> for EveryLayout {
         let is_whole = found.complete && found.given_up == 0;
         let answer = Answer::new(evidence, is_whole, self.shows(), found.runs - found.given_up);
         Ok(Answer { given_up: found.given_up, ..answer })
+    }
+
+    fn systems(&self, observed: &Subject) -> Result<Systems, decide::MethodError> {
+        let bounds = Bounds { invariants: vec![self.0], ..self.bounds(observed) };
+        let Search(search) = Search::new(&bounds).map_err(decide::MethodError::new)?;
+        Ok(vec![Box::new(AllRuns::new(search, self.0))])
     }
 
     fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

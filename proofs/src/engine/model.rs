@@ -2,11 +2,13 @@
 //! settles as the world does, and knows no search.
 
 use std::hash::{Hash, Hasher};
+use std::ops::ControlFlow;
 
-use tautline_certificates::{Model, Step};
+use tautline_certificates::{Model, Ready, Runs, Step};
 use tautline_kernel::choice::Oracle;
 
 use super::states::System;
+use super::tree::Game;
 use super::world::Turn;
 
 /// A system with its starts, and which demands count.
@@ -98,5 +100,70 @@ where
         let mut bytes = Vec::new();
         self.system.write(state, &mut bytes);
         to.write(&bytes);
+    }
+}
+
+/// A team whose runs are told apart, with at most so many mishaps, of which one thing is demanded.
+pub struct Played<'a, G: Game> {
+    /// The team.
+    pub game: &'a G,
+    /// Mishaps in a run, at most.
+    pub most_mishaps: u32,
+    /// The demand.
+    pub demand: G::Demand,
+}
+
+impl<G: Game> Played<'_, G> {
+    /// The demand in words, if it is broken.
+    fn words(&self, broken: &[G::Demand]) -> Option<String> {
+        broken.contains(&self.demand).then(|| format!("{:?}", self.demand))
+    }
+}
+
+impl<G: Game> Runs for Played<'_, G> {
+    type State = G::State;
+    type Plan = G::Plan;
+
+    fn start(&self) -> G::State {
+        self.game.start()
+    }
+
+    fn most_mishaps(&self) -> u32 {
+        self.most_mishaps
+    }
+
+    fn longest_run(&self) -> u32 {
+        self.game.longest_run()
+    }
+
+    fn plan(&self, state: &mut G::State, log: &[u8]) -> Option<G::Plan> {
+        self.game.plan(state, log)
+    }
+
+    fn step(
+        &self,
+        ready: &Ready<G::State, G::Plan>,
+        after: &mut G::State,
+        log: &mut Vec<u8>,
+        answers: &mut impl Oracle,
+    ) -> Option<String> {
+        let (Ready { before, planned, plan }, sent) = (ready, log.len());
+        let event = self.game.settle(after, plan, log, answers);
+        let turn = Turn { before, planned, after, plan, event: &event, sent: &log[sent..] };
+        self.words(&self.game.broken_by(&turn))
+    }
+
+    fn broken_at_end(&self, state: &G::State, log: &[u8]) -> Option<String> {
+        self.words(&self.game.broken_at_end(state, log))
+    }
+
+    fn recurs(
+        &self,
+        then: &G::State,
+        sent: usize,
+        now: &G::State,
+        log: &[u8],
+    ) -> ControlFlow<Option<String>> {
+        self.game.recurs(then, sent, now, log).map_break(|broken| self.words(&broken))
     }
 }

@@ -17,6 +17,7 @@
 
 mod count;
 mod deal;
+mod exhausted;
 mod forecast;
 mod lane;
 mod search;
@@ -30,6 +31,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 pub use self::deal::Deal;
+pub use self::exhausted::AllRuns;
 pub use self::search::{Position, Tree, Waves, search};
 use super::Until;
 use super::world::{Turn, World};

@@ -1,4 +1,4 @@
-//! Certificates of checks that search all states: which check a file is about, and the sections of its systems.
+//! Certificates of checks that search all states or all layouts: which check a file is about, and the sections of its systems.
 
 use std::fmt;
 
@@ -86,7 +86,7 @@ fn claim(clause: &Clause, number: usize) -> u128 {
 /// The certificate of the check of `clause` with this number, which holds.
 ///
 /// # Errors
-/// [`MethodError`] if the check is none that searches all states, or finds something broken, or too much within
+/// [`MethodError`] if the check is none that searches all states or layouts, or finds something broken, or too much within
 /// `limits`.
 pub fn certificate(clause: &Clause, number: usize, limits: Limits<'_>) -> Result<Vec<u8>, MethodError> {
     let systems = clause.checks[number].systems()?;

@@ -5,9 +5,12 @@ use tautline_kernel::ground::{Area, Cell};
 use super::ground::{Map, words};
 use super::rule::{Rule, Scene, When};
 use super::{Moves, Places, Promise, Setting, Strategy, TeamWorld};
-use crate::decide::{Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Verdict};
+use crate::decide::{
+    Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Systems, Verdict,
+};
+use crate::engine::model::Started;
 use crate::engine::states;
-use crate::engine::tree::{self, Waves};
+use crate::engine::tree::{self, AllRuns, Waves};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::plural::counted;
 use crate::run::{Ending, Frame, Run};
@@ -187,6 +190,20 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             Strategy::Tree => self.in_tree(rule, until, desk),
             Strategy::States => self.in_states(rule, desk),
         }
+    }
+
+    fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
+        let demand = Promise(self.1);
+        Ok(vec![match self.0.strategy() {
+            Strategy::Tree => {
+                Box::new(AllRuns::new(Box::new(self.0.search(rule, Until::Exhausted, &[])?), demand))
+            }
+            Strategy::States => {
+                let starts =
+                    |playing: &TeamWorld<'_, R>| playing.setting.starts(&playing.rule).unwrap_or_default();
+                Box::new(Started::new(self.0.playing(rule, &[demand])?, starts))
+            }
+        }])
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -7,7 +7,7 @@ use std::fmt;
 use std::ops::{ControlFlow, Range};
 
 use rustc_hash::FxHashMap;
-use tautline_certificates::{Counts, Model, Refusal, check, put};
+use tautline_certificates::{Counts, Model, Refusal, check_states, put};
 
 use super::limits::{Limits, MemoryLimit, MemoryShare};
 use super::rounds::{NONE, TooLarge};
@@ -42,12 +42,12 @@ impl From<TooLarge> for NoCertificate {
     }
 }
 
-/// A system whose states are all searched, whatever its type.
+/// A system whose states or runs are all searched, whatever its type.
 pub trait AnySystem: Sync {
-    /// Its states as a section of a certificate, and how many they are.
+    /// Its states or runs as a section of a certificate, and how many states it has.
     ///
     /// # Errors
-    /// [`NoCertificate`] if a search within `limits` does not exhaust them, or finds something broken.
+    /// [`NoCertificate`] if a search within `limits` does not exhaust it, or finds something broken.
     fn exhausted(&self, limits: Limits<'_>) -> Result<(Vec<u8>, u64), NoCertificate>;
 
     /// Checks such a section in a file of this digest.
@@ -85,7 +85,7 @@ where
     }
 
     fn check(&self, section: &[u8], digest: u128) -> Result<Counts, Refusal> {
-        check(self, section, digest)
+        check_states(self, section, digest)
     }
 
     fn search(&self, limits: Limits<'_>) -> u64 {

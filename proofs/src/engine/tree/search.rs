@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use tautline_certificates::{Counts, Refusal, check_runs};
 
 use super::count::{Count, DemandRuns, Violation};
 use super::deal::{Deal, Ways};
@@ -12,6 +13,7 @@ use super::forecast::Forecast;
 use super::lane::{self, Lane, Place, Rerun};
 use super::share::Share;
 use super::{Counterexample, Findings, Game, Level, Limits, Progress, Unsearchable, Watch};
+use crate::engine::model::Played;
 use crate::engine::watchdog::{Steps, Task};
 use crate::engine::{ScriptError, Until};
 
@@ -32,7 +34,7 @@ impl<D> Position<D> {
 }
 
 /// A search that is made wave by wave, and can be left and taken up again between two of them.
-pub trait Waves<D, F> {
+pub trait Waves<D, F>: Send {
     /// Goes to `position`, where a search with the same limits was; more walls may be asked for than then.
     ///
     /// # Errors
@@ -66,6 +68,11 @@ pub trait Waves<D, F> {
     /// # Errors
     /// [`ScriptError`] if there is no such run.
     fn replay(&self, demand: D, answers: &[u32]) -> Result<Counterexample<D, F>, ScriptError>;
+    /// Checks a section of a certificate that no run breaks `demand`, without this search.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it does not show that.
+    fn check(&self, demand: D, section: &[u8]) -> Result<Counts, Refusal>;
 }
 
 /// Searches all layouts within `limits`. The result is the same on any number of threads, unless `watch` ends the
@@ -422,5 +429,10 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         let most = mishaps.min(self.limits.max_walls);
         let Rerun { words, frames, .. } = lane::replay(&self.game, most, demand, answers)?;
         Ok(Counterexample { broken: demand, runs: 1, demand: words, frames, answers: answers.to_vec() })
+    }
+
+    fn check(&self, demand: G::Demand, section: &[u8]) -> Result<Counts, Refusal> {
+        let most_mishaps = self.limits.max_walls;
+        check_runs(&Played { game: &self.game, most_mishaps, demand }, section)
     }
 }

@@ -1,8 +1,10 @@
-//! The checker by itself, over a model of a few numbers whose section is written by hand.
+//! The checker of states by itself, over a model of a few numbers whose section is written by hand.
 
 use std::hash::Hasher;
 
-use tautline_certificates::{Counts, Fault, Header, Model, Refusal, Step, check, digest, put, read, write};
+use tautline_certificates::{
+    Counts, Fault, Header, Model, Refusal, Step, check_states, digest, put, read, write,
+};
 use tautline_kernel::choice::Oracle;
 
 /// A walker on 0 to 3. From 1 it goes to 2 or back to 0, as it is asked twice; from 2 to 3, where it stays. What it owes
@@ -77,7 +79,7 @@ fn with(changes: &[(usize, u64)]) -> Vec<u8> {
 }
 
 fn checked(model: Walk, section: &[u8]) -> Result<Counts, Refusal> {
-    check(&model, section, 7)
+    check_states(&model, section, 7)
 }
 
 #[test]

@@ -1,8 +1,7 @@
-//! The checker of a section. It makes all steps from each state, and holds each against where the section says that it
+//! The checker of a section that lists states. It makes all steps from each state, and holds each against where the section says that it
 //! leads; steps lead to the same state if they agree on its digest, of 128 bits. It looks at subtrees by themselves, on
 //! as many threads as there are.
 
-use std::fmt;
 use std::hash::Hasher;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering::Relaxed;
@@ -12,83 +11,14 @@ use siphasher::sip128::SipHasher13;
 
 use crate::file::take;
 use crate::model::{Answers, Model, Step};
-
-/// What a section has that was accepted.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub struct Counts {
-    /// States.
-    pub states: u64,
-    /// Steps from them.
-    pub steps: u64,
-    /// States from which no step is bound to be made.
-    pub ends: u64,
-}
-
-impl Counts {
-    /// These and others.
-    #[must_use]
-    pub const fn with(self, other: Self) -> Self {
-        let Self { states, steps, ends } = other;
-        Self { states: self.states + states, steps: self.steps + steps, ends: self.ends + ends }
-    }
-}
-
-/// Why a section is refused. States are numbered in their order in the section, starts and steps in that of the model.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Refusal {
-    /// From this byte of the section on it is no list of states that are joined to trees.
-    Malformed(usize),
-    /// The model has other starts than the section: so many.
-    Starts(usize),
-    /// The start with this number is another state than the section says.
-    Start(usize),
-    /// The model has other steps from this state: so many, and maybe more.
-    Steps(u32, usize),
-    /// This step from this state leads to another state than the section says.
-    Leads(u32, usize),
-    /// It breaks a demand.
-    Breaks(u32, usize, String),
-    /// A run that stays in this state breaks a demand.
-    Ends(u32, String),
-    /// This state owes something for which the section has no ranks.
-    Owes(u32),
-    /// This step from this state leads to a state of a higher rank that owes the same.
-    Rises(u32, usize),
-    /// Within the states of this rank a weakly fair run may owe for ever what this bit stands for.
-    Endless(u32, u32),
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Malformed(byte) => write!(f, "from byte {byte} on there is no list of states"),
-            Self::Starts(count) => write!(f, "it has not the starts of the model, which are {count}"),
-            Self::Start(start) => write!(f, "start {start} is another state than is said"),
-            Self::Steps(state, count) => {
-                write!(f, "state {state}: it has not the steps of the model, at least {count}")
-            }
-            Self::Leads(state, step) => {
-                write!(f, "state {state}, step {step}: it leads to another state than is said")
-            }
-            Self::Breaks(state, step, demand) => write!(f, "state {state}, step {step}: it breaks {demand}"),
-            Self::Ends(state, demand) => write!(f, "state {state}: a run that stays there breaks {demand}"),
-            Self::Owes(state) => write!(f, "state {state}: there are no ranks for what it owes"),
-            Self::Rises(state, step) => write!(f, "state {state}, step {step}: it leads to a higher rank"),
-            Self::Endless(rank, bit) => {
-                write!(f, "rank {rank}: a weakly fair run may stay there and owe obligation {bit} for ever")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Refusal {}
+use crate::verdict::{Counts, Refusal};
 
 /// Checks that a section lists all states of `model`, and that they break nothing. `key` is the digest of the file: who
 /// makes a file does not choose by which digests its states are told apart.
 ///
 /// # Errors
 /// [`Refusal`], which does not depend on the number of threads.
-pub fn check<M: Model>(model: &M, section: &[u8], key: u128) -> Result<Counts, Refusal> {
+pub fn check_states<M: Model>(model: &M, section: &[u8], key: u128) -> Result<Counts, Refusal> {
     let run = |share| Checker::new(model, section, key)?.run(share);
     // One thread finds always the same fault first.
     run(SHARE).or_else(|refusal| run(u32::MAX).and(Err(refusal)))
@@ -358,7 +288,7 @@ impl<'a, M: Model> Checker<'a, M> {
         let (mut child, mut step, mut is_still) = (place + 1, 0, true);
         let mut planned = state.clone();
         if let Some(plan) = self.model.plan(&mut planned) {
-            let mut answers = Answers::default();
+            let mut answers = Answers::with_mishaps(u32::MAX);
             loop {
                 let Step { to, acting, breaks } = self.model.step(state, &planned, &plan, &mut answers);
                 if step as u64 == said {
@@ -381,7 +311,7 @@ impl<'a, M: Model> Checker<'a, M> {
                     child += self.trees.size[child as usize];
                 }
                 step += 1;
-                if !answers.advance() {
+                if answers.advance(0).is_none() {
                     break;
                 }
             }
