@@ -6,6 +6,7 @@ use std::env;
 use std::error::Error;
 use std::path::Path;
 
+use tautline_io::atomic_file::Replaceable;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::Depiction;
@@ -13,7 +14,6 @@ use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
-use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::own::Found;
 
 /// The rule: where the leader starts, whether the follower goes to where the leader is, and how many walls end a run.

@@ -7,9 +7,9 @@ use std::env;
 use std::error::Error;
 use std::num::NonZeroU32;
 
+use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::team::{Act, Ground, Places, Rule, Setting, View};
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{Limits, Milestone, Own, Report, run};
 use tautline_sim::layout::{self, Layout};
 

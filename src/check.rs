@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::ledger::{self, Examined, examine};
 use tautline_proofs::plural::counted;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 use super::judge::given::bytes;
 use super::output::Output;

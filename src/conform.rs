@@ -11,6 +11,7 @@ use std::time::Duration;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::plural::counted;
@@ -19,12 +20,11 @@ use tautline_proofs::run::Frame;
 use self::program::Program;
 use super::output::Output;
 use super::{CATALOGUE, Exit, Format, FormatArgs, positive};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::{self, Block, Pose};
 use tautline_sim::explore::{Play, Report, Senses, Setup, Stopped, Survey, TeamMove, Told};
+use tautline_sim::layout::CellWritten;
 use tautline_sim::layout::Layout;
 use tautline_sim::options::Options;
-use tautline_sim::schema::CellWritten;
 use tautline_sim::trace::{self, StoredMove, StoredRun, steps};
 
 const EXAMPLES: &str = "\

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::ground::Edge;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Depiction, Evidence};
@@ -13,10 +15,8 @@ use tautline_proofs::run::{Run, Scripted};
 
 use super::CATALOGUE;
 use tautline_sim::counterexample::refutation::{self, Refutation};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::{self, Block, page};
 use tautline_sim::explore::{ClauseId, Play, RuleName, Setup, hunt};
-use tautline_sim::named_values::NamedValues;
 
 /// A refutation as JSON.
 #[derive(JsonSchema, Serialize)]

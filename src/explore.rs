@@ -9,6 +9,8 @@ use std::time::Instant;
 
 use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, ValueEnum};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::json_lines;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
@@ -20,7 +22,6 @@ use super::viewers::{self, ViewerArgs};
 use super::{CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, positive, progress, whole};
 use crate::value_parser::{self, chosen};
 use tautline_sim::counterexample::refutation;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::{page, svg};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::floor::Component;
@@ -31,8 +32,7 @@ use tautline_sim::explore::{
 use tautline_sim::failures::Failures;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
-use tautline_sim::trace::{Summary, Trace, lines};
-use tautline_sim::value_parser::probability;
+use tautline_sim::trace::{Summary, Trace};
 use tautline_sim::{draw, objects, trace};
 
 const EXAMPLES: &str = "\
@@ -66,7 +66,7 @@ pub(super) struct Explore {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, conflicts_with = "base")]
     start: Vec<CellArg>,
     /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
-    #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
+    #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true)]
     #[arg(help_heading = heading(|scheme| scheme.senses == Senses::Floor))]
     miss: Option<Probability>,
     #[command(flatten)]
@@ -270,7 +270,7 @@ impl Explore {
     /// The run that is stored in the file that is named in place of a layout, if one is.
     fn stored(&self) -> Result<Option<Setup>, Halt> {
         let file = Path::new(&self.layout.layout);
-        let setup = match lines::format(file).as_deref() {
+        let setup = match json_lines::format(file).as_deref() {
             Some(trace::FORMAT) => Trace::open(file, CATALOGUE)?.setup,
             Some(refutation::FORMAT) => evidence::stored(file)?,
             Some(_) | None => return Ok(None),

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use clap::{Args, ValueEnum};
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::draw::svg::escaped;
 
 /// The format of a command that decides something.

@@ -10,6 +10,10 @@ use clap::Args;
 use indicatif::ProgressBar;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::shards::Plan;
+use tautline_io::value_parser::real;
 use tautline_proofs::decide::Verdict;
 
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
@@ -17,14 +21,11 @@ use super::output::Output;
 use super::shards::{Scope, ShardArgs};
 use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{shards, value_parser};
-use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown};
 use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
-use tautline_sim::shards::{Plan, deal_hunt, hunt_part, hunted};
+use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
 use tautline_sim::trace::store;
-use tautline_sim::value_parser::real;
 
 const EXAMPLES: &str = "\
 Examples:

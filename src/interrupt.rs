@@ -6,8 +6,9 @@ use std::io::{self, IsTerminal, Write};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use tautline_io::atomic_file;
+
 use super::Exit;
-use tautline_sim::atomic_file;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 static DEFERRED: AtomicBool = AtomicBool::new(false);

@@ -6,6 +6,8 @@ pub(super) mod told;
 use std::path::PathBuf;
 
 use clap::Args;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::value_parser::real;
 use tautline_logs::{
     CLAUSES, Demand, Doubt, Fault, FaultPlace, Kind, Limits, Log, Misnamed, Misplaced, Numbers, Tracks,
     Verdict, judge, misplaced, not_judged, read,
@@ -15,9 +17,7 @@ use self::given::{Given, MapArgs};
 use self::told::Told;
 use super::output::Output;
 use super::{Exit, ForceArgs, FormatArgs, needless};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::page::{self, Sink};
-use tautline_sim::value_parser::real;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -7,10 +7,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_library::{Entry, RULES};
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::RandomRuns;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 pub(super) use self::dealt::rows;
 use super::output::Output;

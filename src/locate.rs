@@ -10,14 +10,14 @@ use tautline_field::draw;
 use tautline_field::position::{
     Advice, Anchors, Errors, FixReport, Measurements, Place, Power, Report, Setting, Solver, refused,
 };
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::named_values::NamedValues;
+use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::value_parser::{Metres, within};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::plural::counted;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::RuleName;
-use tautline_sim::named_values::NamedValues;
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{Metres, within};
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless, number, progress};

@@ -49,6 +49,9 @@ use std::time::Instant;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use tautline_io::atomic_file::{AtomicFile, Foreign, Replaceable};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::value_parser::{number, real, whole};
 use tautline_kernel::ground::Cell;
 use terminal_size::{Width, terminal_size};
 
@@ -56,14 +59,11 @@ use crate::report::{Colour, render};
 use output::Output;
 #[cfg(feature = "papers")]
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw;
 #[cfg(not(feature = "papers"))]
 use tautline_sim::explore::Catalogue;
 use tautline_sim::explore::ClauseId;
 use tautline_sim::layout::Size;
-use tautline_sim::value_parser::{number, real, whole};
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]

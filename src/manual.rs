@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Command};
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, roman};
+use tautline_io::atomic_file::{AtomicFile, MAN_HEAD};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::output::{self, Output};
 use super::{EXIT_CODES, Exit, ForceArgs, hunt, needless, program};
-use tautline_sim::atomic_file::{AtomicFile, MAN_HEAD};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -26,8 +26,8 @@ use tokio::time::timeout;
 
 use super::Exit;
 use super::output::Output;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::plural::counted;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 const EXAMPLES: &str = "\
 Examples:

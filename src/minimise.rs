@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::json_lines;
 use tautline_proofs::decide::MethodError;
 use tautline_proofs::engine::Choices;
 use tautline_proofs::engine::states::{Limits, MemoryLimit};
@@ -18,9 +20,8 @@ use super::replay::draw;
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, evidence, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::counterexample::refutation::{self, Refutation};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
-use tautline_sim::trace::{Trace, lines, store};
+use tautline_sim::trace::{Trace, store};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -126,7 +127,7 @@ const MOST_BYTES: u64 = 1 << 31;
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         hunt::make_folder(&self.out)?;
-        let (setup, clause) = if lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
+        let (setup, clause) = if json_lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
             let found = evidence::read(&self.file)?;
             match evidence::run(found.clause, found.check, &found.evidence)? {
                 Some(setup) => (setup, self.clause),

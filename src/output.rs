@@ -8,10 +8,10 @@ use std::mem;
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::{self, AtomicFile, FinishedFile};
+use tautline_io::diagnostic::Diagnostic;
 
 use super::{SCHEMA_VERSION, complain};
-use tautline_sim::atomic_file::{self, AtomicFile, FinishedFile};
-use tautline_sim::diagnostic::Diagnostic;
 
 pub(super) struct Output {
     /// Unless its reader has gone away.

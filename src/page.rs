@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tautline_io::diagnostic::Halt;
 
 use super::output::Output;
 use super::replay::Replay;
 use super::{Exit, ForceArgs, hunt};
-use tautline_sim::diagnostic::Halt;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tautline_io::diagnostic::{Halt, Watch};
 use tautline_proofs::engine::tree::Progress;
 
 use super::interrupt;
-use tautline_sim::diagnostic::{Halt, Watch};
 
 const STYLE: &str = "{prefix} {wide_bar} {percent} % {msg}";
 

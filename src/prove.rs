@@ -15,6 +15,8 @@ use std::time::Instant;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::clause::{Clause, Variant};
 use tautline_proofs::decide::{Answer, Depiction, Verdict};
 use tautline_proofs::engine::states::{self, MemoryLimit};
@@ -25,9 +27,7 @@ use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::{keep, make_folder};
 use super::output::Output;
 use super::{Exit, ForceArgs, needless, positive, progress, spill};
-use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::counterexample::refutation;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::trace;
 
 const EXAMPLES: &str = "\

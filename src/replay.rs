@@ -9,6 +9,9 @@ use clap::Args;
 use schemars::JsonSchema;
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::json_lines;
 use tautline_kernel::ground::Area;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Depiction, Evidence};
@@ -24,13 +27,11 @@ use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
-use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::counterexample::judge_input::{exhibit, of_agent, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::{self, page, svg};
 use tautline_sim::explore::{ClauseId, Judge, Play, Report, Setup, team};
-use tautline_sim::trace::{self, ForeignRun, StoredMove, StoredRun, Summary, Trace, lines};
+use tautline_sim::trace::{self, ForeignRun, StoredMove, StoredRun, Summary, Trace};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -168,7 +169,7 @@ impl Replay {
         let files = [&self.html, &self.svg, itf, mcap];
         let [page, picture, itf, mcap] = self.force.files(files, [self.file.clone()])?;
         let viewers = [itf, mcap];
-        match lines::format(&self.file).as_deref() {
+        match json_lines::format(&self.file).as_deref() {
             Some(rescue::trace::FORMAT) => {
                 let [itf, recording] = viewers;
                 viewers::refuse(itf.as_ref(), ("--itf", "a rescue"), &self.file)?;

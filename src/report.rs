@@ -1,7 +1,7 @@
 //! A fault as a person sees it: one line, or the spot drawn.
 
 use ariadne::{Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
-use tautline_sim::diagnostic::{Diagnostic, Excerpt, Place};
+use tautline_io::diagnostic::{Diagnostic, Excerpt, Place};
 use tautline_sim::options::Extra;
 
 /// Beyond this line the spot is not drawn: the drawing counts lines from the first.

@@ -10,14 +10,14 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Sub
 use indicatif::ProgressBar;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::shards::Plan;
 use tautline_papers::shards::{deal_table, restored, table_part};
 use tautline_papers::tables::parameter::{TableOption, Values};
 use tautline_papers::tables::{Description, Entry, Experiment, Observer, Report, TABLES, find};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::shards::Plan;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, progress, shards, whole};

@@ -9,6 +9,11 @@ use std::str::FromStr;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
+use tautline_io::named_values::NamedValues;
+use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::value_parser::Metres;
 use tautline_proofs::mrc::Demand;
 use tautline_proofs::plural::counted;
 
@@ -22,12 +27,7 @@ use tautline_field::rescue::{
     rescue, seconds, trace,
 };
 use tautline_field::stats::Estimate;
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_sim::explore::RuleName;
-use tautline_sim::named_values::NamedValues;
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::Metres;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -5,8 +5,8 @@ use std::{env, fs};
 
 use schemars::JsonSchema;
 use serde_json::{Value, to_string_pretty};
+use tautline_io::schema::of;
 use tautline_papers::tables::TABLES;
-use tautline_sim::schema::of;
 use tautline_sim::trace::Summary;
 
 use super::output::Versioned;

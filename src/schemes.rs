@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{Scheme, Senses};
 
 use super::output::Output;

@@ -8,12 +8,13 @@ use clap::value_parser;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::value::RawValue;
+use tautline_io::checkpoint::{Checkpoint, Facts, Part};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::shards::{Gap, Plan, Work};
 #[cfg(feature = "papers")]
 use tautline_papers::shards::{merge_table, restored};
 use tautline_proofs::engine::states::MemoryLimit;
-use tautline_sim::checkpoint::{Checkpoint, Facts, Part};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::shards::{Gap, Plan, Work, hunted, merge_hunt};
+use tautline_sim::shards::{hunted, merge_hunt};
 
 use super::findings::FormatArgs;
 use super::hunt::{self, make_folder, shown};

@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::Cell;
 
 use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless};
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw::svg::{self, Panel};
 use tautline_sim::draw::{self, Environment};
-use tautline_sim::schema::CellWritten;
+use tautline_sim::layout::CellWritten;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
+use tautline_io::atomic_file::lock;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::engine::states::{HEAD, PART, Spill, SpillError, WHOLE};
-use tautline_sim::atomic_file::lock;
-use tautline_sim::diagnostic::Diagnostic;
 
 /// The folder at `path`, which is empty or has nothing but states of searches that were killed. It is locked against
 /// other processes until what is returned with it is closed.

@@ -1,8 +1,8 @@
 //! Options whose values are words of the library.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use tautline_io::named_values::NamedValues;
 use tautline_sim::explore::{RuleId, Scheme};
-use tautline_sim::named_values::NamedValues;
 
 use super::CATALOGUE;
 

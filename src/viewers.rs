@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 #[cfg(not(feature = "viewers"))]
 use tautline_field::rescue::{Report, Setting};
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::Play;
 #[cfg(feature = "viewers")]
 use tautline_viewers::{itf, mcap};

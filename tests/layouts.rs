@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 
 use insta::{allow_duplicates, assert_snapshot};
 use proptest::prelude::*;
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::json_lines::MAX_FILE_BYTES;
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::layout::{self, Generator, Layout, movingai, ros};
 
 use crate::fuzz_corpus::targets::report::{Colour, render, with_flags};
@@ -468,7 +469,7 @@ fn a_file_that_is_no_layout_is_refused() {
 
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("large.map");
-    fs::File::create(&file).and_then(|large| large.set_len(layout::MAX_FILE_BYTES + 1)).expect("a file");
+    fs::File::create(&file).and_then(|large| large.set_len(MAX_FILE_BYTES + 1)).expect("a file");
     let fault = layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault");
     assert_snapshot!(plain(&fault, folder.path()), @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
 }
@@ -479,7 +480,7 @@ fn the_drawing_of_the_largest_layout_is_not_too_large_to_be_read() {
         let height = (layout::MAX_CELLS / width).min(layout::MAX_SIDE_CELLS);
         let lines = ["tautline layout 1", "robots 65535"].map(|line| line.len() as u64 + 2);
         let bytes = lines.iter().sum::<u64>() + (3 * width + 1 + 2) * (2 * height + 1);
-        assert!(bytes < layout::MAX_FILE_BYTES, "{width}x{height}: {bytes}");
+        assert!(bytes < MAX_FILE_BYTES, "{width}x{height}: {bytes}");
     }
 }
 

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use tautline_io::atomic_file::Replaceable;
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::ledger;
-use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::refutation::{self, replay};
 
 use crate::proved::proved;

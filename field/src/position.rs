@@ -12,8 +12,8 @@ pub use measured::{FixReport, Measurements, Place, Power};
 pub use solver::{PARTICLES, Solution, Solver};
 pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot, distances};
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::position::Refusal;
-use tautline_sim::diagnostic::Diagnostic;
 
 /// The kernel's refusal for a person: the fault, and a hint.
 pub fn refused(refusal: Refusal) -> Diagnostic {

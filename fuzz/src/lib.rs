@@ -20,6 +20,8 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use tautline_io::checkpoint::Checkpoint;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, SmallGrid};
@@ -29,11 +31,9 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{SeededOracle, Tape};
 use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
-use tautline_sim::checkpoint::Checkpoint;
 use tautline_sim::counterexample::judge_input::exhibit;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::CHAIN;
-use tautline_sim::explore::chain::hunt::{self, HuntTask};
+use tautline_sim::explore::chain::hunt::{self, HuntTask, Waves};
 use tautline_sim::explore::hunt::Asked;
 use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
 use tautline_sim::heap_grid::HeapGrid;
@@ -312,8 +312,8 @@ pub fn kept_hunt(bytes: &[u8]) {
             let mut oracle = Tape(&numbers);
             let mut number = |below: usize| (256 * oracle.pick(256) + oracle.pick(256)) as usize % below;
             let cut = Bounds { budget_moves: Some(number(80) as u64), ..bounds.clone() };
-            let mut search = Search::new(&cut).expect("two robots fit");
-            while search.wave() {}
+            let mut search = Waves(Search::new(&cut).expect("two robots fit"));
+            while search.0.wave() {}
             let folder = tempfile::tempdir().expect("a folder");
             let file = folder.path().join("hunt");
             kept_at(&file, bounds).keep(&search).expect("it can be written");

@@ -5,11 +5,11 @@ use std::io::Write;
 
 use tautline_field::radio::ChannelName;
 use tautline_field::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run, trace};
+use tautline_io::atomic_file::{AtomicFile, Foreign, Replaceable};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::mrc::Demand;
-use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::RuleName;
 
 use super::{numbers, told};

@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use tautline_io::checkpoint::{Facts, Part, decode, encode};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::shards::{Plan, ShardFile, Work};
 use tautline_proofs::plural::counted;
 
 use crate::tables::{Experiment, find};
-use tautline_sim::checkpoint::{Facts, Part, decode, encode};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::shards::{Plan, ShardFile, Work};
 
 /// Jobs for each thread that are measured before the results are kept.
 const JOBS_AT_ONCE: usize = 8;

@@ -45,8 +45,8 @@ pub use self::entry::{Entry, Experiment, Report};
 use self::parameter::{Parameter, Settings};
 use self::sentences::Judgement;
 use tautline_field::radio::Problem;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::Setup;
 use tautline_sim::layout::{Generator, Layout};
 

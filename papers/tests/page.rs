@@ -6,11 +6,11 @@ use std::fs;
 use std::ops::RangeInclusive;
 
 use serde_json::Value;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::run::Frame;
-use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::draw::page::write;
 use tautline_sim::explore::{Report, Setup, explore};
 use tautline_sim::layout::Generator;

@@ -5,8 +5,8 @@ use std::fmt::Display;
 
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_sim::counterexample::minimise::Failure;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 /// The exceptions of the package, by their names.
 #[derive(Clone, Copy, Debug)]

@@ -5,11 +5,11 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::chain;
 use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme};
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::named_values::NamedValues;
 use tautline_sim::options::Options;
 
 use crate::diagnostic::{Kind, error, raised};

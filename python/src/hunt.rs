@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Far, Finding, Hunter, Shown};
 use tautline_sim::layout::Size;
 

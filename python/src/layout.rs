@@ -5,8 +5,8 @@ use std::num::NonZeroU16;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::svg;
 use tautline_sim::layout::{self as layouts, Layout as Ground};
 

@@ -10,13 +10,13 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
 use tautline_proofs::run::Frame;
 use tautline_proofs::team::{Map, Promise, Setting};
-use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::hunt::layout as layout_of;
 use tautline_sim::explore::{Limits, Own, Report, Setup, run};
 use tautline_sim::layout::Layout;

@@ -13,7 +13,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 use rayon::prelude::*;
-use tautline_sim::diagnostic::Halt;
+use tautline_io::diagnostic::Halt;
 use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, Scheme, explore};
 use tautline_sim::layout;
 

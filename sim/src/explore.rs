@@ -42,6 +42,8 @@ pub use self::scene::{
 };
 pub use self::setup::{Asked, Play, Setup, explore, team};
 
+tautline_io::written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }
+
 /// The schemes of this library. A program may have others, too.
 pub const SCHEMES: &[&Profile] = &[
     &chain::CHAIN,

@@ -27,13 +27,15 @@ use file::{at, read_text};
 use generate::Form;
 use size::Bitmap;
 
-use crate::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 
 pub use coarse::Coarse;
-pub use file::MAX_FILE_BYTES;
 pub use generate::Generator;
 pub use problem::{Misread, no_free_cell, of_size, outside};
 pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
+
+/// A cell, as it is written: column and row.
+pub type CellWritten = [i16; 2];
 
 /// An area of cells. The outer rim is closed; three bits a cell hold the rest.
 #[derive(Clone, PartialEq, Eq, Hash)]

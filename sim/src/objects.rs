@@ -6,6 +6,8 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::text_table::{Column, TextTable, Width};
+use tautline_io::value_parser::{real, whole};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::midpoint;
 use tautline_kernel::ground::Cell;
@@ -14,8 +16,6 @@ use tautline_proofs::plural::counted;
 
 use crate::frontier::cell_at;
 use crate::layout::Layout;
-use crate::text_table::{Column, TextTable, Width};
-use crate::value_parser::{real, whole};
 
 /// The most objects of a run.
 const MOST: usize = 1000;

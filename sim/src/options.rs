@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::value_parser::{real, whole};
 use tautline_kernel::frontier::Threshold;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Odometry, Signal};
@@ -14,7 +15,6 @@ use crate::failures::{Appearing, Failure, Going};
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
 use crate::objects::Objects;
-use crate::value_parser::{probability, real, whole};
 
 /// The options that a run is told, if its scheme can be told them. The default is an option of which nobody says
 /// anything.
@@ -231,7 +231,7 @@ impl Extra {
         alias: Some("lose"),
         takes: Takes::Real("PROBABILITY"),
         about: "How likely it is that such a message, or a byte of a chain, is lost, from 0 to 1. Without it 0",
-        read: |text, options| put(probability(text), &mut options.loss),
+        read: |text, options| put(text.parse(), &mut options.loss),
         typed: |options| words(Some(options.loss).filter(|loss| !loss.is_never())),
         ..Self::new("loss")
     };
@@ -334,7 +334,7 @@ impl Extra {
         takes: Takes::Real("PROBABILITY"),
         about: "How likely it is at each stop that an anchor is heard 10 dB fainter, as behind a wall, from 0 to 1. \
                 Without it 0",
-        read: |text, options| put(probability(text).map(Some), &mut options.outliers),
+        read: |text, options| put(text.parse().map(Some), &mut options.outliers),
         typed: |options| words(options.outliers),
         wrong: |options, _, _| {
             let is_right = options.outliers.is_none() || options.noise_db > 0.0;
@@ -364,7 +364,7 @@ impl Extra {
         takes: Takes::Real("PROBABILITY"),
         about: "How likely it is that an obstacle that is smaller than a cell stands between two cells, from 0 to 1: a robot \
                 goes round it, which takes it a team move. Without it 0",
-        read: |text, options| put(probability(text).map(Some), &mut options.small),
+        read: |text, options| put(text.parse().map(Some), &mut options.small),
         typed: |options| words(options.small),
         ..Self::new("small")
     };

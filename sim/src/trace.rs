@@ -10,7 +10,6 @@
 //! ```
 
 mod foreign;
-pub mod lines;
 mod summary;
 
 use std::borrow::Cow;
@@ -18,21 +17,20 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::json_lines::{Lines, MAX_FILE_BYTES, line_of};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
-use crate::atomic_file::{AtomicFile, Replaceable};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
     Catalogue, ClauseId, Limits, OnViolation, Play, Report, RuleId, Scheme, Setup, Stopped, TeamMove,
     Violation, Watcher, explore,
 };
 use crate::layout::generate::Probability;
-use crate::layout::{Layout, MAX_FILE_BYTES};
+use crate::layout::{CellWritten, Layout};
 use crate::options::Options;
-use crate::schema::CellWritten;
-use lines::{Lines, line_of};
 
 pub use foreign::ForeignRun;
 pub(crate) use foreign::Player;

@@ -6,11 +6,11 @@ use std::path::Path;
 use std::{env, fs};
 
 use proptest::prelude::*;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::run::Frame;
-use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
     Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,

@@ -6,10 +6,10 @@ use std::num::NonZeroU32;
 use std::path::Path;
 
 use crate::common::Unwatched;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::{minimise::minimise, refutation};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize, Shown};
 use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, Stopped, explore};

@@ -6,13 +6,13 @@ use std::env;
 use std::num::NonZeroU32;
 use std::path::Path;
 
+use tautline_io::atomic_file::Replaceable;
+use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
-use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refusal, minimise};
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{

@@ -6,12 +6,12 @@ use std::fs;
 use std::path::Path;
 
 use insta::assert_snapshot;
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
-use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::counterexample::minimise::{Broken, Case, Obstacles, minimise, shrink};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
     Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Setup,

@@ -8,9 +8,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::json_lines::line_of;
 use tautline_proofs::plural::counted;
-use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::trace::lines::line_of;
 
 /// Longer lines are refused.
 const MAX_LINE_BYTES: u64 = 1 << 20;

@@ -5,14 +5,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::value_parser::{Metres, real};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
 
 use super::super::{CellArg, needless, number};
 use super::{above_0, milli};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::layout::{self, Coarse, Generator, Layout, ros};
-use tautline_sim::value_parser::{Metres, real};
 
 #[derive(Debug, Args)]
 pub(super) struct MapArgs {

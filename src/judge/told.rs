@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Misplaced, Numbers, Tracks, Verdict};
 use tautline_proofs::plural::counted;
 
 use super::given::Given;
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::svg;
 use tautline_sim::layout::Layout;
 

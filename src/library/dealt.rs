@@ -6,6 +6,9 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use tautline_io::checkpoint::{Facts, Part, decode, encode};
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::shards::{Plan, ShardFile, Work};
 use tautline_library::Entry;
 use tautline_proofs::clause::{Clause, Decision};
 use tautline_proofs::decide::{Answer, Cache, Context, Depiction, Evidence, Portion, Verdict};
@@ -14,9 +17,6 @@ use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::ledger::{Row, checks};
 use tautline_proofs::plural::counted;
-use tautline_sim::checkpoint::{Facts, Part, decode, encode};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::shards::{Plan, ShardFile, Work};
 
 use super::{chosen, clauses};
 use crate::output::Output;

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::Replaceable;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::clause::{Clause, Decision};
 use tautline_proofs::decide::{Answer, RandomRuns, Verdict};
 use tautline_proofs::ledger::{self, Row, indented};
 use tautline_proofs::plural::counted;
-use tautline_sim::atomic_file::Replaceable;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 use crate::evidence::{EvidenceJson, shown};
 use crate::findings::{self, Case, Format, Outcome};

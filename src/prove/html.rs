@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use tautline_io::atomic_file::HTML_HEAD;
+use tautline_io::diagnostic::Halt;
 use tautline_proofs::ledger::{Row, title};
-use tautline_sim::atomic_file::HTML_HEAD;
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw::page::film::{json, shared, without_shared};
 
 use super::{Ledger, evidence};

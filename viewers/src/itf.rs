@@ -6,8 +6,8 @@ use std::mem::replace;
 use serde_json::{Value, json};
 use tautline_kernel::ground::Cell;
 
-use tautline_sim::atomic_file::{AtomicFile, ITF_HEAD};
-use tautline_sim::diagnostic::Halt;
+use tautline_io::atomic_file::{AtomicFile, ITF_HEAD};
+use tautline_io::diagnostic::Halt;
 use tautline_sim::explore::{ClauseId, Play, TeamMove};
 use tautline_sim::trace::StoredMove;
 

@@ -12,8 +12,8 @@ use tautline_kernel::ground::{Cell, Side, Step};
 
 use self::file::{BLUE, Drawing, File, Ink, ORANGE, PURPLE, headed, stamp};
 use self::points::{Points, Rectangle};
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{Joins, Layer, Play, Report, Scene, Setup, Shape, TeamMove, Zone};
 use tautline_sim::trace::StoredMove;
 

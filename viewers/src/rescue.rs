@@ -7,8 +7,8 @@ use crate::mcap::file::{BLUE, Drawing, File, ORANGE, PURPLE, Shape, headed};
 use tautline_field::radio::Point;
 use tautline_field::rescue::trace::Last;
 use tautline_field::rescue::{Fix, Report, Setting, seconds};
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::Diagnostic;
 
 const SECOND_NS: u64 = 1_000_000_000;
 

@@ -7,13 +7,13 @@ mod mrc;
 mod notice;
 
 use serde_json::Value;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::conditions::Conditional;
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::states::{self, Ending, Limits, System};
 use tautline_proofs::engine::world::{Turn, World};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
 use tautline_sim::explore::{Layer, Place};
 

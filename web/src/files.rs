@@ -1,7 +1,7 @@
 //! Files that are dropped on a page or kept from it: layouts of ours and of MovingAI, stored runs, and the page's own.
 
 use serde_json::{Value, json};
-use tautline_sim::diagnostic::{Diagnostic, Halt, Place};
+use tautline_io::diagnostic::{Diagnostic, Halt, Place};
 use tautline_sim::layout::{Layout, Misread, movingai, text};
 use tautline_sim::trace::{self, StoredRun};
 

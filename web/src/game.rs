@@ -2,7 +2,7 @@
 //! answer, make it again from its start.
 
 use serde_json::{Value, json};
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 
 use crate::ask::Answers;
 use crate::by_hand;

@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::plural::counted;
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::Scheme;
 use tautline_sim::explore::hunt::{Asked, Begun, Far, Finding, Hunt, HuntReport, Hunter, Shown};
 use tautline_sim::layout::Size;

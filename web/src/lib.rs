@@ -20,7 +20,7 @@ mod settings;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 
 use game::Game;
 use hunt::{Hunting, Quarry};

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film;
 use tautline_sim::explore::{
     Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Surroundings, Team,

@@ -8,12 +8,12 @@ use serde::Serialize;
 use super::field::{Map, Terminus, Trail};
 use crate::radio::Point;
 use crate::rescue::{Event, Fix, Journey, LogEntry, Ordinal, Report, SchemeName, Setting, seconds};
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::named_values::NamedValues;
 use tautline_sim::draw::page::film::{self, Again, Board, Film, Share};
 use tautline_sim::draw::page::{base36, is_too_large, too_large, word};
 use tautline_sim::draw::story;
 use tautline_sim::explore::{ClauseId, Kind, Layer, Shape};
-use tautline_sim::named_values::NamedValues;
 
 /// The map of a rescue: the nodes, the WFRs, and where each robot went. The place where one failed is marked.
 pub fn map(caption: String, report: &Report) -> Map<'_> {

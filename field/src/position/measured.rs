@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::{BOM, Diagnostic};
 use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::plural::counted;
@@ -17,7 +18,6 @@ use super::Solver;
 use super::analysis::{Ellipse, ellipse, matrix};
 use super::meeting::check_meeting;
 use crate::stats::decimals;
-use tautline_sim::diagnostic::{BOM, Diagnostic};
 use tautline_sim::explore::RuleName;
 
 /// The columns that a file of distances must have, in any order.

@@ -8,8 +8,8 @@ use tautline_kernel::position::{
     linear, locate,
 };
 
+use tautline_io::named_values::NamedValues;
 use tautline_sim::explore::RuleName;
-use tautline_sim::named_values::NamedValues;
 
 /// A way from distances to a position.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]

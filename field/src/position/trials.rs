@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
+use tautline_io::diagnostic::{Halt, Watch};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
     Area, Fix, Point, Range, Refusal, Residual, Signal, closed_form, linear, locate,
@@ -13,7 +14,6 @@ use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
 use super::solver::Solution;
 use crate::stats::{Estimate, decimals, quantile};
-use tautline_sim::diagnostic::{Halt, Watch};
 use tautline_sim::explore::RuleName;
 use tautline_sim::noise::deviation;
 
@@ -70,7 +70,7 @@ impl Anchors {
     }
 }
 
-tautline_sim::written_as! { Anchors as Vec<[f64; 2]> }
+tautline_io::written_as! { Anchors as Vec<[f64; 2]> }
 
 impl Serialize for Anchors {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

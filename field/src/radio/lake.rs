@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tautline_sim::value_parser::Metres;
+use tautline_io::value_parser::Metres;
 
 /// An obstacle: west, north, east and south of the rectangles that it consists of, in metres.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tautline_sim::named_values::NamedValues;
+use tautline_io::named_values::NamedValues;
 
 use super::{Channel, SharedChannel};
 

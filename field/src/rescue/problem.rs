@@ -2,12 +2,12 @@
 
 use std::fmt;
 
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::named_values::NamedValues;
 use tautline_proofs::plural::counted;
 
 use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName};
 use crate::radio;
-use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::named_values::NamedValues;
 
 /// The most nodes, each counted once for each WFR: what they know of the calls fits into half a gibibyte.
 pub(super) const MAX_STATES: usize = 4_000_000;

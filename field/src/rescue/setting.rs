@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Problem;
 use crate::radio::{self, ChannelName, FREE_SPACE, Model, checked_deviation};
+use tautline_io::named_values::NamedValues;
 use tautline_sim::explore::RuleName;
-use tautline_sim::named_values::NamedValues;
 
 /// The most robots: what a WFR and a path node remember is sized by it.
 pub const MAX_ROBOTS: usize = 16;

@@ -7,12 +7,12 @@ use std::ops::RangeInclusive;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::mrc::Demand;
 
 use super::{Event, Fate, LogEntry, Ordinal, Report, Setting, Violation, rescue};
 use crate::stats::{Estimate, rounded};
-use tautline_sim::diagnostic::{Diagnostic, Halt, Watch};
 
 /// The outcome of many rescues.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]

@@ -10,11 +10,11 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::json_lines::{Lines, line_of};
 
 use super::{Fate, Report, Setting, rescue};
-use tautline_sim::atomic_file::AtomicFile;
-use tautline_sim::diagnostic::Diagnostic;
-use tautline_sim::trace::lines::{Lines, line_of};
 
 /// The format of the header.
 pub const FORMAT: &str = "tautline rescue";

@@ -6,13 +6,13 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, RobotId, Strength};
 use tautline_kernel::tan::{Heading, Homing, Nav, Nearness, Order, Stage};
 
 use super::{Antenna, Ear, Signal};
 use crate::radio::{Field, Point, Problem, Radio};
-use tautline_sim::named_values::NamedValues;
 
 /// How fast a robot is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

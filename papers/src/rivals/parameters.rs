@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::Circle;
 
-use tautline_sim::named_values::NamedValues;
+use tautline_io::named_values::NamedValues;
 
 /// Which two robots have a link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]

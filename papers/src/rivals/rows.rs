@@ -5,7 +5,7 @@ use tautline_kernel::chain::{self, MAX_ROBOTS};
 use tautline_kernel::ground::{Area, Cell, Circle};
 use tautline_proofs::run::Frame;
 
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::SCHEMES;
 use tautline_sim::explore::{
     By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Surroundings,

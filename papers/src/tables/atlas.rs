@@ -12,7 +12,7 @@ use tautline_proofs::run::walls;
 use super::prelude::*;
 use tautline_sim::explore::RuleName;
 use tautline_sim::explore::chain::hunt::start;
-use tautline_sim::schema::CellWritten;
+use tautline_sim::layout::CellWritten;
 
 /// The atlas.
 #[derive(Clone, Copy, Debug)]

@@ -9,8 +9,8 @@ use crate::nxt::{Body, Odometer};
 use tautline_sim::draw::svg;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore, team};
+use tautline_sim::layout::CellWritten;
 use tautline_sim::layout::Layout;
-use tautline_sim::schema::CellWritten;
 
 /// Fig. 4.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Tables of text whose columns are data: each has a heading, a width, and what of a line stands in it.
 
 use tautline_field::stats::Estimate;
-use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Column, TextTable, Width};
 
 use super::estimates::{percent, text};
 

@@ -11,8 +11,8 @@ use std::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 
-use tautline_sim::atomic_file::CSV_HEAD;
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::atomic_file::CSV_HEAD;
+use tautline_io::diagnostic::Diagnostic;
 
 /// A value of JSON.
 #[derive(Deserialize)]

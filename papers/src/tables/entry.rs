@@ -6,13 +6,13 @@ use std::fmt;
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::schema;
 
 use super::csv::csv;
 use super::parameter::TableOption;
 use super::sentences::{self, Judgement};
 use super::{Description, Observer, Table, measure};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::schema;
 
 /// A table of any types.
 pub trait Entry: fmt::Debug + Sync {

@@ -3,6 +3,7 @@
 //! swarm, and that it grows with the number of robots. Robots stand at random places of a square with anchors in three
 //! corners.
 
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::engine::SeededOracle;
 
@@ -12,7 +13,6 @@ use super::prelude::*;
 use crate::chart;
 use tautline_field::position::{Anchors, Solver, distances, refused};
 use tautline_sim::explore::RuleName;
-use tautline_sim::named_values::NamedValues;
 
 /// The numbers of robots of the paper.
 const ROBOTS: [usize; 5] = [1, 2, 4, 6, 8];

@@ -3,6 +3,7 @@
 //! within the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same
 //! sources.
 
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Count, Rule, Scheme};
@@ -13,7 +14,6 @@ use super::sentences::at_least;
 use tautline_field::radio::{
     Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
-use tautline_sim::named_values::NamedValues;
 
 /// The numbers of nodes of the paper.
 pub const NODES: [usize; 5] = [300, 500, 700, 900, 1100];

@@ -9,9 +9,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::notice::Count;
 
+use tautline_io::named_values::NamedValues;
+use tautline_io::value_parser::{self, within};
 use tautline_sim::layout;
-use tautline_sim::named_values::NamedValues;
-use tautline_sim::value_parser::{self, within};
 
 /// The settings of a table.
 pub trait Settings: Default + Serialize + DeserializeOwned + Sync + 'static {
@@ -252,7 +252,7 @@ impl TryFrom<u8> for Senders {
     type Error = String;
 
     fn try_from(count: u8) -> Result<Self, Self::Error> {
-        value_parser::count(&count.to_string()).map(Self)
+        Self::read(&count.to_string())
     }
 }
 
@@ -277,6 +277,7 @@ impl Senders {
     /// # Errors
     /// A hint at what to write.
     pub fn read(text: &str) -> Result<Self, String> {
-        value_parser::count(text).map(Self)
+        let count = text.parse().ok().and_then(Count::new);
+        count.map(Self).ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
     }
 }

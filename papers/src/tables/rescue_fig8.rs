@@ -10,8 +10,8 @@ use tautline_field::draw::rescue::map;
 use tautline_field::radio::{ChannelName, FREE_SPACE, Point};
 use tautline_field::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
 use tautline_field::tan::shortest_m;
+use tautline_io::value_parser::within;
 use tautline_sim::explore::RuleName;
-use tautline_sim::value_parser::within;
 
 /// The robots of the figure.
 const ROBOTS: usize = 3;

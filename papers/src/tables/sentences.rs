@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_field::stats::Estimate;
-use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_io::text_table::{Column, TextTable, Width};
 
 use super::paper::Verdict;
 

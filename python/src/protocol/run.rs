@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use tautline_io::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_proofs::decide::{Depiction, Evidence};
 use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Move, Protocol};
-use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 
 use super::script::{Posed, StateScript};
 use crate::diagnostic::raised;

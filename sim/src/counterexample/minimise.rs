@@ -34,9 +34,9 @@ use std::ops::Range;
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{ClauseId, Limits, OnViolation, Report, Setup, TeamMove, Violation, explore, run, team};
 use crate::layout::Layout;
 

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::Halt;
 use tautline_proofs::run::{Ending, Run};
 use tautline_proofs::team::{Rule, Setting, Strategy};
 
-use crate::atomic_file::{AtomicFile, Replaceable};
-use crate::diagnostic::Halt;
 use crate::explore::hunt::layout as layout_of;
 use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, TeamMove, Violation, run};
 use crate::trace::{Player, Writer};

@@ -20,9 +20,9 @@ use tautline_proofs::decide::{Evidence, RefutationPlay};
 use tautline_proofs::engine::{Choices, ScriptError};
 use tautline_proofs::ledger;
 
-use crate::atomic_file::{AtomicFile, Replaceable};
-use crate::diagnostic::Diagnostic;
-use crate::trace::lines::{Lines, line_of};
+use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::json_lines::{Lines, line_of};
 
 /// The format of the header.
 pub const FORMAT: &str = "tautline refutation";

@@ -10,6 +10,8 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
+use tautline_io::atomic_file::AtomicFile;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
@@ -17,8 +19,6 @@ use tautline_proofs::run::Frame;
 pub use self::film::in_words;
 use self::film::{Board, EndBreach, Film, Share, again, notes, outcome};
 use super::story;
-use crate::atomic_file::AtomicFile;
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{Change, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove};
 
 /// Bytes of a page. Larger ones take a browser too long.

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::floor_trace::Course;
@@ -10,7 +11,6 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run};
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
 use crate::layout::Layout;
 

@@ -7,12 +7,12 @@ mod moment;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
+use tautline_io::atomic_file::SVG_HEAD;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use super::{Environment, REACH, first_drawn};
-use crate::atomic_file::SVG_HEAD;
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{Look, Play, Report, Setup, Survey, TeamMove};
 use crate::layout::Layout;
 

@@ -7,6 +7,7 @@ use std::ops::{Deref, RangeInclusive};
 use std::sync::{Mutex, PoisonError};
 
 use serde::{Serialize, Serializer};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::judge::AnyCase;
 
@@ -14,7 +15,6 @@ use super::SCHEMES;
 use super::clause::{Clause, ClauseId};
 use super::rule::{Rule, RuleId};
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 use crate::kit;
 use crate::layout::Layout;
 use crate::options::Extra;

@@ -6,6 +6,7 @@ pub mod hunt;
 mod shown;
 mod team;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::{self, Chain, MAX_ROBOTS, SetupError};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::Subject;
@@ -20,7 +21,6 @@ use super::clause::{Clause, Judge};
 use super::rule::{Rule, RuleId, Switched};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 use crate::heap_grid::HeapGrid;
 use crate::options::Extra;
 

@@ -5,12 +5,12 @@ use std::fmt;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
+use tautline_io::checkpoint::{Facts, Part, decode, encode};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{Asked, Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, Hunter};
-use crate::checkpoint::{Facts, Part, decode, encode};
-use crate::diagnostic::{Diagnostic, Halt};
 
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
@@ -95,7 +95,7 @@ impl<E: Each> Deals for E {
             let what = "this shard has not done what the plan dealt it before it went on";
             return Err(Diagnostic::usage(what, AGAIN));
         }
-        Ok(Box::new(shard))
+        Ok(Box::new(Looks(shard)))
     }
 
     fn merge(
@@ -111,32 +111,37 @@ impl<E: Each> Deals for E {
     }
 }
 
-/// The looks that a shard has taken, and their steps.
-fn count<L: Lots>(shard: &Shard<L>) -> (usize, u64) {
-    let all = || shard.looks().iter().flatten();
-    (all().count(), all().map(Look::steps).sum())
+/// The looks that a shard takes.
+struct Looks<L: Lots>(Shard<L>);
+
+impl<L: Lots> Looks<L> {
+    /// Those that it has taken, and their steps.
+    fn count(&self) -> (usize, u64) {
+        let all = || self.0.looks().iter().flatten();
+        (all().count(), all().map(Look::steps).sum())
+    }
 }
 
-impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Part for Shard<L> {
+impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Part for Looks<L> {
     fn step(&mut self) -> Result<bool, Halt> {
-        self.wave().map_err(|fault| fault.into().into())
+        self.0.wave().map_err(|fault| fault.into().into())
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        encode(&self.looks())
+        encode(&self.0.looks())
     }
 
     fn is_done(&self) -> bool {
-        self.is_done()
+        self.0.is_done()
     }
 
     fn facts(&self) -> Facts {
-        let (layouts, moves) = count(self);
+        let (layouts, moves) = self.count();
         Facts::Layouts { layouts, moves }
     }
 
     fn words(&self) -> String {
-        let (layouts, moves) = count(self);
+        let (layouts, moves) = self.count();
         format!("{}, {}", counted(layouts, "layout"), counted(moves, "team move"))
     }
 }

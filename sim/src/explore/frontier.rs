@@ -7,6 +7,7 @@ mod shown;
 
 use std::collections::BTreeSet;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::{Condition, Rule as Frontier};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
@@ -18,7 +19,6 @@ use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 use crate::frontier::{Allowance, Assigned, Assignment, Dice, Ended, Explorers};
 use crate::layout::Layout;
 use crate::objects::ObjectReport;

@@ -10,6 +10,8 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use tautline_io::checkpoint::{Part, decode, encode};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::areas::AreaSearch;
 use tautline_proofs::engine::tree::Progress;
@@ -21,8 +23,6 @@ use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::Setup;
-use crate::checkpoint::{Part, decode, encode};
-use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Size};
 
 /// A search of all layouts within bounds for runs that break a clause.

@@ -1,6 +1,7 @@
 //! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors
 //! that they miss written down.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::floor::crew::Scheme as Crew;
 use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, TrapReport};
 use tautline_proofs::plural::counted;
@@ -11,7 +12,6 @@ use super::each::Each;
 use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
 use super::rule::{RuleId, Switched};
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.

@@ -12,6 +12,7 @@ mod shown;
 use std::collections::BTreeSet;
 use std::num::NonZeroU32;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::kit::{Reach, Rule as Kit, SetupError, Stance};
@@ -25,7 +26,6 @@ use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
 use crate::options::Extra;

@@ -4,6 +4,7 @@ use std::any::type_name;
 use std::fmt;
 use std::ops::ControlFlow;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::decide::{Cache, Context, Depiction, Evidence, Method as _, Verdict};
@@ -21,7 +22,6 @@ use super::hunt::{
 use super::own::Own;
 use super::run::Team;
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 
 /// A rule of one's own in its surroundings.
 pub struct OwnRule<R: Rule + 'static> {

@@ -7,6 +7,7 @@ mod shown;
 
 use std::collections::HashSet;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Circle, Step};
 use tautline_kernel::pack::{
@@ -21,7 +22,6 @@ use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::options::Extra;
 

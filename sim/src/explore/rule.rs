@@ -4,6 +4,8 @@ use std::fmt;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
+use tautline_io::diagnostic::Diagnostic;
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::chain;
 use tautline_kernel::conditions::Conditional;
 use tautline_proofs::chain::Subject;
@@ -12,8 +14,6 @@ use super::clause::kept;
 use super::hunt::Hunt;
 use super::run::Team;
 use super::setup::Setup;
-use crate::diagnostic::Diagnostic;
-use crate::named_values::NamedValues;
 
 /// Whether a scheme is taken as its paper has it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]

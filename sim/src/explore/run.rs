@@ -8,6 +8,8 @@ use std::num::NonZeroU32;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::diagnostic::Halt;
+use tautline_io::named_values::NamedValues;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::run::Frame;
@@ -16,10 +18,8 @@ use super::clause::ClauseId;
 use super::course::Course;
 use super::floor::Component;
 use super::scene::{Layer, Refusal, Scene};
-use crate::diagnostic::Halt;
 use crate::failures::Failures;
 use crate::layout::Layout;
-use crate::named_values::NamedValues;
 use crate::objects::ObjectReport;
 
 /// The questions that a run asks of a team. Only where its robots are and how they make a team move is required.

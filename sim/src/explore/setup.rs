@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::{fmt, slice};
 
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
@@ -10,7 +11,6 @@ use super::catalogue::{Drawn, Scheme, Senses, Starts};
 use super::clause::ClauseId;
 use super::rule::{Rule, RuleId};
 use super::run::{Limits, Report, Survey, Team, TeamMove, Watcher, run};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
 use crate::options::{Extra, Options};

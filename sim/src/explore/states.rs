@@ -3,11 +3,11 @@
 
 use std::ops::ControlFlow;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::engine::states::{self, Findings, Limits, System};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, outcome};
-use crate::diagnostic::Diagnostic;
 use crate::layout::Size;
 
 /// States between two words about how far the search is.

@@ -2,10 +2,10 @@
 //! is free if the disc meets no blocked pixel there, and a side is open if it meets none on the straight way to the
 //! middle of the next cell. Beyond the rim of the map everything is blocked.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::Layout;
-use crate::diagnostic::Diagnostic;
 
 /// The size of cells and robots on a map whose pixels have one.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]

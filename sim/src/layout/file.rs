@@ -6,14 +6,12 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
 
+use tautline_io::diagnostic::{BOM, Diagnostic};
+use tautline_io::json_lines::MAX_FILE_BYTES;
 use tautline_proofs::plural::counted;
 
 use super::problem::sizes;
 use super::{Misread, problem};
-use crate::diagnostic::{BOM, Diagnostic};
-
-/// Larger files are refused before they are read. The drawing of the largest layout is smaller.
-pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// The text of `file`.
 pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {

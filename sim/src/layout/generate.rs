@@ -11,12 +11,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::problem::examples;
 use super::{Layout, Size, problem, text};
-use crate::diagnostic::Diagnostic;
 
 const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
 const ROOMS_B: &str = include_str!("generate/rooms-b.txt");

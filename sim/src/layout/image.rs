@@ -3,9 +3,9 @@
 use std::io::Cursor;
 
 use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
+use tautline_io::diagnostic::Diagnostic;
 
 use super::{MAX_CELLS, problem};
-use crate::diagnostic::Diagnostic;
 
 /// Red, green, blue, and how opaque it is.
 pub(super) type Pixel = [u8; 4];

@@ -5,12 +5,12 @@
 //! trees, blocked. The format has no walls between cells and no base. `\r\n` and a missing last newline are
 //! read.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
 use super::file::{Line, end, lines};
 use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
-use crate::diagnostic::Diagnostic;
 
 const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)";
 

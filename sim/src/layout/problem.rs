@@ -3,11 +3,11 @@
 use std::fmt;
 use std::ops::Range;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 
 use super::generate::FORMS;
 use super::{MAX_CELLS, MAX_SIDE_CELLS, Size};
-use crate::diagnostic::Diagnostic;
 
 /// A problem in the bytes `at` of a text.
 #[derive(Clone, PartialEq, Eq, Debug)]

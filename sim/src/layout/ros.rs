@@ -9,13 +9,13 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 
 use super::file::{at, read_bytes, read_text};
 use super::image::{Pixel, decode};
 use super::yaml::{FIELDS, Mapping, no_map};
 use super::{Layout, Misread, problem};
-use crate::diagnostic::Diagnostic;
 
 /// Where the cells of a map lie in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::problem;
-use crate::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Cell};
 
 /// The most cells on a side.

@@ -16,12 +16,12 @@
 use std::fmt;
 use std::num::NonZeroU16;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::file::{Line, end, lines};
 use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
-use crate::diagnostic::Diagnostic;
 
 const MAGIC: &str = "tautline layout ";
 const VERSION: u32 = 1;

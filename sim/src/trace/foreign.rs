@@ -3,12 +3,12 @@
 //! from the team moves. Which clauses are broken, and how many cells there were to explore, only the file knows.
 
 use serde::de::IgnoredAny;
+use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::json_lines::{Lines, MAX_LINE_BYTES};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
-use super::lines::{Lines, MAX_LINE_BYTES};
 use super::{Header, Line, StoredEnd, StoredViolation, drawn};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
     ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Surroundings, Survey, Team, Violation,
     Watcher, run,

@@ -10,9 +10,9 @@ use super::StoredViolation;
 use crate::explore::floor::Component;
 use crate::explore::{Knowledge, Milestone, Play, Report, Setup, Stopped, Violation};
 use crate::failures::Failures;
+use crate::layout::CellWritten;
 use crate::layout::generate::Probability;
 use crate::objects::ObjectReport;
-use crate::schema::CellWritten;
 
 /// The JSON of a run.
 #[derive(JsonSchema, Serialize)]

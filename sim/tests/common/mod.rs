@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use tautline_sim::diagnostic::Diagnostic;
+use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Far, Hunter};
 
 /// Nobody watches; the hunts of these tests keep no file.

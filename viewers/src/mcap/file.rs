@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use tautline_io::atomic_file::{AtomicFile, MCAP_LIBRARY, MCAP_PROFILE};
+use tautline_io::diagnostic::Diagnostic;
+
 use ::mcap::records::{MessageHeader, Metadata};
 use ::mcap::write::NoSeek;
 use ::mcap::{McapError, WriteOptions, Writer};
 
 use super::cdr::Cdr;
 use super::definition::definition;
-use tautline_sim::atomic_file::{AtomicFile, MCAP_LIBRARY, MCAP_PROFILE};
-use tautline_sim::diagnostic::Diagnostic;
 
 /// The frame of all places: x goes east, y goes north.
 const FRAME: &str = "map";

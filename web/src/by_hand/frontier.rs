@@ -1,10 +1,10 @@
 //! Frontier cells by hand: which robot looks or arrives next, and which messages are lost.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::{Map, Rule, Status, TinyMap};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::frontier::areas::{setting, words};
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor, World};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Layer, Place, Shape, Value};
 
 use super::{ByHand, Picture, Played, Scene, Shown, chosen, small_team, too_large};

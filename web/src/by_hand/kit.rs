@@ -1,10 +1,10 @@
 //! Keep In Touch by hand: which robot arrives next, which decides, and where it turns.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, EdgeMark, Grid, TinyGrid};
 use tautline_kernel::kit::{Reach, Rule, Stance};
 use tautline_proofs::kit::counterexample::words;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Successor, World};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Joins, Layer, Place, Shape, Value, Zone};
 
 use super::{ByHand, Picture, Played, Scene, Shown, chosen, small_team, too_large};

@@ -1,6 +1,7 @@
 //! MRC by hand: which message arrives, is lost or comes twice, whose timer goes off, and who fails.
 
 use serde_json::{Value as Json, json};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::mrc::{Phase, Rule, Task};
@@ -8,7 +9,6 @@ use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{
     Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Served, Setting, State, WFRS, chart,
 };
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
 use super::{ByHand, Hunted, Picture, Played, Scene, Shown, number, search};

@@ -3,6 +3,7 @@
 
 use core::num::NonZeroU32;
 use serde_json::{Value as Json, json};
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
@@ -10,7 +11,6 @@ use tautline_kernel::notice::{Conditions, Count, Rule, Scheme, Stage};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::notice::networks::{Case, SMALL};
 use tautline_proofs::notice::spread::{Demand, Event, Spread};
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
 use super::{ByHand, Hunted, Picture, Played, Scene, Shown, number, search, starts};

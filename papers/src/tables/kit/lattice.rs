@@ -1,9 +1,9 @@
 //! Random lattices of 26 paths, all within reach of each other.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 
 use super::PATHS;
-use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::layout::{Layout, generate};
 
 /// Lattices of one size.

@@ -3,8 +3,9 @@
 
 use std::ops::ControlFlow;
 
+use tautline_io::diagnostic::{Diagnostic, Halt};
+
 use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::{Asked, Bound, Far, Finding, Hunter, Shown};
 use crate::explore::{ClauseId, Setup, explore};
 use crate::layout::Size;

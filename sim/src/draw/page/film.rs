@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
+use tautline_io::atomic_file::HTML_HEAD;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_proofs::plural::counted;
 
 use super::place_of;
-use crate::atomic_file::HTML_HEAD;
 use crate::draw::svg::escaped;
 use crate::explore::{Joins, Kind, Layer, Milestone, Report, Setup, Shape, Starts, Value, Zone};
 use crate::layout::Layout;

@@ -1,11 +1,11 @@
 //! The hunt of chains over areas: whatever their columns and rows, and wherever the base is.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::areas::{Areas, Findings, Smallest, most_edges, search};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{bounds, fault, team};
-use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
 use crate::explore::hunt::{
     Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown, outcome, setup,

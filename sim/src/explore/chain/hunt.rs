@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use tautline_io::checkpoint::{self, Checkpoint, Part, Task, decode, encode};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::search::{Bounds, Deal as Walk, Findings, Position, Search, Unsearchable};
@@ -10,8 +12,6 @@ use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
 use super::areas;
-use crate::checkpoint::{self, Checkpoint, Part, Task, decode, encode};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::{
     Asked, Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize,
     Shown, outcome, setup,
@@ -115,7 +115,7 @@ impl Deals for Walls {
             None => Search::shard(&bounds, &deal, shard),
             Some(far) => Search::shard_at(&bounds, &deal, shard, &decode::<Position>(far, RUN_AGAIN)?),
         };
-        Ok(Box::new(search.map_err(fault)?))
+        Ok(Box::new(Waves(search.map_err(fault)?)))
     }
 
     fn merge(
@@ -136,26 +136,30 @@ impl Deals for Walls {
 /// The remedy for a shard that was never there.
 const RUN_AGAIN: &str = "run the shard again";
 
-impl Part for Search {
+/// A search that can be left after each of its waves.
+#[derive(Debug)]
+pub struct Waves(pub Search);
+
+impl Part for Waves {
     fn step(&mut self) -> Result<bool, Halt> {
-        Ok(self.wave())
+        Ok(self.0.wave())
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        encode(&self.position())
+        encode(&self.0.position())
     }
 
     fn is_done(&self) -> bool {
-        self.is_complete()
+        self.0.is_complete()
     }
 
     fn facts(&self) -> checkpoint::Facts {
-        let Progress { runs, moves, .. } = self.progress();
+        let Progress { runs, moves, .. } = self.0.progress();
         checkpoint::Facts::Runs { runs, moves }
     }
 
     fn words(&self) -> String {
-        let Progress { runs, moves, .. } = self.progress();
+        let Progress { runs, moves, .. } = self.0.progress();
         format!("{}, {}", counted(runs, "run"), counted(moves, "team move"))
     }
 }
@@ -207,16 +211,16 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntRepo
 
 fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Findings, Diagnostic> {
     let mut kept = Checkpoint::new(asked.resume, HuntTask::new(asked, bounds));
-    let mut search = resume(&mut kept, bounds)?;
+    let mut search = Waves(resume(&mut kept, bounds)?);
     // What cannot be kept is refused before it has cost anything.
     kept.keep(&search)?;
-    while hunter.hears(Far::Tree(&search.progress())).is_continue() && search.wave() {
+    while hunter.hears(Far::Tree(&search.0.progress())).is_continue() && search.0.wave() {
         kept.keep_now_and_then(&search);
     }
     if let Err(fault) = kept.keep(&search) {
         hunter.is_left_out(&fault);
     }
-    Ok(search.found())
+    Ok(search.0.found())
 }
 
 /// The search as it is in the file of `kept`, or from the start if there is no file.

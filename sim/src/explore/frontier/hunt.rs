@@ -3,6 +3,7 @@
 
 mod rivals;
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::Rule as Frontier;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::states::Limits as Most;
@@ -13,7 +14,6 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::Scripted;
 
 pub(super) use self::rivals::Simulated;
-use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
 };

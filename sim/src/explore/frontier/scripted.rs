@@ -3,6 +3,7 @@
 //! how many messages are lost and how many fixes are wrong at most, since the others are counted among what may happen
 //! then.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
 use tautline_kernel::ground::{Cell, Step};
@@ -12,7 +13,6 @@ use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
 use tautline_proofs::run::Frame;
 
 use super::{COVERS, KNOWS};
-use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
 use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;

@@ -2,6 +2,7 @@
 //! lattices. Of two robots one image of each state is searched; what is broken there is searched again as it is, with
 //! as few walls as can be.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::kit::Rule as Kit;
 use tautline_proofs::engine::states::{Findings, Limits as Most};
 use tautline_proofs::kit::counterexample::{Counterexample, fewest};
@@ -11,7 +12,6 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::Scripted;
 
 use super::{EQUAL, reach};
-use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
 };

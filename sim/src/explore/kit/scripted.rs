@@ -2,6 +2,7 @@
 //! and the arrivals after it; whoever drives is drawn where it arrives. The first choice says whether robots drive at
 //! equal speeds.
 
+use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
@@ -12,7 +13,6 @@ use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Succes
 use tautline_proofs::run::Frame;
 
 use super::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes, reach};
-use crate::diagnostic::Diagnostic;
 use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};

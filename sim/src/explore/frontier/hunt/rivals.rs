@@ -1,12 +1,12 @@
 //! Hunts of rivals that assign robots to cells: all layouts and starts are tried, smallest first.
 
 use serde::{Deserialize, Serialize};
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::lots::{self, Lots};
 
 use super::super::ENDS;
 use super::{SMALL, areas, bounds, report, title};
-use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::each::{Each, FoundBy};
 use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
 use crate::explore::run::{Limits, run};

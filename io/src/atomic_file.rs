@@ -27,7 +27,7 @@ const OURS: [&[u8]; 8] = [
 ];
 
 /// The beginning of a picture.
-pub(crate) const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
+pub const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
 
 /// The beginning of a page.
 pub const HTML_HEAD: &str = "<!doctype html>

@@ -9,13 +9,14 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
-use tautline_proofs::plural::counted;
 
 use crate::diagnostic::{BOM, Diagnostic};
-use crate::layout::MAX_FILE_BYTES;
+
+/// Larger files are refused before they are read. The drawing of the largest layout is smaller.
+pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
-pub(crate) const MAX_LINE_BYTES: u64 = 1 << 16;
+pub const MAX_LINE_BYTES: u64 = 1 << 16;
 
 /// The beginning of a header, in every version.
 #[derive(Deserialize)]
@@ -86,23 +87,24 @@ impl Lines {
             _ => unreadable(format!("the file cannot be read: {error}")),
         })?;
         if let Ok(about) = file.metadata() {
-            tracing::info!("reading {}: {}", path.display(), counted(about.len(), "byte"));
+            let bytes = about.len();
+            tracing::info!("reading {}: {bytes} byte{}", path.display(), if bytes == 1 { "" } else { "s" });
         }
         Ok(Self { path: path.to_owned(), input: Box::new(BufReader::new(file)), count: 0, again })
     }
 
     /// The lines of a `text` that is called so; `again` says how to make one.
-    pub(crate) fn of(name: &str, text: String, again: &'static str) -> Self {
+    pub fn of(name: &str, text: String, again: &'static str) -> Self {
         Self { path: name.into(), input: Box::new(Cursor::new(text)), count: 0, again }
     }
 
     /// These lines, with other words for how to make such a file again.
-    pub(crate) fn made_by(self, again: &'static str) -> Self {
+    pub fn made_by(self, again: &'static str) -> Self {
         Self { again, ..self }
     }
 
     /// The file.
-    pub(crate) fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         &self.path
     }
 
@@ -130,7 +132,7 @@ impl Lines {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be read, is longer, or no text.
-    pub(crate) fn next(&mut self, most: u64) -> Result<Option<String>, Diagnostic> {
+    pub fn next(&mut self, most: u64) -> Result<Option<String>, Diagnostic> {
         if self.count == 0 {
             self.skip_bom();
         }
@@ -199,7 +201,7 @@ impl Lines {
     }
 
     /// A fault where the line begins to differ from `expected`, which stands behind `what`.
-    pub(crate) fn differs(&self, text: &str, expected: &impl Serialize, what: &str) -> Diagnostic {
+    pub fn differs(&self, text: &str, expected: &impl Serialize, what: &str) -> Diagnostic {
         let wanted = line_of(expected);
         let same = text.bytes().zip(wanted.bytes()).take_while(|(one, other)| one == other).count();
         self.at(text, same..same + 1, format_args!("{what} {}", wanted.trim_end()), self.again)
@@ -236,18 +238,12 @@ impl Lines {
     }
 
     /// A fault at the end of the value that `key` has in the line, which is none.
-    pub(crate) fn no_line(&self, text: &str, key: &str, what: impl Display, remedy: &str) -> Diagnostic {
+    pub fn no_line(&self, text: &str, key: &str, what: impl Display, remedy: &str) -> Diagnostic {
         self.no_line_at(text, value_of(text, key).end.saturating_sub(1), what, remedy)
     }
 
     /// A fault where `key` stands in the line.
-    pub(crate) fn fault(
-        &self,
-        text: &str,
-        key: &str,
-        what: impl Display,
-        remedy: impl Display,
-    ) -> Diagnostic {
+    pub fn fault(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
         let start = text.find(key).unwrap_or_default();
         self.at(text, start..start + key.len(), what, remedy)
     }

@@ -21,11 +21,10 @@ use serde_json::value::{RawValue, to_raw_value};
 
 use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::layout::MAX_FILE_BYTES;
-use crate::trace::lines::{Magic, value_of};
+use crate::json_lines::{MAX_FILE_BYTES, Magic, line_of, value_of};
 
 /// The version of every such file.
-pub(crate) const VERSION: u32 = 1;
+pub const VERSION: u32 = 1;
 
 /// How often work on its way is kept.
 const KEEP_EVERY: Duration = Duration::from_secs(5);
@@ -196,14 +195,9 @@ impl<T: Task> Lines<T> {
 
 /// The three lines.
 pub(crate) fn text(task: &impl Task, far: &RawValue) -> String {
-    let mut text = line(task) + &line(&far);
-    text += &line(&Seal { crc32: crc32fast::hash(text.as_bytes()) });
+    let mut text = line_of(task) + &line_of(&far);
+    text += &line_of(&Seal { crc32: crc32fast::hash(text.as_bytes()) });
     text
-}
-
-fn line(value: &impl Serialize) -> String {
-    // Numbers, strings and lists of them can always be written.
-    serde_json::to_string(value).unwrap_or_default() + "\n"
 }
 
 fn in_header(path: &Path, text: &str, field: &str, what: String, remedy: &str) -> Diagnostic {

@@ -4,11 +4,6 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, generate::SchemaSettings};
 use serde_json::Value;
 
-use crate::explore::{ClauseId, Profile, RuleId, Scheme};
-
-/// A cell, as it is written: column and row.
-pub type CellWritten = [i16; 2];
-
 /// The schema of a type as it is printed. It allows fields that it does not name, as a later version may have them.
 pub fn of<T: JsonSchema + ?Sized>(title: &str) -> Schema {
     let settings = SchemaSettings::draft2020_12().for_serialize();
@@ -71,5 +66,3 @@ macro_rules! written_as {
         }
     )*};
 }
-
-written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }

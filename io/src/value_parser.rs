@@ -6,11 +6,6 @@ use std::num::{IntErrorKind, ParseIntError};
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use tautline_kernel::notice::Count;
-
-use crate::diagnostic::Diagnostic;
-use crate::layout::generate::Probability;
-
 /// A whole number, as large as its type holds.
 ///
 /// # Errors
@@ -52,23 +47,6 @@ where
 /// The words for what to write.
 pub fn real(text: &str) -> Result<f64, &'static str> {
     text.parse().map_err(|_| "write a number")
-}
-
-/// A number from 0 to 1.
-///
-/// # Errors
-/// The words for what to write.
-pub fn probability(text: &str) -> Result<Probability, String> {
-    text.parse().map_err(|problem: Diagnostic| problem.to_string())
-}
-
-/// How often something is counted until a node is silent.
-///
-/// # Errors
-/// The words for what to write.
-pub fn count(text: &str) -> Result<Count, String> {
-    let count = text.parse().ok().and_then(Count::new);
-    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
 }
 
 /// Metres, with commas between them.
