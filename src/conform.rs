@@ -20,7 +20,8 @@ use tautline_proofs::run::Frame;
 use self::program::Program;
 use super::output::Output;
 use super::{CATALOGUE, Exit, Format, FormatArgs, positive};
-use tautline_sim::draw::{self, Block, Pose};
+use tautline_io::text_blocks::{Block, beside};
+use tautline_sim::draw::{self, Pose};
 use tautline_sim::explore::{Play, Report, Senses, Setup, Stopped, Survey, TeamMove, Told};
 use tautline_sim::layout::CellWritten;
 use tautline_sim::layout::Layout;
@@ -212,7 +213,7 @@ impl Conform {
         out.text(format_args!("{same} in team move {}:\n{}", told.step, told.words()))?;
         if let Some(drawing) = drawing {
             let legend = draw::legend(setup.scheme.look);
-            out.text(format_args!("\n{legend}\n\n{}", draw::beside(drawing.into())))?;
+            out.text(format_args!("\n{legend}\n\n{}", beside(drawing.into())))?;
         }
         Ok(exit)
     }

@@ -14,8 +14,9 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Run, Scripted};
 
 use super::CATALOGUE;
+use tautline_io::text_blocks::Block;
 use tautline_sim::counterexample::refutation::{self, Refutation};
-use tautline_sim::draw::{self, Block, page};
+use tautline_sim::draw::{self, page};
 use tautline_sim::explore::{ClauseId, Play, RuleName, Setup, hunt};
 
 /// A refutation as JSON.

@@ -11,6 +11,8 @@ use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, ValueEnum};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::json_lines;
+use tautline_io::svg::Panel;
+use tautline_io::text_blocks::Rows;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
@@ -230,11 +232,11 @@ impl Explore {
             match self.draw {
                 Some(Draw::Moves) => picture.draw(svg::team_moves(&setup, &report, &(1..=report.steps)))?,
                 Some(Draw::Map) => {
-                    picture.append(svg::picture(&setup.title(), &[svg::map(&setup, &report)]));
+                    picture.append(Panel::picture(&setup.title(), &[svg::map(&setup, &report)]));
                 }
                 Some(Draw::Order) | None => {
                     let order = svg::order(&setup, &report.chart);
-                    picture.append(svg::picture(&setup.title(), &[order]));
+                    picture.append(Panel::picture(&setup.title(), &[order]));
                 }
             }
             out.keep(picture);
@@ -349,7 +351,7 @@ pub(super) fn draw_moves(
         }
     };
     out.text(format_args!("\n{}\n\n", draw::legend(run.setup().scheme.look)))?;
-    let mut rows = draw::Rows::new(columns);
+    let mut rows = Rows::new(columns);
     run.among(&moves, &mut |made| {
         if out.is_gone() {
             return Ok(());

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use clap::{Args, ValueEnum};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_sim::draw::svg::escaped;
+use tautline_io::svg::escaped;
 
 /// The format of a command that decides something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]

@@ -57,9 +57,9 @@ use terminal_size::{Width, terminal_size};
 
 use crate::report::{Colour, render};
 use output::Output;
+use tautline_io::text_blocks::fit_into;
 #[cfg(feature = "papers")]
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::draw;
 #[cfg(not(feature = "papers"))]
 use tautline_sim::explore::Catalogue;
 use tautline_sim::explore::ClauseId;
@@ -353,7 +353,7 @@ fn command(cli: &Cli, name: &str) -> Exit {
     threads::start();
     let mut out = Output::stdout();
     if let Some((Width(columns), _)) = io::stdout().is_terminal().then(terminal_size).flatten() {
-        draw::fit_into(columns.into());
+        fit_into(columns.into());
     }
     let result = match &cli.command {
         Some(command) => command.run(cli.verbose > 0, &mut out),

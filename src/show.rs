@@ -12,7 +12,8 @@ use tautline_kernel::ground::Cell;
 use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless};
-use tautline_sim::draw::svg::{self, Panel};
+use tautline_io::svg::Panel;
+use tautline_sim::draw::svg;
 use tautline_sim::draw::{self, Environment};
 use tautline_sim::layout::CellWritten;
 
@@ -112,7 +113,7 @@ impl Show {
 /// Stores a picture of `panels` where the user wants one.
 fn store(out: &mut Output, file: Option<AtomicFile>, title: &str, panels: &[Panel]) {
     if let Some(mut file) = file {
-        file.append(svg::picture(title, panels));
+        file.append(Panel::picture(title, panels));
         out.keep(file);
     }
 }

@@ -47,8 +47,9 @@ const KNOWN_TO: &str = "
 const KNOWS: &str = "
     proofs engine: plural
     proofs ambiguity judge plural:
-    io diagnostic named_values schema text_table value_parser:
+    io diagnostic named_values schema text_blocks text_table value_parser:
     io atomic_file json_lines: diagnostic
+    io svg: atomic_file
     io checkpoint: atomic_file diagnostic json_lines
     field radio: radio
     field tan: radio

@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use tautline_field::stats::Estimate;
-use tautline_sim::draw::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
+use tautline_io::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 
 /// The size of the area of the points.
 const WIDTH: i32 = 560;

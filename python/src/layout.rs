@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use tautline_io::diagnostic::Diagnostic;
+use tautline_io::svg::Panel;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_sim::draw::svg;
 use tautline_sim::layout::{self as layouts, Layout as Ground};
@@ -203,7 +204,7 @@ impl Layout {
 
     /// A picture.
     fn svg(&self) -> String {
-        svg::picture(&self.name, &[svg::layout(&self.ground)])
+        Panel::picture(&self.name, &[svg::layout(&self.ground)])
     }
 
     fn _repr_svg_(&self) -> String {

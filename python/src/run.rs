@@ -12,6 +12,7 @@ use pyo3::types::PyBytes;
 use serde::Serialize;
 use tautline_io::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::svg::Panel;
 use tautline_kernel::ground::Cell;
 use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::counterexample::minimise::minimise;
@@ -191,7 +192,7 @@ impl Run {
                 panels.push(svg::team_move(run, chart, made));
             }
         })?;
-        Ok(svg::picture(&run.setup().title(), &panels))
+        Ok(Panel::picture(&run.setup().title(), &panels))
     }
 }
 
@@ -360,7 +361,7 @@ impl Run {
             }
             (None, _) => {
                 let run = self.play();
-                Ok(svg::picture(&run.setup().title(), &[svg::order(run, &self.report.chart)]))
+                Ok(Panel::picture(&run.setup().title(), &[svg::order(run, &self.report.chart)]))
             }
         }
     }

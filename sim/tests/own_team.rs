@@ -8,6 +8,7 @@ use std::path::Path;
 use insta::assert_snapshot;
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::Diagnostic;
+use tautline_io::svg::Panel;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
@@ -163,7 +164,7 @@ fn a_stored_run_of_a_team_of_ones_own_is_drawn() {
     let mut panels = 0;
     read.play(&mut |made| {
         assert!(
-            svg::picture("pair", &[svg::team_move(&read, &report.chart, made)]).contains("class=\"robot\"")
+            Panel::picture("pair", &[svg::team_move(&read, &report.chart, made)]).contains("class=\"robot\"")
         );
         panels += 1;
         Ok(())

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::diagnostic::Diagnostic;
+use tautline_io::svg::Panel;
 use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Misplaced, Numbers, Tracks, Verdict};
 use tautline_proofs::plural::counted;
 
@@ -353,7 +354,7 @@ impl Told<'_> {
             || format!("{} s: nothing is broken; cells of {} m", seconds(at_us), metres(side)),
             |(id, _, _)| format!("{id} is broken at {} s; cells of {} m", seconds(at_us), metres(side)),
         );
-        Ok(svg::picture(&self.title(), &[svg::moment(&layout, &caption, &robots, &marked)]))
+        Ok(Panel::picture(&self.title(), &[svg::moment(&layout, &caption, &robots, &marked)]))
     }
 
     /// The positions at the last stamps up to the first breach.

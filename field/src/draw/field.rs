@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use crate::radio::{Field, Point};
 use crate::rescue::Ordinal;
-use tautline_sim::draw::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
+use tautline_io::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 
 /// The longest side of a map that stands alone, and of one among others.
 const ALONE: i32 = 600;

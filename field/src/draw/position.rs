@@ -7,7 +7,7 @@ use tautline_kernel::position::Point;
 
 use crate::position::analysis::Ellipse;
 use crate::position::{FixReport, Place, Spot};
-use tautline_sim::draw::svg::{MARGIN, SERIES_STYLE, document, escaped, text_width};
+use tautline_io::svg::{MARGIN, SERIES_STYLE, document, escaped, text_width};
 
 /// The longest side of the ground.
 const SIDE: f64 = 600.0;

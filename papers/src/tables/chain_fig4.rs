@@ -2,6 +2,7 @@
 //! cells of 4 m a side, an even number, so that no cell is its middle: the area with obstacles has 7×7 cells. Where its
 //! obstacles are the figure shows, and not the text: ours are two rectangles.
 
+use tautline_io::svg::Panel;
 use tautline_kernel::ground::{Area, Cell};
 
 use super::prelude::*;
@@ -228,5 +229,5 @@ fn picture(merged: &Summary, place: Place) -> Result<String, Halt> {
     let area: Area = team(&setup)?.area(&setup.layout);
     let caption = format!("{}: {}", place.words(), counted(run.team_moves, "team move"));
     let title = format!("The ways of robots 2 to {ROBOTS}, {rule}");
-    Ok(svg::picture(&title, &[svg::trajectories(&setup.layout, area, &caption, &run.ways)]))
+    Ok(Panel::picture(&title, &[svg::trajectories(&setup.layout, area, &caption, &run.ways)]))
 }

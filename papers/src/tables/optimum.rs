@@ -12,7 +12,8 @@ use serde::Serializer;
 use self::area::{Area, WallSet, solve};
 use self::sums::Sums;
 use super::prelude::*;
-use tautline_sim::draw::{self, Block};
+use tautline_io::text_blocks::{Block, beside};
+use tautline_sim::draw;
 use tautline_sim::explore::{RuleName, Setup, Survey, explore};
 use tautline_sim::layout::Layout;
 
@@ -228,7 +229,7 @@ fn drawing(line: &Line, worst: &Worst) -> Result<String, Halt> {
     let blocks: Vec<Block> =
         titles.into_iter().zip(lines).map(|(title, lines)| Block { title, lines }).collect();
     let title = format!("The worst for {} robots ({}): when each cell is explored", line.robots, line.rule);
-    Ok(format!("\n{title}\n\n{}", draw::beside(blocks)))
+    Ok(format!("\n{title}\n\n{}", beside(blocks)))
 }
 
 impl Worst {

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::text_blocks::{Block, beside};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::floor_trace::Course;
@@ -10,7 +11,7 @@ use tautline_proofs::ledger;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run};
 
-use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
+use super::{Pose, agents, first_drawn, legend, outcome, team_move};
 use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
 use crate::layout::Layout;
 

@@ -7,8 +7,8 @@ mod moment;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use tautline_io::atomic_file::SVG_HEAD;
 use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::svg::{Panel, SERIES, SERIES_STYLE, escaped};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
@@ -21,27 +21,6 @@ pub use moment::moment;
 
 /// The side of a cell.
 const CELL: i32 = 24;
-/// The space round a picture and between its panels.
-pub const MARGIN: i32 = 16;
-/// The height of a line of text above a panel.
-const CAPTION: i32 = 22;
-/// Panels beside each other take up at most so much.
-const PAGE_WIDTH: i32 = 960;
-
-/// The colours of all pictures, by the class of what they paint.
-const STYLE: &str = "\
-svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#f0d6ba;--sealed:#d9a878;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
---base:#5b3a8c;--bad:#c4261d;font:12px system-ui,sans-serif;background:var(--ground)}\
-@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--visited:#4f3a26;--sealed:#7d5632;--blocked:#5d6875;\
---robot:#6aa9ee;--leader:#4cc79a;--base:#b795e6;--bad:#ff7b72}}\
-text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-anchor:start}\
-.lines{stroke:var(--faint);fill:none}.walls{stroke:var(--ink);stroke-width:3;stroke-linecap:square;fill:none}\
-.blocked{fill:var(--blocked)}.explored{fill:var(--explored)}\
-.visited{fill:var(--visited)}.sealed{fill:var(--sealed)}.closing{fill:var(--explored);stroke:var(--visited);stroke-width:3}.member{fill:var(--robot);fill-opacity:.35}\
-.order{fill:var(--robot)}.small{font-size:10px}.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}\
-.name{fill:var(--ground);font-size:10px;font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}\
-.way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
-.unseen{stroke:var(--bad);stroke-width:2;stroke-dasharray:3 2;fill:none}.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
 
 /// Cells of an area that is drawn. What is larger no browser shows.
 const MAX_CELLS: usize = 1 << 19;
@@ -60,77 +39,6 @@ pub fn check_size(area: Area) -> Result<(), Diagnostic> {
         what,
         format_args!("leave out the picture and the page, or take at most {MAX_CELLS} cells"),
     ))
-}
-
-/// How many colours there are for what is to be told apart.
-pub const SERIES: usize = 6;
-
-/// These colours.
-pub const SERIES_STYLE: &str = "\
-svg{--series-0:#1d5fa8;--series-1:#b9480e;--series-2:#0b7a53;--series-3:#5b3a8c;--series-4:#856500;--series-5:#b02a73}\
-@media(prefers-color-scheme:dark){svg{--series-0:#6aa9ee;--series-1:#ff9d6b;--series-2:#4cc79a;--series-3:#b795e6;\
---series-4:#d9b93b;--series-5:#f08ac0}}";
-
-/// A part of a picture with its size, its corner at 0,0.
-#[derive(Clone, Debug)]
-pub struct Panel {
-    caption: String,
-    width: i32,
-    height: i32,
-    body: String,
-}
-
-/// A whole picture of panels beside each other, as many in a row as the page holds.
-pub fn picture(title: &str, panels: &[Panel]) -> String {
-    let (mut body, mut x, mut y) = (String::new(), MARGIN, MARGIN);
-    let (mut width, mut row_height) = (0, 0);
-    for panel in panels {
-        if x > MARGIN && x + panel.width + MARGIN > PAGE_WIDTH {
-            (x, y, row_height) = (MARGIN, y + row_height + MARGIN, 0);
-        }
-        let caption = if panel.caption.is_empty() { 0 } else { CAPTION };
-        // Writing to a string cannot fail.
-        let _ = write!(body, "<g transform=\"translate({x},{y})\">");
-        if caption > 0 {
-            let _ =
-                write!(body, "<text class=\"caption\" y=\"{}\">{}</text>", CAPTION / 2 - 2, panel.caption);
-        }
-        let _ = writeln!(body, "<g transform=\"translate(0,{caption})\">{}</g></g>", panel.body);
-        x += panel.width.max(text_width(&panel.caption)) + MARGIN;
-        width = width.max(x);
-        row_height = row_height.max(panel.height + caption);
-    }
-    document(title, "", (width, y + row_height + MARGIN), &body)
-}
-
-/// About how wide a line of text is.
-pub fn text_width(text: &str) -> i32 {
-    text.chars().count() as i32 * 7
-}
-
-/// Text as XML has it. Characters that XML has no place for become U+FFFD.
-pub fn escaped(text: &str) -> String {
-    text.chars().fold(String::new(), |mut escaped, symbol| {
-        match symbol {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            control if control.is_control() => escaped.push('\u{fffd}'),
-            plain => escaped.push(plain),
-        }
-        escaped
-    })
-}
-
-/// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
-pub fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
-    format!(
-        "{SVG_HEAD}viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
-         aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
-         <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
-    )
 }
 
 /// A drawing of `layout`, the base marked if it has one.
@@ -213,7 +121,7 @@ pub fn team_moves(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32>) 
     let (mut panels, mut bytes) = (Vec::new(), 0);
     run.among(moves, &mut |made| {
         let panel = team_move(run, &report.chart, made);
-        bytes += panel.caption.len() + panel.body.len();
+        bytes += panel.bytes();
         if bytes > MAX_PANEL_BYTES {
             let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
             return Err(Diagnostic::usage(what, "draw fewer team moves").into());
@@ -221,7 +129,7 @@ pub fn team_moves(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32>) 
         panels.push(panel);
         Ok(())
     })?;
-    Ok(picture(&run.setup().title(), &panels))
+    Ok(Panel::picture(&run.setup().title(), &panels))
 }
 
 /// The ways of robots from cell to cell, beside each other where they go the same way.
@@ -278,7 +186,7 @@ pub fn environments() -> Vec<Panel> {
 }
 
 fn panel(area: Area, caption: String, body: String) -> Panel {
-    Panel { caption, width: area.width() as i32 * CELL, height: area.height() as i32 * CELL, body }
+    Panel::new(caption, (area.width() as i32 * CELL, area.height() as i32 * CELL), body)
 }
 
 fn whole(layout: &Layout) -> Area {

@@ -6,11 +6,11 @@ use std::fmt::Write;
 
 use serde::Serialize;
 use tautline_io::atomic_file::HTML_HEAD;
+use tautline_io::svg::escaped;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_proofs::plural::counted;
 
 use super::place_of;
-use crate::draw::svg::escaped;
 use crate::explore::{Joins, Kind, Layer, Milestone, Report, Setup, Shape, Starts, Value, Zone};
 use crate::layout::Layout;
 use crate::options::{Extra, Takes};

@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
+use tautline_io::svg::Panel;
 use tautline_kernel::ground::{Cell, Side};
 
-use super::{CELL, Frame, Panel, lines, panel, stripes};
+use super::{CELL, Frame, lines, panel, stripes};
 use crate::explore::{Play, Report, Setup};
 use crate::objects::{Found, ObjectReport};
 

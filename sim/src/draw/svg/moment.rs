@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{CELL, Panel, escaped, ground, name, panel, walls, whole};
+use tautline_io::svg::{Panel, escaped};
+
+use super::{CELL, ground, name, panel, walls, whole};
 use crate::layout::Layout;
 
 /// Robots in cells from the corner of a layout, each with its name; `broken` are those that break a clause, with a line
