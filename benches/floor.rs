@@ -9,8 +9,8 @@ use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
 use tautline_proofs::floor::crew::Scheme;
+use tautline_sim::chance::Probability;
 use tautline_sim::explore::agents::Agents;
-use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Generator, Layout};
 
 /// The work of a run.

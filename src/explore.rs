@@ -23,6 +23,7 @@ use super::ros_map;
 use super::viewers::{self, ViewerArgs};
 use super::{CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, positive, progress, whole};
 use crate::value_parser::{self, chosen};
+use tautline_sim::chance::Probability;
 use tautline_sim::counterexample::refutation;
 use tautline_sim::draw::{page, svg};
 use tautline_sim::explore::chain::CHAIN;
@@ -32,7 +33,6 @@ use tautline_sim::explore::{
     Setup, Stopped, Violation, explore, team,
 };
 use tautline_sim::failures::Failures;
-use tautline_sim::layout::generate::Probability;
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
 use tautline_sim::trace::{Summary, Trace};
 use tautline_sim::{draw, objects, trace};

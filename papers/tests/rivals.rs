@@ -3,8 +3,6 @@
 
 use std::collections::BTreeSet;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use tautline_papers::rivals::full::{BestMoves, best};
 use tautline_papers::rivals::joint::{Joint, Score};
@@ -12,6 +10,7 @@ use tautline_papers::rivals::{CATALOGUE, COVERED, rival};
 use tautline_papers::rivals::{
     Cells, Deadlock, Links, Moves, Null, ParameterError, Parameters, Search, Team, Weights, full, pool,
 };
+use tautline_sim::chance::Dice;
 use tautline_sim::explore::{Limits, Report, RuleId, Setup, Stopped, explore, run, team};
 use tautline_sim::layout::{Generator, Layout};
 
@@ -54,7 +53,7 @@ fn parameters(number: u64) -> Parameters {
 
 #[test]
 fn full_search_finds_what_plain_enumeration_finds_ties_and_faults_included() {
-    let mut dice = ChaCha8Rng::seed_from_u64(1);
+    let mut dice = Dice::new(1, *b"rivals  ");
     let (mut faulty, mut tied) = (0, 0);
     for seed in 0..40 {
         let (robots, density) = (3 + seed as usize % 4, ["0", "0.1", "0.3"][seed as usize % 3]);
@@ -82,7 +81,7 @@ fn ties_are_broken_evenly() {
     let mut team = Team::new(Parameters::FULL, 2, Cell::new(1, 1), layout("open:3x3", 0).size().area(), 0)
         .expect("a team");
     let joint = team.joint().expect("an unexplored cell");
-    let mut dice = ChaCha8Rng::seed_from_u64(2);
+    let mut dice = Dice::new(2, *b"rivals  ");
     let mut counts = [0; 5];
     for _ in 0..4000 {
         counts[best(&joint, &mut dice).expect("one robot").steps[0].place()] += 1;
@@ -95,12 +94,12 @@ fn a_pool_has_the_null_move_and_no_more_than_it_holds() {
     let mut team = Team::new(Parameters::POOL, 8, Cell::new(7, 7), layout("open:15x15", 0).size().area(), 0)
         .expect("a team");
     let joint = team.joint().expect("an unexplored cell");
-    let mut dice = ChaCha8Rng::seed_from_u64(3);
+    let mut dice = Dice::new(3, *b"rivals  ");
     for null in [Null::StandsBy, Null::Competes] {
         assert_eq!(pool::best(&joint, 1, null, &Step::ALL, &mut dice), Some(vec![Step::Stay; 7]));
     }
     let value = |pool| {
-        let steps = pool::best(&joint, pool, Null::Competes, &Step::ALL, &mut ChaCha8Rng::seed_from_u64(4))
+        let steps = pool::best(&joint, pool, Null::Competes, &Step::ALL, &mut Dice::new(4, *b"rivals  "))
             .expect("a move");
         let team: Vec<Cell> = steps.iter().map(|&step| Cell::new(7, 7).after(step)).collect();
         let chosen = |(robot, step): (usize, &Step)| {

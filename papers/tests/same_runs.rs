@@ -8,10 +8,10 @@ use crc32fast::Hasher;
 use insta::assert_snapshot;
 use tautline_kernel::ground::Cell;
 use tautline_papers::rivals::CATALOGUE;
+use tautline_sim::chance::Probability;
 use tautline_sim::explore::{Asked, Limits, Profile, Rule, Scene, Scheme, Senses, Stopped, explore};
 use tautline_sim::failures::{Appearing, Compass, Failure};
 use tautline_sim::layout::Generator;
-use tautline_sim::layout::generate::Probability;
 use tautline_sim::options::Extra;
 
 /// The layouts, and how many robots explore each, the base counted.

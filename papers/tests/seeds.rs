@@ -4,8 +4,8 @@
 use std::num::NonZeroU32;
 
 use tautline_papers::rivals::CATALOGUE;
+use tautline_sim::chance::Probability;
 use tautline_sim::explore::{Asked, By, Drawn, Limits, Rule, Scheme, explore};
-use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Generator, Layout};
 use tautline_sim::options::Extra;
 

@@ -17,7 +17,6 @@ mod waves;
 pub use allowance::Allowance;
 pub use assigned::{Assigned, Assignment};
 pub use chart::Chart;
-pub(crate) use radio::Dice;
 pub use radio::cell_at;
 pub use team::Explorers;
 

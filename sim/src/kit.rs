@@ -9,13 +9,12 @@
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Reach, Rule, SetupError, Sight, Stance, touch};
 
+use crate::chance::Dice;
 use crate::layout::Layout;
-use crate::layout::generate;
 
 /// From a node to the next.
 pub const PATH_MILLIMETRES: i64 = 3000;
@@ -131,15 +130,6 @@ pub fn course(
     }
 }
 
-/// A seeded oracle.
-struct Dice(ChaCha8Rng);
-
-impl Oracle for Dice {
-    fn pick(&mut self, below: u32) -> u32 {
-        generate::below(below, &mut self.0)
-    }
-}
-
 struct Run<G, const NODES: usize> {
     kit: Kit<G, MOST_ROBOTS, NODES>,
     layout: Layout,
@@ -163,7 +153,7 @@ impl<G: Grid + Copy, const NODES: usize> Run<G, NODES> {
             kit: Kit::new(rule, map, starts)?,
             layout: layout.clone(),
             pace,
-            dice: Dice(generate::source(seed, *b"kit     ")),
+            dice: Dice::new(seed, *b"kit     "),
             clock: 0,
             times: [[0; 2]; MOST_ROBOTS],
             driven: BTreeMap::new(),

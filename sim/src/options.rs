@@ -11,9 +11,9 @@ use tautline_kernel::frontier::Threshold;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Odometry, Signal};
 
+use crate::chance::Probability;
 use crate::failures::{Appearing, Failure, Going};
 use crate::layout::Layout;
-use crate::layout::generate::Probability;
 use crate::objects::Objects;
 
 /// The options that a run is told, if its scheme can be told them. The default is an option of which nobody says

@@ -24,11 +24,11 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
+use crate::chance::Probability;
 use crate::explore::{
     Catalogue, ClauseId, Limits, OnViolation, Play, Report, RuleId, Scheme, Setup, Stopped, TeamMove,
     Violation, Watcher, explore,
 };
-use crate::layout::generate::Probability;
 use crate::layout::{CellWritten, Layout};
 use crate::options::Options;
 

@@ -14,6 +14,7 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::floor::crew::Scheme;
 use tautline_proofs::floor_trace::{Course, Scene, Turn};
+use tautline_sim::chance::Probability;
 use tautline_sim::draw::story;
 use tautline_sim::explore::agents::{Agents, PREMATURE};
 use tautline_sim::explore::ants::ANTS;
@@ -21,7 +22,6 @@ use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
-use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, MAX_CELLS, Size};
 
 /// More team moves than any run here has.

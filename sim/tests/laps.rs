@@ -7,9 +7,9 @@ use crc32fast::Hasher;
 use insta::assert_snapshot;
 use tautline_kernel::bricks::{Condition, Rule};
 use tautline_kernel::ground::Cell;
+use tautline_sim::chance::Probability;
 use tautline_sim::explore::agents::Agents;
 use tautline_sim::layout::Generator;
-use tautline_sim::layout::generate::Probability;
 
 /// The team moves that agents take by a rule, and a checksum of their steps.
 fn run(rule: Rule, layout: &str, robots: usize, chance: Probability) -> String {

@@ -14,8 +14,8 @@ use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
 use super::solver::Solution;
 use crate::stats::{Estimate, decimals, quantile};
+use tautline_sim::chance::deviation;
 use tautline_sim::explore::RuleName;
-use tautline_sim::noise::deviation;
 
 /// Anchors that tell a position, and the rectangle that they span.
 #[derive(Clone, PartialEq, Debug)]

@@ -14,8 +14,8 @@ use crate::radio::{
 };
 use crate::rescue::setting::CallTimes;
 use crate::tan::{Equipment, Signal, hops};
+use tautline_sim::chance::Probability;
 use tautline_sim::explore::RuleName;
-use tautline_sim::layout::generate::Probability;
 
 /// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.
 const THRESHOLD_TENTHS: u64 = 8;

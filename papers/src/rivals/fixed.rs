@@ -200,15 +200,13 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rivals::joint::draw;
-    use rand_chacha::ChaCha8Rng;
     use tautline_kernel::chain::Conditions;
-    use tautline_sim::layout::generate::source;
+    use tautline_sim::chance::Dice;
 
     /// A chain, drawn at random: neighbours within E_C of each other, some in one cell.
-    fn chain(dice: &mut ChaCha8Rng, robots: usize) -> (Vec<Cell>, Vec<Options>) {
+    fn chain(dice: &mut Dice, robots: usize) -> (Vec<Cell>, Vec<Options>) {
         let mut cells = vec![Cell::new(0, 0)];
-        let mut below = |below: u64| draw(dice, below);
+        let mut below = |below: u64| dice.below(below);
         for _ in 1..robots {
             let Cell { x, y } = *cells.last().expect("the base");
             let next = Cell::new(x + below(3) as i16 - 1, y + below(3) as i16 - 1);
@@ -264,7 +262,7 @@ mod tests {
 
     #[test]
     fn the_step_solver_finds_what_plain_enumeration_finds_in_10_000_positions() {
-        let mut dice = source(7, *b"fixed   ");
+        let mut dice = Dice::new(7, *b"fixed   ");
         let bare = Rule { conditions: Conditions::of(&[]), ..Rule::PUBLISHED };
         let rules = [
             Rule::PUBLISHED,
@@ -275,7 +273,7 @@ mod tests {
         ];
         let (mut met, mut impossible) = (0, 0);
         for case in 0..10_000 {
-            let robots = 2 + draw(&mut dice, 4) as usize;
+            let robots = 2 + dice.below(4) as usize;
             let (cells, options) = chain(&mut dice, robots);
             let position = Position { rule: &rules[case % rules.len()], cells: &cells, options: &options };
             let due = enumerated(&position);

@@ -4,8 +4,8 @@
 //! longer be joined to the base whatever the robots that have not chosen yet do. Both are bounds, so the answer is that
 //! of plain enumeration, ties included.
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::Step;
+use tautline_sim::chance::Dice;
 
 use super::joint::{Best, Joint, Score, WORST};
 use super::parameters::{Cells, MOST_SEARCHED};
@@ -28,7 +28,7 @@ pub struct BestMoves {
 }
 
 /// The best of all joint moves. `None` if there are more robots than [`MOST_SEARCHED`] has.
-pub fn best(joint: &Joint, dice: &mut ChaCha8Rng) -> Option<BestMoves> {
+pub fn best(joint: &Joint, dice: &mut Dice) -> Option<BestMoves> {
     if joint.robots.len() >= MOST_SEARCHED {
         return None;
     }
@@ -129,7 +129,7 @@ struct Branch {
 struct Search<'a> {
     space: &'a Space,
     best: Best<u64>,
-    dice: &'a mut ChaCha8Rng,
+    dice: &'a mut Dice,
 }
 
 impl Search<'_> {

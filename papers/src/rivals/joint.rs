@@ -1,9 +1,8 @@
 //! The joint moves of a team whose links are a tree through the base: what each robot can do, and how a joint move is
 //! judged.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 use tautline_kernel::ground::{Cell, Circle, Step};
+use tautline_sim::chance::Dice;
 
 use super::parameters::{Cells, Links};
 
@@ -84,11 +83,6 @@ fn unlinked(base: Cell, team: &[Cell], circle: Circle) -> u32 {
     rest.len() as u32
 }
 
-/// A number below `below`.
-pub(super) fn draw(dice: &mut ChaCha8Rng, below: u64) -> u64 {
-    ((u128::from(dice.next_u64()) * u128::from(below)) >> 64) as u64
-}
-
 /// The best joint move met so far, each of those as good as likely.
 #[derive(Clone, Debug)]
 pub(super) struct Best<T> {
@@ -104,7 +98,7 @@ impl<T> Best<T> {
     }
 
     /// Meets a joint move with this score.
-    pub(super) fn meet(&mut self, score: Score, chosen: impl FnOnce() -> T, dice: &mut ChaCha8Rng) {
+    pub(super) fn meet(&mut self, score: Score, chosen: impl FnOnce() -> T, dice: &mut Dice) {
         if score > self.score {
             return;
         }
@@ -112,7 +106,7 @@ impl<T> Best<T> {
             (self.score, self.ties) = (score, 0);
         }
         self.ties += 1;
-        if draw(dice, self.ties) == 0 {
+        if dice.below(self.ties) == 0 {
             self.chosen = Some(chosen());
         }
     }

@@ -3,22 +3,16 @@
 //! The null move counts with the others, or stands by for the case that all that are drawn have more faults: see
 //! [`Null`].
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::{Cell, Step};
+use tautline_sim::chance::Dice;
 
-use super::joint::{Best, Candidate, Joint, WORST, draw};
+use super::joint::{Best, Candidate, Joint, WORST};
 use super::parameters::Null;
 
 /// The best of a pool of so many joint moves; of those as good each is as likely. A robot has `moves` moves, some of
 /// which it may not be able to make. `None` if every joint move that was drawn crosses a wall, and there is no null
 /// move.
-pub fn best(
-    joint: &Joint,
-    pool: u32,
-    null: Null,
-    moves: &[Step],
-    dice: &mut ChaCha8Rng,
-) -> Option<Vec<Step>> {
+pub fn best(joint: &Joint, pool: u32, null: Null, moves: &[Step], dice: &mut Dice) -> Option<Vec<Step>> {
     let by_step: Vec<Vec<Option<Candidate>>> = joint
         .robots
         .iter()
@@ -38,7 +32,7 @@ pub fn best(
         drawn.clear();
         let mut price = 0;
         for robot in &by_step {
-            if let Some(candidate) = robot[draw(dice, moves.len() as u64) as usize] {
+            if let Some(candidate) = robot[dice.below(moves.len() as u64) as usize] {
                 team.push(candidate.to);
                 drawn.push(candidate.step);
                 price += candidate.price;

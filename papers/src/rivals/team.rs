@@ -1,6 +1,5 @@
 //! A team of rivals: where it is, what it knows, and how it makes a team move.
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Area, Cell, Edge, Step};
 use tautline_proofs::run::Frame;
@@ -9,7 +8,7 @@ use super::joint::{Candidate, Joint};
 use super::known::Map;
 use super::parameters::{Deadlock, Moves, ParameterError, Parameters, Search, Weights};
 use super::{full, pool};
-use tautline_sim::layout::generate::source;
+use tautline_sim::chance::Dice;
 
 /// A team.
 #[derive(Clone, Debug)]
@@ -18,7 +17,7 @@ pub struct Team {
     /// Where the robots are, the base first.
     cells: Vec<Cell>,
     map: Map,
-    dice: ChaCha8Rng,
+    dice: Dice,
     /// Team moves since something was gained.
     idle: u32,
     /// Team moves that are still to be scattered.
@@ -52,7 +51,7 @@ impl Team {
         parameters.check(robots)?;
         let mut map = Map::new(area);
         map.explore(base);
-        let dice = source(seed, *b"rivals  ");
+        let dice = Dice::new(seed, *b"rivals  ");
         Ok(Self { parameters, cells: vec![base; robots], map, dice, idle: 0, scattered: 0 })
     }
 

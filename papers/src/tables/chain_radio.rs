@@ -7,15 +7,15 @@
 //! that all bytes are everywhere after N−1 hop times. *Bridges*: besides, each of the N−2 robots between the ends
 //! switches once before the first byte of one end is at the other; that is the least, since bytes go both ways.
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::{Message, Outcome};
 use tautline_kernel::ground::Circle;
 
 use super::prelude::*;
 use crate::nxt::{Body, Odometer};
+use tautline_sim::chance::Dice;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore};
-use tautline_sim::layout::{Layout, generate};
+use tautline_sim::layout::Layout;
 
 /// The radio chain.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +121,7 @@ impl Table for ChainRadio {
                 u32::from(made.frame.cells.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])));
             Ok(())
         })?;
-        let mut dice = generate::source(settings.seed.wrapping_add(robots.into()), *b"switches");
+        let mut dice = Dice::new(settings.seed.wrapping_add(robots.into()), *b"switches");
         let bridges = u32::from(robots) - 2;
         let run = || (0..report.steps * bridges).map(|_| switch(&mut dice)).sum::<u64>();
         let hops = u64::from(report.steps) * u64::from(robots - 1) * settings.hop_ms;
@@ -185,10 +185,9 @@ impl Table for ChainRadio {
 }
 
 /// How long a switch takes.
-fn switch(dice: &mut ChaCha8Rng) -> u64 {
-    use rand_chacha::rand_core::Rng;
+fn switch(dice: &mut Dice) -> u64 {
     let [least, most] = SWITCH_MS;
-    least + ((u128::from(dice.next_u64()) * u128::from(most - least + 1)) >> 64) as u64
+    least + dice.below(most - least + 1)
 }
 
 /// Minutes or seconds, to hundredths.

@@ -8,7 +8,7 @@ use tautline_kernel::ground::Cell;
 
 use super::agents::{Outcome, TEAMS, Team};
 use super::prelude::*;
-use tautline_sim::layout::generate::{self, Probability};
+use tautline_sim::chance::{Dice, Probability};
 use tautline_sim::layout::{self, Layout};
 
 /// The price of a floor.
@@ -225,7 +225,7 @@ fn start(layout: &Layout, seed: u64, number: u32) -> Cell {
     if number == 0 {
         return base;
     }
-    let mut generator = generate::source(seed.wrapping_add(number.into()), *b"start   ");
-    let place = generate::below(part.len() as u32, &mut generator);
+    let mut dice = Dice::new(seed.wrapping_add(number.into()), *b"start   ");
+    let place = dice.below(part.len() as u64);
     part.get(place as usize).copied().unwrap_or(base)
 }

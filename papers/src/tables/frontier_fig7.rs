@@ -7,14 +7,14 @@
 
 use std::num::NonZeroU32;
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
 use super::sentences::below;
+use tautline_sim::chance::Dice;
 use tautline_sim::explore::frontier::{ALONE, FRONTIER};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
-use tautline_sim::layout::{Layout, generate};
+use tautline_sim::layout::Layout;
 
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
@@ -213,8 +213,8 @@ impl Table for FrontierFig7 {
 /// A layout whose free cells are connected, and starts in it.
 fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
     let Settings { columns, rows, blocked, .. } = *settings;
-    let mut dice = generate::source(seed, *b"fig7    ");
-    let below = |of: usize, dice: &mut ChaCha8Rng| generate::below(of as u32, dice) as usize;
+    let mut dice = Dice::new(seed, *b"fig7    ");
+    let below = |of: usize, dice: &mut Dice| dice.below(of as u64) as usize;
     for _ in 0..MOST_DRAWN {
         let mut layout = Layout::open(columns.into(), rows.into())?;
         let mut cells: Vec<Cell> = layout.cells().collect();

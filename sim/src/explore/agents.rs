@@ -8,7 +8,6 @@
 
 use std::collections::VecDeque;
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan};
@@ -23,8 +22,8 @@ use super::run::{End, Surroundings, Survey, Team};
 use super::scan_time;
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
+use crate::chance::{Dice, Probability};
 use crate::layout::Layout;
-use crate::layout::generate::{self, Probability};
 
 /// The most agents on a floor: a sensor keeps an id in eight bits, and counts agents in as many.
 const MAX_AGENTS: usize = 255;
@@ -49,7 +48,7 @@ pub const UNVISITED: ClauseId = ClauseId::new("BRICKS-6");
 #[derive(Clone)]
 struct Misses {
     chance: Probability,
-    generator: ChaCha8Rng,
+    dice: Dice,
     /// The numbers of the questions, counted from 1, that are answered yes; in order.
     written: Vec<u32>,
     asked: u32,
@@ -74,12 +73,12 @@ impl Misses {
 
 impl Oracle for Misses {
     fn pick(&mut self, below: u32) -> u32 {
-        generate::below(below, &mut self.generator)
+        self.dice.pick(below)
     }
 
     fn mishap(&mut self) -> bool {
         self.asked = self.asked.saturating_add(1);
-        let is_missed = !self.chance.is_never() && self.chance.happens(&mut self.generator);
+        let is_missed = !self.chance.is_never() && self.chance.happens(&mut self.dice);
         is_missed || self.written.binary_search(&self.asked).is_ok()
     }
 }
@@ -124,12 +123,7 @@ impl<S: Scheme> Agents<S> {
             steps: vec![Step::Stay; starts.len()],
             is_premature: false,
             milliseconds: vec![0; starts.len()],
-            misses: Misses {
-                chance,
-                generator: generate::source(seed, *b"miss    "),
-                written: Vec::new(),
-                asked: 0,
-            },
+            misses: Misses { chance, dice: Dice::new(seed, *b"miss    "), written: Vec::new(), asked: 0 },
             unseen: Vec::new(),
         }
     }
@@ -227,8 +221,8 @@ impl<S: Scheme> Agents<S> {
     fn sensors(&self, number: usize) -> Vec<Cell> {
         let cell = self.cells[number];
         let look = |written: Vec<u32>| {
-            let generator = self.misses.generator.clone();
-            let mut misses = Misses { chance: Probability::NEVER, generator, written, asked: 0 };
+            let dice = self.misses.dice.clone();
+            let mut misses = Misses { chance: Probability::NEVER, dice, written, asked: 0 };
             let view = S::Sensor::look(&self.floor, cell, &mut misses);
             let missed = unseen(&self.floor, &view, cell).next();
             (misses.asked, missed)

@@ -2,9 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
-use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, DETOUR, HALF, Place, Rule, SIDE, clamped, midpoint};
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_kernel::position::{
@@ -12,8 +9,7 @@ use tautline_kernel::position::{
     Swarm, SymmetricMatrix, best_three, linear, locate,
 };
 
-use crate::layout::generate;
-use crate::noise::deviation;
+use crate::chance::{Dice, deviation};
 use crate::options::Options;
 
 /// Where a robot is and where it heads, and where it takes itself to be, in sides of a cell.
@@ -70,23 +66,6 @@ pub(super) struct Radio {
     odometry: Odometry,
 }
 
-/// A seeded oracle.
-#[derive(Clone, Debug)]
-pub(crate) struct Dice(ChaCha8Rng);
-
-impl Dice {
-    /// The dice of whatever `tag` names.
-    pub(crate) fn new(seed: u64, tag: [u8; 8]) -> Self {
-        Self(generate::source(seed, tag))
-    }
-}
-
-impl Oracle for Dice {
-    fn pick(&mut self, below: u32) -> u32 {
-        ((u128::from(self.0.next_u64()) * u128::from(below)) >> 64) as u32
-    }
-}
-
 impl Radio {
     /// A radio with anchors in the corners of the area and in the middle of its sides. A cell counts as one metre wide: errors
     /// are in proportion to distances, so that the width of a cell does not matter.
@@ -126,7 +105,7 @@ impl Radio {
         let is_near = self.options.range_cells.is_none_or(|range| {
             u64::from(columns).pow(2) + u64::from(rows).pow(2) <= u64::from(range).pow(2)
         });
-        is_near && (self.options.loss.is_never() || !self.options.loss.happens(&mut self.dice.0))
+        is_near && (self.options.loss.is_never() || !self.options.loss.happens(&mut self.dice))
     }
 
     /// The pose of a robot after it has turned to where it takes the midpoint of `to` to be, and after it has gone there.
@@ -169,7 +148,7 @@ impl Radio {
     pub(super) fn small(&self, area: Area, seed: u64) -> BTreeSet<Edge> {
         let Some(share) = self.options.small else { return BTreeSet::new() };
         let mut dice = Dice::new(seed, *b"detours ");
-        area.edges().filter(|_| share.happens(&mut dice.0)).collect()
+        area.edges().filter(|_| share.happens(&mut dice)).collect()
     }
 
     /// The place where a robot takes an object to be that is at `object`: it sees the bearing and the distance.
@@ -215,8 +194,7 @@ impl Radio {
         let ranges = anchors.map(|anchor| {
             let sum: f64 = (0..draws).map(|_| deviation(each_db, dice)).sum();
             let outliers = self.options.outliers.unwrap_or_default();
-            let lost_db =
-                if !outliers.is_never() && outliers.happens(&mut dice.0) { OUTLIER_DB } else { 0.0 };
+            let lost_db = if !outliers.is_never() && outliers.happens(dice) { OUTLIER_DB } else { 0.0 };
             let level_db = one.level_db(pose.at.distance_m(anchor)) + sum / f64::from(draws) - lost_db;
             Range::new(anchor, one.distance_m(level_db))
         });

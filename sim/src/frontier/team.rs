@@ -409,9 +409,9 @@ impl Explorers {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chance::Probability;
     use crate::kit;
     use crate::layout::Generator;
-    use crate::layout::generate::Probability;
 
     /// Lets a team explore, and compares each decision with that of the rule of one robot. How many there were.
     fn compared(rule: Rule, layout: &Layout, robots: usize, options: Options, seed: u64) -> usize {

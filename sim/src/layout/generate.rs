@@ -1,31 +1,24 @@
 //! Layouts made from a short description. The random ones are the same for the same description and seed on
-//! every machine: `ChaCha8` is seeded with the seed in the first eight bytes, little-endian, the generator's
-//! tag in the next eight and zeros in the rest, and everything is drawn in an order that is part of the
+//! every machine: each generator has a tag for its [`Dice`], and everything is drawn in an order that is part of the
 //! promise.
 
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::problem::examples;
 use super::{Layout, Size, problem, text};
+use crate::chance::{Dice, Probability};
 
 const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
 const ROOMS_B: &str = include_str!("generate/rooms-b.txt");
 
 /// The least width and height of a room in an office that is large enough.
 const LEAST_ROOM_CELLS: i16 = 3;
-
-const MILLION: u32 = 1_000_000;
-const TWO_TO_THE_53: f64 = 9_007_199_254_740_992.0;
 
 /// A description of layouts, as `FromStr` reads it and `Display` writes it.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -57,11 +50,6 @@ pub struct Rooms {
     across: i16,
     down: i16,
 }
-
-/// A number from 0 to 1.
-#[derive(Clone, Copy, PartialEq, Debug, Default, JsonSchema, Serialize, Deserialize)]
-#[serde(try_from = "f64", into = "f64")]
-pub struct Probability(f64);
 
 /// How a generator is described.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -107,11 +95,13 @@ impl Generator {
     pub fn generate(&self, seed: u64) -> Result<Layout, Diagnostic> {
         match *self {
             Self::Open(size) => Ok(Layout::of(size)),
-            Self::Walls(size, probability) => Ok(walls(size, probability, &mut source(seed, *b"walls   "))),
+            Self::Walls(size, probability) => {
+                Ok(walls(size, probability, &mut Dice::new(seed, *b"walls   ")))
+            }
             Self::RoomsA => text::read(ROOMS_A).map_err(|misread| misread.problem),
             Self::RoomsB => text::read(ROOMS_B).map_err(|misread| misread.problem),
-            Self::Office(size, rooms) => Ok(office(size, rooms, &mut source(seed, *b"office  "))),
-            Self::Cells(size, probability) => cells(size, probability, &mut source(seed, *b"cells   ")),
+            Self::Office(size, rooms) => Ok(office(size, rooms, &mut Dice::new(seed, *b"office  "))),
+            Self::Cells(size, probability) => cells(size, probability, &mut Dice::new(seed, *b"cells   ")),
         }
     }
 }
@@ -126,86 +116,39 @@ impl Rooms {
     }
 }
 
-impl Probability {
-    /// The probability `p`, if it is one.
-    pub const fn new(p: f64) -> Option<Self> {
-        if 0.0 <= p && p <= 1.0 { Some(Self(p)) } else { None }
-    }
-
-    /// The probability of what never happens.
-    pub const NEVER: Self = Self(0.0);
-
-    /// Whether it never happens.
-    pub fn is_never(self) -> bool {
-        self == Self::NEVER
-    }
-
-    /// Whether it always happens.
-    pub fn is_certain(self) -> bool {
-        self.0 >= 1.0
-    }
-
-    /// Draws once: 53 random bits are compared with p·2⁵³, which is exact.
-    pub(crate) fn happens(self, rng: &mut ChaCha8Rng) -> bool {
-        let threshold = (self.0 * TWO_TO_THE_53) as u64;
-        rng.next_u64() >> 11 < threshold
-    }
-
-    /// Asks `oracle` whether it happens this time, to the nearest millionth. The plain case comes first: where nobody
-    /// answers, it does not happen. What never happens is not asked for.
-    #[inline]
-    pub fn is_picked(self, oracle: &mut dyn Oracle) -> bool {
-        let millionths = (self.0 * f64::from(MILLION)).round() as u32;
-        millionths > 0 && oracle.pick(MILLION) >= MILLION - millionths
-    }
-}
-
-/// The generator of whatever `tag` names.
-pub fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
-    let mut bytes = [0; 32];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    bytes[8..16].copy_from_slice(&tag);
-    ChaCha8Rng::from_seed(bytes)
-}
-
-/// A number below `n`: the high half of n times 64 random bits.
-pub fn below(n: u32, rng: &mut ChaCha8Rng) -> u32 {
-    ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u32
-}
-
-fn walls(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Layout {
+fn walls(size: Size, probability: Probability, dice: &mut Dice) -> Layout {
     let mut layout = Layout::of(size);
     for edge in layout.edges() {
-        if probability.happens(rng) {
+        if probability.happens(dice) {
             layout.build_wall(edge);
         }
     }
     layout
 }
 
-fn cells(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Result<Layout, Diagnostic> {
+fn cells(size: Size, probability: Probability, dice: &mut Dice) -> Result<Layout, Diagnostic> {
     let mut layout = Layout::of(size);
     for cell in layout.cells() {
-        if probability.happens(rng) {
+        if probability.happens(dice) {
             layout.block(cell);
         }
     }
     if layout.free_cells() == 0 { Err(problem::no_free_cell()) } else { Ok(layout) }
 }
 
-fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
+fn office(size: Size, rooms: Rooms, dice: &mut Dice) -> Layout {
     let mut layout = Layout::of(size);
-    let across = divide(size.width(), rooms.across, rng);
-    let down = divide(size.height(), rooms.down, rng);
+    let across = divide(size.width(), rooms.across, dice);
+    let down = divide(size.height(), rooms.down, dice);
     for (rows, columns) in down.iter().flat_map(|rows| across.iter().map(move |columns| (rows, columns))) {
         if columns.end < size.width() {
-            let door = rows.start + below((rows.end - rows.start) as u32, rng) as i16;
+            let door = rows.start + dice.pick((rows.end - rows.start) as u32) as i16;
             for y in rows.clone().filter(|&y| y != door) {
                 layout.build_wall(Edge::new(Cell::new(columns.end, y), Side::West));
             }
         }
         if rows.end < size.height() {
-            let door = columns.start + below((columns.end - columns.start) as u32, rng) as i16;
+            let door = columns.start + dice.pick((columns.end - columns.start) as u32) as i16;
             for x in columns.clone().filter(|&x| x != door) {
                 layout.build_wall(Edge::new(Cell::new(x, rows.end), Side::North));
             }
@@ -216,12 +159,12 @@ fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
 
 /// Columns or rows divided into rooms: choosing the places of walls among walls and spare cells, one after the other,
 /// makes all choices as likely.
-fn divide(cells: i16, rooms: i16, rng: &mut ChaCha8Rng) -> Vec<Range<i16>> {
+fn divide(cells: i16, rooms: i16, dice: &mut Dice) -> Vec<Range<i16>> {
     let least = LEAST_ROOM_CELLS.min(cells / rooms);
     let (mut walls, mut spare) = (rooms - 1, cells - rooms * least);
     let (mut divided, mut room) = (Vec::new(), 0..least);
     while walls > 0 {
-        if below((walls + spare) as u32, rng) < walls as u32 {
+        if dice.pick((walls + spare) as u32) < walls as u32 {
             walls -= 1;
             divided.push(room.clone());
             room = room.end..room.end + least;
@@ -280,38 +223,6 @@ fn parse_size(size: &str, wrong: impl FnOnce() -> Diagnostic) -> Result<Size, Di
     Size::new(width, height)
 }
 
-fn no_probability(p: &str) -> Diagnostic {
-    Diagnostic::usage(format!("{p:?} is no probability"), "write a number from 0 to 1, for example 0.1")
-}
-
-impl FromStr for Probability {
-    type Err = Diagnostic;
-
-    fn from_str(p: &str) -> Result<Self, Diagnostic> {
-        p.parse().ok().and_then(Self::new).ok_or_else(|| no_probability(p))
-    }
-}
-
-impl TryFrom<f64> for Probability {
-    type Error = String;
-
-    fn try_from(p: f64) -> Result<Self, String> {
-        Self::new(p).ok_or_else(|| no_probability(&p.to_string()).what().to_owned())
-    }
-}
-
-impl From<Probability> for f64 {
-    fn from(Probability(p): Probability) -> Self {
-        p
-    }
-}
-
-impl fmt::Display for Probability {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
-
 impl fmt::Display for Generator {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -322,24 +233,5 @@ impl fmt::Display for Generator {
             Self::Office(size, Rooms { across, down }) => write!(f, "office:{size}:{across}x{down}"),
             Self::Cells(size, p) => write!(f, "cells:{size}:{p}"),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use tautline_proofs::engine::{SeededOracle, Tape};
-
-    use super::*;
-
-    #[test]
-    fn a_probability_is_picked_as_often_as_it_says() {
-        let of = |p| Probability::new(p).expect("a probability");
-        let mut source = SeededOracle::new(1, 0);
-        let picked = (0..100_000).filter(|_| of(0.1).is_picked(&mut source)).count();
-        assert!((9_500..10_500).contains(&picked), "{picked}");
-        assert!(!of(0.999).is_picked(&mut Tape(&[])));
-        assert!(of(1.0).is_picked(&mut Tape(&[])));
-        assert!(!Probability::NEVER.is_picked(&mut Tape(&[999_999])));
-        assert!([-0.1, 1.1, f64::NAN].iter().all(|&p| Probability::new(p).is_none()));
     }
 }

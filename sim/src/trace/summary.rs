@@ -7,11 +7,11 @@ use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
 use super::StoredViolation;
+use crate::chance::Probability;
 use crate::explore::floor::Component;
 use crate::explore::{Knowledge, Milestone, Play, Report, Setup, Stopped, Violation};
 use crate::failures::Failures;
 use crate::layout::CellWritten;
-use crate::layout::generate::Probability;
 use crate::objects::ObjectReport;
 
 /// The JSON of a run.

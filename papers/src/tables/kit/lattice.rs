@@ -4,7 +4,8 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 
 use super::PATHS;
-use tautline_sim::layout::{Layout, generate};
+use tautline_sim::chance::Dice;
+use tautline_sim::layout::Layout;
 
 /// Lattices of one size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,8 +34,8 @@ impl Family {
     /// connect nodes which are not connected yet, then others until there are 26.
     pub(super) fn layout(self, seed: u64) -> Result<(Layout, Cell), Diagnostic> {
         let mut layout = Layout::open(self.columns, self.rows)?;
-        let mut dice = generate::source(seed, *b"lattice ");
-        let mut draw = |below: usize| generate::below(below as u32, &mut dice) as usize;
+        let mut dice = Dice::new(seed, *b"lattice ");
+        let mut draw = |below: usize| dice.below(below as u64) as usize;
         let mut paths: Vec<Edge> = layout.edges().collect();
         for place in (1..paths.len()).rev() {
             paths.swap(place, draw(place + 1));

@@ -4,10 +4,10 @@
 
 use std::mem::take;
 
-use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::{
     self, Barrier, ByteEffect, Chain, Intent, Kind, Parts, Plan, Reformation, World,
 };
+use tautline_kernel::choice::Oracle as _;
 use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
@@ -15,12 +15,12 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
 use super::shown;
+use crate::chance::{Dice, Probability};
 use crate::explore::{
     Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Surroundings, Survey, Team,
 };
 use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
-use crate::layout::generate::{Probability, below, source};
 use crate::options::Options;
 
 /// A message of the team is refused by it.
@@ -90,7 +90,7 @@ pub(super) struct ChainTeam<G, const ROBOTS: usize> {
     wall: Option<Appearing>,
     loss: Probability,
     going: Going,
-    chance: ChaCha8Rng,
+    chance: Dice,
     barriers: Vec<Barrier<ROBOTS>>,
     faults: Failures,
     moves: u32,
@@ -121,7 +121,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
             wall,
             loss,
             going,
-            chance: source(setup.seed, *b"faults  "),
+            chance: Dice::new(setup.seed, *b"faults  "),
             barriers: Vec::new(),
             faults: Failures::default(),
             moves: 0,
@@ -293,11 +293,11 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     /// a random order.
     fn holds_one_by_one(&self, before: &[Cell], after: &[Cell]) -> bool {
         // The order is drawn anew from the number of the team move, so that a look does not change the run.
-        let mut chance = source(self.seed ^ u64::from(self.moves) << 32, *b"going   ");
+        let mut chance = Dice::new(self.seed ^ u64::from(self.moves) << 32, *b"going   ");
         let mut waiting = self.left.clone();
         let mut cells = before.to_vec();
         while !waiting.is_empty() {
-            let next = waiting.swap_remove(below(waiting.len() as u32, &mut chance) as usize);
+            let next = waiting.swap_remove(chance.pick(waiting.len() as u32) as usize);
             cells[next] = after[next];
             if self.parts().iter().any(|part| is_apart(part, &cells)) {
                 return false;
