@@ -66,16 +66,16 @@ pub fn page(
 
 fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Report) -> Film {
     let events = report.fates.len() as u32;
-    let messages = Layer {
-        name: "messages",
-        about: "who calls, asks, chooses and declines; from node to node in between".to_owned(),
-        shape: Shape::Messages(KINDS),
-    };
-    let range = Layer {
-        name: "radio circle",
-        about: format!("{} m: the radio range, where nothing is in the way", setting.range_m),
-        shape: Shape::Circle((setting.range_m * 1000.0) as u32),
-    };
+    let messages = Layer::new(
+        "messages",
+        "who calls, asks, chooses and declines; from node to node in between",
+        Shape::Messages(KINDS),
+    );
+    let range = Layer::new(
+        "radio circle",
+        format!("{} m: the radio range, where nothing is in the way", setting.range_m),
+        Shape::Circle((setting.range_m * 1000.0) as u32),
+    );
     let clauses = report.violations.iter().map(|broken| broken.demand.clause());
     let sentence = |id: &'static str| (id, story::sentence(ClauseId::new(id)).unwrap_or_default());
     Film {

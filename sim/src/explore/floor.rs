@@ -48,11 +48,11 @@ pub(super) fn layers<D: SensorData>() -> Vec<Layer> {
         Value { name: "visited", ink: Ink::Closed },
         Value { name: "sealed", ink: Ink::Sealed },
     ];
-    let about = "what the sensors say of cells that are done with".to_owned();
-    let mut layers = vec![Layer { name: "marks", about, shape: Shape::Cells(MARKS) }];
+    let about = "what the sensors say of cells that are done with";
+    let mut layers = vec![Layer::new("marks", about, Shape::Cells(MARKS))];
     if D::STORES_SIDES {
         let about = "the side that a sensor stores: of an open cell its parent's, of a visited one the way to what was left";
-        layers.push(Layer { name: "trees", about: about.to_owned(), shape: Shape::Sides(SIDES) });
+        layers.push(Layer::new("trees", about, Shape::Sides(SIDES)));
     }
     layers
 }

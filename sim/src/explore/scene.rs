@@ -18,6 +18,13 @@ pub struct Layer {
     pub shape: Shape,
 }
 
+impl Layer {
+    /// The layer with this name and this meaning.
+    pub fn new(name: &'static str, about: impl Into<String>, shape: Shape) -> Self {
+        Self { name, about: about.into(), shape }
+    }
+}
+
 /// How a layer is drawn.
 #[derive(Clone, Copy, Debug)]
 pub enum Shape {

@@ -50,13 +50,13 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
 
 impl<const ROBOTS: usize> Shown for Setting<ROBOTS> {
     fn scene(&self) -> Scene {
-        let about = "what the followed robot has noted of cells".to_owned();
+        let about = "what the followed robot has noted of cells";
         Scene {
             area: self.area,
             actor: "robot",
             squares: 0,
             names: Vec::new(),
-            layers: vec![Layer { name: "repository", about, shape: Shape::CellsOfEach(NOTES) }],
+            layers: vec![Layer::new("repository", about, Shape::CellsOfEach(NOTES))],
         }
     }
 

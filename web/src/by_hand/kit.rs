@@ -53,19 +53,18 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
 
 impl<const ROBOTS: usize> Shown for Setting<ROBOTS> {
     fn scene(&self) -> Scene {
-        let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
         Scene {
             area: self.area,
             actor: "robot",
             squares: 0,
             names: Vec::new(),
             layers: vec![
-                layer(
+                Layer::new(
                     "links",
                     "robots that hear each other at the nodes where they go",
                     Shape::Links(Joins::All, &[REACH]),
                 ),
-                layer(
+                Layer::new(
                     "records",
                     "what the followed robot has driven and seen blocked itself",
                     Shape::SidesOfEach(RECORD),

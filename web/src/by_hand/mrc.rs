@@ -92,7 +92,6 @@ fn actors(setting: &Setting) -> Vec<Actor> {
 
 impl Shown for Space {
     fn scene(&self) -> Scene {
-        let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
         let columns = 2 * self.setting.robots.max(self.setting.wfrs) as i16;
         let first = Cell::new(0, 0);
         let name = |actor: &Actor| match actor {
@@ -105,8 +104,8 @@ impl Shown for Space {
             squares: self.setting.wfrs,
             names: actors(&self.setting).iter().map(name).collect(),
             layers: vec![
-                layer("stages", "what each robot and each WFR does", Shape::Cells(STAGES)),
-                layer("network", "the messages under way", Shape::Messages(KINDS)),
+                Layer::new("stages", "what each robot and each WFR does", Shape::Cells(STAGES)),
+                Layer::new("network", "the messages under way", Shape::Messages(KINDS)),
             ],
         }
     }

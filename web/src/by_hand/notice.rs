@@ -143,15 +143,14 @@ impl World for Network {
 
 impl Shown for Network {
     fn scene(&self) -> Scene {
-        let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
         Scene {
             area: self.area,
             actor: "node",
             squares: 1,
             names: Vec::new(),
             layers: vec![
-                layer("stages", "what has become of each node", Shape::Cells(STAGES)),
-                layer(
+                Layer::new("stages", "what has become of each node", Shape::Cells(STAGES)),
+                Layer::new(
                     "network",
                     "links, what is under way, and the parent of each node",
                     Shape::Messages(KINDS),

@@ -27,26 +27,25 @@ pub(super) const LOST: usize = 3;
 pub(super) fn layers(is_faulty: bool) -> Vec<Layer> {
     const VIRTUALS: &[Value] = &[Value { name: "virtual obstacle", ink: Ink::Barred }];
     const LOST_BYTES: &[Kind] = &[Kind::lost("lost byte")];
-    let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
     let mut layers = vec![
-        layer(
+        Layer::new(
             "links",
             "each robot of the chain with the next: in E_S, in E_C, or lost",
             Shape::Links(Joins::Next, ZONES),
         ),
-        layer(
+        Layer::new(
             "virtual obstacles",
             "sides that the leader does not cross in this epoch",
             Shape::Sides(VIRTUALS),
         ),
-        layer(
+        Layer::new(
             "messages",
             "after a team move every robot tells in one byte what it tried and what came of it",
             Shape::Reports,
         ),
     ];
     if is_faulty {
-        layers.push(layer(
+        layers.push(Layer::new(
             "lost bytes",
             "who did not hear a byte when it was first said; it is said again until all have it",
             Shape::Messages(LOST_BYTES),

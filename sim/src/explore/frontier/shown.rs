@@ -38,21 +38,21 @@ const OBSTACLES: usize = 0;
 const ASSIGNMENT: usize = 1;
 const ALL_CLAIMS: usize = 2;
 
-fn layer(name: &'static str, about: &str, shape: Shape) -> Layer {
-    Layer { name, about: about.to_owned(), shape }
-}
-
 pub(super) fn layers_of_assigned() -> Vec<Layer> {
     const MET: &[Value] = &[Value { name: "obstacle", ink: Ink::Wall }];
     const OWN: &[Value] = &[Value { name: "assigned to the followed robot", ink: Ink::Goal }];
     vec![
-        layer("obstacles", "the obstacles that a robot has met: all robots know them", Shape::Cells(MET)),
-        layer(
+        Layer::new(
+            "obstacles",
+            "the obstacles that a robot has met: all robots know them",
+            Shape::Cells(MET),
+        ),
+        Layer::new(
             "assignment",
             "the frontier cell that the followed robot goes to next",
             Shape::CellsOfEach(OWN),
         ),
-        layer("claims", "the frontier cells that robots go to next", Shape::Cells(CLAIM)),
+        Layer::new("claims", "the frontier cells that robots go to next", Shape::Cells(CLAIM)),
     ]
 }
 
@@ -73,17 +73,17 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
     const REPOSITORY: &[Value] =
         &[Value { name: "explored", ink: Ink::Open }, Value { name: "obstacle", ink: Ink::Wall }];
     let mut layers = vec![
-        layer("repositories", "what the followed robot has stored of cells", Shape::CellsOfEach(REPOSITORY)),
-        layer("claims", "the unexplored cells that robots are going to", Shape::Cells(CLAIM)),
-        layer("messages", "what robots tell, and who does not hear it", Shape::Messages(KINDS)),
+        Layer::new(
+            "repositories",
+            "what the followed robot has stored of cells",
+            Shape::CellsOfEach(REPOSITORY),
+        ),
+        Layer::new("claims", "the unexplored cells that robots are going to", Shape::Cells(CLAIM)),
+        Layer::new("messages", "what robots tell, and who does not hear it", Shape::Messages(KINDS)),
     ];
     if let Some(range_cells) = robots.range_cells() {
         let about = format!("{range_cells} cells: so far a robot is heard");
-        layers.push(Layer {
-            name: "radio circle",
-            about,
-            shape: Shape::Circle(u32::from(range_cells) * 1000),
-        });
+        layers.push(Layer::new("radio circle", about, Shape::Circle(u32::from(range_cells) * 1000)));
     }
     if robots.is_noisy() {
         const BELIEF: &[Value] = &[
@@ -92,14 +92,14 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
         ];
         const FIX: &[Value] = &[Value { name: "its last fix, with 95 %", ink: Ink::Barred }];
         let about = "robots that stand in this team move to take another fix, since they are not sure to stay in the next cell";
-        layers.push(layer(STANDING, about, Shape::Cells(UNSURE)));
+        layers.push(Layer::new(STANDING, about, Shape::Cells(UNSURE)));
         let about = "where robots are, and where they take themselves to be by wheels and fixes";
-        layers.push(layer(BELIEFS, about, Shape::Marks(BELIEF)));
-        layers.push(layer(FIXES, "the places that robots were told last by anchors", Shape::Marks(FIX)));
+        layers.push(Layer::new(BELIEFS, about, Shape::Marks(BELIEF)));
+        layers.push(Layer::new(FIXES, "the places that robots were told last by anchors", Shape::Marks(FIX)));
     }
     if robots.has_small() {
         const DETOUR: &[Value] = &[Value { name: "a robot has gone round one", ink: Ink::Barred }];
-        layers.push(layer(
+        layers.push(Layer::new(
             SMALL,
             "obstacles between cells that are smaller than a cell",
             Shape::Sides(DETOUR),
@@ -111,7 +111,7 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
             Value { name: "is here", ink: Ink::Wall },
         ];
         let about = "objects, and where the robots that have seen them take them to be";
-        layers.push(layer(OBJECTS, about, Shape::Marks(OBJECT)));
+        layers.push(Layer::new(OBJECTS, about, Shape::Marks(OBJECT)));
     }
     layers
 }

@@ -36,20 +36,23 @@ pub(super) fn layers(reach: Reach) -> Vec<Layer> {
     let paths = if reach == Reach::PAPER { 0 } else { usize::from(reach.squared().isqrt()) };
     let millimetres = reach_millimetres(reach);
     let (metres, thousandths) = (millimetres / 1000, (millimetres * 1000 / PATH_MILLIMETRES) as u32);
-    let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
     vec![
-        layer(
+        Layer::new(
             "links",
             "robots that hear each other at the nodes where they go",
             Shape::Links(Joins::All, &ZONES[paths..=paths]),
         ),
-        layer("radio circle", &format!("{metres} m: so far a robot is heard"), Shape::Circle(thousandths)),
-        layer(
+        Layer::new(
+            "radio circle",
+            format!("{metres} m: so far a robot is heard"),
+            Shape::Circle(thousandths),
+        ),
+        Layer::new(
             "records",
             "what the followed robot has driven and seen blocked itself",
             Shape::SidesOfEach(RECORD),
         ),
-        layer(
+        Layer::new(
             "messages",
             "a robot that stands asks the others for their records, and drives when they have answered",
             Shape::Messages(KINDS),

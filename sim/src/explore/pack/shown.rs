@@ -14,23 +14,12 @@ const OBSTACLE: &[Value] = &[Value { name: "seen obstacle", ink: Ink::Wall }];
 const AIM: &[Value] = &[Value { name: "aim", ink: Ink::Aim }];
 
 pub(super) fn layers(rule: &Rule) -> Vec<Layer> {
-    let circle = |name, about: String, cells: u16| Layer {
-        name,
-        about,
-        shape: Shape::Circle(u32::from(cells) * 1000),
-    };
+    let circle =
+        |name, about: String, cells: u16| Layer::new(name, about, Shape::Circle(u32::from(cells) * 1000));
     let (sight_cells, range_cells) = (rule.sight().radius_cells(), rule.range_cells());
     vec![
-        Layer {
-            name: "obstacles",
-            about: "the obstacles that a robot has seen".to_owned(),
-            shape: Shape::Cells(OBSTACLE),
-        },
-        Layer {
-            name: "aims",
-            about: "the frontier cells that robots are going to".to_owned(),
-            shape: Shape::Cells(AIM),
-        },
+        Layer::new("obstacles", "the obstacles that a robot has seen", Shape::Cells(OBSTACLE)),
+        Layer::new("aims", "the frontier cells that robots are going to", Shape::Cells(AIM)),
         circle("sight", format!("R_s, {sight_cells} cells: so far a robot sees"), sight_cells.into()),
         circle("radio circle", format!("R_c, {range_cells} cells: so far a robot is heard"), range_cells),
     ]
