@@ -21,7 +21,7 @@ use serde_json::value::{RawValue, to_raw_value};
 
 use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::json_lines::{MAX_FILE_BYTES, Magic, line_of, value_of};
+use crate::json_lines::{self, MAX_FILE_BYTES, Magic, key_of, line_of, value_of};
 
 /// The version of every such file.
 pub const VERSION: u32 = 1;
@@ -201,9 +201,7 @@ pub(crate) fn text(task: &impl Task, far: &RawValue) -> String {
 }
 
 fn in_header(path: &Path, text: &str, field: &str, what: String, remedy: &str) -> Diagnostic {
-    let field = format!("{field:?}");
-    let start = text.find(&field).unwrap_or(0);
-    Diagnostic::in_line(path, 1, text, start..start + field.len(), what, remedy)
+    Diagnostic::in_line(path, 1, text, key_of(text, field), what, remedy)
 }
 
 fn parse<'b, T: Task, V: Deserialize<'b>>(
@@ -211,11 +209,7 @@ fn parse<'b, T: Task, V: Deserialize<'b>>(
     number: usize,
     text: &'b str,
 ) -> Result<V, Diagnostic> {
-    serde_json::from_str(text).map_err(|error| {
-        let message = error.to_string();
-        let message = message.split(" at line ").next().unwrap_or_default();
-        none::<T>(path, number, text, error.column().saturating_sub(1), message)
-    })
+    json_lines::parse(text).map_err(|(column, message)| none::<T>(path, number, text, column, message))
 }
 
 /// The fault of a line that is none, in this column from 0 on.

@@ -122,9 +122,9 @@ impl Lines {
         match magic.differs(format, version) {
             None => Ok(text),
             Some((field @ "format", what)) => {
-                Err(self.fault(&text, &format!("{field:?}"), what, format_args!("name a {format:?}")))
+                Err(self.fault(&text, field, what, format_args!("name a {format:?}")))
             }
-            Some((field, what)) => Err(self.fault(&text, &format!("{field:?}"), what, self.again)),
+            Some((field, what)) => Err(self.fault(&text, field, what, self.again)),
         }
     }
 
@@ -225,11 +225,7 @@ impl Lines {
     /// # Errors
     /// A [`Diagnostic`] where it is no such thing.
     pub fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Diagnostic> {
-        serde_json::from_str(text).map_err(|error| {
-            let message = error.to_string();
-            let message = message.split(" at line ").next().unwrap_or_default();
-            self.no_line_at(text, error.column().saturating_sub(1), message, remedy)
-        })
+        parse(text).map_err(|(column, message)| self.no_line_at(text, column, message, remedy))
     }
 
     fn no_line_at(&self, text: &str, column: usize, what: impl Display, remedy: &str) -> Diagnostic {
@@ -244,8 +240,7 @@ impl Lines {
 
     /// A fault where `key` stands in the line.
     pub fn fault(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
-        let start = text.find(key).unwrap_or_default();
-        self.at(text, start..start + key.len(), what, remedy)
+        self.at(text, key_of(text, key), what, remedy)
     }
 
     /// A fault in the value that `key` has in the line.
@@ -253,13 +248,30 @@ impl Lines {
         self.at(text, value_of(text, key), what, remedy)
     }
 
-    fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
+    /// A fault of the line.
+    pub fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
         self.at(text, 0..text.len(), what, remedy)
     }
 
     fn at(&self, text: &str, range: Range<usize>, what: impl Display, remedy: impl Display) -> Diagnostic {
         Diagnostic::in_line(&self.path, self.count, text, range, what, remedy)
     }
+}
+
+/// The value that a line holds; else the column from 0 on where it is no such thing, and why.
+pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, (usize, String)> {
+    serde_json::from_str(text).map_err(|error| {
+        let message = error.to_string();
+        let message = message.split(" at line ").next().unwrap_or_default();
+        (error.column().saturating_sub(1), message.to_owned())
+    })
+}
+
+/// Where `key` stands in a line.
+pub fn key_of(text: &str, key: &str) -> Range<usize> {
+    let name = format!("\"{key}\"");
+    let start = text.find(&name).unwrap_or_default();
+    start..start + name.len()
 }
 
 /// Where the value stands that `key` has in a line.

@@ -110,7 +110,7 @@ impl Trace {
     /// The setup of a header.
     fn check(lines: Lines, text: &str, catalogue: Catalogue, header: Known) -> Result<Self, Diagnostic> {
         let Some(scheme) = catalogue.scheme(&header.scheme) else {
-            return Err(lines.fault(text, "\"scheme\"", "this program does not know the scheme", AGAIN));
+            return Err(lines.fault(text, "scheme", "this program does not know the scheme", AGAIN));
         };
         let rule = catalogue.rule(&header.rule).map_err(|what| lines.no_line(text, "rule", &what, AGAIN))?;
         if let OnViolation::StopAt(last) = header.limits.violation
@@ -120,7 +120,7 @@ impl Trace {
         }
         let layout = drawn(&lines, text, &header.layout, header.base, AGAIN)?;
         let clause = header.clause.as_ref().map(|id| {
-            let wrong = |fault: Diagnostic| lines.fault(text, "\"clause\"", fault.what(), fault.remedy());
+            let wrong = |fault: Diagnostic| lines.fault(text, "clause", fault.what(), fault.remedy());
             catalogue.clause(id).map_err(wrong)
         });
         let clause = clause.transpose()?;
@@ -128,7 +128,7 @@ impl Trace {
         let setup = Setup { limits, ..header.setup(scheme, rule, layout) };
         setup.check().map_err(|fault| {
             let field = fault.field().unwrap_or_default();
-            lines.fault(text, &format!("\"{field}\""), fault.what(), fault.remedy())
+            lines.fault(text, field, fault.what(), fault.remedy())
         })?;
         Ok(Self { setup, clause, lines })
     }
@@ -480,10 +480,10 @@ pub fn text(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Halt> {
 
 /// The layout of a header, with the base where the header has it.
 fn drawn(lines: &Lines, text: &str, layout: &str, base: Cell, again: &str) -> Result<Layout, Diagnostic> {
-    let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "\"layout\"", problem, again))?;
+    let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "layout", problem, again))?;
     if layout.base() != Some(base) {
         let what = format!("the base {base} is not where the layout draws it");
-        return Err(lines.fault(text, "\"base\"", what, again));
+        return Err(lines.fault(text, "base", what, again));
     }
     Ok(layout)
 }

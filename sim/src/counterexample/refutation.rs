@@ -22,7 +22,7 @@ use tautline_proofs::ledger;
 
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_io::json_lines::{Lines, line_of};
+use tautline_io::json_lines::{Lines, key_of, line_of};
 
 /// The format of the header.
 pub const FORMAT: &str = "tautline refutation";
@@ -181,7 +181,7 @@ pub fn replay_by<'a>(path: &Path, known: &[Meant<'a>]) -> Result<Refutation<'a>,
         let choice = match lines.parse(&text, AGAIN)? {
             Line::Choice(_) if !choices.again.is_empty() => {
                 let what = "what comes only once stands before what comes again";
-                return Err(lines.fault(&text, "\"choice\"", what, AGAIN));
+                return Err(lines.fault(&text, "choice", what, AGAIN));
             }
             Line::Choice(choice) => {
                 choices.once.push(choice.taken);
@@ -196,7 +196,7 @@ pub fn replay_by<'a>(path: &Path, known: &[Meant<'a>]) -> Result<Refutation<'a>,
         seal.update(format!("{text}\n").as_bytes());
         of.push(choice.of);
         if of.len() > MAX_CHOICES {
-            return Err(lines.fault(&text, &text, format_args!("more than {MAX_CHOICES} choices"), AGAIN));
+            return Err(lines.whole(&text, format_args!("more than {MAX_CHOICES} choices"), AGAIN));
         }
     };
     let (end, text) = end;
@@ -204,23 +204,17 @@ pub fn replay_by<'a>(path: &Path, known: &[Meant<'a>]) -> Result<Refutation<'a>,
     let (clause, check, evidence) = play(path, &checks, &choices, &of)?;
     if evidence.demand != header.demand {
         let what = format!("the demand that is broken is another: {:?}", evidence.demand);
-        return Err(Diagnostic::in_line(path, 1, &first, spot(&first, "demand"), what, AGAIN));
+        return Err(Diagnostic::in_line(path, 1, &first, key_of(&first, "demand"), what, AGAIN));
     }
     if (end.choices, end.again) != (choices.once.len(), choices.again.len()) {
         let what = format!("there are {} choices and {} again", choices.once.len(), choices.again.len());
-        return Err(Diagnostic::in_line(path, 2 + of.len(), &text, spot(&text, "choices"), what, AGAIN));
+        return Err(Diagnostic::in_line(path, 2 + of.len(), &text, key_of(&text, "choices"), what, AGAIN));
     }
     if end.crc32 != seal.finalize() {
         let what = "the lines above are not those that were written: their checksum is another";
-        return Err(Diagnostic::in_line(path, 2 + of.len(), &text, spot(&text, "crc32"), what, AGAIN));
+        return Err(Diagnostic::in_line(path, 2 + of.len(), &text, key_of(&text, "crc32"), what, AGAIN));
     }
     Ok(Refutation { clause, check, evidence })
-}
-
-/// Where `key` stands in a line.
-fn spot(text: &str, key: &str) -> std::ops::Range<usize> {
-    let start = text.find(&format!("\"{key}\"")).unwrap_or_default();
-    start..start + key.len() + 2
 }
 
 /// The checks that a header may mean.
@@ -236,13 +230,13 @@ fn find<'a>(
         let mut known: Vec<&str> = known.iter().map(|(clause, _)| clause.id).collect();
         known.dedup();
         let remedy = format!("the clauses are {}", known.join(", "));
-        return Err(lines.fault(text, "\"clause\"", format_args!("there is no clause {id:?}"), remedy));
+        return Err(lines.fault(text, "clause", format_args!("there is no clause {id:?}"), remedy));
     }
     let fitting = |key: &str, what: &str, is: &dyn Fn(&dyn AnyCheck) -> bool, checks: Vec<Meant<'a>>| {
         let fitting: Vec<Meant<'a>> = checks.into_iter().filter(|&(_, check)| is(check)).collect();
         if fitting.is_empty() {
             let what = format!("no check of {id} {what}");
-            return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
+            return Err(lines.fault(text, key, what, AGAIN));
         }
         Ok(fitting)
     };

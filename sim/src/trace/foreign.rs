@@ -50,10 +50,10 @@ impl ForeignRun {
         let header: Named = lines.parse(text, AGAIN)?;
         let layout = drawn(&lines, text, &header.layout, header.base, AGAIN)?;
         if let Err((key, what)) = check_header(&header, &layout) {
-            return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
+            return Err(lines.fault(text, key, what, AGAIN));
         }
         let (frames, text, end) = read_moves(&mut lines, starts(&header), &layout)?;
-        let wrong = |what: String| Err(lines.fault(&text, "\"violations\"", what, AGAIN));
+        let wrong = |what: String| Err(lines.fault(&text, "violations", what, AGAIN));
         if let Some(broken) = end.violations.iter().find(|broken| !is_word(&broken.clause)) {
             return wrong(format!("{:?} is no name of a clause", broken.clause));
         }
@@ -89,7 +89,7 @@ impl ForeignRun {
         let free = self.setup.layout.free_cells();
         if !(self.end.explored..=free as u32).contains(&self.end.cells) {
             let what = format!("{} are explored, and {free} are free", self.end.explored);
-            return Err(lines.fault(text, "\"cells\"", what, AGAIN));
+            return Err(lines.fault(text, "cells", what, AGAIN));
         }
         Ok(())
     }
@@ -165,10 +165,10 @@ fn read_moves(
             Line::End(end) => return Ok((frames, text, end)),
         };
         if made.step as usize != number {
-            return Err(lines.fault(&text, "\"step\"", format_args!("this is team move {number}"), AGAIN));
+            return Err(lines.fault(&text, "step", format_args!("this is team move {number}"), AGAIN));
         }
         let told = made.frame(&team, layout);
-        let frame = told.map_err(|(key, what)| lines.fault(&text, &format!("\"{key}\""), what, AGAIN))?;
+        let frame = told.map_err(|(key, what)| lines.fault(&text, key, what, AGAIN))?;
         team.clone_from(&frame.cells);
         frames.push(frame);
         if number * team.len() > MAX_HELD {
