@@ -230,7 +230,7 @@ impl Environments {
         ground.iter_mut().zip(layout.cells()).for_each(|(sides, cell)| *sides = open(cell));
         ground[index(&layout, base)] |= EXPLORED;
         self.cells[place * robots..][..robots].fill(base);
-        let reachable = layout.spread(&[base]).len() as u32;
+        let reachable = layout.spread(&[base]).count() as u32;
         self.episodes[place] = Episode { is_on: true, explored: 1, reachable, cycles: 0 };
         self.layouts[place] = layout;
     }

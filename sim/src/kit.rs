@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Reach, Rule, SetupError, Sight, Stance, touch};
 
 use crate::chance::Dice;
@@ -290,23 +290,8 @@ fn widest_gap(positions: &[[i64; 2]]) -> i64 {
 
 /// The open sides within reach of `start`, by the paths across them.
 pub fn paths(layout: &Layout, start: Cell) -> Vec<Edge> {
-    let area: Area = layout.size().area();
-    let mut is_reached = vec![false; area.width() * area.height()];
-    let mut paths = Vec::new();
-    let mut ahead = vec![start];
-    while let Some(node) = ahead.pop() {
-        let Some((column, row)) = area.locate(node) else { continue };
-        if std::mem::replace(&mut is_reached[row * area.width() + column], true) {
-            continue;
-        }
-        for side in Side::ALL {
-            let edge = Edge::new(node, side);
-            if layout.is_open(edge) {
-                paths.push(edge);
-                ahead.push(node.beyond(side));
-            }
-        }
-    }
+    let sides = layout.spread(&[start]).flat_map(|node| Side::ALL.map(|side| Edge::new(node, side)));
+    let mut paths: Vec<Edge> = sides.filter(|&side| layout.is_open(side)).collect();
     paths.sort_unstable();
     paths.dedup();
     paths
@@ -315,20 +300,7 @@ pub fn paths(layout: &Layout, start: Cell) -> Vec<Edge> {
 /// The nodes nearest to `base`, the base first, in which a team of so many can start: each in one of its own, near
 /// enough to hear one before it. Fewer if there are not so many.
 pub fn starts(layout: &Layout, base: Cell, robots: usize) -> Vec<Cell> {
-    let mut starts = vec![base];
-    let mut place = 0;
-    while starts.len() < robots
-        && let Some(&node) = starts.get(place)
-    {
-        for side in Side::ALL {
-            let beyond = node.beyond(side);
-            if layout.is_open(Edge::new(node, side)) && !starts.contains(&beyond) && starts.len() < robots {
-                starts.push(beyond);
-            }
-        }
-        place += 1;
-    }
-    starts
+    layout.spread(&[base]).take(robots).collect()
 }
 
 #[cfg(test)]

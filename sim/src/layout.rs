@@ -14,6 +14,7 @@ mod size;
 pub mod text;
 mod yaml;
 
+use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::num::NonZeroU16;
 use std::path::{Path, PathBuf};
@@ -157,30 +158,28 @@ impl Layout {
 
     /// The cells that are reached from `starts`, those among them, row by row.
     pub fn reachable(&self, starts: &[Cell]) -> Vec<Cell> {
-        let mut cells = self.spread(starts);
+        let mut cells: Vec<Cell> = self.spread(starts).collect();
         cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
         cells
     }
 
     /// The cells that are reached from `starts`, those among them, the nearest first.
-    pub fn spread(&self, starts: &[Cell]) -> Vec<Cell> {
-        let (mut reached, mut cells) = (Bitmap::new(self.size.cells()), Vec::new());
-        let mut reach = |cell: Cell, cells: &mut Vec<Cell>| {
-            if let Some(index) = self.size.index(cell).filter(|&index| !reached.has(index)) {
+    pub fn spread(&self, starts: &[Cell]) -> impl Iterator<Item = Cell> + use<'_> {
+        let mut reached = Bitmap::new(self.size.cells());
+        let mut is_new = move |cell: &Cell| {
+            let index = self.size.index(*cell).filter(|&index| !reached.has(index));
+            index.is_some_and(|index| {
                 reached.put(index);
-                cells.push(cell);
-            }
+                true
+            })
         };
-        for &start in starts {
-            reach(start, &mut cells);
-        }
-        let mut next = 0;
-        while let Some(&cell) = cells.get(next) {
-            next += 1;
+        let mut ahead: VecDeque<Cell> = starts.iter().copied().filter(&mut is_new).collect();
+        iter::from_fn(move || {
+            let cell = ahead.pop_front()?;
             let open = Side::ALL.into_iter().filter(|&side| self.is_open(Edge::new(cell, side)));
-            open.for_each(|side| reach(cell.beyond(side), &mut cells));
-        }
-        cells
+            ahead.extend(open.map(|side| cell.beyond(side)).filter(&mut is_new));
+            Some(cell)
+        })
     }
 
     /// Makes `cell` free. Walls beside it stay.

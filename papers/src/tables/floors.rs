@@ -197,7 +197,7 @@ pub(super) fn file_name(map: &str) -> &str {
 fn largest_part(layout: &Layout) -> Vec<Cell> {
     let mut seen = BTreeSet::new();
     let mut part_from = |first: Cell| {
-        let part = if seen.contains(&first) { Vec::new() } else { layout.spread(&[first]) };
+        let part = if seen.contains(&first) { Vec::new() } else { layout.spread(&[first]).collect() };
         seen.extend(part.iter().copied());
         part
     };

@@ -317,7 +317,7 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
 fn reach(layout: &Layout, base: Cell, robots: usize) -> Option<Reach> {
     let area = layout.size().area();
     let within = |robots| within_reach(area, base, robots, |edge| layout.is_open(edge)).len();
-    let (cells, connected) = (within(robots), layout.spread(&[base]).len());
+    let (cells, connected) = (within(robots), layout.spread(&[base]).count());
     if cells == connected {
         return None;
     }
