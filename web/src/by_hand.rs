@@ -14,12 +14,12 @@ use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::states::{self, Ending, Limits, System};
 use tautline_proofs::engine::world::{Turn, World};
-use tautline_sim::draw::page::film;
+use tautline_sim::draw::page::{film, place_of, side_of};
 use tautline_sim::explore::{Layer, Place};
 
 use crate::ask::{Answers, Question};
 use crate::clauses::sentence;
-use crate::play::{Board, Broken, Delta, Over, Play, Step, place, side};
+use crate::play::{Board, Broken, Delta, Over, Play, Step};
 use crate::settings::Settings;
 
 /// A scheme whose world is played by hand.
@@ -203,15 +203,15 @@ impl<W: Shown> Played<W> {
         let Scene { area, layers, .. } = self.world.scene();
         let Picture { cells, explored, known, put, say, failed } = picture;
         let at = |at| match at {
-            Place::Cell(cell) => place(area, cell),
-            Place::Side(edge) => side(area, edge),
+            Place::Cell(cell) => place_of(area, cell),
+            Place::Side(edge) => side_of(area, edge),
         };
         Delta {
             step: self.step,
             tried: ".".repeat(cells.len()),
-            explored: explored.iter().chain(&cells).filter_map(|&cell| place(area, cell)).collect(),
-            cells: cells.into_iter().map(|cell| place(area, cell)).collect(),
-            known: known.into_iter().filter_map(|(edge, is)| Some((side(area, edge)?, is))).collect(),
+            explored: explored.iter().chain(&cells).filter_map(|&cell| place_of(area, cell)).collect(),
+            cells: cells.into_iter().map(|cell| place_of(area, cell)).collect(),
+            known: known.into_iter().filter_map(|(edge, is)| Some((side_of(area, edge)?, is))).collect(),
             clear: (0..layers.len()).collect(),
             put: put
                 .into_iter()

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 use serde_json::Value;
-use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_sim::draw::page::film::LayerJson;
 
 use crate::ask::Answers;
@@ -129,21 +128,6 @@ pub(crate) struct Refused {
     pub(crate) to: u32,
     /// The conditions that refuse it; none if a known wall does.
     pub(crate) by: Vec<&'static str>,
-}
-
-/// The number of a cell, row by row.
-pub(crate) fn place(area: Area, cell: Cell) -> Option<u32> {
-    area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
-}
-
-/// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern
-/// side.
-pub(crate) fn side(area: Area, edge: Edge) -> Option<u32> {
-    let axis = match edge.side() {
-        Side::East | Side::West => 0,
-        Side::South | Side::North => 1,
-    };
-    place(area, edge.cell()).map(|place| 2 * place + axis)
 }
 
 /// A value as JSON.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
-use tautline_sim::draw::page::film;
+use tautline_sim::draw::page::{film, place_of, side_of};
 use tautline_sim::explore::{
     Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Surroundings, Team,
 };
@@ -13,7 +13,7 @@ use tautline_sim::layout::Layout;
 
 use crate::ask::{Answers, Question};
 use crate::clauses::sentence;
-use crate::play::{Board, Broken, Delta, Over, Play, Refused, Step, place, side};
+use crate::play::{Board, Broken, Delta, Over, Play, Refused, Step};
 use crate::settings::Settings;
 
 /// A run on a layout.
@@ -42,7 +42,7 @@ impl Run {
     /// The changes of the team move `made`.
     fn delta(&self, made: &Made, walls: Vec<(Edge, bool)>) -> Delta {
         let area = self.area();
-        let number = |cell| place(area, cell);
+        let number = |cell| place_of(area, cell);
         let team_move = self.course.team_move(made, &*self.team);
         let mut broken = broken_of(made.broken.iter().copied());
         for (one, &clause) in broken.iter_mut().zip(&made.broken) {
@@ -67,13 +67,13 @@ impl Run {
                 .filter_map(|&cell| number(cell))
                 .collect(),
             unseen: team_move.unseen.iter().filter_map(|&cell| number(cell)).collect(),
-            walls: walls.into_iter().filter_map(|(edge, is)| Some((side(area, edge)?, is))).collect(),
+            walls: walls.into_iter().filter_map(|(edge, is)| Some((side_of(area, edge)?, is))).collect(),
             broken,
             ..Delta::default()
         };
         for (robot, &from) in made.before.iter().enumerate() {
             if let Move::Cross(at) = made.frame.steps[robot]
-                && let Some(at) = side(area, Edge::new(from, at))
+                && let Some(at) = side_of(area, Edge::new(from, at))
             {
                 delta.known.push((at, !made.frame.blocked[robot]));
             }
@@ -120,8 +120,8 @@ impl Delta {
                 Change::Clear { layer } => self.clear.push(*layer),
                 &Change::Put { layer, robot, place: at, value } => {
                     let at = match at {
-                        Place::Cell(cell) => place(area, cell),
-                        Place::Side(edge) => side(area, edge),
+                        Place::Cell(cell) => place_of(area, cell),
+                        Place::Side(edge) => side_of(area, edge),
                     };
                     self.put.extend(at.map(|at| (layer, robot, at, value)));
                 }
@@ -129,7 +129,7 @@ impl Delta {
                     self.marks.push((*layer, mark.number, mark.value, mark.figures.clone()));
                 }
                 &Change::Know { side: edge, is_open } => {
-                    self.known.extend(side(area, edge).map(|at| (at, is_open)));
+                    self.known.extend(side_of(area, edge).map(|at| (at, is_open)));
                 }
                 Change::Say { layer, kind, from, to } => {
                     let to = match to {
@@ -184,7 +184,7 @@ fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
         words: format!("Is the side between {cell} and {beyond} open?"),
         options: vec!["open".to_owned(), "a wall".to_owned()],
         usual,
-        side: side(layout.size().area(), edge),
+        side: side_of(layout.size().area(), edge),
         robots: Vec::new(),
     }
 }
@@ -195,7 +195,7 @@ impl Play for Run {
         let Self { setup, team, course, .. } = self;
         let cells = team.cells();
         let own = team.area(&setup.layout);
-        let number = |cell| place(area, cell);
+        let number = |cell| place_of(area, cell);
         Board {
             columns: area.width(),
             rows: area.height(),
@@ -239,7 +239,7 @@ impl Play for Run {
         let broken = at_end.flat_map(|(clause, (what, cells))| {
             let mut broken = broken_of([clause]);
             for one in &mut broken {
-                one.cells = cells.iter().filter_map(|&cell| place(self.area(), cell)).collect();
+                one.cells = cells.iter().filter_map(|&cell| place_of(self.area(), cell)).collect();
                 let listed: Vec<String> = cells.iter().take(20).map(|cell| format!("({cell})")).collect();
                 let more = cells.len().saturating_sub(20);
                 let more = if more > 0 { format!(" and {more} more") } else { String::new() };
@@ -253,7 +253,7 @@ impl Play for Run {
     fn refusals(&self) -> Vec<Refused> {
         let (area, cells) = (self.area(), self.team.cells());
         let refused = |refusal: tautline_sim::explore::Refusal| {
-            let to = place(area, cells.get(refusal.robot)?.after(refusal.step))?;
+            let to = place_of(area, cells.get(refusal.robot)?.after(refusal.step))?;
             Some(Refused { robot: refusal.robot, to, by: refusal.by })
         };
         self.team.refusals().into_iter().filter_map(refused).collect()

@@ -20,6 +20,7 @@ pub use self::film::in_words;
 use self::film::{Board, EndBreach, Film, Share, again, notes, outcome};
 use super::story;
 use crate::explore::{Change, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove};
+use crate::trace::letter;
 
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
@@ -269,7 +270,7 @@ impl Line {
         self.is_new = false;
         for (robot, &from) in made.before.iter().enumerate() {
             if let Step::Cross(side) = made.frame.steps[robot]
-                && let Some(place) = self.side(Edge::new(from, side))
+                && let Some(place) = side_of(self.area, Edge::new(from, side))
             {
                 self.known.insert(place, !made.frame.blocked[robot]);
             }
@@ -342,7 +343,7 @@ impl Line {
                 &Change::Put { layer, robot, place, value } => {
                     let place = match place {
                         Place::Cell(cell) => place_of(self.area, cell),
-                        Place::Side(edge) => self.side(edge),
+                        Place::Side(edge) => side_of(self.area, edge),
                     };
                     let Some(place) = place else { continue };
                     let before = match value {
@@ -359,7 +360,7 @@ impl Line {
                     }
                 }
                 &Change::Know { side, is_open } => {
-                    if let Some(place) = self.side(side)
+                    if let Some(place) = side_of(self.area, side)
                         && self.known.insert(place, is_open) != Some(is_open)
                     {
                         sides[usize::from(is_open)].push(place);
@@ -385,21 +386,21 @@ impl Line {
         open.sort_unstable();
         text + &known(true, &open) + &known(false, &blocked) + &puts.text() + &said
     }
-
-    /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its
-    /// southern side; none on the rim.
-    fn side(&self, edge: Edge) -> Option<u32> {
-        let axis = match edge.side() {
-            Side::East | Side::West => 0,
-            Side::South | Side::North => 1,
-        };
-        place_of(self.area, edge.cell()).map(|place| 2 * place + axis)
-    }
 }
 
 /// The number of a cell, row by row.
-pub(super) fn place_of(area: Area, cell: Cell) -> Option<u32> {
+pub fn place_of(area: Area, cell: Cell) -> Option<u32> {
     area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
+}
+
+/// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern
+/// side; none on the rim.
+pub fn side_of(area: Area, edge: Edge) -> Option<u32> {
+    let axis = match edge.side() {
+        Side::East | Side::West => 0,
+        Side::South | Side::North => 1,
+    };
+    place_of(area, edge.cell()).map(|place| 2 * place + axis)
 }
 
 /// The steps that robots tried: a letter each, small where a wall was met; a number before a point is how many robots
@@ -412,12 +413,7 @@ fn steps(frame: &Frame) -> String {
                 resting += 1;
                 continue;
             }
-            Some(Step::Cross(side)) => Some(match side {
-                Side::East => 'E',
-                Side::South => 'S',
-                Side::West => 'W',
-                Side::North => 'N',
-            }),
+            Some(&step) => Some(letter(step)),
             None => None,
         };
         match resting {
