@@ -408,9 +408,7 @@ impl Profile {
     pub fn clause(&self, id: ClauseId) -> Option<&'static Clause> {
         self.clauses.iter().find(|clause| clause.id == id)
     }
-}
 
-impl Profile {
     /// A row of which nothing is known but its name, which has robots that are apart.
     pub const fn named(name: &'static str) -> Self {
         Self {

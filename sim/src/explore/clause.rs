@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use tautline_proofs::chain::breach::Breach;
 
 use super::run::{Survey, TeamMove};
@@ -13,7 +13,7 @@ use super::setup::Setup;
 
 /// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by
 /// number, so that `CHAIN-2` comes before `CHAIN-12`.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub struct ClauseId(&'static str);
 
 /// The ids and the names of rules that were read in files of other programs. A file names few, and they are kept as
@@ -76,12 +76,6 @@ impl fmt::Display for ClauseId {
 impl fmt::Debug for ClauseId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0)
-    }
-}
-
-impl Serialize for ClauseId {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.0)
     }
 }
 

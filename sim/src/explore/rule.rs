@@ -3,7 +3,7 @@
 use std::fmt;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::chain;
@@ -57,7 +57,7 @@ impl fmt::Display for RuleName {
 }
 
 /// The name of a rule of a scheme: `published`, `repaired`, or what else the scheme offers.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
 pub struct RuleId(&'static str);
 
 impl RuleId {
@@ -100,12 +100,6 @@ impl PartialEq<RuleName> for RuleId {
 impl fmt::Display for RuleId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0)
-    }
-}
-
-impl Serialize for RuleId {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.0)
     }
 }
 
