@@ -26,6 +26,7 @@ mod scene;
 mod script;
 mod setup;
 mod states;
+mod together;
 
 pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts, Told};
 pub use self::clause::{Clause, ClauseId, Judge};
@@ -41,6 +42,7 @@ pub use self::scene::{
     Change, Hearers, Ink, Joins, Kind, Layer, Mark, Place, Refusal, Scene, Shape, Value, Zone,
 };
 pub use self::setup::{Asked, Play, Setup, explore, team};
+pub use self::together::{has_double, unlinked};
 
 tautline_io::written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }
 

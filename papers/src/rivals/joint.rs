@@ -1,8 +1,9 @@
 //! The joint moves of a team whose links are a tree through the base: what each robot can do, and how a joint move is
 //! judged.
 
-use tautline_kernel::ground::{Cell, Circle, Step};
+use tautline_kernel::ground::{Cell, Step};
 use tautline_sim::chance::Dice;
+use tautline_sim::explore::unlinked;
 
 use super::parameters::{Cells, Links};
 
@@ -46,7 +47,9 @@ impl Joint {
             Cells::Distinct => self.sharing(team),
             Cells::Shared => 0,
         };
-        Score { faults: shared + unlinked(self.base, team, self.links.circle()), price }
+        let circle = self.links.circle();
+        let unlinked = unlinked(self.base, team.to_vec(), |one, other| circle.covers(one, other));
+        Score { faults: shared + unlinked as u32, price }
     }
 
     /// How good it is to stay, if all robots can.
@@ -64,23 +67,6 @@ impl Joint {
         let has_company = |(robot, cell): (usize, &Cell)| *cell != self.base && team[..robot].contains(cell);
         team.iter().enumerate().filter(|&named| has_company(named)).count() as u32
     }
-}
-
-/// The robots of `team` that no links join to the base.
-fn unlinked(base: Cell, team: &[Cell], circle: Circle) -> u32 {
-    let mut rest = team.to_vec();
-    let mut reached = vec![base];
-    while let Some(from) = reached.pop() {
-        let mut place = 0;
-        while place < rest.len() {
-            if circle.covers(from, rest[place]) {
-                reached.push(rest.swap_remove(place));
-            } else {
-                place += 1;
-            }
-        }
-    }
-    rest.len() as u32
 }
 
 /// The best joint move met so far, each of those as good as likely.

@@ -8,8 +8,8 @@ use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
 use super::sentences::below;
-use tautline_sim::explore::frontier::{FRONTIER, has_double};
-use tautline_sim::explore::{RuleId, Setup};
+use tautline_sim::explore::frontier::FRONTIER;
+use tautline_sim::explore::{RuleId, Setup, has_double};
 use tautline_sim::frontier::{Allowance, Ended, Explorers};
 use tautline_sim::objects::scattered;
 use tautline_sim::options::{Options, Wheels};

@@ -19,6 +19,7 @@ use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
+use super::together::has_double;
 use crate::chance::Dice;
 use crate::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
 use crate::layout::Layout;
@@ -137,7 +138,7 @@ struct FrontierTeam {
 
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
-    check(setup)?;
+    setup.refuse_walls("frontier cells", "cells:6x7:0.1")?;
     if !setup.choices.is_empty() {
         return scripted::start(setup, rule);
     }
@@ -153,7 +154,7 @@ fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
 
 /// The team of `setup` whose cells are assigned.
 fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>, Diagnostic> {
-    check(setup)?;
+    setup.refuse_walls("frontier cells", "cells:6x7:0.1")?;
     if setup.options != Options::default() || !setup.choices.is_empty() {
         let what = format!("the rule {} knows neither radio nor positions", setup.rule);
         return Err(Diagnostic::usage(
@@ -194,19 +195,6 @@ fn allowed(setup: &Setup, rule: &Frontier) -> Result<(), Diagnostic> {
 
 /// The most team moves that a robot may have to stand in its worst cell.
 const MOST_STOPS: u32 = 100;
-
-/// Refuses walls between cells: an obstacle fills a cell.
-fn check(setup: &Setup) -> Result<(), Diagnostic> {
-    if setup.layout.walls().next().is_some() {
-        let what = "this layout has walls between cells: for frontier cells an obstacle fills a cell";
-        return Err(Diagnostic::of_field(
-            "layout",
-            what,
-            "take a layout with blocked cells, such as cells:6x7:0.1",
-        ));
-    }
-    Ok(())
-}
 
 impl Team for FrontierTeam {
     fn cells(&self) -> &[Cell] {
@@ -285,11 +273,4 @@ impl Team for FrontierTeam {
             Who::Assigned(robots) => shown::show_assigned(robots, scene),
         }
     }
-}
-
-/// Whether two robots are in one cell.
-pub fn has_double(cells: &[Cell]) -> bool {
-    let mut cells = cells.to_vec();
-    cells.sort_unstable();
-    cells.windows(2).any(|pair| pair[0] == pair[1])
 }

@@ -26,6 +26,7 @@ use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
+use super::together::unlinked;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
 use crate::options::Extra;
@@ -271,14 +272,5 @@ fn missed(paths: &[Edge], cells: &[Cell], chart: &Survey) -> Vec<Cell> {
 /// Whether robots hear each other at whatever speeds they drive, directly or over others.
 fn is_connected(stances: &[Stance], reach: Reach) -> bool {
     let Some((&first, rest)) = stances.split_first() else { return true };
-    let (mut reached, mut rest) = (vec![first], rest.to_vec());
-    let mut place = 0;
-    while let Some(&from) = reached.get(place) {
-        let (near, far): (Vec<Stance>, Vec<Stance>) =
-            rest.into_iter().partition(|other| from.is_sure_of(*other, reach));
-        reached.extend(near);
-        rest = far;
-        place += 1;
-    }
-    rest.is_empty()
+    unlinked(first, rest.to_vec(), |one, other| one.is_sure_of(other, reach)) == 0
 }

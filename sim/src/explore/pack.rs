@@ -5,8 +5,6 @@
 
 mod shown;
 
-use std::collections::HashSet;
-
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Circle, Step};
@@ -22,6 +20,7 @@ use super::rule::{Rule, RuleId, Switched};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
+use super::together::{has_double, unlinked};
 use crate::layout::Layout;
 use crate::options::Extra;
 
@@ -91,14 +90,7 @@ const fn switched(rule: Pack) -> Switched<Pack> {
 /// The pack of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
     let layout = &setup.layout;
-    if layout.walls().next().is_some() {
-        let what = "this layout has walls between cells: for a pack an obstacle fills a cell";
-        return Err(Diagnostic::of_field(
-            "layout",
-            what,
-            "take a layout with blocked cells, such as cells:64x64:0.1",
-        ));
-    }
+    setup.refuse_walls("a pack", "cells:64x64:0.1")?;
     let sight_cells = setup.options.sight_cells.unwrap_or(Pack::SIGHT_CELLS.into());
     let range_cells = setup.options.range_cells.unwrap_or(Pack::RANGE_CELLS);
     let rule = rule.within(sight_cells, range_cells).map_err(unfit)?;
@@ -162,13 +154,7 @@ impl PackTeam {
     fn is_connected(&self, cells: &[Cell]) -> bool {
         let range = u64::from(self.robots.rule().range_cells());
         let circle = Circle::new(4 * range * range);
-        let mut left: Vec<Cell> = cells.to_vec();
-        let mut joined: Vec<Cell> = left.pop().into_iter().collect();
-        while let Some(cell) = joined.pop() {
-            let linked = left.extract_if(.., |other| circle.covers(cell, *other));
-            joined.extend(linked);
-        }
-        left.is_empty()
+        unlinked(cells[0], cells[1..].to_vec(), |one, other| circle.covers(one, other)) == 0
     }
 }
 
@@ -218,8 +204,7 @@ impl Team for PackTeam {
     }
 
     fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
-        let each: HashSet<Cell> = frame.cells.iter().copied().collect();
-        let is_double = each.len() < frame.cells.len();
+        let is_double = has_double(&frame.cells);
         let is_apart = !self.is_connected(&frame.cells);
         [is_apart.then_some(CONNECTED), is_double.then_some(SINGLE)].into_iter().flatten().collect()
     }

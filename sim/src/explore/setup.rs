@@ -346,6 +346,19 @@ impl Setup {
         }
     }
 
+    /// Refuses walls between cells, which `robots` do not know.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] with the `example` of a layout that they know.
+    pub(super) fn refuse_walls(&self, robots: &str, example: &str) -> Result<(), Diagnostic> {
+        if self.layout.walls().next().is_none() {
+            return Ok(());
+        }
+        let what = format!("this layout has walls between cells: for {robots} an obstacle fills a cell");
+        let remedy = format!("take a layout with blocked cells, such as {example}");
+        Err(Diagnostic::of_field("layout", what, remedy))
+    }
+
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), Diagnostic> {
         let Self { scheme, robots, layout, options, .. } = self;
