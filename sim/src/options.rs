@@ -195,6 +195,17 @@ fn put<T, E: Display>(read: Result<T, E>, place: &mut T) -> Result<(), String> {
     Ok(())
 }
 
+/// The row of an option that is a value or none: its name, its field, and how it is read.
+macro_rules! told {
+    ($name:literal, $field:ident, $read:expr) => {
+        Self {
+            read: |text, options| put($read(text).map(Some), &mut options.$field),
+            typed: |options| words(options.$field.as_ref()),
+            ..Self::new($name)
+        }
+    };
+}
+
 /// A value in words, if there is one.
 fn words<T: Display>(value: Option<T>) -> Option<String> {
     value.map(|value| value.to_string())
@@ -212,18 +223,14 @@ impl Extra {
         about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep \
                 in touch hear 2 to 5 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or \
                 more; without it 60",
-        read: |text, options| put(whole(text).map(Some), &mut options.range_cells),
-        typed: |options| words(options.range_cells),
-        ..Self::new("range")
+        ..told!("range", range_cells, whole)
     };
 
     /// How far robots see.
     pub const SIGHT: &'static Self = &Self {
         takes: Takes::Word("CELLS"),
         about: "How many cells robots of a pack see, from 1 to 31. Without it 20",
-        read: |text, options| put(whole(text).map(Some), &mut options.sight_cells),
-        typed: |options| words(options.sight_cells),
-        ..Self::new("sight")
+        ..told!("sight", sight_cells, whole)
     };
 
     /// How likely messages are lost.
@@ -259,9 +266,7 @@ impl Extra {
         takes: Takes::Word("BEACONS"),
         about: "How many beacons of each anchor a robot averages at each stop; with 0 it goes by its wheels alone. Without \
                 it 100",
-        read: |text, options| put(whole(text).map(Some), &mut options.readings),
-        typed: |options| words(options.readings),
-        ..Self::new("readings")
+        ..told!("readings", readings, whole)
     };
 
     /// How many anchors there are.
@@ -269,8 +274,6 @@ impl Extra {
         takes: Takes::Word("ANCHORS"),
         about: "How many anchors stand around the area, from 3 to 8: in its corners, then in the middle of its sides. A \
                 robot takes the best three. Without it 3",
-        read: |text, options| put(whole(text).map(Some), &mut options.anchors),
-        typed: |options| words(options.anchors),
         wrong: |options, _, _| {
             let is_right = (3..=8).contains(&options.anchors());
             unless(
@@ -279,7 +282,7 @@ impl Extra {
                 "give `anchors` 3 to 8",
             )
         },
-        ..Self::new("anchors")
+        ..told!("anchors", anchors, whole)
     };
 
     /// How far wheels err.
@@ -287,8 +290,6 @@ impl Extra {
         takes: Takes::Real("SHARE:DEGREES"),
         about: "By which share of the way each drive errs, and by how many degrees each turn, as standard deviations. \
                 Without it 0.02:1 where positions have noise, else 0:0",
-        read: |text, options| put(text.parse().map(Some), &mut options.odometry),
-        typed: |options| words(options.odometry),
         wrong: |options, _, _| {
             let wheels = options.odometry?;
             let is_right = Odometry::new(wheels.share, wheels.turn_degrees).is_some();
@@ -301,7 +302,7 @@ impl Extra {
             unless(is_right, what, remedy)
         },
         assumed: Some("moves that are off by less than half a cell (FRONTIER-6, FRONTIER-7, FRONTIER-10)"),
-        ..Self::new("odometry")
+        ..told!("odometry", odometry, str::parse)
     };
 
     /// The threshold of the occupancy probability.
@@ -323,10 +324,8 @@ impl Extra {
         takes: Takes::Real("COUNT|COLUMN:ROW,…"),
         about: "How many objects robots look for, each somewhere in a cell that they can reach, or where the objects are: \
                 a cell's column and row are its midpoint, as in 1.5:2,3:4",
-        read: |text, options| put(text.parse().map(Some), &mut options.objects),
-        typed: |options| words(options.objects.as_ref()),
         wrong: |options, _, layout| options.objects.as_ref()?.wrong(layout),
-        ..Self::new("objects")
+        ..told!("objects", objects, str::parse)
     };
 
     /// How likely a level is an outlier.
@@ -334,14 +333,12 @@ impl Extra {
         takes: Takes::Real("PROBABILITY"),
         about: "How likely it is at each stop that an anchor is heard 10 dB fainter, as behind a wall, from 0 to 1. \
                 Without it 0",
-        read: |text, options| put(text.parse().map(Some), &mut options.outliers),
-        typed: |options| words(options.outliers),
         wrong: |options, _, _| {
             let is_right = options.outliers.is_none() || options.noise_db > 0.0;
             unless(is_right, "positions without noise have no outliers", "give `noise-db` as well")
         },
         assumed: Self::NOISE.assumed,
-        ..Self::new("outliers")
+        ..told!("outliers", outliers, str::parse)
     };
 
     /// How robots find their positions.
@@ -364,37 +361,31 @@ impl Extra {
         takes: Takes::Real("PROBABILITY"),
         about: "How likely it is that an obstacle that is smaller than a cell stands between two cells, from 0 to 1: a robot \
                 goes round it, which takes it a team move. Without it 0",
-        read: |text, options| put(text.parse().map(Some), &mut options.small),
-        typed: |options| words(options.small),
-        ..Self::new("small")
+        ..told!("small", small, str::parse)
     };
 
     /// How fast robots drive.
     pub const SPEED: &'static Self = &Self {
         takes: Takes::Real("METRES"),
         about: "How fast robots that keep in touch drive, in metres a second. Without it 0.3",
-        read: |text, options| put(real(text).map(Some), &mut options.speed_mps),
-        typed: |options| words(options.speed_mps),
         wrong: |options, _, _| {
             let is_right = options.speed_mps.is_none_or(|speed| (0.001..=1000.0).contains(&speed));
             let remedy = "give `speed` a number of metres a second from 0.001 to 1000";
             unless(is_right, "a robot drives from 0.001 to 1000 m/s", remedy)
         },
-        ..Self::new("speed")
+        ..told!("speed", speed_mps, real)
     };
 
     /// How much their speeds differ.
     pub const SPREAD: &'static Self = &Self {
         takes: Takes::Real("SHARE"),
         about: "By which share each of their drives may be faster or slower, from 0 to 0.999. Without it 0",
-        read: |text, options| put(real(text).map(Some), &mut options.spread),
-        typed: |options| words(options.spread),
         wrong: |options, _, _| {
             let is_right = options.spread.is_none_or(|spread| (0.0..=0.999).contains(&spread));
             let what = "drives are faster or slower by less than the whole speed";
             unless(is_right, what, "give `spread` a share from 0 to 0.999")
         },
-        ..Self::new("spread")
+        ..told!("spread", spread, real)
     };
 
     /// Which robot dies, and when.
@@ -423,8 +414,6 @@ impl Extra {
     pub const WALL: &'static Self = &Self {
         takes: Takes::Word("X,Y,SIDE@MOVE"),
         about: "On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or N",
-        read: |text, options| put(text.parse().map(Some), &mut options.wall),
-        typed: |options| words(options.wall),
         wrong: |options, _, layout| {
             let (cell, edge) = options.wall.map(|wall| (wall.cell, wall.edge()))?;
             let sides = [cell, edge.cell(), edge.cell().beyond(edge.side())];
@@ -438,7 +427,7 @@ impl Extra {
             unless(is_between, what, remedy)
                 .or_else(|| unless(options.fail.is_none(), shut, "give `wall` and `fail` to two runs"))
         },
-        ..Self::new("wall")
+        ..told!("wall", wall, str::parse)
     };
 
     /// In what order robots go.
