@@ -392,8 +392,6 @@ impl Extra {
     pub const FAIL: &'static Self = &Self {
         takes: Takes::Word("ROBOT@MOVE"),
         about: "Which robot of a chain dies, and in which team move: the others go on as a chain of one fewer",
-        read: |text, options| put(text.parse().map(Some), &mut options.fail),
-        typed: |options| words(options.fail),
         wrong: |options, robots, _| {
             let robot = options.fail?.robot;
             let what = match robot {
@@ -407,7 +405,7 @@ impl Extra {
             let what = format!("two robots die in one run, {one} and {other}: a chain re-forms behind one");
             (what, "give `--fail` once".to_owned())
         }),
-        ..Self::new("fail")
+        ..told!("fail", fail, str::parse)
     };
 
     /// Which wall appears, and when.

@@ -52,13 +52,11 @@ impl Map {
         self.unexplored == 0
     }
 
-    fn place(&self, cell: Cell) -> Option<usize> {
-        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
-    }
-
     /// Notes that a robot is in `cell`; whether that is new.
     pub(super) fn explore(&mut self, cell: Cell) -> bool {
-        let Some(place) = self.place(cell).filter(|&place| !self.is_explored[place]) else { return false };
+        let Some(place) = self.area.place(cell).filter(|&place| !self.is_explored[place]) else {
+            return false;
+        };
         self.is_explored[place] = true;
         self.unexplored -= 1;
         self.is_stale = true;
@@ -67,7 +65,7 @@ impl Map {
 
     fn side(&self, edge: Edge) -> SideStatus {
         let is_inner = self.area.contains(edge.cell().beyond(edge.side()));
-        let place = self.place(edge.cell()).filter(|_| is_inner);
+        let place = self.area.place(edge.cell()).filter(|_| is_inner);
         place.map_or(SideStatus::Wall, |place| self.sides[place][usize::from(edge.side() == Side::South)])
     }
 
@@ -83,7 +81,7 @@ impl Map {
 
     /// Notes what a robot met that tried to cross `edge`; whether that is a new wall.
     pub(super) fn meet(&mut self, edge: Edge, is_open: bool) -> bool {
-        let Some(place) = self.place(edge.cell()) else { return false };
+        let Some(place) = self.area.place(edge.cell()) else { return false };
         let side = &mut self.sides[place][usize::from(edge.side() == Side::South)];
         let is_new = *side == SideStatus::Nothing && !is_open;
         *side = if is_open { SideStatus::Open } else { SideStatus::Wall };
@@ -94,7 +92,7 @@ impl Map {
     /// How many sides, none of them known to be a wall, are crossed on the shortest way from `cell` to an unexplored
     /// cell; `None` if there is no such way.
     pub(super) fn distance(&self, cell: Cell) -> Option<u32> {
-        self.place(cell).map(|place| self.distances[place]).filter(|&distance| distance != FAR)
+        self.area.place(cell).map(|place| self.distances[place]).filter(|&distance| distance != FAR)
     }
 
     /// Brings the distances up to date: a flood fill from all unexplored cells at once.
@@ -116,7 +114,7 @@ impl Map {
             for side in Side::ALL {
                 let beyond = cell.beyond(side);
                 if !self.is_wall(Edge::new(cell, side))
-                    && let Some(place) = self.place(beyond).filter(|&place| self.distances[place] == FAR)
+                    && let Some(place) = self.area.place(beyond).filter(|&place| self.distances[place] == FAR)
                 {
                     self.distances[place] = next;
                     queue.push_back(beyond);

@@ -390,7 +390,7 @@ impl Line {
 
 /// The number of a cell, row by row.
 pub fn place_of(area: Area, cell: Cell) -> Option<u32> {
-    area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
+    area.place(cell).map(|place| place as u32)
 }
 
 /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern

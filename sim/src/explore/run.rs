@@ -485,13 +485,9 @@ impl Survey {
         self.area
     }
 
-    fn place(&self, cell: Cell) -> Option<usize> {
-        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
-    }
-
     /// The team move in which `cell` was first occupied, 0 for the start; `None` if it never was.
     pub fn step(&self, cell: Cell) -> Option<u32> {
-        self.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
+        self.area.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
     }
 
     /// Those of `cells` that were never occupied.
@@ -515,7 +511,7 @@ impl Survey {
 
     /// Notes that a robot is in `cell`; whether that is new.
     fn enter(&mut self, cell: Cell, step: u32) -> bool {
-        let Some(place) = self.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
+        let Some(place) = self.area.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
             return false;
         };
         self.steps[place] = step;
