@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::chain;
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme};
 use tautline_sim::chance::Probability;
+use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme};
 use tautline_sim::options::Options;
 
 use crate::diagnostic::{Kind, error, raised};

@@ -7,9 +7,10 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::svg::Panel;
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_sim::draw::svg;
 use tautline_sim::layout::{self as layouts, Layout as Ground};
+use tautline_sim::trace;
 
 use crate::arrays::{Rows, rows, view};
 use crate::diagnostic::{Kind, error, raised};
@@ -43,13 +44,7 @@ impl Hash for Layout {
 
 /// Which way a letter leads.
 pub(crate) fn side(letter: char) -> Option<Side> {
-    match letter {
-        'E' => Some(Side::East),
-        'S' => Some(Side::South),
-        'W' => Some(Side::West),
-        'N' => Some(Side::North),
-        _ => None,
-    }
+    Side::ALL.into_iter().find(|&side| trace::letter(Step::Cross(side)) == letter)
 }
 
 /// The layout of an argument that is one, or that describes one.

@@ -14,7 +14,7 @@ use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::engine::states::{self, Ending, Limits, System};
 use tautline_proofs::engine::world::{Turn, World};
-use tautline_sim::draw::page::{film, place_of, side_of};
+use tautline_sim::draw::page::{film, number_of, place_of, side_of};
 use tautline_sim::explore::{Layer, Place};
 
 use crate::ask::{Answers, Question};
@@ -202,10 +202,7 @@ impl<W: Shown> Played<W> {
     fn delta(&self, picture: Picture) -> Delta {
         let Scene { area, layers, .. } = self.world.scene();
         let Picture { cells, explored, known, put, say, failed } = picture;
-        let at = |at| match at {
-            Place::Cell(cell) => place_of(area, cell),
-            Place::Side(edge) => side_of(area, edge),
-        };
+        let at = |at| number_of(area, at);
         Delta {
             step: self.step,
             tried: ".".repeat(cells.len()),

@@ -4,12 +4,13 @@
 use std::collections::BTreeMap;
 
 use tautline_io::diagnostic::Diagnostic;
-use tautline_kernel::ground::{Area, Edge, Side, Step as Move};
-use tautline_sim::draw::page::{film, place_of, side_of};
+use tautline_kernel::ground::{Area, Edge, Step as Move};
+use tautline_sim::draw::page::{film, number_of, place_of, side_of};
 use tautline_sim::explore::{
-    Change, ClauseId, Course, Hearers, Look, Made, Place, Play as _, Scene, Setup, Surroundings, Team,
+    Change, ClauseId, Course, Hearers, Look, Made, Play as _, Scene, Setup, Surroundings, Team,
 };
 use tautline_sim::layout::Layout;
+use tautline_sim::trace;
 
 use crate::ask::{Answers, Question};
 use crate::clauses::sentence;
@@ -102,13 +103,7 @@ fn broken_of(clauses: impl IntoIterator<Item = ClauseId>) -> Vec<Broken> {
 
 /// The letter of a step: small where a wall was met.
 fn letter(step: Move, is_blocked: bool) -> char {
-    let letter = match step {
-        Move::Stay => '.',
-        Move::Cross(Side::East) => 'E',
-        Move::Cross(Side::South) => 'S',
-        Move::Cross(Side::West) => 'W',
-        Move::Cross(Side::North) => 'N',
-    };
+    let letter = trace::letter(step);
     if is_blocked { letter.to_ascii_lowercase() } else { letter }
 }
 
@@ -119,11 +114,7 @@ impl Delta {
             match change {
                 Change::Clear { layer } => self.clear.push(*layer),
                 &Change::Put { layer, robot, place: at, value } => {
-                    let at = match at {
-                        Place::Cell(cell) => place_of(area, cell),
-                        Place::Side(edge) => side_of(area, edge),
-                    };
-                    self.put.extend(at.map(|at| (layer, robot, at, value)));
+                    self.put.extend(number_of(area, at).map(|at| (layer, robot, at, value)));
                 }
                 Change::Mark { layer, mark } => {
                     self.marks.push((*layer, mark.number, mark.value, mark.figures.clone()));

@@ -5,9 +5,10 @@ use std::sync::{Mutex, OnceLock};
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use tautline_kernel::ground::{Area, Cell, Side, SmallGrid, Step};
+use tautline_kernel::ground::{Area, Cell, SmallGrid, Step};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::ClauseId;
+use tautline_sim::trace::letter;
 
 use super::moved::TeamMove;
 use crate::diagnostic::{Kind, error};
@@ -290,13 +291,7 @@ pub(super) struct Move {
 impl Move {
     /// As a demand sees it.
     fn told<'py>(&self, py: Python<'py>, written: &RuleScript) -> PyResult<Bound<'py, TeamMove>> {
-        let tried = self.steps[..written.robots].iter().map(|&step| match step {
-            Step::Cross(Side::East) => 'E',
-            Step::Cross(Side::South) => 'S',
-            Step::Cross(Side::West) => 'W',
-            Step::Cross(Side::North) => 'N',
-            Step::Stay => '.',
-        });
+        let tried = self.steps[..written.robots].iter().map(|&step| letter(step));
         let moved = TeamMove {
             before: written.script.state(py, self.before),
             after: written.script.state(py, self.after),

@@ -341,11 +341,7 @@ impl Line {
                     }
                 }
                 &Change::Put { layer, robot, place, value } => {
-                    let place = match place {
-                        Place::Cell(cell) => place_of(self.area, cell),
-                        Place::Side(edge) => side_of(self.area, edge),
-                    };
-                    let Some(place) = place else { continue };
+                    let Some(place) = number_of(self.area, place) else { continue };
                     let before = match value {
                         0 => self.values.remove(&(layer, robot, place)),
                         _ => self.values.insert((layer, robot, place), value),
@@ -401,6 +397,14 @@ pub fn side_of(area: Area, edge: Edge) -> Option<u32> {
         Side::South | Side::North => 1,
     };
     place_of(area, edge.cell()).map(|place| 2 * place + axis)
+}
+
+/// The number of a place among the cells or among the sides.
+pub fn number_of(area: Area, place: Place) -> Option<u32> {
+    match place {
+        Place::Cell(cell) => place_of(area, cell),
+        Place::Side(edge) => side_of(area, edge),
+    }
 }
 
 /// The steps that robots tried: a letter each, small where a wall was met; a number before a point is how many robots
