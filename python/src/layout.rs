@@ -42,11 +42,6 @@ impl Hash for Layout {
     }
 }
 
-/// Which way a letter leads.
-pub(crate) fn side(letter: char) -> Option<Side> {
-    Side::ALL.into_iter().find(|&side| trace::letter(Step::Cross(side)) == letter)
-}
-
 /// The layout of an argument that is one, or that describes one.
 #[derive(FromPyObject)]
 pub(crate) enum LayoutArgument<'py> {
@@ -184,7 +179,7 @@ impl Layout {
 
     /// The cell where a robot is that tries this side, one of E, S, W and N; none if it meets a wall or a blocked cell.
     fn beyond(&self, py: Python<'_>, cell: Pair, letter: char) -> PyResult<Option<Pair>> {
-        let Some(side) = side(letter) else {
+        let Some(Step::Cross(side)) = trace::step(letter) else {
             return Err(error(
                 py,
                 Kind::Input,

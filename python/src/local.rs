@@ -12,10 +12,11 @@ use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::local::{Act, EveryNumber, Far, Local, Plan, Robot, all_tuples};
+use tautline_sim::trace::step;
 
 use crate::diagnostic::{Kind, error};
 use crate::hunt::verdict;
-use crate::layout::{Pair, side};
+use crate::layout::Pair;
 use crate::run::cell;
 use crate::script::{Script, attribute, kept, shown, word};
 
@@ -43,11 +44,6 @@ impl fmt::Debug for Letter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.0)
     }
-}
-
-/// The step of a letter.
-fn step(letter: char) -> Option<Step> {
-    if letter == '.' { Some(Step::Stay) } else { side(letter).map(Step::Cross) }
 }
 
 /// A local rule as Python has it.

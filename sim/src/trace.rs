@@ -379,12 +379,16 @@ pub const fn letter(step: Step) -> char {
     }
 }
 
+/// The step that has this letter.
+pub fn step(of: char) -> Option<Step> {
+    Step::ALL.into_iter().find(|&step| letter(step) == of)
+}
+
 /// The steps of so many robots, of which `tried` has a letter for each.
 ///
 /// # Errors
 /// The words for what is to be written instead.
 pub fn steps(tried: &str, robots: usize) -> Result<Vec<Step>, String> {
-    let step = |name| Step::ALL.into_iter().find(|&step| letter(step) == name);
     let steps: Option<Vec<Step>> = tried.chars().map(step).collect();
     steps
         .filter(|steps| steps.len() == robots)

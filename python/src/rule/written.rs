@@ -8,11 +8,11 @@ use pyo3::types::PyTuple;
 use tautline_kernel::ground::{Area, Cell, SmallGrid, Step};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::ClauseId;
-use tautline_sim::trace::letter;
+use tautline_sim::trace::{self, letter};
 
 use super::moved::TeamMove;
 use crate::diagnostic::{Kind, error};
-use crate::layout::{Pair, side};
+use crate::layout::Pair;
 use crate::run::cell;
 use crate::script::{Script, attribute, held, kept, shown, word};
 
@@ -189,17 +189,9 @@ impl RuleScript {
         let (next, letters): (Bound<'_, PyAny>, Option<String>) = answer.extract().map_err(|_| wrong())?;
         let next = |py| self.script.number(py, "step", &next);
         let Some(letters) = letters else { return Ok((next(py)?, None)) };
+        let made = trace::steps(&letters, self.robots).map_err(|_| wrong())?;
         let mut steps = [Step::Stay; MAX_ROBOTS];
-        if letters.chars().count() != self.robots {
-            return Err(wrong());
-        }
-        for (step, letter) in steps.iter_mut().zip(letters.chars()) {
-            *step = match (letter, side(letter)) {
-                (_, Some(side)) => Step::Cross(side),
-                ('.', None) => Step::Stay,
-                (_, None) => return Err(wrong()),
-            };
-        }
+        steps[..made.len()].copy_from_slice(&made);
         Ok((next(py)?, Some(steps)))
     }
 
