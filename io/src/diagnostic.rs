@@ -1,4 +1,4 @@
-//! A fault of something the user gave, its place, and its remedy: the one error type of this crate, as
+//! A fault of something the user gave, its place, and its remedy: the one error type of all that is not a rule, as
 //! data. How it is shown, and by which flag a field is given, is the caller's business. A fault in a text keeps only
 //! the line it points at, clipped, however large the file.
 

@@ -1,4 +1,4 @@
-//! Stored runs as lines of JSON, read one at a time and compared with what their header makes. A line that is not as it
+//! Stored files of JSON lines, read one at a time and compared with what their header makes. A line that is not as it
 //! should be is a fault with its place.
 
 use std::fmt::{self, Display};
@@ -15,7 +15,7 @@ use crate::diagnostic::{BOM, Diagnostic};
 /// Larger files are refused before they are read. The drawing of the largest layout is smaller.
 pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
-/// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
+/// Longer lines are refused; the header with its drawing may be longer.
 pub const MAX_LINE_BYTES: u64 = 1 << 16;
 
 /// The beginning of a header, in every version.
