@@ -42,7 +42,8 @@ pub trait Model: Sync {
         1
     }
 
-    /// The parts that may differ in two states, a bit each; those from 64 on are always among them.
+    /// The parts that may differ in a state and the one to which a step from it leads, a bit each; those from 64 on are
+    /// always among them.
     fn differing(&self, _: &Self::State, _: &Self::State) -> u64 {
         u64::MAX
     }

@@ -65,8 +65,8 @@ pub trait System: World {
     /// The part of `state` in this place.
     fn part(&self, state: &Self::State, place: usize) -> Self::Part;
 
-    /// The places whose parts may differ in two states; all of them, unless there is more to tell. The fewer they are,
-    /// the less time a search takes.
+    /// The places whose parts may differ in a state and the one to which a step from it leads, both canonical; all of
+    /// them, unless there is more to tell. The fewer they are, the less time a search takes.
     fn differing(&self, _: &Self::State, _: &Self::State) -> Places {
         Places::MAX
     }
@@ -80,18 +80,19 @@ pub trait System: World {
     /// Makes `state` the one of which [`Self::write`] made these bytes.
     fn read(&self, _: &mut Self::State, _: &[u8]) {}
 
-    /// Makes every step from `state`, one for each combination of answers, always in the same order.
+    /// Makes every step from `state`, one for each combination of answers, always in the same order. The next one is
+    /// made in the place of the state to which the last one leads.
     fn each_step<B>(
         &self,
         state: &Self::State,
-        mut take: impl FnMut(Step<Self>) -> ControlFlow<B>,
+        mut take: impl FnMut(Step<Self, &mut Self::State>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         let mut planned = state.clone();
         let Some(plan) = self.plan(&mut planned, &[]) else { return ControlFlow::Continue(()) };
         let (mut answers, mut log) = (Odometer::default(), Vec::new());
+        let may_be_endless = self.broken_by_endless_runs().is_some();
+        let mut after = planned.clone();
         loop {
-            let mut after = planned.clone();
-            log.clear();
             let event = self.settle(&mut after, &plan, &mut log, &mut answers);
             let turn = Turn {
                 before: state,
@@ -101,16 +102,19 @@ pub trait System: World {
                 event: &event,
                 sent: &log,
             };
-            let (occurs, acting) = (self.occurs(&turn), self.acting(&turn));
-            let (is_bound, breaks) = (self.is_bound(&turn), self.broken_by(&turn));
-            take(Step { state: after, event, occurs, acting, is_bound, breaks })?;
+            let (occurs, is_bound) = (self.occurs(&turn), self.is_bound(&turn));
+            let acting = if is_bound && may_be_endless { self.acting(&turn) } else { 0 };
+            let breaks = self.broken_by(&turn);
+            take(Step { state: &mut after, event, occurs, acting, is_bound, breaks })?;
             if !answers.advance() {
                 return ControlFlow::Continue(());
             }
+            after.clone_from(&planned);
+            log.clear();
         }
     }
 
-    /// Who acts in a step; of no use in a step that is not bound to be made.
+    /// Who acts in a step that is bound to be made, where endless runs are looked for.
     fn acting(&self, _: &Turn<'_, Self>) -> Bits {
         1
     }
@@ -145,14 +149,14 @@ pub trait System: World {
 }
 
 /// A step to another state.
-pub struct Step<S: System + ?Sized> {
+pub struct Step<S: System + ?Sized, T = <S as World>::State> {
     /// The state to which it leads.
-    pub state: S::State,
+    pub state: T,
     /// Its event.
     pub event: S::Event,
     /// The situations that it is: a bit for each of [`World::covers`].
     pub occurs: u64,
-    /// Who acts in it; of no use in a step that is not bound to be made.
+    /// Who acts in it; nobody unless it is bound to be made, and endless runs are looked for.
     pub acting: Bits,
     /// Whether it is bound to be made if no other one is.
     pub is_bound: bool,
@@ -164,7 +168,8 @@ pub struct Step<S: System + ?Sized> {
 pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = Step<S>> {
     let mut all = Vec::new();
     let _: ControlFlow<()> = system.each_step(state, |step| {
-        all.push(step);
+        let Step { state, event, occurs, acting, is_bound, breaks } = step;
+        all.push(Step { state: state.clone(), event, occurs, acting, is_bound, breaks });
         ControlFlow::Continue(())
     });
     all.into_iter()

@@ -3,6 +3,8 @@
 //! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot
 //! on its way, and no message between a robot and a WFR between whom there is one throughout.
 
+use std::slice;
+
 use tautline_kernel::choice::Oracle;
 
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
@@ -178,12 +180,17 @@ fn has_turned(before: &State, action: Action, after: &State, actor: Actor) -> bo
 }
 
 impl Space {
+    /// The demands that are looked for.
+    const fn demands(&self) -> &[Demand] {
+        match &self.until {
+            Until::Exhausted => &Demand::ALL,
+            Until::Broken(demand) => slice::from_ref(demand),
+        }
+    }
+
     /// Whether it is looked for WFRs that wait for ever.
     fn looks_for_service(&self) -> bool {
-        match self.until {
-            Until::Exhausted => true,
-            Until::Broken(demand) => demand == Demand::IsServed,
-        }
+        self.demands().contains(&Demand::IsServed)
     }
 
     /// The violation in a run.
@@ -225,12 +232,12 @@ impl World for Space {
         world: &mut impl Oracle,
     ) -> Action {
         let action = picked(actions, world);
-        *state = state.after(&self.setting, action);
+        state.act(&self.setting, action);
         action
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
-        Demand::ALL.into_iter().filter(|&demand| turn.after.breaks(demand)).collect()
+        self.demands().iter().copied().filter(|&demand| turn.after.breaks(demand)).collect()
     }
 
     fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<Demand> {
@@ -254,8 +261,8 @@ impl System for Space {
         state.part(place)
     }
 
-    fn differing(&self, one: &State, other: &State) -> Places {
-        one.differing(other)
+    fn differing(&self, _: &State, other: &State) -> Places {
+        other.touched()
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part) {

@@ -15,8 +15,12 @@ mod parts;
 mod setting;
 mod turn;
 
+use std::mem;
+
 use tautline_kernel::mrc::{Robot, Wfr};
 use tautline_kernel::net::{Epoch, NodeId, RobotId};
+
+use crate::engine::states::Places;
 
 pub use action::{Action, Actor, Message};
 pub use demand::Demand;
@@ -25,7 +29,7 @@ pub(super) use parts::Part;
 pub use setting::{Faults, Leases, LossKind, ROBOTS, Setting, WFRS};
 
 /// Robots, WFRs and what is between them.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct State {
     pub(super) hops: [[u16; WFRS]; ROBOTS],
     pub(super) robots: [Robot<WFRS>; ROBOTS],
@@ -38,6 +42,9 @@ pub struct State {
     left: Faults,
     events_left: u8,
     notes: Notes,
+    /// The places of the parts that were touched since the state was canonical.
+    touched: Places,
+    is_canonical: bool,
 }
 
 const fn node(wfr: usize) -> NodeId {
@@ -79,7 +86,21 @@ impl Setting {
             left: self.faults,
             events_left: self.events,
             notes: Notes::default(),
+            touched: Places::MAX,
+            is_canonical: false,
         }
+    }
+}
+
+impl Clone for State {
+    fn clone(&self) -> Self {
+        Self { network: self.network.clone(), ..*self }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        let mut network = mem::take(&mut self.network);
+        network.clone_from(&other.network);
+        *self = Self { network, ..*other };
     }
 }
 

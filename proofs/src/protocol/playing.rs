@@ -95,12 +95,13 @@ impl<P: Protocol> System for Playing<P> {
     fn each_step<B>(
         &self,
         state: &P::State,
-        mut take: impl FnMut(Step<Self>) -> ControlFlow<B>,
+        mut take: impl FnMut(Step<Self, &mut P::State>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        self.moves(state).into_iter().try_for_each(|Move { actors, words, to }| {
+        self.moves(state).into_iter().try_for_each(|Move { actors, words, mut to }| {
             let breaks = self.broken_between(state, &to);
             let (occurs, is_bound) = (bit(P::COVERS, words), actors != 0);
-            take(Step { state: to, event: (actors, words), occurs, acting: actors, is_bound, breaks })
+            let event = (actors, words);
+            take(Step { state: &mut to, event, occurs, acting: actors, is_bound, breaks })
         })
     }
 

@@ -12,7 +12,7 @@ use tautline_certificates::{Counts, Model, Refusal, check_states, put};
 use super::limits::{Limits, MemoryLimit, MemoryShare};
 use super::rounds::{NONE, TooLarge};
 use super::search::{Search, search};
-use super::{Bits, System, steps};
+use super::{Bits, System};
 use crate::engine::model::Started;
 
 /// Why there is no certificate.
@@ -101,8 +101,8 @@ impl<S: System> Search<'_, S> {
         duties: impl Fn(&S::State) -> (Bits, Bits),
     ) -> Result<Vec<u8>, NoCertificate> {
         let mut links = Links::new(self.graph.len());
-        for state in starts {
-            links.add(self.node(state)?);
+        for mut state in starts {
+            links.add(self.node(&mut state)?);
         }
         let (mut all_owed, mut awake) = (0, Vec::new());
         for node in 0..self.graph.len() {
@@ -111,9 +111,11 @@ impl<S: System> Search<'_, S> {
             let (owed, is_awake) = duties(&state);
             all_owed |= owed;
             awake.push(is_awake);
-            for step in steps(self.system, &state) {
-                links.add(self.node(step.state)?);
-            }
+            let flow = self.system.each_step(&state, |step| {
+                let added = self.node(step.state).map(|node| links.add(node));
+                added.map_or_else(ControlFlow::Break, ControlFlow::Continue)
+            });
+            flow.break_value().map_or(Ok(()), Err)?;
             self.shown = Some(state);
         }
         links.first.push(links.to.len());
@@ -122,9 +124,9 @@ impl<S: System> Search<'_, S> {
     }
 
     /// The number of a state that is known.
-    fn node(&mut self, mut state: S::State) -> Result<u32, NoCertificate> {
-        self.system.make_canonical(&mut state);
-        self.known.find(self.system, &state).ok_or(NoCertificate::Unrepeatable)
+    fn node(&mut self, state: &mut S::State) -> Result<u32, NoCertificate> {
+        self.system.make_canonical(state);
+        self.known.find(self.system, state).ok_or(NoCertificate::Unrepeatable)
     }
 
     /// The rank of each node in which `owed` is owed. Of a component of several steps it is its level, the longest way

@@ -148,21 +148,22 @@ impl Slots {
         self.slots.get(self.place(hash)).copied().unwrap_or(FREE)
     }
 
-    /// The nodes with this hash.
-    fn with(&self, hash: HashOfState) -> impl Iterator<Item = u32> {
-        let place = self.place(hash);
-        let slots = self.slots[place..].iter().chain(&self.slots[..place]);
-        let taken = slots.take_while(|&&slot| slot != FREE);
-        taken.filter(move |&&slot| (slot >> u32::BITS) as HashOfState == hash).map(|&slot| slot as u32)
-    }
-
     /// The first node with this hash.
     pub(super) fn first(&self, hash: HashOfState) -> Option<u32> {
-        self.with(hash).next()
+        self.find(hash, |_| true)
     }
 
+    /// The first node with this hash that `is_it`.
+    #[inline]
     pub(super) fn find(&self, hash: HashOfState, mut is_it: impl FnMut(u32) -> bool) -> Option<u32> {
-        self.with(hash).find(|&node| is_it(node))
+        let mut place = self.place(hash);
+        while let Some(&slot) = self.slots.get(place).filter(|&&slot| slot != FREE) {
+            if (slot >> u32::BITS) as HashOfState == hash && is_it(slot as u32) {
+                return Some(slot as u32);
+            }
+            place = if place + 1 == self.slots.len() { 0 } else { place + 1 };
+        }
+        None
     }
 
     /// Adds a node that is not there.

@@ -131,9 +131,9 @@ pub(super) fn chunk<S: System>(
         let (before, mut is_still) = (chunk.steps.len(), true);
         let mut flow = system.each_step(state, |step| {
             making.next();
-            let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
-            system.make_canonical(&mut to);
-            table.queue(system, state, &to);
+            let Step { state: to, occurs, acting, is_bound, breaks, .. } = step;
+            system.make_canonical(to);
+            table.queue(system, state, to);
             is_still &= !is_bound;
             let flow = if is_enough(&breaks) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
             chunk.steps.push((occurs, is_bound.then_some(acting), breaks));

@@ -91,10 +91,3 @@ pub(super) struct Notes {
     /// The demands, a bit for each, that something which happened has broken.
     pub(super) broken: u16,
 }
-
-impl Notes {
-    /// `demand` is not met.
-    pub(super) fn tell(&mut self, demand: Demand) {
-        self.broken |= 1 << demand as u16;
-    }
-}

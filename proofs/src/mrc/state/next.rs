@@ -10,7 +10,7 @@ use super::{State, node, place, robot_id};
 impl State {
     /// Everything that can happen next in `setting`.
     pub fn actions(&self, setting: &Setting) -> Vec<Action> {
-        let mut actions = Vec::new();
+        let mut actions = Vec::with_capacity(32);
         let (robots, wfrs) = (0..setting.robots, 0..setting.wfrs);
         let can_expire = |actor: Actor| {
             self.timer_runs(actor) && (self.left.left(|left| left.delays) > 0 || self.is_due(setting, actor))

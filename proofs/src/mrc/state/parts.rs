@@ -10,7 +10,7 @@ use super::action::Message;
 use super::demand::Notes;
 use super::setting::{Faults, ROBOTS, WFRS};
 use super::{State, node, place, robot_id};
-use crate::engine::states::{self, Places};
+use crate::engine::states::Places;
 
 /// A part of a [`State`]. What concerns one robot or one WFR is a part, and so are the messages between a robot and the
 /// WFRs: of each there are few, and so the many that they make together cost little.
@@ -54,9 +54,17 @@ pub struct Rest {
 }
 
 /// The places of the first WFR, behind the robots, of the first robot's messages, and of the rest.
-const FIRST_WFR: usize = ROBOTS;
+pub(super) const FIRST_WFR: usize = ROBOTS;
 const NETWORK: usize = FIRST_WFR + WFRS;
-const REST: usize = NETWORK + ROBOTS;
+pub(super) const REST: usize = NETWORK + ROBOTS;
+
+/// Epochs from this one on are always renamed.
+const LARGE: u32 = u64::BITS - 1;
+
+/// The place of the messages between a robot and the WFRs.
+pub(super) const fn of_network(robot: RobotId) -> usize {
+    NETWORK + robot.0 as usize
+}
 
 impl State {
     /// The parts: the robots, the WFRs, the messages of each robot, and the rest.
@@ -70,15 +78,29 @@ impl State {
             self.robots[robot] = Robot::new(*self.robots[robot].rule(), self.robots[robot].id());
             self.cut[robot] = [None; WFRS];
         }
-        for wfr in (0..WFRS).filter(|&wfr| !self.wfrs[wfr].is_waiting()) {
-            self.notes.taken.iter_mut().for_each(|taken| taken[wfr] = None);
+        for wfr in 0..WFRS {
+            if self.wfrs[wfr].is_waiting() {
+                continue;
+            }
+            for robot in 0..ROBOTS {
+                if self.notes.taken[robot][wfr].take().is_some() {
+                    self.touch(robot);
+                }
+            }
         }
         if self.is_renamed() {
-            self.robots.iter_mut().for_each(|robot| *robot = renamed_robot(robot, |call| call));
-            self.wfrs.iter_mut().for_each(|wfr| *wfr = renamed_wfr(wfr, |call| call));
+            let touched = |place: usize| self.touched >> place & 1 == 1;
+            for robot in (0..ROBOTS).filter(|&robot| touched(robot)) {
+                self.robots[robot] = renamed_robot(&self.robots[robot], |call| call);
+            }
+            for wfr in (0..WFRS).filter(|&wfr| touched(FIRST_WFR + wfr)) {
+                self.wfrs[wfr] = renamed_wfr(&self.wfrs[wfr], |call| call);
+            }
         } else {
             *self = self.renamed();
+            self.touched = Places::MAX;
         }
+        self.is_canonical = true;
     }
 
     fn canonical(&self) -> Self {
@@ -100,23 +122,9 @@ impl State {
         }
     }
 
-    /// The places whose parts differ.
-    pub(in crate::mrc) fn differing(&self, other: &Self) -> Places {
-        let robots = (0..ROBOTS).map(|robot| {
-            self.robots[robot] != other.robots[robot]
-                || self.cut[robot] != other.cut[robot]
-                || self.notes.taken[robot] != other.notes.taken[robot]
-                || (self.failed[robot], self.hops[robot]) != (other.failed[robot], other.hops[robot])
-        });
-        let (notes, others) = (&self.notes, &other.notes);
-        let wfrs = (0..WFRS).map(|wfr| {
-            self.wfrs[wfr] != other.wfrs[wfr]
-                || notes.best[wfr] != others.best[wfr]
-                || (notes.heard[wfr], notes.open[wfr]) != (others.heard[wfr], others.open[wfr])
-        });
-        states::places(robots.chain(wfrs))
-            | addressees(&self.network, &other.network) << NETWORK
-            | Places::from(self.rest() != other.rest()) << REST
+    /// The places whose parts may differ from those of the canonical state that it comes from.
+    pub(in crate::mrc) const fn touched(&self) -> Places {
+        self.touched
     }
 
     const fn of_robot(&self, robot: usize) -> RobotPart {
@@ -146,17 +154,12 @@ impl State {
     /// Whether the epochs of each WFR are 1, 2, … without a gap, and leases that were taken are those of present calls.
     fn is_renamed(&self) -> bool {
         let mut epochs = [0_u64; WFRS];
-        let mut is_small = true;
-        self.for_each_epoch(|wfr, Epoch(epoch)| {
-            is_small &= epoch < u64::BITS;
-            epochs[wfr] |= 1_u64.unbounded_shl(epoch);
-        });
+        self.for_each_epoch(|wfr, Epoch(epoch)| epochs[wfr] |= 1 << epoch.min(LARGE));
         let is_current =
             |wfr: usize, epoch: Option<Epoch>| epoch.is_none_or(|it| it == self.wfrs[wfr].call().epoch);
         let mut taken = self.notes.taken.iter().flat_map(|taken| taken.iter().copied().enumerate());
         // 1, 2, … k set bits 1 to k.
-        is_small
-            && epochs.iter().all(|&set| set & 1 == 0 && (set | 1) & (set | 1).wrapping_add(1) == 0)
+        epochs.iter().all(|&set| set & (1 | 1 << LARGE) == 0 && (set | 1) & ((set | 1) + 1) == 0)
             && taken.all(|(wfr, epoch)| is_current(wfr, epoch))
     }
 
@@ -231,37 +234,10 @@ impl State {
     }
 }
 
-/// The robots, a bit each, whose messages differ in two networks, both sorted.
-fn addressees(mut one: &[Message], mut other: &[Message]) -> Places {
-    let mut robots = 0;
-    loop {
-        let alone = match (one, other) {
-            ([], []) => return robots,
-            ([first, rest @ ..], [second, others @ ..]) if first == second => {
-                (one, other) = (rest, others);
-                continue;
-            }
-            ([first, rest @ ..], [second, ..]) if first < second => {
-                one = rest;
-                first
-            }
-            ([first, rest @ ..], []) => {
-                one = rest;
-                first
-            }
-            (_, [second, others @ ..]) => {
-                other = others;
-                second
-            }
-        };
-        robots |= 1 << alone.robot().0;
-    }
-}
-
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
         let (one, other) = (self.canonical(), other.canonical());
-        one.differing(&other) == 0
+        (0..Self::PARTS).all(|place| one.part(place) == other.part(place))
     }
 }
 

@@ -1,13 +1,16 @@
 //! A turn: the state after an action, what the machines send then, and what the observer notes.
 
+use std::{array, mem};
+
 use tautline_kernel::mrc::{
     Bid, Condition, Downward, Mail, Phase, Resb, Robot, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
 };
-use tautline_kernel::net::{Call, Epoch, Notice, RobotId};
+use tautline_kernel::net::{Call, Notice, RobotId};
 
 use super::action::{Action, Actor, Message};
 use super::demand::Demand;
-use super::setting::{ROBOTS, Setting, WFRS};
+use super::parts::{FIRST_WFR, REST, of_network};
+use super::setting::{Faults, ROBOTS, Setting, WFRS};
 use super::{State, node, place, robot_id};
 use crate::mrc::Served;
 
@@ -29,63 +32,97 @@ impl State {
     #[must_use]
     pub fn after(&self, setting: &Setting, action: Action) -> Self {
         let mut next = self.clone();
+        next.act(setting, action);
+        next
+    }
+
+    /// Makes of the state the one after `action`.
+    pub(in crate::mrc) fn act(&mut self, setting: &Setting, action: Action) {
+        if mem::take(&mut self.is_canonical) {
+            self.touched = 0;
+        }
         match action {
             Action::Raise(wfr) => {
-                next.events_left -= 1;
-                next.turn_wfr(setting, wfr, None, Wfr::raise);
+                self.events_left -= 1;
+                self.touch(REST);
+                self.turn_wfr(setting, wfr, None, Wfr::raise);
             }
             Action::Deliver(at) => {
-                let message = next.network.remove(at);
-                next.deliver(setting, message);
+                let message = self.network.remove(at);
+                self.touch(of_network(message.robot()));
+                self.deliver(setting, message);
             }
             Action::Expire(actor) => {
                 if !self.is_due(setting, actor) {
-                    next.left.spend(|left| &mut left.delays);
+                    self.spend(|left| &mut left.delays);
                 }
-                next.expire(setting, actor);
+                self.expire(setting, actor);
             }
             Action::Arrive(robot) => {
                 if let Task::Leased { call } = self.robots[robot].task() {
                     let wfr = place(call.wfr);
-                    next.wfrs[wfr] = self.wfrs[wfr].reach(robot_id(robot));
-                    next.turn_robot(robot, Robot::arrive);
+                    self.wfrs[wfr] = self.wfrs[wfr].reach(robot_id(robot));
+                    self.touch(FIRST_WFR + wfr);
+                    self.turn_robot(robot, Robot::arrive);
                 }
             }
             Action::Lapse(robot) => {
                 if let Task::Leased { call } = self.robots[robot].task() {
-                    next.turn_robot(robot, |robot| robot.lapse(call));
+                    self.turn_robot(robot, |robot| robot.lapse(call));
                 }
             }
             Action::Lose(at) => {
-                next.left.spend(|left| &mut left.losses);
-                next.network.remove(at);
+                self.spend(|left| &mut left.losses);
+                let message = self.network.remove(at);
+                self.touch(of_network(message.robot()));
             }
             Action::Duplicate(at) => {
-                next.left.spend(|left| &mut left.duplicates);
-                next.network.insert(at, self.network[at]);
+                self.spend(|left| &mut left.duplicates);
+                self.network.insert(at, self.network[at]);
+                self.touch(of_network(self.network[at].robot()));
             }
             Action::FailRobot(robot) => {
-                next.left.spend(|left| &mut left.robots);
-                next.failed[robot] = true;
-                next.network.retain(|message| match message {
+                self.spend(|left| &mut left.robots);
+                self.failed[robot] = true;
+                self.network.retain(|message| match message {
                     Message::Notice(..) | Message::Resb(_) => message.robot() != robot_id(robot),
                     Message::Up(_) => true,
                 });
+                self.touch(robot);
+                self.touch(of_network(robot_id(robot)));
             }
             Action::FailNode { robot, wfr } => {
-                next.left.spend(|left| &mut left.nodes);
+                self.spend(|left| &mut left.nodes);
                 let call = self.wfrs[wfr].call();
-                next.cut[robot][wfr] = Some(call.epoch);
-                next.network.retain(|message| match message {
+                self.cut[robot][wfr] = Some(call.epoch);
+                self.network.retain(|message| match message {
                     Message::Notice(..) => true,
                     Message::Resb(_) | Message::Up(_) => {
                         (message.robot(), message.call()) != (robot_id(robot), call)
                     }
                 });
+                self.touch(robot);
+                self.touch(of_network(robot_id(robot)));
             }
         }
-        next.note(setting);
-        next
+        self.note(setting);
+    }
+
+    /// The part in this place may be another one than when the state was canonical.
+    pub(super) const fn touch(&mut self, place: usize) {
+        self.touched |= 1 << place;
+    }
+
+    /// One fault less.
+    fn spend(&mut self, kind: impl Fn(&mut Faults) -> &mut u8) {
+        self.left.spend(kind);
+        self.touch(REST);
+    }
+
+    /// `demand` is not met.
+    fn tell(&mut self, demand: Demand) {
+        self.notes.broken |= 1 << demand as u16;
+        self.touch(REST);
     }
 
     fn deliver(&mut self, setting: &Setting, message: Message) {
@@ -99,7 +136,7 @@ impl State {
                 let is_served =
                     self.robots[robot].request(wfr).is_some_and(|request| request.served == ServiceBit::Yes);
                 if is_new && is_served {
-                    self.notes.tell(Demand::AsksAnew);
+                    self.tell(Demand::AsksAnew);
                 }
             }
             Message::Resb(resb) => {
@@ -119,7 +156,7 @@ impl State {
                     && resb.chosen == Some(resb.robot)
                     && asked(before) == Some(resb.call);
                 if takes && !is_wanted {
-                    self.notes.tell(Demand::TakesWhatItAsksFor);
+                    self.tell(Demand::TakesWhatItAsksFor);
                 }
             }
             Message::Up(upward) => {
@@ -163,19 +200,20 @@ impl State {
         let before = self.robots[robot].task();
         let (next, sent) = turn(self.robots[robot]);
         self.robots[robot] = next;
+        self.touch(robot);
         let rank = |call: Call| (self.hops[robot][place(call.wfr)], call.wfr.0);
         let open = || next.requests().filter(|request| request.served == ServiceBit::No);
-        let nearest = open().map(|request| request.call).min_by_key(|&call| rank(call));
+        let nearest = || open().map(|request| request.call).min_by_key(|&call| rank(call));
         let has_strayed = match (before, next.task()) {
             (Task::Asking { call: before, .. }, Task::Asking { call, .. }) if before == call => {
                 open().all(|request| request.call.wfr != call.wfr)
             }
-            (_, Task::Asking { call, .. }) => nearest != Some(call),
-            (_, Task::Free) => nearest.is_some(),
+            (_, Task::Asking { call, .. }) => nearest() != Some(call),
+            (_, Task::Free) => nearest().is_some(),
             (_, Task::Leased { .. }) => false,
         };
         if has_strayed {
-            self.notes.tell(Demand::AsksNearest);
+            self.tell(Demand::AsksNearest);
         }
         if let Task::Leased { call } = next.task() {
             self.notes.taken[robot][place(call.wfr)] = Some(call.epoch);
@@ -194,10 +232,11 @@ impl State {
         let before = self.wfrs[wfr];
         let (next, sent) = turn(before);
         self.wfrs[wfr] = next;
-        let sent: Vec<Message> = match sent {
-            Mail::Nothing => Vec::new(),
-            Mail::One(resb) => vec![Message::Resb(resb)],
-            Mail::All(resbs) => resbs.into_iter().flatten().map(Message::Resb).collect(),
+        self.touch(FIRST_WFR + wfr);
+        let sent: [Option<Message>; ROBOTS] = match sent {
+            Mail::Nothing => [None; ROBOTS],
+            Mail::One(resb) => array::from_fn(|place| (place == 0).then_some(Message::Resb(resb))),
+            Mail::All(resbs) => resbs.map(|resb| resb.map(Message::Resb)),
             Mail::Notice(notice) => {
                 self.notes.open[wfr] = true;
                 (self.notes.best[wfr], self.notes.heard[wfr]) = (None, 0);
@@ -206,15 +245,21 @@ impl State {
                     let hops = self.hops[robot][wfr] - 1;
                     Message::Notice(robot_id(robot), Notice { hops, ..notice })
                 };
-                (0..setting.robots).map(to).collect()
+                array::from_fn(|robot| (robot < setting.robots).then(|| to(robot)))
             }
         };
-        self.judge_telling(wfr, (before.phase(), bidder), &sent);
+        let sent = sent.into_iter().flatten();
+        self.judge_telling(wfr, (before.phase(), bidder), sent.clone());
         self.send(sent);
     }
 
     /// Looks whether a WFR has told its choice, to whom it is to tell it and to nobody else.
-    fn judge_telling(&mut self, wfr: usize, (before, bidder): (Phase, Option<RobotId>), sent: &[Message]) {
+    fn judge_telling(
+        &mut self,
+        wfr: usize,
+        (before, bidder): (Phase, Option<RobotId>),
+        sent: impl Iterator<Item = Message>,
+    ) {
         let choice = |phase: Phase| match phase {
             Phase::Offered { choice, .. } | Phase::Leased { choice } => Some(choice.robot),
             Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => None,
@@ -226,21 +271,26 @@ impl State {
         let due = if choice(before) != chosen && chosen.is_some() { heard } else { 0 }
             | if has_decided { bit(bidder) } else { 0 };
         let may_be_told = heard | bit(bidder) | bit(chosen);
-        let resb = |message: &Message| if let Message::Resb(resb) = message { Some(*resb) } else { None };
-        let told = sent.iter().filter_map(resb).fold(0, |told, resb| told | bit(Some(resb.robot)));
-        let is_right = sent.iter().filter_map(resb).all(|resb| (resb.call, resb.chosen) == (call, chosen));
+        let resbs =
+            sent.filter_map(|message| if let Message::Resb(resb) = message { Some(resb) } else { None });
+        let (mut told, mut is_right) = (0, true);
+        for resb in resbs {
+            told |= bit(Some(resb.robot));
+            is_right &= (resb.call, resb.chosen) == (call, chosen);
+        }
         if due & !told != 0 || told & !may_be_told != 0 || !is_right {
-            self.notes.tell(Demand::TellsWhoAsked);
+            self.tell(Demand::TellsWhoAsked);
         }
     }
 
     fn send(&mut self, messages: impl IntoIterator<Item = Message>) {
         for message in messages {
             if self.gets_through(message) {
-                self.network.push(message);
+                let at = self.network.partition_point(|other| *other < message);
+                self.network.insert(at, message);
+                self.touch(of_network(message.robot()));
             }
         }
-        self.network.sort_unstable();
     }
 
     /// Whether a message that is sent now is on its way: the robot lives, and so do the nodes between.
@@ -260,29 +310,35 @@ impl State {
         for wfr in 0..setting.wfrs {
             let call = self.wfrs[wfr].call();
             let is_of_wfr = |message: &Message| message.call().wfr == node(wfr);
-            if !setting.rule.has(Condition::Window) && !self.network.iter().any(is_of_wfr) {
-                self.notes.open[wfr] = false;
-            }
             if !self.wfrs[wfr].is_waiting() {
                 (self.notes.open[wfr], self.notes.best[wfr]) = (false, None);
+            }
+            if self.notes.open[wfr]
+                && !setting.rule.has(Condition::Window)
+                && !self.network.iter().any(is_of_wfr)
+            {
+                self.notes.open[wfr] = false;
+                self.touch(FIRST_WFR + wfr);
             }
             if !self.notes.open[wfr] {
                 self.notes.heard[wfr] = 0;
             }
             for robot in 0..setting.robots {
+                let Some(epoch) = self.cut[robot][wfr] else { continue };
+                let cut = Call { epoch, ..call };
                 let task = match self.robots[robot].task() {
                     Task::Free => None,
                     Task::Asking { call, .. } | Task::Leased { call } => Some(call),
                 };
                 let known = self.robots[robot].request(node(wfr)).map(|request| request.call);
-                let is_of_use = |epoch: Epoch| {
-                    let cut = Call { epoch, ..call };
-                    cut == call
-                        || task == Some(cut)
-                        || known == Some(cut)
-                        || self.network.iter().any(|message| message.call() == cut)
-                };
-                self.cut[robot][wfr] = self.cut[robot][wfr].filter(|&epoch| is_of_use(epoch));
+                let is_of_use = cut == call
+                    || task == Some(cut)
+                    || known == Some(cut)
+                    || self.network.iter().any(|message| message.call() == cut);
+                if !is_of_use {
+                    self.cut[robot][wfr] = None;
+                    self.touch(robot);
+                }
             }
         }
     }
@@ -291,7 +347,7 @@ impl State {
 #[cfg(test)]
 mod tests {
     use tautline_kernel::mrc::Rule;
-    use tautline_kernel::net::NodeId;
+    use tautline_kernel::net::{Epoch, NodeId};
 
     use super::*;
 
