@@ -66,21 +66,30 @@ pub struct Step<S> {
 #[derive(Clone)]
 pub(crate) struct Answers {
     given: Vec<(u32, u32)>,
-    /// Answers that were asked for, and mishaps among them.
-    pub(crate) asked: (usize, u32),
+    pub(crate) asked: Asked,
     most_mishaps: u32,
+}
+
+/// How much was asked for.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Asked {
+    pub(crate) answers: usize,
+    /// Mishaps among them.
+    pub(crate) mishaps: u32,
+    /// Answers that say more than that there is no mishap.
+    pub(crate) events: u32,
 }
 
 impl Answers {
     pub(crate) const fn with_mishaps(most_mishaps: u32) -> Self {
-        Self { given: Vec::new(), asked: (0, 0), most_mishaps }
+        Self { given: Vec::new(), asked: Asked { answers: 0, mishaps: 0, events: 0 }, most_mishaps }
     }
 
     /// The next combination, which begins with as many of these answers as are `kept`; the place of the answer that is
     /// another one, if there is one. It is asked for from the first answer on.
     pub(crate) fn advance(&mut self, kept: usize) -> Option<usize> {
-        self.given.truncate(self.asked.0);
-        self.asked = (0, 0);
+        self.given.truncate(self.asked.answers);
+        self.asked = Asked::default();
         while self.given.len() > kept {
             if let Some((answer, of)) = self.given.pop().filter(|(answer, of)| answer + 1 < *of) {
                 self.given.push((answer + 1, of));
@@ -97,25 +106,37 @@ impl Answers {
 
     /// The answers that were asked for.
     pub(crate) fn values(&self) -> Vec<u32> {
-        self.given[..self.asked.0].iter().map(|&(answer, _)| answer).collect()
+        self.given[..self.asked.answers].iter().map(|&(answer, _)| answer).collect()
+    }
+}
+
+impl Answers {
+    #[inline]
+    fn next(&mut self, below: u32) -> u32 {
+        if self.asked.answers == self.given.len() {
+            self.given.push((0, below));
+        }
+        let (answer, _) = self.given[self.asked.answers];
+        self.asked.answers += 1;
+        answer
     }
 }
 
 impl Oracle for Answers {
     #[inline]
     fn pick(&mut self, below: u32) -> u32 {
-        if self.asked.0 == self.given.len() {
-            self.given.push((0, below));
+        if below <= 1 {
+            return 0;
         }
-        let (answer, _) = self.given[self.asked.0];
-        self.asked.0 += 1;
-        answer
+        self.asked.events += 1;
+        self.next(below)
     }
 
     #[inline]
     fn mishap(&mut self) -> bool {
-        let is_one = self.asked.1 < self.most_mishaps && self.pick(2) == 1;
-        self.asked.1 += u32::from(is_one);
+        let is_one = self.asked.mishaps < self.most_mishaps && self.next(2) == 1;
+        self.asked.mishaps += u32::from(is_one);
+        self.asked.events += u32::from(is_one);
         is_one
     }
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 
 use crate::file::take;
-use crate::model::Answers;
+use crate::model::{Answers, Asked};
 use crate::verdict::{Counts, Refusal};
 
 /// The step function of a system whose runs are told apart, and what is demanded of it.
@@ -44,7 +44,7 @@ pub trait Runs: Sync {
     fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Option<String>;
 
     /// Whether a run goes on for ever, and the demand that it breaks by that: it was in the state `then` when the log
-    /// had `sent` bytes, and is in `now` without an answer in between.
+    /// had `sent` bytes, and is in `now`; in between every answer was that there is no mishap.
     fn recurs(
         &self,
         then: &Self::State,
@@ -100,7 +100,7 @@ pub fn check_runs<M: Runs>(model: &M, section: &[u8]) -> Result<Counts, Refusal>
 /// Ways in which the answers of a run could have come out at which it is a part of its own.
 const PART: u64 = 1 << 10;
 
-/// Steps without an answer from which on a run is watched, which may come back to where it was.
+/// Steps without an event from which on a run is watched, which may come back to where it was.
 const WATCHED: u32 = 32;
 
 /// What was counted.
@@ -125,7 +125,7 @@ struct Fork<S, P> {
     ready: Ready<S, P>,
     steps: u32,
     sent: usize,
-    asked: (usize, u32),
+    asked: Asked,
 }
 
 /// All runs that begin with certain answers.
@@ -138,10 +138,10 @@ struct Walk<'a, M: Runs> {
     /// The number of answers with which all its runs begin.
     kept: usize,
     forks: Vec<Fork<M::State, M::Plan>>,
-    /// Steps since the last answer, and at how many of them the mark is set next: at powers of two, as Brent's search
-    /// for cycles does.
+    /// Steps since the last answer that says more than that there is no mishap, and at how many of them the mark is set
+    /// next: at powers of two, as Brent's search for cycles does.
     moved: (u32, u32),
-    /// A state since the last answer, with the bytes of the log before it.
+    /// A state since that answer, with the bytes of the log before it.
     mark: Option<(M::State, usize)>,
     tally: Tally,
 }
@@ -159,7 +159,7 @@ impl<'a, M: Runs> Walk<'a, M> {
             state,
             log: Vec::new(),
             steps: 0,
-            kept: answers.asked.0,
+            kept: answers.asked.answers,
             answers,
             forks: Vec::new(),
             moved: (0, WATCHED),
@@ -175,12 +175,11 @@ impl<'a, M: Runs> Walk<'a, M> {
             goes_on = self.step()?;
             if let Some(parts) = &mut parts
                 && goes_on
-                && self.moved.0 == 0
                 && self.answers.ways() >= PART
             {
-                let (log, steps) = (self.log.clone(), self.steps);
+                let (log, steps, moved, mark) = (self.log.clone(), self.steps, self.moved, self.mark.clone());
                 let from = Self::from(self.model, self.state.clone(), self.answers.clone());
-                parts.push(Self { log, steps, ..from });
+                parts.push(Self { log, steps, moved, mark, ..from });
                 goes_on = false;
             }
             goes_on = goes_on && self.plan()?;
@@ -206,14 +205,17 @@ impl<'a, M: Runs> Walk<'a, M> {
     fn step(&mut self) -> Result<bool, Refusal> {
         let Some(Fork { ready, asked, .. }) = self.forks.last() else { return Ok(false) };
         let broken = self.model.step(ready, &mut self.state, &mut self.log, &mut self.answers);
-        let is_asked = self.answers.asked.0 > asked.0;
+        let Asked { answers, mishaps, events } = self.answers.asked;
+        let (is_asked, is_event) = (answers > asked.answers, events > asked.events);
         self.steps += 1;
-        self.tally.of[self.answers.asked.1 as usize][1] += 1;
+        self.tally.of[mishaps as usize][1] += 1;
         self.judge(broken)?;
-        if is_asked {
+        if !is_asked {
+            self.forks.pop();
+        }
+        if is_event {
             (self.moved, self.mark) = ((0, WATCHED), None);
         } else {
-            self.forks.pop();
             self.moved.0 += 1;
         }
         let (moved, due) = self.moved;
@@ -240,13 +242,13 @@ impl<'a, M: Runs> Walk<'a, M> {
     /// Counts a run that is over.
     fn end(&mut self) {
         self.tally.longest = self.tally.longest.max(self.steps);
-        self.tally.of[self.answers.asked.1 as usize][0] += 1;
+        self.tally.of[self.answers.asked.mishaps as usize][0] += 1;
     }
 
     /// Goes back to the last fork that can come out otherwise, as it was planned; false if there is none.
     fn back(&mut self) -> bool {
         let Some(changed) = self.answers.advance(self.kept) else { return false };
-        while self.forks.pop_if(|fork| fork.asked.0 > changed).is_some() {}
+        while self.forks.pop_if(|fork| fork.asked.answers > changed).is_some() {}
         let Some(Fork { ready, steps, sent, asked }) = self.forks.last() else { return false };
         self.state = ready.planned.clone();
         self.log.truncate(*sent);

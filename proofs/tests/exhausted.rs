@@ -1,17 +1,37 @@
 //! Certificates of checks that search all states or all layouts.
 
+use std::collections::{HashSet, VecDeque};
 use std::time::Instant;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use tautline_certificates::{Counts, File, Header, Refusal, check_states, put, read, write};
 use tautline_kernel::mrc::Rule;
 use tautline_proofs::clause::Clause;
-use tautline_proofs::decide::Verdict;
+use tautline_proofs::decide::{Method, Verdict};
 use tautline_proofs::engine::model::Started;
-use tautline_proofs::engine::states::{AnySystem, Limits};
+use tautline_proofs::engine::states::{self, AnySystem, Limits, NoCertificate, System};
 use tautline_proofs::ledger::{Misfit, certificate, clauses, examine};
 use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Served, Setting};
+
+/// Holds a verdict against the certificates of what `method` searches for `rule`: if it holds there is one of each system,
+/// which is accepted, and if it is refuted there is none of some.
+pub(crate) fn certify<R>(method: &impl Method<R>, rule: &R, verdict: Verdict) {
+    if verdict == Verdict::Open {
+        return;
+    }
+    let systems = method.systems(rule).expect("systems");
+    let sections: Vec<_> = systems.iter().map(|system| system.exhausted(Limits::NONE)).collect();
+    match verdict {
+        Verdict::Holds => {
+            for (system, section) in systems.iter().zip(sections) {
+                let (section, states) = section.expect("a section");
+                assert_eq!(system.check(&section, 7).map(|counts| counts.states), Ok(states));
+            }
+        }
+        _ => assert!(sections.contains(&Err(NoCertificate::Broken))),
+    }
+}
 
 fn clause(id: &str) -> &'static Clause {
     clauses().find(|clause| clause.id == id).expect("a clause")
@@ -198,6 +218,52 @@ fn a_demand_that_is_broken_is_not_shown_by_the_states_of_one_that_holds() {
     assert!(matches!(checked(repaired, Demand::AsksNearest), Err(Refusal::Leads(..) | Refusal::Steps(..))));
     let refusal = started(setting, Demand::OneRobotForACall).exhausted(Limits::NONE);
     assert_eq!(refusal.expect_err("it is broken").to_string(), "its search finds something broken");
+}
+
+/// The search and the checker look up again those parts alone that are said to differ.
+#[test]
+fn a_step_of_mrc_changes_no_part_that_it_is_not_said_to_change() {
+    let (mut unsaid, mut changed) = (0, 0);
+    for (rule, lossy, leases) in [
+        (Rule::PUBLISHED, LossKind::All, Leases::UntilCalled),
+        (Rule::REPAIRED, LossKind::All, Leases::Any),
+        (Rule::REPAIRED, LossKind::Resb, Leases::UntilOver),
+    ] {
+        let setting = Setting {
+            rule,
+            served: Served::ByAny,
+            robots: 2,
+            wfrs: 2,
+            events: 2,
+            max_hops: 2,
+            faults: Faults::any(1),
+            lossy,
+            leases,
+        };
+        let space = Space { setting, until: Until::Exhausted };
+        let parts =
+            |state: &_| (0..space.places(state)).map(|place| space.part(state, place)).collect::<Vec<_>>();
+        let mut starts = setting.starts();
+        starts.iter_mut().for_each(|state| space.make_canonical(state));
+        let (mut known, mut ahead) = (HashSet::new(), VecDeque::from(starts));
+        while let Some(state) = ahead.pop_front() {
+            let before = parts(&state);
+            for mut step in states::steps(&space, &state) {
+                space.make_canonical(&mut step.state);
+                let (after, said) = (parts(&step.state), space.differing(&state, &step.state));
+                for (place, (one, other)) in before.iter().zip(&after).enumerate() {
+                    let is_said = said >> place & 1 == 1;
+                    assert!(is_said || one == other, "{:?}: place {place} of {state:?}", step.event);
+                    unsaid += u32::from(!is_said);
+                    changed += u32::from(one != other);
+                }
+                if known.len() < 3_000 && known.insert(after) {
+                    ahead.push_back(step.state);
+                }
+            }
+        }
+    }
+    assert!(changed > 10_000 && unsaid > changed, "{changed} parts changed, {unsaid} were not looked up");
 }
 
 #[test]

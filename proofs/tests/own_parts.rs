@@ -14,6 +14,8 @@ use tautline_proofs::team::{
     Which,
 };
 
+use crate::exhausted::certify;
+
 fn decided<R: Rule + PartialEq + 'static>(
     rule: &R,
     setting: &'static Setting<'static, R>,
@@ -22,6 +24,7 @@ fn decided<R: Rule + PartialEq + 'static>(
     let mut desk = Context { memory: &mut Known::default(), watch: &mut unwatched, room: MemoryLimit::any() };
     let keeps = Keeps(setting, demand);
     let answer = keeps.decide(rule, Until::Exhausted, &mut desk).expect("it can be decided");
+    certify(&keeps, rule, answer.verdict);
     if let Some(found) = &answer.counterexample {
         let played = keeps.replay(rule, &found.choices).expect("it can be played again");
         assert_eq!(played.evidence, *found);

@@ -8,6 +8,8 @@ use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::{Waves, unwatched};
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Promise, Rule, Scene, Setting, View, Which};
 
+use crate::exhausted::certify;
+
 /// A robot's walk: it goes east and back for ever, or counts, or goes east until it meets a wall.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Walk {
@@ -79,7 +81,9 @@ type Question = (&'static Setting<'static, Walk>, usize);
 fn decided(rule: Walk, (layouts, demand): Question) -> Result<Answer, MethodError> {
     let memory = &mut Cache::default();
     let mut desk = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
-    Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut desk)
+    let answer = Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut desk)?;
+    certify(&Keeps(layouts, demand), &rule, answer.verdict);
+    Ok(answer)
 }
 
 fn verdict(rule: Walk, asked: Question) -> Verdict {
