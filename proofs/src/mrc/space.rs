@@ -3,8 +3,6 @@
 //! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot
 //! on its way, and no message between a robot and a WFR between whom there is one throughout.
 
-use std::slice;
-
 use tautline_kernel::choice::Oracle;
 
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
@@ -133,6 +131,7 @@ pub struct Space {
     pub until: Until,
 }
 
+/// The bit of an actor, which is that of the place of its part.
 const fn bit(actor: Actor) -> Bits {
     match actor {
         Actor::Robot(robot) => 1 << robot,
@@ -180,17 +179,12 @@ fn has_turned(before: &State, action: Action, after: &State, actor: Actor) -> bo
 }
 
 impl Space {
-    /// The demands that are looked for.
-    const fn demands(&self) -> &[Demand] {
-        match &self.until {
-            Until::Exhausted => &Demand::ALL,
-            Until::Broken(demand) => slice::from_ref(demand),
-        }
-    }
-
     /// Whether it is looked for WFRs that wait for ever.
     fn looks_for_service(&self) -> bool {
-        self.demands().contains(&Demand::IsServed)
+        match self.until {
+            Until::Exhausted => true,
+            Until::Broken(demand) => demand == Demand::IsServed,
+        }
     }
 
     /// The violation in a run.
@@ -237,7 +231,10 @@ impl World for Space {
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
-        self.demands().iter().copied().filter(|&demand| turn.after.breaks(demand)).collect()
+        match turn.after.broken() {
+            0 => Vec::new(),
+            _ => Demand::ALL.into_iter().filter(|&demand| turn.after.breaks(demand)).collect(),
+        }
     }
 
     fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<Demand> {
@@ -274,7 +271,9 @@ impl System for Space {
         if !self.is_bound(turn) {
             return 0;
         }
-        actors(|actor| has_turned(before, action, after, actor)) | arriving(before, action)
+        let is_touched = |actor: Actor| after.touched() & Places::from(bit(actor)) != 0;
+        actors(|actor| is_touched(actor) && has_turned(before, action, after, actor))
+            | arriving(before, action)
     }
 
     fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
