@@ -26,12 +26,14 @@ impl Dice {
     }
 
     /// A number below `n`: the high half of n times 64 random bits.
+    #[inline]
     pub fn below(&mut self, n: u64) -> u64 {
         ((u128::from(self.0.next_u64()) * u128::from(n)) >> 64) as u64
     }
 }
 
 impl Oracle for Dice {
+    #[inline]
     fn pick(&mut self, below: u32) -> u32 {
         self.below(below.into()) as u32
     }
