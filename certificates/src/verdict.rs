@@ -81,7 +81,7 @@ impl fmt::Display for Refusal {
             Self::Runs(mishaps, runs, steps) => {
                 write!(
                     f,
-                    "with {mishaps} mishaps there are other runs than is said: {runs}, of {steps} steps"
+                    "number of mishaps {mishaps}: it has {runs} runs and {steps} steps, and not as is said"
                 )
             }
             Self::Longest(steps) => write!(f, "the longest run has {steps} steps"),
