@@ -6,6 +6,15 @@ use std::ops::ControlFlow;
 use tautline_certificates::{Counts, Ready, Refusal, Runs, check_runs, put};
 use tautline_kernel::choice::Oracle;
 
+/// The end of a run, behind the last door.
+#[derive(Clone, Copy, PartialEq)]
+enum Behind {
+    Stops,
+    Waits,
+    /// Waits, and breaks a demand by it.
+    Breaks,
+}
+
 /// A robot that passes doors one after the other, and asks at each whether it is closed. It notes each in its log.
 #[derive(Clone, Copy)]
 struct Corridor {
@@ -15,13 +24,18 @@ struct Corridor {
     broken_at: Option<usize>,
     /// So many closed doors break it at the end.
     broken_by: u32,
-    /// What it breaks by waiting for ever behind the doors, if it does.
-    waits: Option<Option<&'static str>>,
+    behind: Behind,
     longest_run: u32,
 }
 
-const CORRIDOR: Corridor =
-    Corridor { doors: 12, most_closed: 2, broken_at: None, broken_by: 9, waits: None, longest_run: 100 };
+const CORRIDOR: Corridor = Corridor {
+    doors: 12,
+    most_closed: 2,
+    broken_at: None,
+    broken_by: 9,
+    behind: Behind::Stops,
+    longest_run: 100,
+};
 
 impl Runs for Corridor {
     /// Doors that were passed, and how many of them were closed.
@@ -42,7 +56,7 @@ impl Runs for Corridor {
 
     fn plan(&self, (passed, _): &mut (usize, u32), log: &[u8]) -> Option<usize> {
         assert_eq!(*passed, log.len(), "the log is that of the run");
-        (*passed < self.doors || self.waits.is_some()).then_some(*passed)
+        (*passed < self.doors || self.behind != Behind::Stops).then_some(*passed)
     }
 
     fn step(
@@ -82,7 +96,7 @@ impl Runs for Corridor {
         if then != now {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.waits.flatten().map(str::to_owned))
+        ControlFlow::Break((self.behind == Behind::Breaks).then(|| "waiting".to_owned()))
     }
 }
 
@@ -105,7 +119,9 @@ fn said(corridor: Corridor) -> Vec<u64> {
 
 fn checked(corridor: Corridor, numbers: &[u64]) -> Result<Counts, Refusal> {
     let mut section = Vec::new();
-    numbers.iter().for_each(|&number| put(&mut section, number));
+    for &number in numbers {
+        put(&mut section, number);
+    }
     check_runs(&corridor, &section)
 }
 
@@ -120,7 +136,7 @@ fn all_runs_are_counted_also_where_they_are_parted() {
     }
     // A mark is set 32 steps after the last closed door; with the next step the robot is back there.
     for (doors, most_closed) in [(5, 5), (12, 2), (12, 12)] {
-        let waits = Corridor { doors, most_closed, waits: Some(None), ..CORRIDOR };
+        let waits = Corridor { doors, most_closed, behind: Behind::Waits, ..CORRIDOR };
         let doors = doors as u64;
         let level = |closed| {
             let runs = ways(doors, closed);
@@ -143,7 +159,7 @@ fn what_is_broken_is_refused_with_the_answers_that_break_it() {
     // Runs of few answers come before the parts; where two doors were closed, nothing is asked any more.
     let end = Corridor { broken_by: 2, ..CORRIDOR };
     assert_eq!(refusal(end), Refusal::Broken(answers(&[7, 8], 9), "an end".into()));
-    let waits = Corridor { most_closed: 12, waits: Some(Some("waiting")), ..CORRIDOR };
+    let waits = Corridor { most_closed: 12, behind: Behind::Breaks, ..CORRIDOR };
     assert_eq!(refusal(waits), Refusal::Broken(answers(&[], 12), "waiting".into()));
     let long = Corridor { longest_run: 12, ..CORRIDOR };
     assert_eq!(refusal(long), Refusal::Long(answers(&[7, 8], 9)));
@@ -152,19 +168,14 @@ fn what_is_broken_is_refused_with_the_answers_that_break_it() {
 #[test]
 fn each_other_number_is_refused() {
     let right = said(CORRIDOR);
+    let level = |mishaps: usize| Refusal::Runs(mishaps, right[1 + 2 * mishaps], right[2 + 2 * mishaps]);
     for (place, change) in (0..right.len()).flat_map(|place| [1, u64::MAX].map(|change| (place, change))) {
         let mut numbers = right.clone();
         numbers[place] = numbers[place].wrapping_add(change);
-        let refusal = match place {
-            0 => Refusal::Longest(12),
-            _ => {
-                let mishaps = (place - 1) / 2;
-                Refusal::Runs(mishaps, right[1 + 2 * mishaps], right[2 + 2 * mishaps])
-            }
-        };
+        let mishaps = place.saturating_sub(1) / 2;
+        let refusal = if place == 0 { Refusal::Longest(12) } else { level(mishaps) };
         assert_eq!(checked(CORRIDOR, &numbers), Err(refusal), "{numbers:?}");
     }
-    let level = |mishaps: usize| Refusal::Runs(mishaps, right[1 + 2 * mishaps], right[2 + 2 * mishaps]);
     assert_eq!(checked(CORRIDOR, &right[..6]), Err(level(2)));
     assert_eq!(checked(CORRIDOR, &[]), Err(Refusal::Longest(12)));
     assert_eq!(checked(CORRIDOR, &[&right[..], &[0]].concat()), Err(Refusal::Malformed(9)));
@@ -192,16 +203,16 @@ impl Drawn {
                 _ => answers.mishap().into(),
             };
             next = drawn(next, u64::from(answer) + 1);
-            if answer == 1 && next % 2 == 0 {
+            if answer == 1 && next.is_multiple_of(2) {
                 break;
             }
         }
         *state = (next, steps + 1);
     }
+}
 
-    fn is_over(&self, (now, steps): (u64, u32)) -> bool {
-        steps == 9 || drawn(now, 7) % 9 == 0
-    }
+fn is_over((now, steps): (u64, u32)) -> bool {
+    steps == 9 || drawn(now, 7).is_multiple_of(9)
 }
 
 impl Runs for Drawn {
@@ -221,7 +232,7 @@ impl Runs for Drawn {
     }
 
     fn plan(&self, state: &mut (u64, u32), _: &[u8]) -> Option<()> {
-        (!self.is_over(*state)).then_some(())
+        (!is_over(*state)).then_some(())
     }
 
     fn step(
@@ -276,7 +287,7 @@ fn counted(drawn: &Drawn) -> Vec<u64> {
     loop {
         let (mut state, mut listed) =
             (drawn.start(), Listed { given, asked: 0, mishaps: 0, most: drawn.most });
-        while !drawn.is_over(state) {
+        while !is_over(state) {
             drawn.go(&mut state, &mut listed);
             if steps.insert((state.1, listed.given[..listed.asked].to_vec())) {
                 levels[listed.mishaps as usize][1] += 1;
@@ -299,7 +310,9 @@ fn runs_of_drawn_systems_are_counted_as_one_by_one() {
         let drawn = Drawn { seed, most: seed as u32 % 4 };
         let mut section = Vec::new();
         let numbers = counted(&drawn);
-        numbers.iter().for_each(|&number| put(&mut section, number));
+        for &number in &numbers {
+            put(&mut section, number);
+        }
         let counts = check_runs(&drawn, &section);
         assert!(counts.is_ok(), "{seed}: {counts:?} {numbers:?}");
         parted += u32::from(counts.is_ok_and(|counts| counts.ends > 2_000));

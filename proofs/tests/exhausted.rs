@@ -244,7 +244,9 @@ fn a_step_of_mrc_changes_no_part_that_it_is_not_said_to_change() {
         let parts =
             |state: &_| (0..space.places(state)).map(|place| space.part(state, place)).collect::<Vec<_>>();
         let mut starts = setting.starts();
-        starts.iter_mut().for_each(|state| space.make_canonical(state));
+        for state in &mut starts {
+            space.make_canonical(state);
+        }
         let (mut known, mut ahead) = (HashSet::new(), VecDeque::from(starts));
         while let Some(state) = ahead.pop_front() {
             let before = parts(&state);
