@@ -62,7 +62,8 @@ pub struct Step<S> {
     pub breaks: Option<String>,
 }
 
-/// Every combination of answers, at most so many of them mishaps: each answer with the number of those that were possible.
+/// Every combination of answers, at most so many of them mishaps: each answer with the number of those that were
+/// possible.
 #[derive(Clone)]
 pub(crate) struct Answers {
     given: Vec<(u32, u32)>,
@@ -108,9 +109,7 @@ impl Answers {
     pub(crate) fn values(&self) -> Vec<u32> {
         self.given[..self.asked.answers].iter().map(|&(answer, _)| answer).collect()
     }
-}
 
-impl Answers {
     #[inline]
     fn next(&mut self, below: u32) -> u32 {
         if self.asked.answers == self.given.len() {

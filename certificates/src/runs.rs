@@ -148,23 +148,32 @@ struct Walk<'a, M: Runs> {
 
 impl<'a, M: Runs> Walk<'a, M> {
     fn new(model: &'a M) -> Self {
-        let most = model.most_mishaps();
-        Self::from(model, model.start(), Answers::with_mishaps(most))
-    }
-
-    fn from(model: &'a M, state: M::State, answers: Answers) -> Self {
-        let of = vec![[0; 2]; model.most_mishaps() as usize + 1];
+        let most_mishaps = model.most_mishaps();
         Self {
             model,
-            state,
+            state: model.start(),
             log: Vec::new(),
             steps: 0,
-            kept: answers.asked.answers,
-            answers,
+            answers: Answers::with_mishaps(most_mishaps),
+            kept: 0,
             forks: Vec::new(),
             moved: (0, WATCHED),
             mark: None,
-            tally: Tally { longest: 0, of },
+            tally: Tally { longest: 0, of: vec![[0; 2]; most_mishaps as usize + 1] },
+        }
+    }
+
+    /// All runs that begin with the answers that were given so far.
+    fn part(&self) -> Self {
+        Self {
+            state: self.state.clone(),
+            log: self.log.clone(),
+            steps: self.steps,
+            answers: self.answers.clone(),
+            kept: self.answers.asked.answers,
+            moved: self.moved,
+            mark: self.mark.clone(),
+            ..Self::new(self.model)
         }
     }
 
@@ -177,9 +186,7 @@ impl<'a, M: Runs> Walk<'a, M> {
                 && goes_on
                 && self.answers.ways() >= PART
             {
-                let (log, steps, moved, mark) = (self.log.clone(), self.steps, self.moved, self.mark.clone());
-                let from = Self::from(self.model, self.state.clone(), self.answers.clone());
-                parts.push(Self { log, steps, moved, mark, ..from });
+                parts.push(self.part());
                 goes_on = false;
             }
             goes_on = goes_on && self.plan()?;

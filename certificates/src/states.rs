@@ -1,6 +1,6 @@
-//! The checker of a section that lists states. It makes all steps from each state, and holds each against where the section says that it
-//! leads; steps lead to the same state if they agree on its digest, of 128 bits. It looks at subtrees by themselves, on
-//! as many threads as there are.
+//! The checker of a section that lists states. It makes all steps from each state, and holds each against where the
+//! section says that it leads; steps lead to the same state if they agree on its digest, of 128 bits. It looks at
+//! subtrees by themselves, on as many threads as there are.
 
 use std::hash::Hasher;
 use std::sync::OnceLock;

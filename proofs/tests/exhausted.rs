@@ -191,19 +191,22 @@ fn a_state_left_out_a_wrong_rank_and_a_wrong_start_are_refused_by_what_they_are(
     assert!(matches!(risen, Some(Refusal::Rises(..) | Refusal::Endless(..))), "{risen:?}");
 }
 
+/// Two robots and a WFR that calls twice, with any one fault.
+const PUBLISHED: Setting = Setting {
+    rule: Rule::PUBLISHED,
+    served: Served::ByAny,
+    robots: 2,
+    wfrs: 1,
+    events: 2,
+    max_hops: 2,
+    faults: Faults::any(1),
+    lossy: LossKind::All,
+    leases: Leases::UntilCalled,
+};
+
 #[test]
 fn a_demand_that_is_broken_is_not_shown_by_the_states_of_one_that_holds() {
-    let setting = Setting {
-        rule: Rule::PUBLISHED,
-        served: Served::ByAny,
-        robots: 2,
-        wfrs: 1,
-        events: 2,
-        max_hops: 2,
-        faults: Faults::any(1),
-        lossy: LossKind::All,
-        leases: Leases::UntilCalled,
-    };
+    let setting = PUBLISHED;
     let started = |setting, demand| Started {
         system: Space { setting, until: Until::Broken(demand) },
         starts: |space: &Space| space.setting.starts(),
@@ -229,17 +232,7 @@ fn a_step_of_mrc_changes_no_part_that_it_is_not_said_to_change() {
         (Rule::REPAIRED, LossKind::All, Leases::Any),
         (Rule::REPAIRED, LossKind::Resb, Leases::UntilOver),
     ] {
-        let setting = Setting {
-            rule,
-            served: Served::ByAny,
-            robots: 2,
-            wfrs: 2,
-            events: 2,
-            max_hops: 2,
-            faults: Faults::any(1),
-            lossy,
-            leases,
-        };
+        let setting = Setting { rule, wfrs: 2, lossy, leases, ..PUBLISHED };
         let space = Space { setting, until: Until::Exhausted };
         let parts =
             |state: &_| (0..space.places(state)).map(|place| space.part(state, place)).collect::<Vec<_>>();

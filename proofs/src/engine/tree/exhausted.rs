@@ -21,12 +21,12 @@ impl<D, F> AllRuns<D, F> {
         Self { search: Mutex::new(search), demand }
     }
 
-    fn search(&self) -> MutexGuard<'_, Box<dyn Waves<D, F>>> {
+    fn lock(&self) -> MutexGuard<'_, Box<dyn Waves<D, F>>> {
         self.search.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn searched(&self) -> Findings<D, F> {
-        let mut search = self.search();
+        let mut search = self.lock();
         while search.wave() {}
         search.found()
     }
@@ -52,7 +52,7 @@ impl<D: Copy + PartialEq + Sync, F> AnySystem for AllRuns<D, F> {
     }
 
     fn check(&self, section: &[u8], _: u128) -> Result<Counts, Refusal> {
-        self.search().check(self.demand, section)
+        self.lock().check(self.demand, section)
     }
 
     fn search(&self, _: Limits<'_>) -> u64 {
