@@ -3,11 +3,11 @@
 
 use criterion::{BenchmarkId, Criterion};
 use tautline_benches::{Cost, group, measure};
+use tautline_grids::heap_grid::HeapGrid;
+use tautline_grids::layout::{Generator, Layout};
 use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
-use tautline_sim::heap_grid::HeapGrid;
-use tautline_sim::layout::{Generator, Layout};
 
 /// The work of a run, or of several.
 #[derive(Clone, Copy, Default)]

@@ -4,14 +4,14 @@
 
 use criterion::{BenchmarkId, Criterion};
 use tautline_benches::{Cost, Group, group, measure};
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::{Generator, Layout};
 use tautline_kernel::bricks::tree;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
 use tautline_proofs::floor::crew::Scheme;
-use tautline_sim::chance::Probability;
 use tautline_sim::explore::agents::Agents;
-use tautline_sim::layout::{Generator, Layout};
 
 /// The work of a run.
 #[derive(Clone, Copy, Default)]

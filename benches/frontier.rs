@@ -4,10 +4,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tautline_grids::layout::{Generator, Layout};
 use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
 use tautline_sim::frontier::Explorers;
-use tautline_sim::layout::{Generator, Layout};
 use tautline_sim::options::Options;
 
 /// The team moves of a whole run.

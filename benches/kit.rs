@@ -4,10 +4,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tautline_grids::layout::{Generator, Layout};
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::kit::{Pace, course, starts};
-use tautline_sim::layout::{Generator, Layout};
 
 /// The drives of a whole run.
 fn drives(layout: &Layout, starts: &[Cell]) -> u64 {

@@ -7,11 +7,11 @@ use std::env;
 use std::error::Error;
 use std::num::NonZeroU32;
 
+use tautline_grids::layout::{self, Layout};
 use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::team::{Act, Ground, Places, Rule, Setting, View};
 use tautline_sim::explore::{Limits, Milestone, Own, Report, run};
-use tautline_sim::layout::{self, Layout};
 
 /// Robots that go to the neighbouring cell where they know the team to have been least.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -20,11 +20,11 @@ use tautline_proofs::run::Frame;
 use self::program::Program;
 use super::output::Output;
 use super::{CATALOGUE, Exit, Format, FormatArgs, positive};
+use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::Layout;
 use tautline_io::text_blocks::{Block, beside};
 use tautline_sim::draw::{self, Pose};
 use tautline_sim::explore::{Play, Report, Senses, Setup, Stopped, Survey, TeamMove, Told};
-use tautline_sim::layout::CellWritten;
-use tautline_sim::layout::Layout;
 use tautline_sim::options::Options;
 use tautline_sim::trace::{self, StoredMove, StoredRun, steps};
 

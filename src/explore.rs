@@ -23,7 +23,7 @@ use super::ros_map;
 use super::viewers::{self, ViewerArgs};
 use super::{CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, positive, progress, whole};
 use crate::value_parser::{self, chosen};
-use tautline_sim::chance::Probability;
+use tautline_grids::chance::Probability;
 use tautline_sim::counterexample::refutation;
 use tautline_sim::draw::{page, svg};
 use tautline_sim::explore::chain::CHAIN;

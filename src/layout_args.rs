@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tautline_grids::layout::{self, Coarse, Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::value_parser::real;
-use tautline_sim::layout::{self, Coarse, Generator, Layout};
 
 use super::{needless, number};
 

@@ -57,13 +57,13 @@ use terminal_size::{Width, terminal_size};
 
 use crate::report::{Colour, render};
 use output::Output;
+use tautline_grids::layout::Size;
 use tautline_io::text_blocks::fit_into;
 #[cfg(feature = "papers")]
 use tautline_papers::rivals::CATALOGUE;
 #[cfg(not(feature = "papers"))]
 use tautline_sim::explore::Catalogue;
 use tautline_sim::explore::ClauseId;
-use tautline_sim::layout::Size;
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]

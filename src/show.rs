@@ -12,10 +12,10 @@ use tautline_kernel::ground::Cell;
 use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless};
+use tautline_grids::layout::CellWritten;
 use tautline_io::svg::Panel;
 use tautline_sim::draw::svg;
 use tautline_sim::draw::{self, Environment};
-use tautline_sim::layout::CellWritten;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -1282,13 +1282,13 @@ fn with_v_every_command_says_what_it_read_and_how_long_it_took() {
     printed(folder, &[run, &["--trace", "run.jsonl"]].concat(), 1);
     let cases: [(&[&str], i32, &str); 11] = [
         (&["prove", "LATTICE-1"], 0, "LATTICE-1 published exhaustive: "),
-        (run, 1, "layout walls:15x15:0.15: 15x15 cells, 225 free, 65 walls between them"),
+        (run, 1, "layout walls:15x15:0.15: 15x15 cells, 225 free; walls between them: 65"),
         (&["hunt", "--robots", "2", "--max-walls", "1"], 0, "hunted through "),
         (&["minimise", "run.jsonl"], 0, "minimised in "),
         (&["rescue", "--seeds", "0..1"], 0, "rescuing: 2 of 2 in "),
         (&["rescue", "--seeds", "0"], 0, "the rescue with seed 0 has "),
         (&["replay", "run.jsonl"], 1, "reading run.jsonl: "),
-        (&["show", "rooms-a"], 0, "layout rooms-a: 15x15 cells, 225 free, 39 walls between them"),
+        (&["show", "rooms-a"], 0, "layout rooms-a: 15x15 cells, 225 free; walls between them: 39"),
         (&["reproduce", "repair-cost", "--runs", "1"], 0, "comparing: 7 of 7 in "),
         (&["completions", "bash"], 0, ""),
         (&["man"], 0, ""),

@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 
 use insta::{allow_duplicates, assert_snapshot};
 use proptest::prelude::*;
+use tautline_grids::layout::{self, Generator, Layout, movingai, ros};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::json_lines::MAX_FILE_BYTES;
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_sim::layout::{self, Generator, Layout, movingai, ros};
 
 use crate::fuzz_corpus::targets::report::{Colour, render, with_flags};
 
@@ -209,8 +209,8 @@ fn a_bad_drawing_is_refused_at_its_place() {
     assert_snapshot!(bad("robots 4", "robots 0"), @r#"a.txt:2:8: "0" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
     assert_snapshot!(bad("robots 4", "robot 4"), @"a.txt:2:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
     assert_snapshot!(bad("+--+--+--+\n", ""), @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
-    assert_snapshot!(bad("|     |  |", "|     |  | "), @"a.txt:4:1: this row has 11 characters, not 10; make all rows equally long");
-    assert_snapshot!(bad("|     |  |", "|     |"), @"a.txt:4:1: this row has 7 characters, not 10; make all rows equally long");
+    assert_snapshot!(bad("|     |  |", "|     |  | "), @"a.txt:4:1: this row ends after character 11, not 10; make all rows equally long");
+    assert_snapshot!(bad("|     |  |", "|     |"), @"a.txt:4:1: this row ends after character 7, not 10; make all rows equally long");
     assert_snapshot!(bad("##", "#?"), @r##"a.txt:6:8: the symbol "#?" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"##);
     assert_snapshot!(bad("##", "é "), @r#"a.txt:6:8: the symbol "é" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"#);
     assert_snapshot!(bad("##|", "##x"), @r#"a.txt:6:10: the symbol "x" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"#);
@@ -254,10 +254,10 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
     assert_snapshot!(bad("height 2\n", ""), @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("map\n", ""), @"a.map:4:1: the header line `map` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("\nwidth 4\nmap\n.GS@\nOTW.\n", ""), @"a.map:2:9: the header line `width N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
-    assert_snapshot!(bad("height 2", "height 3"), @"a.map:6:5: the map has 2 rows, not 3; make `height` the number of rows that follow `map`");
+    assert_snapshot!(bad("height 2", "height 3"), @"a.map:6:5: the map ends after row 2, not 3; make `height` the number of rows that follow `map`");
     assert_snapshot!(bad("height 2", "height 1"), @"a.map:6:1: this is row 2, but `height` is 1; make `height` the number of rows that follow `map`");
-    assert_snapshot!(bad("width 4", "width 5"), @"a.map:5:1: this row has 4 characters, not 5; make all rows equally long");
-    assert_snapshot!(bad("OTW.", "OTW"), @"a.map:6:1: this row has 3 characters, not 4; make all rows equally long");
+    assert_snapshot!(bad("width 4", "width 5"), @"a.map:5:1: this row ends after character 4, not 5; make all rows equally long");
+    assert_snapshot!(bad("OTW.", "OTW"), @"a.map:6:1: this row ends after character 3, not 4; make all rows equally long");
     assert_snapshot!(bad("OTW.", "OTx."), @r#"a.map:6:3: the symbol "x" is unknown; a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)"#);
     assert_snapshot!(bad("height 2\nwidth 4", "height 31250\nwidth 32000"), @"a.map:2:1: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
     assert_snapshot!(bad("height 2\nwidth 4", "height 1000000000\nwidth 1"), @"a.map:2:1: the size 1x1000000000 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");

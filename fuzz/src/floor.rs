@@ -1,6 +1,7 @@
 //! Agents on a small floor: the cells, the walls, the scheme, who acts next and which sensors are missed are in the
 //! bytes. When the bytes have ended, the agents act in turn and miss nothing.
 
+use tautline_grids::layout::{Layout, Size};
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{Condition, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
@@ -8,7 +9,6 @@ use tautline_kernel::floor::{Floor, Mark, Sensor};
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight};
-use tautline_sim::layout::{Layout, Size};
 
 use super::numbers;
 

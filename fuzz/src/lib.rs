@@ -20,6 +20,8 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use tautline_grids::heap_grid::HeapGrid;
+use tautline_grids::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline_io::checkpoint::Checkpoint;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
@@ -36,8 +38,6 @@ use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::chain::hunt::{self, HuntTask, Waves};
 use tautline_sim::explore::hunt::Asked;
 use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
-use tautline_sim::heap_grid::HeapGrid;
-use tautline_sim::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline_sim::trace::Trace;
 
 pub use floor::floor;

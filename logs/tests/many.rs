@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use tautline_grids::layout::{Layout, load};
 use tautline_kernel::ground::Cell;
 use tautline_logs::{Demand, Doubt, Grid, Joining, Limits, Numbers, Tracks, Verdict, judge, read};
 use tautline_sim::explore::chain::CHAIN;
@@ -10,7 +11,6 @@ use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, Profile, RuleId, explore};
-use tautline_sim::layout::{Layout, load};
 
 use super::forms::{self, Row};
 

@@ -45,10 +45,10 @@ pub use self::entry::{Entry, Experiment, Report};
 use self::parameter::{Parameter, Settings};
 use self::sentences::Judgement;
 use tautline_field::radio::Problem;
+use tautline_grids::layout::{Generator, Layout};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::Setup;
-use tautline_sim::layout::{Generator, Layout};
 
 /// Every table, in the order in which they are listed.
 pub const TABLES: &[&dyn Entry] = &[

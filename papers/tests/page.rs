@@ -6,15 +6,15 @@ use std::fs;
 use std::ops::RangeInclusive;
 
 use serde_json::Value;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Generator;
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::run::Frame;
-use tautline_sim::chance::Probability;
 use tautline_sim::draw::page::write;
 use tautline_sim::explore::{Report, Setup, explore};
-use tautline_sim::layout::Generator;
 
 /// The state after a line, by what the line says.
 #[derive(Clone, PartialEq, Debug, Default)]

@@ -3,6 +3,8 @@
 
 use std::collections::BTreeSet;
 
+use tautline_grids::chance::Dice;
+use tautline_grids::layout::{Generator, Layout};
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use tautline_papers::rivals::full::{BestMoves, best};
 use tautline_papers::rivals::joint::{Joint, Score};
@@ -10,9 +12,7 @@ use tautline_papers::rivals::{CATALOGUE, COVERED, rival};
 use tautline_papers::rivals::{
     Cells, Deadlock, Links, Moves, Null, ParameterError, Parameters, Search, Team, Weights, full, pool,
 };
-use tautline_sim::chance::Dice;
 use tautline_sim::explore::{Limits, Report, RuleId, Setup, Stopped, explore, run, team};
-use tautline_sim::layout::{Generator, Layout};
 
 fn layout(description: &str, seed: u64) -> Layout {
     description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")

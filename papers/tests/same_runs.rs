@@ -6,12 +6,12 @@ use std::num::NonZeroU32;
 
 use crc32fast::Hasher;
 use insta::assert_snapshot;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Generator;
 use tautline_kernel::ground::Cell;
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::chance::Probability;
 use tautline_sim::explore::{Asked, Limits, Profile, Rule, Scene, Scheme, Senses, Stopped, explore};
 use tautline_sim::failures::{Appearing, Compass, Failure};
-use tautline_sim::layout::Generator;
 use tautline_sim::options::Extra;
 
 /// The layouts, and how many robots explore each, the base counted.

@@ -3,10 +3,10 @@
 
 use std::num::NonZeroU32;
 
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::{Generator, Layout};
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::chance::Probability;
 use tautline_sim::explore::{Asked, By, Drawn, Limits, Rule, Scheme, explore};
-use tautline_sim::layout::{Generator, Layout};
 use tautline_sim::options::Extra;
 
 const SEEDS: u64 = 6;

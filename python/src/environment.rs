@@ -8,11 +8,11 @@ use std::path::PathBuf;
 
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
+use tautline_grids::layout::generate::Generator;
+use tautline_grids::layout::{self as layouts, Layout as Ground};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain;
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_sim::layout::generate::Generator;
-use tautline_sim::layout::{self as layouts, Layout as Ground};
 
 use crate::arrays::filled;
 use crate::diagnostic::{Kind, error, raised};

@@ -5,10 +5,10 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use tautline_grids::chance::Probability;
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::chain;
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::chance::Probability;
 use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme};
 use tautline_sim::options::Options;
 

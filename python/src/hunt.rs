@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
+use tautline_grids::layout::Size;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Far, Finding, Hunter, Shown};
-use tautline_sim::layout::Size;
 
 use crate::diagnostic::raised;
 use crate::explore::{rule, scheme};

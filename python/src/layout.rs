@@ -5,11 +5,11 @@ use std::num::NonZeroU16;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use tautline_grids::layout::{self as layouts, Layout as Ground};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::svg::Panel;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_sim::draw::svg;
-use tautline_sim::layout::{self as layouts, Layout as Ground};
 use tautline_sim::trace;
 
 use crate::arrays::{Rows, rows, view};

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
+use tautline_grids::layout::Layout;
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_papers::rivals::CATALOGUE;
@@ -19,7 +20,6 @@ use tautline_proofs::run::Frame;
 use tautline_proofs::team::{Map, Promise, Setting};
 use tautline_sim::explore::hunt::layout as layout_of;
 use tautline_sim::explore::{Limits, Own, Report, Setup, run};
-use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, StoredRun, Writer};
 
 use self::game::{PythonRule, Questions, setting};

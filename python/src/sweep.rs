@@ -13,9 +13,9 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 use rayon::prelude::*;
+use tautline_grids::layout;
 use tautline_io::diagnostic::Halt;
 use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, Scheme, explore};
-use tautline_sim::layout;
 
 use crate::diagnostic::halted;
 use crate::explore::{limits, rule, scheme};

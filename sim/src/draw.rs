@@ -15,7 +15,7 @@ use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::floor_trace::{Scene, Turn};
 
 use crate::explore::{Look, Play, Setup, Survey, TeamMove};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// The meaning of the signs in a drawing of team moves.
 pub const fn legend(look: Look) -> &'static str {

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use crate::layout::CellWritten;
+use tautline_grids::layout::CellWritten;
 
 /// A robot dies on its way: it does not go in this team move, and says nothing from then on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]

@@ -13,8 +13,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Reach, Rule, SetupError, Sight, Stance, touch};
 
-use crate::chance::Dice;
-use crate::layout::Layout;
+use tautline_grids::chance::Dice;
+use tautline_grids::layout::Layout;
 
 /// From a node to the next.
 pub const PATH_MILLIMETRES: i64 = 3000;
@@ -306,7 +306,7 @@ pub fn starts(layout: &Layout, base: Cell, robots: usize) -> Vec<Cell> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::Generator;
+    use tautline_grids::layout::Generator;
 
     /// Runs a team in layouts of this kind; the drives, and how many runs end before every path is driven, or not at
     /// all.

@@ -1,15 +1,12 @@
 //! Robot teams in layouts: the runs of the kernel's rules, their traces and counterexamples, and how they are drawn.
 //! Reading what a person types, and printing errors, is left to a program.
 
-pub mod chance;
 pub mod counterexample;
 pub mod draw;
 pub mod explore;
 pub mod failures;
 pub mod frontier;
-pub mod heap_grid;
 pub mod kit;
-pub mod layout;
 pub mod objects;
 pub mod options;
 pub mod shards;

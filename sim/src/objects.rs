@@ -15,7 +15,7 @@ use tautline_kernel::position::{Point, Sighting, SymmetricMatrix};
 use tautline_proofs::plural::counted;
 
 use crate::frontier::cell_at;
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// The most objects of a run.
 const MOST: usize = 1000;

@@ -11,10 +11,10 @@ use tautline_kernel::frontier::Threshold;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Odometry, Signal};
 
-use crate::chance::Probability;
 use crate::failures::{Appearing, Failure, Going};
-use crate::layout::Layout;
 use crate::objects::Objects;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Layout;
 
 /// The options that a run is told, if its scheme can be told them. The default is an option of which nobody says
 /// anything.

@@ -24,13 +24,13 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
-use crate::chance::Probability;
 use crate::explore::{
     Catalogue, ClauseId, Limits, OnViolation, Play, Report, RuleId, Scheme, Setup, Stopped, TeamMove,
     Violation, Watcher, explore,
 };
-use crate::layout::{CellWritten, Layout};
 use crate::options::Options;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::{CellWritten, Layout};
 
 pub use foreign::ForeignRun;
 pub(crate) use foreign::Player;

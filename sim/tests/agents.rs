@@ -8,13 +8,14 @@ use std::{env, fs, thread};
 use crate::common::Unwatched;
 use insta::assert_snapshot;
 use proptest::prelude::*;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::{self, Generator, Layout, MAX_CELLS, Size};
 use tautline_kernel::bricks::Rule;
 use tautline_kernel::bricks::tree::{Label, Rule as Trees};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::floor::crew::Scheme;
 use tautline_proofs::floor_trace::{Course, Scene, Turn};
-use tautline_sim::chance::Probability;
 use tautline_sim::draw::story;
 use tautline_sim::explore::agents::{Agents, PREMATURE};
 use tautline_sim::explore::ants::ANTS;
@@ -22,7 +23,6 @@ use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
-use tautline_sim::layout::{self, Generator, Layout, MAX_CELLS, Size};
 
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use judge::{Broken, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
+use tautline_grids::layout::{Generator, Layout};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Rule as Cells, Status};
@@ -19,7 +20,6 @@ use tautline_sim::explore::{Asked, RuleId, Setup, Stopped, explore};
 use tautline_sim::failures::{Appearing, Compass, Failure, Going};
 use tautline_sim::frontier::Explorers;
 use tautline_sim::kit::{self, Pace};
-use tautline_sim::layout::{Generator, Layout};
 use tautline_sim::options::Options;
 
 /// Runs by one rule.

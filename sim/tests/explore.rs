@@ -6,6 +6,7 @@ use std::path::Path;
 use std::{env, fs};
 
 use proptest::prelude::*;
+use tautline_grids::layout::{self, Generator, Layout};
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::{Cell, Edge, Step};
@@ -15,7 +16,6 @@ use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
     Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,
 };
-use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::trace::{Trace, Writer};
 
 /// More team moves than any run here has.

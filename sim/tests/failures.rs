@@ -1,10 +1,10 @@
 //! Chains in which something fails: what is promised holds, and without *Hold* it does not.
 
-use tautline_sim::chance::Probability;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Generator;
 use tautline_sim::explore::chain::{ANY_ORDER, CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Report, RuleId, Setup, Stopped, explore};
 use tautline_sim::failures::{Failure, Going};
-use tautline_sim::layout::Generator;
 use tautline_sim::options::Options;
 
 fn ran(rule: RuleId, robots: u16, density: f64, seed: u64, options: Options) -> Report {

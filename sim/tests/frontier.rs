@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::common::Unwatched;
+use tautline_grids::layout::{Generator, Layout, Size};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, Rule};
 use tautline_kernel::ground::Cell;
@@ -11,7 +12,6 @@ use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::{Change, RuleId, Scene, Setup, Stopped, explore, has_double};
 use tautline_sim::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
-use tautline_sim::layout::{Generator, Layout, Size};
 use tautline_sim::objects::Objects;
 use tautline_sim::options::{Options, Wheels};
 
@@ -365,7 +365,8 @@ fn eight_robots_explore_published_maps() {
     let folder = std::env::var_os("TAUTLINE_MAPS").expect("TAUTLINE_MAPS names the folder of published maps");
     for (map, expected) in [("random512-10-0", 36_795), ("Boston_0_512", 29_356)] {
         let file = std::path::Path::new(&folder).join(format!("{map}.map"));
-        let mut layout = tautline_sim::layout::load(file.to_str().expect("a name"), 0, None).expect("a map");
+        let mut layout =
+            tautline_grids::layout::load(file.to_str().expect("a name"), 0, None).expect("a map");
         let base = layout.default_base().expect("a base");
         layout.place_base(base).expect("a base");
         let starts = FRONTIER.default_starts(RuleId::REPAIRED, &layout, base, 8).expect("starts");

@@ -6,6 +6,7 @@ use std::num::NonZeroU32;
 use std::path::Path;
 
 use crate::common::Unwatched;
+use tautline_grids::layout::{Generator, Layout, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
@@ -14,7 +15,6 @@ use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize, Shown};
 use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
-use tautline_sim::layout::{Generator, Layout, Size};
 use tautline_sim::options::Options;
 use tautline_sim::trace::Trace;
 

@@ -5,11 +5,11 @@ use std::fmt::Write;
 
 use crc32fast::Hasher;
 use insta::assert_snapshot;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Generator;
 use tautline_kernel::bricks::{Condition, Rule};
 use tautline_kernel::ground::Cell;
-use tautline_sim::chance::Probability;
 use tautline_sim::explore::agents::Agents;
-use tautline_sim::layout::Generator;
 
 /// The team moves that agents take by a rule, and a checksum of their steps.
 fn run(rule: Rule, layout: &str, robots: usize, chance: Probability) -> String {

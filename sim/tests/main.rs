@@ -6,7 +6,6 @@ mod common;
 mod explore;
 mod failures;
 mod frontier;
-mod heap_grid;
 mod kit;
 mod laps;
 mod minimise;

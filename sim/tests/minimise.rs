@@ -6,6 +6,7 @@ use std::env;
 use std::num::NonZeroU32;
 use std::path::Path;
 
+use tautline_grids::layout::{self, Generator, Layout};
 use tautline_io::atomic_file::Replaceable;
 use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Edge, Side};
@@ -18,7 +19,6 @@ use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{
     Asked, Catalogue, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
 };
-use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::trace::{Trace, store};
 
 /// Column and row.

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use insta::assert_snapshot;
+use tautline_grids::layout::{self, Layout};
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::svg::Panel;
@@ -18,7 +19,6 @@ use tautline_sim::explore::{
     Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Setup,
     Starts, Stopped, Surroundings, Team, run,
 };
-use tautline_sim::layout::{self, Layout};
 use tautline_sim::trace::{self, StoredRun, Writer};
 
 /// The second robot never comes into the cell of the first.

@@ -1,10 +1,10 @@
 //! Packs in whole layouts: what the repaired rule promises holds, and what is no pack is refused with a remedy.
 
+use tautline_grids::layout::Generator;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, Report, RuleId, Stopped, explore};
-use tautline_sim::layout::Generator;
 use tautline_sim::options::Options;
 
 fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> Asked {

@@ -12,7 +12,7 @@ use tautline_logs::{Grid, Ground, Limits, Tracks};
 
 use super::super::{CellArg, needless, number};
 use super::{above_0, milli};
-use tautline_sim::layout::{self, Coarse, Generator, Layout, ros};
+use tautline_grids::layout::{self, Coarse, Generator, Layout, ros};
 
 #[derive(Debug, Args)]
 pub(super) struct MapArgs {

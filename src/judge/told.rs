@@ -10,8 +10,8 @@ use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Misplaced, Numbers, Trac
 use tautline_proofs::plural::counted;
 
 use super::given::Given;
+use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
-use tautline_sim::layout::Layout;
 
 /// What is told of a log.
 pub(super) struct Told<'a> {

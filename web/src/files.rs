@@ -1,8 +1,8 @@
 //! Files that are dropped on a page or kept from it: layouts of ours and of MovingAI, stored runs, and the page's own.
 
 use serde_json::{Value, json};
+use tautline_grids::layout::{Layout, Misread, movingai, text};
 use tautline_io::diagnostic::{Diagnostic, Halt, Place};
-use tautline_sim::layout::{Layout, Misread, movingai, text};
 use tautline_sim::trace::{self, StoredRun};
 
 use crate::own;

@@ -6,11 +6,11 @@ use std::ops::ControlFlow;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use tautline_grids::layout::Size;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::plural::counted;
 use tautline_sim::explore::Scheme;
 use tautline_sim::explore::hunt::{Asked, Begun, Far, Finding, Hunt, HuntReport, Hunter, Shown};
-use tautline_sim::layout::Size;
 
 use crate::by_hand::{self, Hunted, Order, Search};
 use crate::clauses::sentence;

@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
+use tautline_grids::layout::Layout;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Edge, Step as Move};
 use tautline_sim::draw::page::{film, number_of, place_of, side_of};
 use tautline_sim::explore::{
     Change, ClauseId, Course, Hearers, Look, Made, Play as _, Scene, Setup, Surroundings, Team,
 };
-use tautline_sim::layout::Layout;
 use tautline_sim::trace;
 
 use crate::ask::{Answers, Question};

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::{Layout, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_sim::chance::Probability;
 use tautline_sim::explore::{Asked, Limits, Rule, Scheme, Setup, Starts, Team};
-use tautline_sim::layout::{Layout, Size};
 use tautline_sim::options::{Extra, Options};
 
 use crate::own;

@@ -14,7 +14,7 @@ use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
 use super::solver::Solution;
 use crate::stats::{Estimate, decimals, quantile};
-use tautline_sim::chance::deviation;
+use tautline_grids::chance::deviation;
 use tautline_sim::explore::RuleName;
 
 /// Anchors that tell a position, and the rectangle that they span.

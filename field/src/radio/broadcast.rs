@@ -147,7 +147,7 @@ mod tests {
 
     use super::*;
     use crate::radio::{Area, Field, Model, Radio, SharedChannel};
-    use tautline_sim::chance::Probability;
+    use tautline_grids::chance::Probability;
 
     fn network(nodes: usize, seed: u64) -> Network {
         let area = Area::new(300.0, 300.0).expect("an area");

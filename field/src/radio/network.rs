@@ -7,9 +7,9 @@
 
 use std::num::NonZeroU32;
 
+use tautline_grids::chance::{MOST_DEVIATIONS, deviation};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation};
-use tautline_sim::chance::{MOST_DEVIATIONS, deviation};
 
 use super::grid::Grid;
 use super::problem::checked_deviation;

@@ -14,7 +14,7 @@ use crate::radio::{
 };
 use crate::rescue::setting::CallTimes;
 use crate::tan::{Equipment, Signal, hops};
-use tautline_sim::chance::Probability;
+use tautline_grids::chance::Probability;
 use tautline_sim::explore::RuleName;
 
 /// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.

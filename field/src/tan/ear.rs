@@ -10,7 +10,7 @@ use tautline_kernel::tan::Heading;
 use super::Antenna;
 use super::antenna::degrees_off;
 use crate::radio::{Field, Network, Point, Problem, Radio, checked_deviation};
-use tautline_sim::chance::deviation;
+use tautline_grids::chance::deviation;
 
 /// How many times as far as a node a robot hears, and is heard: a tenth of a dB in free space. A robot that is at a
 /// node, as near as it goes, so hears whom the node hears.

@@ -200,8 +200,8 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tautline_grids::chance::Dice;
     use tautline_kernel::chain::Conditions;
-    use tautline_sim::chance::Dice;
 
     /// A chain, drawn at random: neighbours within E_C of each other, some in one cell.
     fn chain(dice: &mut Dice, robots: usize) -> (Vec<Cell>, Vec<Options>) {

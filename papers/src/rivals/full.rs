@@ -4,8 +4,8 @@
 //! longer be joined to the base whatever the robots that have not chosen yet do. Both are bounds, so the answer is that
 //! of plain enumeration, ties included.
 
+use tautline_grids::chance::Dice;
 use tautline_kernel::ground::Step;
-use tautline_sim::chance::Dice;
 
 use super::joint::{Best, Joint, Score, WORST};
 use super::parameters::{Cells, MOST_SEARCHED};

@@ -1,8 +1,8 @@
 //! The joint moves of a team whose links are a tree through the base: what each robot can do, and how a joint move is
 //! judged.
 
+use tautline_grids::chance::Dice;
 use tautline_kernel::ground::{Cell, Step};
-use tautline_sim::chance::Dice;
 use tautline_sim::explore::unlinked;
 
 use super::parameters::{Cells, Links};

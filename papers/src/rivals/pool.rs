@@ -3,8 +3,8 @@
 //! The null move counts with the others, or stands by for the case that all that are drawn have more faults: see
 //! [`Null`].
 
+use tautline_grids::chance::Dice;
 use tautline_kernel::ground::{Cell, Step};
-use tautline_sim::chance::Dice;
 
 use super::joint::{Best, Candidate, Joint, WORST};
 use super::parameters::Null;

@@ -5,13 +5,13 @@ use tautline_kernel::chain::{self, MAX_ROBOTS};
 use tautline_kernel::ground::{Area, Cell, Circle};
 use tautline_proofs::run::Frame;
 
+use tautline_grids::layout::{self, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::SCHEMES;
 use tautline_sim::explore::{
     By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Surroundings,
     Team, Zone,
 };
-use tautline_sim::layout::{self, Layout};
 
 use super::{Cells, Deadlock, Links, Moves, ParameterError, Parameters, Standstill};
 

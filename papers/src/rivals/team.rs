@@ -8,7 +8,7 @@ use super::joint::{Candidate, Joint};
 use super::known::Map;
 use super::parameters::{Deadlock, Moves, ParameterError, Parameters, Search, Weights};
 use super::{full, pool};
-use tautline_sim::chance::Dice;
+use tautline_grids::chance::Dice;
 
 /// A team.
 #[derive(Clone, Debug)]

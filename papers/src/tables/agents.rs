@@ -20,13 +20,13 @@ use tautline_proofs::floor::crew::Scheme;
 
 use super::paper;
 use super::prelude::*;
-use tautline_sim::chance::Probability;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Layout;
 use tautline_sim::explore::agents as explore;
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::{Knowledge, Profile, RuleId};
-use tautline_sim::layout::Layout;
 
 /// A scheme under one of its rules.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]

@@ -10,9 +10,9 @@ use tautline_proofs::chain::search::{Bounds, Counterexample};
 use tautline_proofs::run::walls;
 
 use super::prelude::*;
+use tautline_grids::layout::CellWritten;
 use tautline_sim::explore::RuleName;
 use tautline_sim::explore::chain::hunt::start;
-use tautline_sim::layout::CellWritten;
 
 /// The atlas.
 #[derive(Clone, Copy, Debug)]

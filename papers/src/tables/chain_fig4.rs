@@ -7,11 +7,11 @@ use tautline_kernel::ground::{Area, Cell};
 
 use super::prelude::*;
 use crate::nxt::{Body, Odometer};
+use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore, team};
-use tautline_sim::layout::CellWritten;
-use tautline_sim::layout::Layout;
 
 /// Fig. 4.
 #[derive(Clone, Copy, Debug)]

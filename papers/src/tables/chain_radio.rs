@@ -12,10 +12,10 @@ use tautline_kernel::ground::Circle;
 
 use super::prelude::*;
 use crate::nxt::{Body, Odometer};
-use tautline_sim::chance::Dice;
+use tautline_grids::chance::Dice;
+use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore};
-use tautline_sim::layout::Layout;
 
 /// The radio chain.
 #[derive(Clone, Copy, Debug)]

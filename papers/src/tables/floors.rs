@@ -8,8 +8,8 @@ use tautline_kernel::ground::Cell;
 
 use super::agents::{Outcome, TEAMS, Team};
 use super::prelude::*;
-use tautline_sim::chance::{Dice, Probability};
-use tautline_sim::layout::{self, Layout};
+use tautline_grids::chance::{Dice, Probability};
+use tautline_grids::layout::{self, Layout};
 
 /// The price of a floor.
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,7 @@ use tautline_kernel::bricks::tree::Rule;
 use super::agents::{Crew, Outcome};
 use super::floors::{Job, file_name, floor, points, probability};
 use super::prelude::*;
-use tautline_sim::chance::Probability;
+use tautline_grids::chance::Probability;
 
 /// The teams that are compared: one that is robust by going over the floor again, one by looking underfoot, and those
 /// that doubt.

@@ -11,10 +11,10 @@ use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
 use super::sentences::below;
-use tautline_sim::chance::Dice;
+use tautline_grids::chance::Dice;
+use tautline_grids::layout::Layout;
 use tautline_sim::explore::frontier::{ALONE, FRONTIER};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
-use tautline_sim::layout::Layout;
 
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];

@@ -23,8 +23,8 @@ use self::lattice::{FAMILIES, Family};
 pub use self::range::KitRange;
 use super::paper;
 use super::prelude::*;
+use tautline_grids::layout::Layout;
 use tautline_sim::kit::{self, Pace};
-use tautline_sim::layout::Layout;
 
 /// Paths of every layout, and how many of them are explored at the paper's 88 %.
 pub const PATHS: usize = 26;

@@ -12,10 +12,10 @@ use serde::Serializer;
 use self::area::{Area, WallSet, solve};
 use self::sums::Sums;
 use super::prelude::*;
+use tautline_grids::layout::Layout;
 use tautline_io::text_blocks::{Block, beside};
 use tautline_sim::draw;
 use tautline_sim::explore::{RuleName, Setup, Survey, explore};
-use tautline_sim::layout::Layout;
 
 /// The table.
 #[derive(Clone, Copy, Debug)]

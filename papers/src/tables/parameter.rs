@@ -9,9 +9,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::notice::Count;
 
+use tautline_grids::layout;
 use tautline_io::named_values::NamedValues;
 use tautline_io::value_parser::{self, within};
-use tautline_sim::layout;
 
 /// The settings of a table.
 pub trait Settings: Default + Serialize + DeserializeOwned + Sync + 'static {

@@ -13,9 +13,9 @@ use self::asked::RivalSettings;
 use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};
+use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, explore, run};
-use tautline_sim::layout::Layout;
 
 pub use fig3::ChainFig3;
 pub use table1::ChainTable1;

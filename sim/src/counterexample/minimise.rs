@@ -38,7 +38,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 use crate::explore::{ClauseId, Limits, OnViolation, Report, Setup, TeamMove, Violation, explore, run, team};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// A run in which nothing can go.
 #[derive(Clone, Debug)]

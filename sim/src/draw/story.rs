@@ -13,7 +13,7 @@ use tautline_proofs::run::{Ending, Run};
 
 use super::{Pose, agents, first_drawn, legend, outcome, team_move};
 use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// The sentence of the clause `id`, if it is one of this program.
 pub fn sentence(id: ClauseId) -> Option<&'static str> {

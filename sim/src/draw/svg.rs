@@ -14,7 +14,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use super::{Environment, REACH, first_drawn};
 use crate::explore::{Look, Play, Report, Setup, Survey, TeamMove};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 pub use map::{known, map};
 pub use moment::moment;

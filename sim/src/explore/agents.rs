@@ -22,8 +22,8 @@ use super::run::{End, Surroundings, Survey, Team};
 use super::scan_time;
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use crate::chance::{Dice, Probability};
-use crate::layout::Layout;
+use tautline_grids::chance::{Dice, Probability};
+use tautline_grids::layout::Layout;
 
 /// The most agents on a floor: a sensor keeps an id in eight bits, and counts agents in as many.
 const MAX_AGENTS: usize = 255;

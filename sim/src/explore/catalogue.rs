@@ -16,8 +16,8 @@ use super::clause::{Clause, ClauseId};
 use super::rule::{Rule, RuleId};
 use super::setup::Setup;
 use crate::kit;
-use crate::layout::Layout;
 use crate::options::Extra;
+use tautline_grids::layout::Layout;
 
 /// The schemes that a program knows, in lists behind each other.
 #[derive(Clone, Copy, Debug)]

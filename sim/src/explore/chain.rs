@@ -21,8 +21,8 @@ use super::clause::{Clause, Judge};
 use super::rule::{Rule, RuleId, Switched};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
-use crate::heap_grid::HeapGrid;
 use crate::options::Extra;
+use tautline_grids::heap_grid::HeapGrid;
 
 /// The rule that reels the chain in and out instead of backtracking, and holds contact whoever fails.
 pub const REEL: RuleId = RuleId::new("reel");

@@ -5,7 +5,7 @@ use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
 use super::run::{End, Limits, Report, Stopped, Surroundings, Team, TeamMove, Violation, limit};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// A run that is made one team move at a time.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::floor::crew::SensorData;
 
 use super::scene::{Ink, Layer, Place as Shown, Scene, Shape, Value};
-use crate::layout::{Layout, Size};
+use tautline_grids::layout::{Layout, Size};
 
 /// The cells that are connected with a start, and what has become of them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -20,11 +20,11 @@ use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use super::together::has_double;
-use crate::chance::Dice;
 use crate::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
-use crate::layout::Layout;
 use crate::objects::ObjectReport;
 use crate::options::{Extra, Options};
+use tautline_grids::chance::Dice;
+use tautline_grids::layout::Layout;
 
 /// The run ends, and a cell in reach is unexplored.
 pub const COVERS: ClauseId = ClauseId::new("FRONTIER-1");

@@ -23,7 +23,7 @@ use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::Setup;
-use crate::layout::{Layout, Size};
+use tautline_grids::layout::{Layout, Size};
 
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {

@@ -12,7 +12,7 @@ use super::each::Each;
 use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
 use super::rule::{RuleId, Switched};
 use super::setup::Setup;
-use crate::layout::{Layout, Size};
+use tautline_grids::layout::{Layout, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.
 const DEFAULT_SIDE: u64 = 4;

@@ -28,8 +28,8 @@ use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use super::together::unlinked;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
-use crate::layout::Layout;
 use crate::options::Extra;
+use tautline_grids::layout::Layout;
 
 /// Of two robots, one may not hear the other at all speeds.
 pub const CONTACT: ClauseId = ClauseId::new("KIT-1");

@@ -14,7 +14,7 @@ use tautline_proofs::team::{self, Rule, TeamStep, TeamWorld};
 use super::clause::ClauseId;
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Change, Scene};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// A team that follows a rule of one's own in one layout.
 pub struct Own<'a, R: Rule> {

@@ -21,8 +21,8 @@ use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use super::together::{has_double, unlinked};
-use crate::layout::Layout;
 use crate::options::Extra;
+use tautline_grids::layout::Layout;
 
 /// The team is not connected after a team move.
 pub const CONNECTED: ClauseId = ClauseId::new("PACK-1");

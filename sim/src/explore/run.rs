@@ -19,8 +19,8 @@ use super::course::Course;
 use super::floor::Component;
 use super::scene::{Layer, Refusal, Scene};
 use crate::failures::Failures;
-use crate::layout::Layout;
 use crate::objects::ObjectReport;
+use tautline_grids::layout::Layout;
 
 /// The questions that a run asks of a team. Only where its robots are and how they make a team move is required.
 pub trait Team {

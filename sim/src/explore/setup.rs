@@ -11,9 +11,9 @@ use super::catalogue::{Drawn, Scheme, Senses, Starts};
 use super::clause::ClauseId;
 use super::rule::{Rule, RuleId};
 use super::run::{Limits, Report, Survey, Team, TeamMove, Watcher, run};
-use crate::chance::Probability;
-use crate::layout::Layout;
 use crate::options::{Extra, Options};
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::Layout;
 
 /// A run before its start: what stands still while it goes on. The same setup makes the same run.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use tautline_proofs::engine::states::{self, Findings, Limits, System};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, outcome};
-use crate::layout::Size;
+use tautline_grids::layout::Size;
 
 /// States between two words about how far the search is.
 const BETWEEN: u64 = 1 << 14;

@@ -15,7 +15,7 @@ use tautline_proofs::run::Frame;
 
 use super::chart::Chart;
 use super::{Ended, Moves, PATIENCE};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// How frontier cells are assigned.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -9,8 +9,8 @@ use tautline_kernel::position::{
     Swarm, SymmetricMatrix, best_three, linear, locate,
 };
 
-use crate::chance::{Dice, deviation};
 use crate::options::Options;
+use tautline_grids::chance::{Dice, deviation};
 
 /// Where a robot is and where it heads, and where it takes itself to be, in sides of a cell.
 #[derive(Clone, Copy, Debug)]

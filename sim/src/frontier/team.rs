@@ -13,8 +13,8 @@ use super::chart::{Chart, Memory};
 use super::radio::{Pose, Radio, cell_at, cell_of, place_of};
 use super::waves::{Knowledge, Waves};
 use super::{Ended, Moves, PATIENCE};
-use crate::layout::Layout;
 use crate::options::Options;
+use tautline_grids::layout::Layout;
 
 /// A team of robots that explore cells.
 #[derive(Clone, Debug)]
@@ -409,9 +409,9 @@ impl Explorers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chance::Probability;
     use crate::kit;
-    use crate::layout::Generator;
+    use tautline_grids::chance::Probability;
+    use tautline_grids::layout::Generator;
 
     /// Lets a team explore, and compares each decision with that of the rule of one robot. How many there were.
     fn compared(rule: Rule, layout: &Layout, robots: usize, options: Options, seed: u64) -> usize {

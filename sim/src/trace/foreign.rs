@@ -13,7 +13,7 @@ use crate::explore::{
     ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Surroundings, Survey, Team, Violation,
     Watcher, run,
 };
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 const AGAIN: &str = "store the run again with the program that wrote it";
 

@@ -7,12 +7,12 @@ use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
 use super::StoredViolation;
-use crate::chance::Probability;
 use crate::explore::floor::Component;
 use crate::explore::{Knowledge, Milestone, Play, Report, Setup, Stopped, Violation};
 use crate::failures::Failures;
-use crate::layout::CellWritten;
 use crate::objects::ObjectReport;
+use tautline_grids::chance::Probability;
+use tautline_grids::layout::CellWritten;
 
 /// The JSON of a run.
 #[derive(JsonSchema, Serialize)]

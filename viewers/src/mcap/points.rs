@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
+use tautline_grids::layout::Layout;
 use tautline_sim::explore::{Change, Scene, TeamMove};
-use tautline_sim::layout::Layout;
 
 /// Nothing is known of a point.
 const UNKNOWN: i8 = -1;

@@ -4,8 +4,8 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 
 use super::PATHS;
-use tautline_sim::chance::Dice;
-use tautline_sim::layout::Layout;
+use tautline_grids::chance::Dice;
+use tautline_grids::layout::Layout;
 
 /// Lattices of one size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

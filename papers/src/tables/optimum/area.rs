@@ -6,9 +6,9 @@ use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::chain::reach::{CellSet, Ground};
 
 use super::super::prelude::*;
+use tautline_grids::layout::{Layout, Size};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup};
-use tautline_sim::layout::{Layout, Size};
 
 /// The rule of a team that knows the layout. Every edge is known to it and every robot arrives, so that *UnsureAhead*
 /// is met and, by *Distinct*, no two robots share a cell outside the base, which leaves *FullForFollower* and

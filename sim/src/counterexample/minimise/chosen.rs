@@ -8,7 +8,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
 use crate::explore::hunt::{Asked, Bound, Far, Finding, Hunter, Shown};
 use crate::explore::{ClauseId, Setup, explore};
-use crate::layout::Size;
+use tautline_grids::layout::Size;
 
 /// Passes on how far the work is.
 struct Watcher<'a> {

@@ -12,8 +12,8 @@ use tautline_proofs::plural::counted;
 
 use super::place_of;
 use crate::explore::{Joins, Kind, Layer, Milestone, Report, Setup, Shape, Starts, Value, Zone};
-use crate::layout::Layout;
 use crate::options::{Extra, Takes};
+use tautline_grids::layout::Layout;
 
 const TEMPLATE: &str = include_str!("page.html");
 const SCRIPT: &str = concat!(include_str!("marks.js"), include_str!("page.js"));

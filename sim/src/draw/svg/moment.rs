@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_io::svg::{Panel, escaped};
 
 use super::{CELL, ground, name, panel, walls, whole};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// Robots in cells from the corner of a layout, each with its name; `broken` are those that break a clause, with a line
 /// between them if they are two.

@@ -17,7 +17,7 @@ use crate::explore::hunt::{
     Shown, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
-use crate::layout::Size;
+use tautline_grids::layout::Size;
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;

@@ -76,7 +76,7 @@ mod tests {
     use tautline_kernel::ground::{Area, MediumGrid};
 
     use super::*;
-    use crate::layout::Generator;
+    use tautline_grids::layout::Generator;
 
     /// The grid of a chain knows all virtual obstacles; what is shown of them team move by team move comes to the same.
     #[test]

@@ -15,13 +15,13 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
 use super::shown;
-use crate::chance::{Dice, Probability};
 use crate::explore::{
     Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Surroundings, Survey, Team,
 };
 use crate::failures::{Appearing, Failure, Failures, Going};
-use crate::layout::Layout;
 use crate::options::Options;
+use tautline_grids::chance::{Dice, Probability};
+use tautline_grids::layout::Layout;
 
 /// A message of the team is refused by it.
 pub const HEARD: ClauseId = ClauseId::new("CHAIN-8");

@@ -19,7 +19,7 @@ use crate::explore::hunt::{
 };
 use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
-use crate::layout::{Layout, Size};
+use tautline_grids::layout::{Layout, Size};
 
 /// The most robots of which all states are searched.
 const MOST_ROBOTS: u64 = 3;

@@ -17,7 +17,7 @@ use crate::explore::ClauseId;
 use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// The team of `setup`, which has choices.
 pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {

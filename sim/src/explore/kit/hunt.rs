@@ -17,7 +17,7 @@ use crate::explore::hunt::{
 };
 use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
-use crate::layout::Size;
+use tautline_grids::layout::Size;
 
 /// The most robots of which all states are searched together.
 const MOST_ROBOTS: u64 = 3;

@@ -18,7 +18,7 @@ use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};
 use crate::explore::{ClauseId, RuleId};
 use crate::kit::paths;
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// The team of `setup`, which has choices.
 pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {

@@ -12,7 +12,7 @@ use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
 use crate::explore::run::{Limits, run};
 use crate::explore::states::Count;
 use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
-use crate::layout::Layout;
+use tautline_grids::layout::Layout;
 
 /// Team moves after which a rival is watched no longer.
 const MOST_MOVES: u32 = 1000;

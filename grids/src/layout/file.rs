@@ -8,7 +8,6 @@ use std::path::Path;
 
 use tautline_io::diagnostic::{BOM, Diagnostic};
 use tautline_io::json_lines::MAX_FILE_BYTES;
-use tautline_proofs::plural::counted;
 
 use super::problem::sizes;
 use super::{Misread, problem};
@@ -41,7 +40,7 @@ pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Diagnostic> {
     match bytes.len() as u64 {
         0 => Err(Diagnostic::usage("the file is empty", "a drawing begins with `tautline layout 1`")),
         size @ 1..=MAX_FILE_BYTES => {
-            tracing::info!("read {}: {}", file.display(), counted(size, "byte"));
+            tracing::info!("read {}: {size} B", file.display());
             Ok(bytes)
         }
         _ => Err(too_large()),
@@ -119,7 +118,7 @@ impl Line<'_> {
         if found == expected {
             return Ok(());
         }
-        let what = format!("this row has {}, not {expected}", counted(found, "character"));
+        let what = format!("this row ends after character {found}, not {expected}");
         Err(self.misread(Diagnostic::usage(what, "make all rows equally long")))
     }
 }

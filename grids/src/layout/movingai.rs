@@ -7,7 +7,6 @@
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::plural::counted;
 
 use super::file::{Line, end, lines};
 use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
@@ -42,7 +41,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
     let mut layout = Layout::open(width, height).map_err(|problem| first.misread(problem))?;
     for y in 0..layout.height() {
         let line = lines.next().ok_or_else(|| {
-            let what = format!("the map has {}, not {}", counted(y as usize, "row"), layout.height());
+            let what = format!("the map ends after row {y}, not {}", layout.height());
             Misread { at: end(source), problem: Diagnostic::usage(what, ROWS) }
         })?;
         read_row(&line, y, &mut layout)?;

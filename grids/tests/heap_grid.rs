@@ -2,12 +2,12 @@
 //! lead a chain the same way.
 
 use proptest::prelude::*;
+use tautline_grids::heap_grid::HeapGrid;
 use tautline_kernel::chain::{Chain, End, Intent, Rule};
 use tautline_kernel::ground::{
     Area, Avoid, BitGrid, Cell, CellMark, CompactGrid, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, Plane,
     Side, SmallGrid, Step, Steps, TinyGrid,
 };
-use tautline_sim::heap_grid::HeapGrid;
 
 const CELL_MARKS: [CellMark; 4] = [CellMark::Explored, CellMark::Occupied, CellMark::Full, CellMark::Planned];
 const EDGE_MARKS: [EdgeMark; 3] = [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual];

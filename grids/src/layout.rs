@@ -22,7 +22,6 @@ use std::str::FromStr;
 use std::{fmt, iter};
 
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_proofs::plural::counted;
 
 use file::{at, read_text};
 use generate::Form;
@@ -337,10 +336,7 @@ pub fn load_coarse(
 ) -> Result<Layout, Diagnostic> {
     let layout = make(description, seed, image, coarse)?;
     let (size, free, walls) = (layout.size(), layout.free_cells(), layout.walls().count());
-    tracing::info!(
-        "layout {description}: {size} cells, {free} free, {} between them",
-        counted(walls, "wall")
-    );
+    tracing::info!("layout {description}: {size} cells, {free} free; walls between them: {walls}");
     Ok(layout)
 }
 

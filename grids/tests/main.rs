@@ -1,0 +1,3 @@
+//! The grids, tried as a whole.
+
+mod heap_grid;
