@@ -14,6 +14,7 @@ pub mod smallest;
 pub mod states;
 #[cfg(kani)]
 pub mod symbolic;
+pub mod threads;
 pub mod tree;
 pub mod watchdog;
 pub mod world;

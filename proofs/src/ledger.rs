@@ -93,7 +93,7 @@ pub struct Row {
     pub decision: Decision,
     /// Why nothing came of the check, or of one of its mutants; then it is open, or the mutant is not rejected.
     pub undecided: Option<Indecision>,
-    /// The time that it took, with its mutants, added up over threads.
+    /// The time that threads spent on it, with its mutants, added up.
     pub seconds: f64,
 }
 

@@ -4,10 +4,10 @@
 //! decides CHAIN-10 anew.
 
 use std::cmp::Reverse;
-use std::collections::HashMap;
 use std::fmt;
 use std::ops::RangeInclusive;
 
+use rustc_hash::FxHashMap;
 use tautline_kernel::chain::Rule;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::Cell;
@@ -116,7 +116,8 @@ pub fn explore_all(
     }
     let goals = ground.bits(goals).map_err(OptimumError::TooLarge)?;
     let bound = Bound::new(&graph, cells.len(), guide);
-    let search = Search { graph: &graph, bound, nodes: Vec::new(), known: HashMap::new(), open: Vec::new() };
+    let search =
+        Search { graph: &graph, bound, nodes: Vec::new(), known: FxHashMap::default(), open: Vec::new() };
     let (path, states) = search.run(goals, most_states)?;
     let configurations = path.into_iter().map(|place| graph.team(place, ground.base(), &cells)).collect();
     Ok(Optimum { configurations, states })
@@ -135,7 +136,7 @@ impl Graph {
     fn new(ground: &Ground, rule: &Rule) -> Result<Self, OptimumError> {
         let relation = Relation::new(ground, rule).map_err(OptimumError::TooLarge)?;
         let mut places = vec![relation.start()];
-        let mut known = HashMap::from([(places[0], 0)]);
+        let mut known = FxHashMap::from_iter([(places[0], 0)]);
         let (mut occupied, mut next) = (Vec::new(), Vec::new());
         while let Some(&(followers, leader)) = places.get(next.len()) {
             occupied.push(relation.cells(&followers) | 1 << leader);
@@ -233,7 +234,7 @@ struct Bound {
     /// By two cells that the leader alone can be in: the fewest team moves from one to the other.
     weights: Vec<Vec<u16>>,
     /// By set of cells: the weight of its smallest spanning tree.
-    trees: HashMap<u128, u32>,
+    trees: FxHashMap<u128, u32>,
 }
 
 impl Bound {
@@ -241,7 +242,7 @@ impl Bound {
         match guide {
             Guide::Blind => {
                 let (distances, last, weights) = (Vec::new(), Vec::new(), Vec::new());
-                Self { guide, distances, last, weights, trees: HashMap::new() }
+                Self { guide, distances, last, weights, trees: FxHashMap::default() }
             }
             Guide::Distances => {
                 let distances = graph.distances(cells);
@@ -257,7 +258,7 @@ impl Bound {
                         weights[other][one] = weight;
                     }
                 }
-                Self { guide, distances, last, weights, trees: HashMap::new() }
+                Self { guide, distances, last, weights, trees: FxHashMap::default() }
             }
         }
     }
@@ -323,7 +324,7 @@ struct Search<'a> {
     graph: &'a Graph,
     bound: Bound,
     nodes: Vec<Node>,
-    known: HashMap<(u32, u128), u32>,
+    known: FxHashMap<(u32, u128), u32>,
     /// By least number of team moves in all: nodes, with the team moves made when they were put here.
     open: Vec<Vec<(u32, u32)>>,
 }

@@ -4,10 +4,10 @@
 
 use std::iter;
 
-use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 
-use super::watchdog::{Steps, Task};
+use super::threads;
+use super::watchdog::Steps;
 
 /// Why a body stopped before its end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -98,18 +98,15 @@ const WAVE: u64 = 16;
 /// number of threads.
 pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + Sync) -> Tally {
     let mut tally = Tally::default();
-    let (mut first, task) = (0, Task::current());
+    let mut first = 0;
     while first < runs && tally.violation.is_none() {
         let wave = first..runs.min(first + WAVE);
         first = wave.end;
-        let outcomes: Vec<_> = wave
-            .into_par_iter()
-            .map(|run| {
-                let (_working, _steps) = (task.enter(), Steps::begin());
-                let mut recorder = Recorder { oracle: SeededOracle::new(seed, run), choices: Vec::new() };
-                (body(&mut recorder), recorder.choices)
-            })
-            .collect();
+        let outcomes = threads::each(wave, |run| {
+            let _steps = Steps::begin();
+            let mut recorder = Recorder { oracle: SeededOracle::new(seed, run), choices: Vec::new() };
+            (body(&mut recorder), recorder.choices)
+        });
         for (outcome, choices) in outcomes {
             if tally.count(outcome, &choices) {
                 break;

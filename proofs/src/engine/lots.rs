@@ -9,9 +9,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
-use rayon::prelude::*;
-
-use super::watchdog::{Steps, Task};
+use super::threads;
+use super::watchdog::Steps;
 
 /// Lots that are looked at together.
 const WAVE: usize = 64;
@@ -142,25 +141,17 @@ fn gather<L: Lots>(
     Ok((found, true))
 }
 
-fn looks<L: Lots>(
+fn looks<'a, L: Lots<Lot: 'a>>(
     lots: &L,
     stage: L::Stage,
-    wave: &[L::Lot],
+    wave: impl IntoIterator<Item = &'a L::Lot>,
     most_steps: u64,
 ) -> Result<Vec<L::Look>, L::Error> {
-    let task = Task::current();
-    wave.par_iter().map(|lot| look(lots, stage, lot, (most_steps, task))).collect()
-}
-
-/// Looks at a lot, as a step of `task`.
-fn look<L: Lots>(
-    lots: &L,
-    stage: L::Stage,
-    lot: &L::Lot,
-    (most_steps, task): (u64, Task),
-) -> Result<L::Look, L::Error> {
-    let (_working, _steps) = (task.enter(), Steps::begin());
-    lots.look(stage, lot, most_steps)
+    let look = |lot| {
+        let _steps = Steps::begin();
+        lots.look(stage, lot, most_steps)
+    };
+    threads::each(wave, look).into_iter().collect()
 }
 
 /// Of each stage the shard of each lot: the heaviest lots first, each goes to the shard that has least until then.
@@ -249,10 +240,7 @@ impl<L: Lots> Shard<L> {
         if let (Some(&stage), Some(taken)) =
             (self.stages.get(self.looks.len().wrapping_sub(1)), self.looks.last_mut())
         {
-            let wave: Vec<&L::Lot> = self.own.iter().skip(taken.len()).take(WAVE).collect();
-            let (lots, task) = (&self.lots, Task::current());
-            let new = wave.into_par_iter().map(|lot| look(lots, stage, lot, (u64::MAX, task)));
-            let new = new.collect::<Result<Vec<_>, _>>()?;
+            let new = looks(&self.lots, stage, self.own.iter().skip(taken.len()).take(WAVE), u64::MAX)?;
             self.left = self.left.saturating_sub(new.iter().map(Look::steps).sum());
             taken.extend(new);
         }

@@ -4,7 +4,7 @@
 //! is *silent* while one of its threads is inside a step and none of them begins another one. A task that is silent for
 //! too long is given up, and its thread is left behind.
 //!
-//! Seconds are counted in looks: a process that was stopped, or a machine that slept, makes nobody impatient. A count
+//! Seconds of silence are counted in looks: a process that was stopped, or a machine that slept, makes nobody impatient. A count
 //! is written by its own thread alone, on a cache line of its own, so that counting costs two plain memory accesses for
 //! each step.
 
@@ -14,7 +14,7 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The time between two looks.
 pub const BETWEEN_LOOKS: Duration = Duration::from_secs(1);
@@ -48,6 +48,19 @@ impl Pulse {
         self.beats.store((beats & !INSIDE).wrapping_add(BEAT), Ordering::Relaxed);
     }
 
+    /// Its thread takes up `task`. The one that it worked on until then is returned.
+    fn take_up(&self, task: Task) -> Task {
+        let before = Task(self.task.load(Ordering::Relaxed));
+        self.task.store(task.0, Ordering::Relaxed);
+        let now = (before != Task::NONE || task != Task::NONE).then(Instant::now);
+        if let (Some(since), Some(now)) = (SINCE.replace(now), now)
+            && before != Task::NONE
+        {
+            *SPENT.lock().unwrap_or_else(PoisonError::into_inner).entry(before).or_default() += now - since;
+        }
+        before
+    }
+
     /// Goes back to where its thread was before it took up other work.
     fn go_back(&self, was_inside: bool) {
         if was_inside { self.begin() } else { self.leave() }
@@ -60,6 +73,9 @@ const BEAT: u64 = 2;
 /// The pulses of all threads that ever made a step, as long as the threads live.
 static PULSES: Mutex<Vec<Weak<Pulse>>> = Mutex::new(Vec::new());
 
+/// The time that threads have spent on each task, as far as nobody has asked for it.
+static SPENT: Mutex<BTreeMap<Task, Duration>> = Mutex::new(BTreeMap::new());
+
 /// The first task that no one has.
 static NEXT: AtomicU64 = AtomicU64::new(1);
 
@@ -69,6 +85,8 @@ thread_local! {
         PULSES.lock().unwrap_or_else(PoisonError::into_inner).push(Arc::downgrade(&pulse));
         pulse
     };
+    /// When this thread took up what it works on, if that or what it did before is a task.
+    static SINCE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
 /// Work whose steps are counted together: a job of the ledger, say, on whatever threads.
@@ -76,6 +94,9 @@ thread_local! {
 pub struct Task(u64);
 
 impl Task {
+    /// The task of a thread that has none, or waits for others. Its time is not measured.
+    pub const NONE: Self = Self(0);
+
     /// So many new tasks.
     pub fn several(count: usize) -> impl ExactSizeIterator<Item = Self> {
         let first = NEXT.fetch_add(count as u64, Ordering::Relaxed);
@@ -92,11 +113,17 @@ impl Task {
     #[must_use]
     pub fn enter(self) -> WorkGuard {
         let pulse = OWN.with(Arc::clone);
-        let before = Self(pulse.task.load(Ordering::Relaxed));
         let was_inside = pulse.is_inside();
         pulse.leave();
-        pulse.task.store(self.0, Ordering::Relaxed);
+        let before = pulse.take_up(self);
         WorkGuard { pulse, before, was_inside, of_this_thread: PhantomData }
+    }
+
+    /// The time that threads have spent on it, added up, since this was asked last. That of a thread that works on it
+    /// counts once it takes up something else; this one's does.
+    pub fn spent(self) -> Duration {
+        drop(self.enter());
+        SPENT.lock().unwrap_or_else(PoisonError::into_inner).remove(&self).unwrap_or_default()
     }
 }
 
@@ -110,7 +137,7 @@ pub struct WorkGuard {
 
 impl Drop for WorkGuard {
     fn drop(&mut self) {
-        self.pulse.task.store(self.before.0, Ordering::Relaxed);
+        self.pulse.take_up(self.before);
         self.pulse.go_back(self.was_inside);
     }
 }

@@ -2,13 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
 use super::team::{Demands, Team};
 use crate::decide::{Answer, Depiction, Verdict};
 use crate::engine::states::{END, Findings, Limits, search};
-use crate::engine::watchdog::Task;
-use crate::engine::{Tally, Until, cover};
+use crate::engine::{Tally, Until, cover, threads};
 use crate::floor_trace::Course;
 
 /// The outcome of searches of small floors.
@@ -78,9 +75,7 @@ fn search_each<S: Demands>(
     (limits, until): (Limits<'_>, Until),
 ) -> Vec<Findings<&'static str>> {
     let last = AtomicUsize::new(usize::MAX);
-    let task = Task::current();
-    let each = teams.par_iter().enumerate().with_max_len(1).map(|(place, team)| {
-        let _working = task.enter();
+    let mut found = threads::each(teams.iter().enumerate(), |(place, team)| {
         if last.load(Ordering::Relaxed) < place {
             return None;
         }
@@ -94,7 +89,6 @@ fn search_each<S: Demands>(
         }
         Some(found)
     });
-    let mut found: Vec<Option<Findings<_>>> = each.collect();
     found.truncate(last.into_inner().saturating_add(1));
     found.into_iter().flatten().collect()
 }

@@ -2,8 +2,7 @@
 //! stand in contact and drive one at a time over driven paths, until one of them could drive a path that is new. A side
 //! counts as open unless it is known to be blocked.
 
-use std::collections::HashSet;
-
+use rustc_hash::FxHashSet;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::Reach;
 
@@ -51,22 +50,19 @@ impl<const ROBOTS: usize> Findings<'_, ROBOTS> {
             };
             ends(one).iter().all(|&one| ends(other).iter().all(|&other| hear(self.reach, one, other)))
         };
-        let mut reached = vec![0];
-        let mut place = 0;
-        while place < reached.len() {
-            let near =
-                (0..ROBOTS).filter(|other| !reached.contains(other) && are_linked(reached[place], *other));
-            let near: Vec<usize> = near.collect();
-            reached.extend(near);
-            place += 1;
-        }
-        reached.len() == ROBOTS
+        // Those that the first one reaches, a bit for each: after as many rounds as there are others, all of them.
+        let reached = (1..ROBOTS).fold(1_u32, |reached, _| {
+            let has = |one: usize| reached >> one & 1 == 1;
+            let is_near = |other: &usize| (0..ROBOTS).any(|one| has(one) && are_linked(one, *other));
+            (0..ROBOTS).filter(is_near).fold(reached, |all, other| all | 1 << other)
+        });
+        reached.count_ones() as usize == ROBOTS
     }
 
     /// The fewest drives of `movers`, a bit for each, from `cells` until one of them could drive a new path; `None` if
     /// they never can.
     pub(super) fn distance(&self, cells: [Cell; ROBOTS], movers: u8) -> Option<u32> {
-        let mut known = HashSet::from([cells]);
+        let mut known = FxHashSet::from_iter([cells]);
         let mut now = vec![cells];
         for length in 0.. {
             let mut next = Vec::new();

@@ -1,8 +1,9 @@
 //! Traps of the published rule: layouts and starts from which two robots that are answered at once can come to where
 //! they never cover everything any more, whatever happens.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
+use rustc_hash::FxHashMap;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::Rule;
 
@@ -92,7 +93,7 @@ fn fate(setting: &Setting<2>, start: Cell, goal: Goal) -> [bool; FATES.len()] {
     };
     let without = |world: World<2>| World { team: stripped(world.team), ..world };
     let mut worlds = vec![without(setting.start([start; 2]).expect("a start"))];
-    let mut known: HashMap<World<2>, usize> = HashMap::from([(worlds[0], 0)]);
+    let mut known: FxHashMap<World<2>, usize> = FxHashMap::from_iter([(worlds[0], 0)]);
     let mut before: Vec<Vec<usize>> = vec![Vec::new()];
     let (mut done, mut stuck) = (Vec::new(), Vec::new());
     let mut place = 0;

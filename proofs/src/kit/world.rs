@@ -5,6 +5,8 @@
 mod broken;
 mod turns;
 
+use std::hash::{Hash, Hasher};
+
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance};
@@ -281,12 +283,25 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 }
 
 /// A part of a world.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Part<const ROBOTS: usize> {
     /// A record, or the truth.
     Map(TinyGrid),
     /// All but the maps.
     Rest(Box<World<ROBOTS>>),
+}
+
+/// The maps of the rest are blank, and say nothing.
+impl<const ROBOTS: usize> Hash for Part<ROBOTS> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Self::Map(map) => map.hash(state),
+            Self::Rest(rest) => {
+                let World { team, walls, fresh, first, .. } = &**rest;
+                (team.robots(), team.turn(), walls, fresh, first).hash(state);
+            }
+        }
+    }
 }
 
 /// The situations that occur.

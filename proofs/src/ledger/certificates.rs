@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use rayon::prelude::*;
 use tautline_certificates::{Counts, Fault, File, Header, Refusal, digest, read, write};
 
 use crate::clause::Clause;
 use crate::decide::MethodError;
 use crate::engine::states::Limits;
+use crate::engine::threads;
 
 /// The program that writes certificates.
 const PROGRAM: &str = concat!("tautline ", env!("CARGO_PKG_VERSION"));
@@ -90,8 +90,8 @@ fn claim(clause: &Clause, number: usize) -> u128 {
 /// `limits`.
 pub fn certificate(clause: &Clause, number: usize, limits: Limits<'_>) -> Result<Vec<u8>, MethodError> {
     let systems = clause.checks[number].systems()?;
-    let each = systems.par_iter().with_max_len(1).map(|system| system.exhausted(limits));
-    let sections = each.collect::<Result<Vec<_>, _>>().map_err(MethodError::new)?;
+    let sections = threads::each(&systems, |system| system.exhausted(limits));
+    let sections = sections.into_iter().collect::<Result<Vec<_>, _>>().map_err(MethodError::new)?;
     let (sections, states): (Vec<Vec<u8>>, Vec<u64>) = sections.into_iter().unzip();
     let header = Header {
         program: PROGRAM.to_owned(),
@@ -132,8 +132,8 @@ pub fn examine(bytes: &[u8], clauses: impl IntoIterator<Item = &'static Clause>)
     if systems.len() != sections.len() {
         return Err(Misfit::Count);
     }
-    let pairs = systems.par_iter().zip(&sections).with_max_len(1);
-    let checked: Vec<_> = pairs.map(|(system, section)| system.check(section, digest)).collect();
+    let pairs = systems.iter().zip(&sections);
+    let checked = threads::each(pairs, |(system, section)| system.check(section, digest));
     let mut outcome = Ok(Counts::default());
     for (number, counts) in (1..).zip(checked) {
         outcome = outcome.and_then(|all: Counts| Ok(all.with(counts.map_err(|refusal| (number, refusal))?)));

@@ -177,7 +177,11 @@ impl SharedState {
                 let words = question.words(&self.checks);
                 let mut desk = Context { memory, watch, room: self.limits.room.asked(&words) };
                 match job.answer(question, &self.checks, &mut desk) {
-                    Ok(done) => send(ThreadNews::Done(Box::new(done))),
+                    Ok(came) => {
+                        let seconds = task.spent().as_secs_f64();
+                        let done = Completion { question, seconds, came, undecided: None };
+                        send(ThreadNews::Done(Box::new(done)));
+                    }
                     Err(refused) => return send(ThreadNews::Refused(refused)),
                 }
             }
@@ -400,16 +404,14 @@ impl Job {
         question: Question,
         checks: &[(&'static Clause, usize)],
         desk: &mut Context<'_, '_>,
-    ) -> Result<Completion, MethodError> {
-        let start = Instant::now();
+    ) -> Result<Reply, MethodError> {
         let (clause, number) = checks[question.place];
         let check = clause.checks[number];
-        let came = match (question.variant, question.variant(checks)) {
+        Ok(match (question.variant, question.variant(checks)) {
             (Some(number), Some(variant)) => {
                 Reply::Variant(variant, check.decide_variant(number, self.until, desk)?)
             }
             _ => Reply::Own(check.decide_own(desk)?),
-        };
-        Ok(Completion { question, seconds: start.elapsed().as_secs_f64(), came, undecided: None })
+        })
     }
 }

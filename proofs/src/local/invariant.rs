@@ -1,9 +1,9 @@
 //! The greatest set of relative places that keep a promise and that no admitted step leaves.
 
-use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::iter;
 
+use rustc_hash::{FxHashMap, FxHashSet};
 use tautline_kernel::ground::{Cell, Step};
 
 use super::certificate::terms;
@@ -77,7 +77,7 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         let steps = Steps::of(rule);
         let starts = tuples(rule, self.window)?.into_iter().filter(|tuple| rule.may_start(tuple));
         let mut ways: Vec<(Tuple<S>, Option<usize>)> = starts.map(|tuple| (tuple, None)).collect();
-        let mut known: HashSet<Tuple<S>> = ways.iter().map(|(tuple, _)| tuple.clone()).collect();
+        let mut known: FxHashSet<Tuple<S>> = ways.iter().map(|(tuple, _)| tuple.clone()).collect();
         let mut last = 0;
         while last < ways.len() && promised(rule, &ways[last].0) {
             let tuple = ways[last].0.clone();
@@ -100,7 +100,8 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         let is_fine = rule.reach().1 == Far::Fine;
         let all = tuples(rule, window)?;
         let is_near = |tuple: &[Robot<S>]| is_within(tuple, window);
-        let mut kept: HashSet<Tuple<S>> = all.iter().filter(|tuple| promised(rule, tuple)).cloned().collect();
+        let mut kept: FxHashSet<Tuple<S>> =
+            all.iter().filter(|tuple| promised(rule, tuple)).cloned().collect();
         let (places, mut cases) = ((all.len(), kept.len()), 0);
         let starts: Vec<&Tuple<S>> = all.iter().filter(|tuple| rule.may_start(tuple)).collect();
         if starts.is_empty() && !is_fine {
@@ -110,7 +111,7 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
             return Err(MethodError::new(format_args!("robots that start so break the promise: {start:?}")));
         }
         // Each tuple is looked at once more when one to which it leads is gone.
-        let mut before: HashMap<Tuple<S>, Vec<Tuple<S>>> = HashMap::new();
+        let mut before: FxHashMap<Tuple<S>, Vec<Tuple<S>>> = FxHashMap::default();
         let mut gone: Vec<Tuple<S>> = Vec::new();
         let steps = Steps::of(rule);
         for tuple in all.iter().filter(|tuple| kept.contains(*tuple)) {
@@ -249,7 +250,7 @@ const ELSEWHERE: (i16, i16) = (113, 57);
 /// The acts of robots by a rule.
 struct Steps<'r, R: Local> {
     rule: &'r R,
-    acts: HashMap<R::State, Vec<ActOf<R>>>,
+    acts: FxHashMap<R::State, Vec<ActOf<R>>>,
 }
 
 impl<'r, R: Local> Steps<'r, R> {

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
@@ -16,9 +15,8 @@ use crate::decide::{
 use crate::engine::model::Started;
 use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::{AnySystem, Limits, Run, System, search};
-use crate::engine::watchdog::Task;
 use crate::engine::world::{Turn, World, any_of, picked};
-use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover};
+use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover, threads};
 use crate::judge::{AnyCase, notice as judge};
 use crate::plural::counted;
 
@@ -241,15 +239,13 @@ impl Networks {
 fn show(observed: &Subject) -> Vec<Findings> {
     let mut rules = Rules::EveryK.list(observed);
     rules.push(observed.rule(Scheme::Flooding));
-    let (shapes, task) = (shapes(), Task::current());
+    let shapes = shapes();
     let show = |rule: Rule| {
-        let _working = task.enter();
         let look = |&links: &Links<SMALL>| {
-            let _working = task.enter();
             let case = Case { links, rule, counted: observed.counted, demands: &Demand::ALL };
             search(&case, [case.start()], Limits::NONE)
         };
-        let found: Vec<_> = shapes.par_iter().map(look).collect();
+        let found = threads::each(&shapes, look);
         let mut shown = Findings { rule, tally: Tally::default(), broken: Vec::new() };
         for found in found {
             shown.tally.cases += found.looked_at;
@@ -258,7 +254,7 @@ fn show(observed: &Subject) -> Vec<Findings> {
         }
         shown
     };
-    rules.into_par_iter().map(show).collect()
+    threads::each(rules, show)
 }
 
 impl Networks {

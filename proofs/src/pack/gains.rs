@@ -1,7 +1,8 @@
 //! Which frontier cell a robot of a pack goes to (PACK-8), where all of them are looked at.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::VecDeque;
 
+use rustc_hash::FxHashMap;
 use tautline_kernel::ground::{Cell, Circle, Side};
 use tautline_kernel::pack::{Chart, Rule, Status};
 
@@ -87,8 +88,8 @@ fn is_best<W: AsRef<[[u64; 2]]>>(
 }
 
 /// The steps to each cell that is reached over cells known to be free.
-fn distances<W: AsRef<[[u64; 2]]>>(chart: &Chart<W>, from: Cell) -> HashMap<Cell, u32> {
-    let (mut far, mut left) = (HashMap::from([(from, 0)]), VecDeque::from([from]));
+fn distances<W: AsRef<[[u64; 2]]>>(chart: &Chart<W>, from: Cell) -> FxHashMap<Cell, u32> {
+    let (mut far, mut left) = (FxHashMap::from_iter([(from, 0)]), VecDeque::from([from]));
     while let Some(cell) = left.pop_front() {
         let steps = far[&cell] + 1;
         for beyond in Side::ALL.map(|side| cell.beyond(side)) {

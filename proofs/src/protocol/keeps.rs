@@ -1,9 +1,7 @@
 //! A check that a protocol keeps a demand within its bound. Each of the surroundings is searched by itself, since no
 //! state of one is a state of another: so a check can be divided, and counts are the same however it is.
 
-use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use tautline_kernel::choice::Oracle;
 
@@ -14,8 +12,7 @@ use crate::decide::{
 };
 use crate::engine::model::Started;
 use crate::engine::states::{self, AnySystem, Findings, Limits};
-use crate::engine::watchdog::Task;
-use crate::engine::{Choices, Replay, Script, ScriptError, Stop, Until, sample};
+use crate::engine::{Choices, Replay, Script, ScriptError, Stop, Until, sample, threads};
 
 /// A check that the demand with this number is kept, in these surroundings.
 pub struct Keeps<P: Protocol>(
@@ -232,20 +229,16 @@ fn each_of<T: Send>(places: &[usize], workers: usize, answer: impl Fn(usize) -> 
     if workers == 1 {
         return places.iter().map(|&place| answer(place)).collect();
     }
-    let (task, next) = (Task::current(), AtomicUsize::new(0));
+    let next = AtomicUsize::new(0);
     let work = || {
-        let _working = task.enter();
         let mut own = Vec::new();
         while let Some(&place) = places.get(next.fetch_add(1, Ordering::Relaxed)) {
             own.push((place, answer(place)));
         }
         own
     };
-    let mut answers = thread::scope(|scope| {
-        let running: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        let ended = running.into_iter().map(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        ended.flatten().collect::<Vec<_>>()
-    });
+    let mut answers: Vec<_> =
+        threads::each_in_its_own((0..workers).map(|_| work)).into_iter().flatten().collect();
     answers.sort_unstable_by_key(|(place, _)| *place);
     answers.into_iter().map(|(_, answer)| answer).collect()
 }

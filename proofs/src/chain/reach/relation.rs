@@ -33,6 +33,14 @@ struct Around {
     after: Vec<u8>,
 }
 
+/// The followers as they stand before a team move.
+struct Standing<'a> {
+    from: &'a Followers,
+    /// Cells with some of them, and with several; never the base.
+    some: u128,
+    several: u128,
+}
+
 /// Takes the followers' next cells, and all those that the leader can then be in.
 type Sink<'a> = &'a mut dyn FnMut(&Followers, u128);
 
@@ -89,68 +97,62 @@ impl Relation {
 
     /// Every team move with the followers in `from` and the leader in any of `leaders`.
     pub(crate) fn moves(&self, from: &Followers, leaders: u128, sink: Sink<'_>) {
-        self.choose(from, &mut [0; MAX_FOLLOWERS], 0, leaders, self.led(from, leaders), sink);
+        let mut now = Standing { from, some: 0, several: 0 };
+        for bit in from[..self.followers].iter().map(|&cell| 1 << cell & !(1 << self.base)) {
+            now.several |= now.some & bit;
+            now.some |= bit;
+        }
+        self.choose(&now, &mut [0; MAX_FOLLOWERS], (0, 0), (leaders, self.led(&now, leaders)), sink);
     }
 
-    /// Chooses the step of follower number `follower` and of those ahead of it. `led` is where the leaders can go.
+    /// Chooses the step of follower number `follower` and of those ahead of it; those behind it take `taken`. `led` is
+    /// where the leaders can go.
     fn choose(
         &self,
-        from: &Followers,
+        now: &Standing<'_>,
         to: &mut Followers,
-        follower: usize,
-        leaders: u128,
-        led: u128,
+        (follower, taken): (usize, u128),
+        (leaders, led): (u128, u128),
         sink: Sink<'_>,
     ) {
         let (planned_behind, behind) = match follower.checked_sub(1) {
-            Some(behind) => (to[behind], from[behind]),
+            Some(behind) => (to[behind], now.from[behind]),
             None => (self.base, self.base),
         };
-        let (planned_behind, behind) =
-            (&self.cells[usize::from(planned_behind)], &self.cells[usize::from(behind)]);
-        let is_distinct = self.rule.has(Condition::Distinct);
+        let safe = self.cells[usize::from(planned_behind)].safe & !taken;
         if follower == self.followers {
-            let taken = if is_distinct { self.cells(to) & !(1 << self.base) } else { 0 };
-            sink(to, led & planned_behind.safe & !taken);
+            sink(to, led & safe);
             return;
         }
-        let at = from[follower];
+        let at = now.from[follower];
+        let may_enter = safe & self.cells[usize::from(behind)].covered;
         for &cell in &self.cells[usize::from(at)].after {
-            let is_taken = is_distinct && cell != self.base && to[..follower].contains(&cell);
-            if (planned_behind.safe & behind.covered) >> cell & 1 == 0 || is_taken {
+            let bit = 1 << cell;
+            if may_enter & bit == 0 {
                 continue;
             }
             to[follower] = cell;
-            let is_guarded = self.rule.has(Condition::FullForFollower) && cell != self.base && cell != at;
-            let others = from[..self.followers].iter().filter(|&&other| is_guarded && other == cell).count();
+            let is_guarded = self.rule.has(Condition::FullForFollower) && cell != at;
             // With one follower in it, the cell is full if the leader is there, too.
-            let unhindered = match others {
-                0 => leaders,
-                1 => leaders & !(1 << cell),
-                _ => 0,
-            };
-            let led = if unhindered == leaders { led } else { self.led(from, unhindered) };
+            let full = if is_guarded && now.some & bit != 0 { leaders & bit } else { 0 };
+            let unhindered = if is_guarded && now.several & bit != 0 { 0 } else { leaders & !full };
+            let led = if unhindered == leaders { led } else { self.led(now, unhindered) };
             if led != 0 {
-                self.choose(from, to, follower + 1, unhindered, led, sink);
+                let taken =
+                    if self.rule.has(Condition::Distinct) { taken | bit & !(1 << self.base) } else { 0 };
+                self.choose(now, to, (follower + 1, taken), (unhindered, led), sink);
             }
         }
     }
 
-    /// Where leaders can go while the followers are in `from`.
-    fn led(&self, from: &Followers, leaders: u128) -> u128 {
-        let present = &from[..self.followers];
+    /// Where leaders can go from where the robots are now.
+    fn led(&self, now: &Standing<'_>, leaders: u128) -> u128 {
         let moved = (leaders & self.east) << 1
             | leaders >> 1 & self.east
             | (leaders & self.south) << self.width
             | leaders >> self.width & self.south;
-        let (mut once, mut twice) = (0_u128, 0);
-        if self.rule.has(Condition::FullForLeader) {
-            for bit in present.iter().filter(|&&cell| cell != self.base).map(|&cell| 1 << cell) {
-                twice |= once & bit;
-                once |= bit;
-            }
-        }
-        let behind = present.last().copied().unwrap_or(self.base);
-        leaders | moved & self.cells[usize::from(behind)].covered & !twice
+        let full = if self.rule.has(Condition::FullForLeader) { now.several } else { 0 };
+        let behind = now.from[..self.followers].last().copied().unwrap_or(self.base);
+        leaders | moved & self.cells[usize::from(behind)].covered & !full
     }
 }

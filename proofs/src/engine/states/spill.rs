@@ -10,13 +10,13 @@
 
 mod file;
 
+use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::{fmt, panic, thread};
 
 use tautline_certificates::digest;
 
@@ -24,6 +24,7 @@ pub use self::file::HEAD;
 pub(super) use self::file::{Numbers, Wanted};
 use self::file::{Segment, Writer};
 use super::tables::Codes;
+use crate::engine::threads;
 
 /// The end of the name of a file from which a search can be taken up.
 pub const WHOLE: &str = "states";
@@ -289,14 +290,8 @@ impl Disk {
             segments.iter().find_map(failed)
         };
         let each = wanted.len().div_ceil(workers).max(1);
-        let failed = thread::scope(|scope| {
-            let running: Vec<_> =
-                wanted.chunks_mut(each).map(|part| scope.spawn(move || sweep(part))).collect();
-            let ended =
-                running.into_iter().map(|one| one.join().unwrap_or_else(|bug| panic::resume_unwind(bug)));
-            ended.flatten().next()
-        });
-        if let Some((path, error)) = failed {
+        let failed = threads::each_in_its_own(wanted.chunks_mut(each).map(|part| move || sweep(part)));
+        if let Some((path, error)) = failed.into_iter().flatten().next() {
             self.fails(path, SpillFault::of_reading(&error));
         }
         self.fault.is_none()

@@ -3,13 +3,12 @@
 //! that counts, runs and memory are the same for any number of workers.
 
 use std::ops::{ControlFlow, Range};
-use std::panic::resume_unwind;
-use std::thread;
 
 use super::known::{Queue, StateTable};
 use super::search::Search;
 use super::{Bits, Findings, Limits, Step, System};
-use crate::engine::watchdog::{Steps, Task};
+use crate::engine::threads;
+use crate::engine::watchdog::Steps;
 
 /// The fewest states that are shared out: a thread takes as long to begin as tens of steps.
 pub(super) const FEWEST: usize = 1 << 10;
@@ -65,21 +64,16 @@ where
     S::Part: Send + Sync,
     S::Demand: Send,
 {
-    let (task, each) = (Task::current(), nodes.len().div_ceil(workers));
-    thread::scope(|scope| {
-        let begin = |first: usize| {
-            let (nodes, mut state) = (first..nodes.end.min(first + each), state.clone());
-            scope.spawn(move || {
-                let _working = task.enter();
-                let mut table = (known, Queue::default());
-                let chunk = chunk(system, &mut table, nodes, &mut state);
-                known.look_up(&mut table.1);
-                Chunk { queue: table.1, ..chunk }
-            })
-        };
-        let running: Vec<_> = nodes.clone().step_by(each).map(begin).collect();
-        running.into_iter().map(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
-    })
+    let each = nodes.len().div_ceil(workers);
+    threads::each_in_its_own(nodes.clone().step_by(each).map(|first| {
+        let (nodes, mut state) = (first..nodes.end.min(first + each), state.clone());
+        move || {
+            let mut table = (known, Queue::default());
+            let chunk = chunk(system, &mut table, nodes, &mut state);
+            known.look_up(&mut table.1);
+            Chunk { queue: table.1, ..chunk }
+        }
+    }))
 }
 
 /// The table of states as a worker that makes steps uses it.

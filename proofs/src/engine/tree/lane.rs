@@ -83,14 +83,7 @@ impl Oracle for ScriptOracle<'_> {
     }
 }
 
-/// A team move that is planned.
-struct Ready<'a, G: Game> {
-    before: &'a G::State,
-    planned: &'a G::State,
-    plan: &'a G::Plan,
-}
-
-/// A team move whose outcome was asked for.
+/// A team move that is planned, and how the run stood before it.
 struct Fork<G: Game> {
     before: G::State,
     planned: G::State,
@@ -107,13 +100,6 @@ impl<G: Game> Clone for Fork<G> {
     fn clone(&self) -> Self {
         let (before, planned) = (self.before.clone(), self.planned.clone());
         Self { before, planned, plan: self.plan.clone(), ..*self }
-    }
-}
-
-impl<G: Game> Fork<G> {
-    const fn ready(&self) -> Ready<'_, G> {
-        let Self { before, planned, plan, .. } = self;
-        Ready { before, planned, plan }
     }
 }
 
@@ -206,10 +192,11 @@ impl<G: Game> Lane<G> {
         let mut lane = Self::whole(game, mishaps);
         let at = (place.answers.len(), place.moved);
         while (lane.answers.given.len(), lane.mark.moved) < at {
-            let fork = lane.plan(game).filter(|_| !lane.is_spent(game))?;
-            lane.script.extend_from_slice(place.answers.get(fork.answered..)?);
-            let event = lane.settle(game, &fork.ready())?;
-            let broken = game.broken_by(&lane.turn(&fork.ready(), &event, fork.sent));
+            let answered = lane.plan(game).filter(|_| !lane.is_spent(game))?;
+            lane.script.extend_from_slice(place.answers.get(answered..)?);
+            let event = lane.settle(game)?;
+            let broken = game.broken_by(&lane.turn(&event));
+            lane.keep();
             lane.note(broken, |_, _| ());
             if lane.recurs(game).is_break() || lane.steps > game.longest_run() {
                 return None;
@@ -228,35 +215,41 @@ impl<G: Game> Lane<G> {
         Place { answers: self.answers.values(0).collect(), fixed, next: self.next, moved }
     }
 
-    /// Plans the next team move of the run; `None` if it is over.
-    fn plan(&mut self, game: &G) -> Option<Fork<G>> {
+    /// Plans the next team move of the run, the last of the forks until it is [kept](Self::keep): how many answers there
+    /// are before it. `None` if the run is over.
+    #[inline]
+    fn plan(&mut self, game: &G) -> Option<usize> {
         let before = self.state.clone();
         let plan = game.plan(&mut self.state, &self.log)?;
         let (planned, steps, sent) = (self.state.clone(), self.steps, self.log.len());
         let (answered, broken) = (self.answers.given.len(), self.broken.len());
-        Some(Fork { before, planned, plan, steps, sent, answered, broken })
+        self.forks.push(Fork { before, planned, plan, steps, sent, answered, broken });
+        Some(answered)
     }
 
     /// Makes the team move that is planned, with the answers of the script first; `None` if they do not fit its
-    /// questions. Only a team move whose outcome is asked for is kept.
+    /// questions.
     #[inline]
-    fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> Option<G::Event> {
-        let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
+    fn settle(&mut self, game: &G) -> Option<G::Event> {
+        let fork = self.forks.last()?;
         self.steps += 1;
         let mut world = ScriptOracle { answers: &mut self.answers, script: self.script.iter(), fits: true };
-        let event = game.settle(&mut self.state, ready.plan, &mut self.log, &mut world);
+        let event = game.settle(&mut self.state, &fork.plan, &mut self.log, &mut world);
         let fits = world.fits;
         self.script.clear();
-        if self.answers.given.len() > answered {
-            let Ready { before, planned, plan } = *ready;
-            let (before, planned, plan) = (before.clone(), planned.clone(), plan.clone());
+        if self.answers.given.len() > fork.answered {
             self.mark = Mark::NONE;
-            let broken = self.broken.len();
-            self.forks.push(Fork { before, planned, plan, steps, sent, answered, broken });
         } else {
             self.mark.moved += 1;
         }
         fits.then_some(event)
+    }
+
+    /// The team move that was made last is done with: it stays among the forks if its outcome was asked for.
+    #[inline]
+    fn keep(&mut self) {
+        let answers = self.answers.given.len();
+        self.forks.pop_if(|fork| fork.answered == answers);
     }
 
     /// Searches on until `count` has `made` team moves, or `new` ones that are new.
@@ -271,36 +264,36 @@ impl<G: Game> Lane<G> {
             steps.next();
             match self.next {
                 Next::Advance => {
-                    let before = self.state.clone();
-                    let Some(plan) = game.plan(&mut self.state, &self.log) else {
+                    if self.plan(game).is_none() {
                         self.breaks(game.broken_at_end(&self.state, &self.log), count);
                         self.end(count);
                         continue;
-                    };
-                    let planned = self.state.clone();
-                    self.make(game, &Ready { before: &before, planned: &planned, plan: &plan }, count);
+                    }
                 }
                 Next::Retreat => {
-                    let Some(fork) = self.retreat() else { return };
-                    self.make(game, &fork.ready(), count);
+                    if !self.retreat() {
+                        return;
+                    }
                 }
             }
+            self.make(game, count);
         }
     }
 
     /// Makes the team move that is planned and checks it.
-    fn make(&mut self, game: &G, ready: &Ready<'_, G>, count: &mut Count<G::Demand>) {
-        let sent = self.log.len();
-        let event = self.settle(game, ready);
+    #[inline]
+    fn make(&mut self, game: &G, count: &mut Count<G::Demand>) {
+        let event = self.settle(game);
         self.next = Next::Advance;
         count.made += 1;
         count.moves += u64::from(self.is_new());
         if let Some(event) = &event {
-            let turn = self.turn(ready, event, sent);
+            let turn = self.turn(event);
             count.covered |= game.occurs(&turn);
             let broken = game.broken_by(&turn);
             self.breaks(broken, count);
         }
+        self.keep();
         if self.is_spent(game) {
             self.end(count);
         } else if let ControlFlow::Break(broken) = self.recurs(game) {
@@ -341,10 +334,10 @@ impl<G: Game> Lane<G> {
         !self.broken.is_empty() && game.wanted().iter().all(|demand| self.broken.contains(demand))
     }
 
-    /// The latest team move, before which the log had `sent` bytes.
-    fn turn<'a>(&'a self, ready: &Ready<'a, G>, event: &'a G::Event, sent: usize) -> Turn<'a, G> {
-        let Ready { before, planned, plan } = *ready;
-        Turn { before, planned, after: &self.state, plan, event, sent: &self.log[sent..] }
+    /// The team move that was made last.
+    fn turn<'a>(&'a self, event: &'a G::Event) -> Turn<'a, G> {
+        let Fork { before, planned, plan, sent, .. } = &self.forks[self.forks.len() - 1];
+        Turn { before, planned, after: &self.state, plan, event, sent: &self.log[*sent..] }
     }
 
     /// Whether the run comes back to where it was, and so never ends, and what is broken by that.
@@ -376,24 +369,24 @@ impl<G: Game> Lane<G> {
     }
 
     /// Goes back to the last team move that can come out otherwise, as it was when it was planned, and puts the next
-    /// answers to it into the script.
-    fn retreat(&mut self) -> Option<Fork<G>> {
-        while self.forks.len() > self.floor {
-            let fork = self.forks.pop()?;
+    /// answers to it into the script. False if there is none.
+    fn retreat(&mut self) -> bool {
+        while let Some(fork) = self.forks[self.floor..].last() {
             while let Some(answer) = self.answers.take(fork.answered) {
                 if answer.value + 1 < answer.below {
                     self.script.extend(self.answers.values(fork.answered));
                     self.script.push(answer.value + 1);
                     while self.answers.take(fork.answered).is_some() {}
-                    self.state = fork.planned.clone();
+                    self.state.clone_from(&fork.planned);
                     self.steps = fork.steps;
                     self.log.truncate(fork.sent);
                     self.broken.truncate(fork.broken);
-                    return Some(fork);
+                    return true;
                 }
             }
+            self.forks.pop();
         }
-        None
+        false
     }
 
     /// The first fork from this place on with another outcome left, and where the answers to it end.
@@ -501,23 +494,24 @@ pub(super) fn replay<G: Game>(
     // Where it was since the last answer.
     let mut been = vec![(lane.state.clone(), 0)];
     let broken = loop {
-        let Some(fork) = lane.plan(game) else {
+        let Some(answered) = lane.plan(game) else {
             break words(game.broken_at_end(&lane.state, &lane.log));
         };
-        lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
-        let Some(event) = lane.settle(game, &fork.ready()) else {
+        lane.script.extend_from_slice(answers.get(answered..).unwrap_or_default());
+        let Some(event) = lane.settle(game) else {
             let mut given = lane.answers.given.iter().zip(answers);
-            let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
+            let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(answered);
             return Err(ScriptError::None { at, of: lane.answers.given[at].below });
         };
         if lane.answers.given.len() > answers.len() {
             return Err(ScriptError::Unbroken);
         }
-        let turn = lane.turn(&fork.ready(), &event, fork.sent);
+        let turn = lane.turn(&event);
         frames.push(game.frame(&turn));
         if game.broken_by(&turn).contains(&demand) {
             break Some(game.words(demand, Some(&turn)));
         }
+        lane.keep();
         if lane.mark.moved == 0 {
             been.clear();
         }

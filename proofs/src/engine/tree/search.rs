@@ -3,7 +3,6 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use tautline_certificates::{Counts, Refusal, check_runs};
 
@@ -14,8 +13,8 @@ use super::lane::{self, Lane, Place, Rerun};
 use super::share::Share;
 use super::{Counterexample, Findings, Game, Level, Limits, Progress, Unsearchable, Watch};
 use crate::engine::model::Played;
-use crate::engine::watchdog::{Steps, Task};
-use crate::engine::{ScriptError, Until};
+use crate::engine::watchdog::Steps;
+use crate::engine::{ScriptError, Until, threads};
 
 /// Where a search is. Read back, it goes on from here and comes out as if it had never been interrupted.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -267,19 +266,14 @@ impl<G: Game> Tree<G> {
             shares.push(share);
             rest = others;
         }
-        let (game, task) = (&self.game, Task::current());
-        let counts: Vec<Count<_>> = shares
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|share| {
-                let (_working, steps) = (task.enter(), Steps::begin());
-                let mut count = Count::default();
-                for lane in share {
-                    lane.search(game, (moves, budget), &steps, &mut count);
-                }
-                count
-            })
-            .collect();
+        let game = &self.game;
+        let counts = threads::each(shares, |share| {
+            let (steps, mut count) = (Steps::begin(), Count::default());
+            for lane in share {
+                lane.search(game, (moves, budget), &steps, &mut count);
+            }
+            count
+        });
         self.wave = counts.iter().map(|count| count.made).collect();
         for count in counts {
             self.count.add(count);

@@ -1,7 +1,8 @@
 //! The team as a world whose ways merge: what its states are made of, and what may happen next.
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Next, Sight, TinyMap};
+use tautline_kernel::frontier::{Next, Other, Robot, Sight, TinyMap};
+use tautline_kernel::ground::Cell;
 
 use super::{Demand, Event, Setting, Successor, World};
 use crate::engine::states::{self, Bits, Places, System};
@@ -12,8 +13,15 @@ use crate::engine::world::{self, Turn};
 pub enum Part<const ROBOTS: usize> {
     /// A repository, or the truth.
     Map(TinyMap),
-    /// All but the maps.
-    Rest(Box<World<ROBOTS>>),
+    /// A robot but for its repository, where it really is, and what the others have told it.
+    Robot(Robot<TinyMap>, Cell, [Option<Other>; ROBOTS]),
+    /// The mishaps so far, and the slot.
+    Clock([u8; 6]),
+}
+
+/// All of a world that is no robot's and no map.
+fn clock<const ROBOTS: usize>(world: &World<ROBOTS>) -> [u8; 6] {
+    [world.lost, world.wrong, world.small, world.slot, world.old, world.has_tried.into()]
 }
 
 /// The situations that occur.
@@ -77,40 +85,44 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
     type Part = Part<ROBOTS>;
 
     fn places(&self, _: &World<ROBOTS>) -> usize {
-        ROBOTS + 2
+        2 * ROBOTS + 2
     }
 
     fn part(&self, state: &World<ROBOTS>, place: usize) -> Part<ROBOTS> {
         match place.checked_sub(ROBOTS) {
             None => Part::Map(*state.robots[place].map()),
-            Some(0) => Part::Map(state.truth),
-            Some(_) => {
-                let mut bare = *state;
-                if let Some(blank) = TinyMap::new(self.area) {
-                    bare.truth = blank;
-                    bare.robots.iter_mut().for_each(|robot| *robot.map_mut() = blank);
-                }
-                Part::Rest(Box::new(bare))
+            Some(robot) if robot < ROBOTS => {
+                Part::Robot(self.bare(state, robot), state.cells[robot], state.told[robot])
             }
+            Some(rest) if rest == ROBOTS => Part::Map(state.truth),
+            Some(_) => Part::Clock(clock(state)),
         }
     }
 
     fn differing(&self, one: &World<ROBOTS>, other: &World<ROBOTS>) -> Places {
-        let maps = one.robots.iter().zip(&other.robots).map(|(one, other)| one.map() != other.map());
-        states::places(maps.chain([one.truth != other.truth, true]))
+        let robots = || one.robots.iter().zip(&other.robots);
+        let maps = robots().map(|(one, other)| one.map() != other.map());
+        let rest = robots().enumerate().map(|(robot, (its, others))| {
+            one.cells[robot] != other.cells[robot]
+                || one.told[robot] != other.told[robot]
+                || its != others && self.bare(one, robot) != self.bare(other, robot)
+        });
+        states::places(maps.chain(rest).chain([one.truth != other.truth, clock(one) != clock(other)]))
     }
 
     fn put(&self, state: &mut World<ROBOTS>, place: usize, part: &Part<ROBOTS>) {
         match part {
-            Part::Map(map) if place == ROBOTS => state.truth = *map,
-            Part::Map(map) => *state.robots[place].map_mut() = *map,
-            Part::Rest(rest) => {
-                let (truth, maps) = (state.truth, state.robots.map(|robot| *robot.map()));
-                *state = **rest;
-                state.truth = truth;
-                for (robot, map) in state.robots.iter_mut().zip(maps) {
-                    *robot.map_mut() = map;
-                }
+            Part::Map(map) if place < ROBOTS => *state.robots[place].map_mut() = *map,
+            Part::Map(map) => state.truth = *map,
+            Part::Robot(bare, cell, told) => {
+                let robot = place - ROBOTS;
+                let map = *state.robots[robot].map();
+                (state.robots[robot], state.cells[robot], state.told[robot]) = (*bare, *cell, *told);
+                *state.robots[robot].map_mut() = map;
+            }
+            Part::Clock([lost, wrong, small, slot, old, has_tried]) => {
+                (state.lost, state.wrong, state.small) = (*lost, *wrong, *small);
+                (state.slot, state.old, state.has_tried) = (*slot, *old, *has_tried == 1);
             }
         }
     }
@@ -136,5 +148,14 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn is_enough(&self, _: Demand) -> bool {
         self.demand.is_some()
+    }
+}
+
+impl<const ROBOTS: usize> Setting<ROBOTS> {
+    /// A robot without its repository.
+    fn bare(&self, world: &World<ROBOTS>, robot: usize) -> Robot<TinyMap> {
+        let mut bare = world.robots[robot];
+        *bare.map_mut() = TinyMap::new(self.area).unwrap_or(world.truth);
+        bare
     }
 }

@@ -127,15 +127,13 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         } else {
             (Findings { left: [None; ROBOTS], ..now }, u8::MAX)
         };
+        let far = found.distance(cells, movers);
         let is_nearer = |&side: &Side| {
             let mut after = cells;
             after[robot] = cells[robot].beyond(side);
             let is_old = map.edge_has(EdgeMark::Open, Edge::new(cells[robot], side));
             let may_drive = is_old && now.admits(&cells, robot, side);
-            may_drive
-                && found
-                    .distance(after, movers)
-                    .is_some_and(|far| Some(far + 1) == found.distance(cells, movers))
+            may_drive && found.distance(after, movers).is_some_and(|left| Some(left + 1) == far)
         };
         Side::ALL.into_iter().filter(is_nearer).collect()
     }
