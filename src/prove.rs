@@ -147,6 +147,7 @@ struct Line {
     /// Why the check, or a mutant, was not decided, if a step did not end.
     #[serde(skip_serializing_if = "Option::is_none")]
     undecided: Option<String>,
+    /// The time that threads spent on it and its mutants. What several checks share is counted for the first of them.
     seconds: f64,
 }
 

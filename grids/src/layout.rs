@@ -84,11 +84,13 @@ impl Layout {
     }
 
     /// Whether `cell` lies inside the rim.
+    #[inline]
     pub const fn contains(&self, cell: Cell) -> bool {
         self.size.contains(cell)
     }
 
     /// Whether a robot can stand in `cell`: it is inside and not blocked.
+    #[inline]
     pub fn is_free(&self, cell: Cell) -> bool {
         self.size.index(cell).is_some_and(|index| !self.blocked.has(index))
     }
@@ -105,12 +107,14 @@ impl Layout {
     }
 
     /// Whether a robot can cross `edge`: both cells are free and no wall stands between them.
+    #[inline]
     pub fn is_open(&self, edge: Edge) -> bool {
         let (cell, beyond) = both(edge);
         self.is_free(cell) && self.is_free(beyond) && !self.has_wall(edge)
     }
 
     /// Whether a wall stands on `edge`. The rim is a wall; outside it there is none.
+    #[inline]
     pub fn has_wall(&self, edge: Edge) -> bool {
         let (cell, beyond) = both(edge);
         match self.inner(edge) {
@@ -269,11 +273,13 @@ impl Layout {
     }
 
     /// Where the wall bit of an edge inside the rim is kept.
+    #[inline]
     fn inner(&self, edge: Edge) -> Option<usize> {
         let (cell, beyond) = both(edge);
         self.size.index(cell).filter(|_| self.contains(beyond))
     }
 
+    #[inline]
     const fn walls_beside(&self, side: Side) -> &Bitmap {
         match side {
             Side::East | Side::West => &self.east,
@@ -289,6 +295,7 @@ impl Layout {
     }
 }
 
+#[inline]
 const fn both(edge: Edge) -> (Cell, Cell) {
     (edge.cell(), edge.cell().beyond(edge.side()))
 }

@@ -54,11 +54,13 @@ impl Size {
     }
 
     /// Whether `cell` is one of them.
+    #[inline]
     pub const fn contains(self, cell: Cell) -> bool {
         0 <= cell.x && cell.x < self.width && 0 <= cell.y && cell.y < self.height
     }
 
     /// The place of `cell` in row order.
+    #[inline]
     pub(super) fn index(self, cell: Cell) -> Option<usize> {
         self.contains(cell).then(|| cell.y as usize * self.width as usize + cell.x as usize)
     }
@@ -81,6 +83,7 @@ impl Bitmap {
         Self(vec![0; bits.div_ceil(64)])
     }
 
+    #[inline]
     pub(super) fn has(&self, index: usize) -> bool {
         self.0.get(index / 64).is_some_and(|word| word >> (index % 64) & 1 == 1)
     }

@@ -4,9 +4,9 @@
 //! is *silent* while one of its threads is inside a step and none of them begins another one. A task that is silent for
 //! too long is given up, and its thread is left behind.
 //!
-//! Seconds of silence are counted in looks: a process that was stopped, or a machine that slept, makes nobody impatient. A count
-//! is written by its own thread alone, on a cache line of its own, so that counting costs two plain memory accesses for
-//! each step.
+//! Seconds of silence are counted in looks: a process that was stopped, or a machine that slept, makes nobody
+//! impatient. A count is written by its own thread alone, on a cache line of its own, so that counting costs two plain
+//! memory accesses for each step. The time that threads spend on a task is measured where they take it up and leave it.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
