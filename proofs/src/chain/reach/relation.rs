@@ -134,8 +134,11 @@ impl Relation {
             to[follower] = cell;
             let is_guarded = self.rule.has(Condition::FullForFollower) && cell != at;
             // With one follower in it, the cell is full if the leader is there, too.
-            let full = if is_guarded && now.some & bit != 0 { leaders & bit } else { 0 };
-            let unhindered = if is_guarded && now.several & bit != 0 { 0 } else { leaders & !full };
+            let unhindered = match (now.some & bit != 0, now.several & bit != 0) {
+                (true, false) if is_guarded => leaders & !bit,
+                (true, true) if is_guarded => 0,
+                _ => leaders,
+            };
             let led = if unhindered == leaders { led } else { self.led(now, unhindered) };
             if led != 0 {
                 let taken =
