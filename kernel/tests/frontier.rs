@@ -362,3 +362,13 @@ proptest! {
         prop_assert_eq!(by_neighbours, if has_neighbour { due } else { BTreeSet::new() }, "{:?}", team);
     }
 }
+
+#[test]
+fn a_search_of_a_small_map_ends_with_the_last_unexplored_cell() {
+    let mut map = explored_but(&[(0, 0), (3, 3), (6, 6)]);
+    assert_eq!(map.frontier(), 3);
+    map.block(Cell::new(3, 3));
+    map.block(Cell::new(1, 1));
+    assert_eq!(map.frontier(), 2);
+    assert_eq!(blank().frontier(), 49);
+}

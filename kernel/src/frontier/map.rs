@@ -95,6 +95,10 @@ impl Map for TinyMap {
         }
     }
 
+    fn frontier(&self) -> usize {
+        self.area.width() * self.area.height() - (self.explored | self.obstacles).count_ones() as usize
+    }
+
     fn explore(&mut self, cell: Cell) {
         self.explored |= self.bit(cell);
         self.obstacles &= !self.explored;

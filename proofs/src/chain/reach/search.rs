@@ -25,8 +25,9 @@ impl Ground {
     /// # Errors
     /// [`TooLarge`] if there are too many configurations.
     pub fn reaches_any(&self, rule: &Rule, wanted: &CellSet) -> Result<bool, TooLarge> {
-        let wanted = self.bits(wanted)?;
-        Ok(Search::new(self, rule)?.run(|reached| reached & wanted != 0) & wanted != 0)
+        // Nothing is searched for cells that cannot even be walked to.
+        let wanted = self.bits(wanted)? & self.bits(&self.walkable())?;
+        Ok(wanted != 0 && Search::new(self, rule)?.run(|reached| reached & wanted != 0) & wanted != 0)
     }
 }
 
