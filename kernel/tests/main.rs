@@ -18,6 +18,8 @@ mod notice;
 mod numbers;
 mod pack;
 mod position;
+#[path = "support/ranges.rs"]
+mod ranges;
 mod reforming;
 mod sight;
 mod sizes;

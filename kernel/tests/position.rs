@@ -1,10 +1,8 @@
-//! Positions from ranges (POSITION): what each way gives, what is refused, and that results are the same bits
-//! everywhere.
+//! Positions from ranges (POSITION): what each way gives, and what is refused.
 
 use core::mem::size_of;
 
 use proptest::prelude::*;
-use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
     Area, Estimate, Fix, Layout, Order, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm,
@@ -12,8 +10,7 @@ use tautline_kernel::position::{
 };
 
 use crate::numbers::Congruence;
-
-const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
+use crate::ranges::{SQUARE, swarm, wrong};
 
 fn signal(noise_db: f64) -> Signal {
     Signal::new(Propagation::FREE_SPACE, noise_db).expect("a noise")
@@ -21,59 +18,6 @@ fn signal(noise_db: f64) -> Signal {
 
 fn ranges(anchors: &[Point], at: Point) -> Vec<Range> {
     anchors.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at))).collect()
-}
-
-/// Ranges from a place in the square, each wrong by at most a third.
-fn wrong(drawn: &mut Congruence) -> Vec<Range> {
-    let mut part = || f64::from(drawn.pick(1 << 20)) / f64::from(1 << 20);
-    let at = Point::new(20.0 * part(), 20.0 * part());
-    let anchors =
-        SQUARE.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at) * (1.0 + (part() - 0.5) / 1.5)));
-    anchors.collect()
-}
-
-fn swarm(ranges: &[Range], parameters: Parameters, oracle: &mut Congruence) -> Point {
-    let around = closed_form(ranges).expect("anchors that stand well");
-    let mut particles = [Particle::UNUSED; 30];
-    Swarm::start(ranges, around, parameters, &mut particles, oracle).expect("ranges").run(oracle)
-}
-
-#[test]
-fn results_are_the_same_bits_at_every_optimisation_level_and_on_every_machine() {
-    // FNV-1a over the bits of some thousand positions; the checks run this at every level, see `.ci/run`.
-    let mut digest = 0xCBF2_9CE4_8422_2325_u64;
-    let mut add = |number: f64| {
-        for byte in number.to_bits().to_le_bytes() {
-            digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
-        }
-    };
-    let mut drawn = Congruence(1);
-    let area = Area::new(SQUARE[0], Point::new(20.0, 20.0));
-    for round in 0..200 {
-        let ranges = wrong(&mut drawn);
-        let signal = Signal::new(Propagation::new(2.0 + 0.01 * f64::from(round)).expect("an exponent"), 1.5);
-        let signal = signal.expect("a noise");
-        let mut points =
-            vec![closed_form(&ranges).expect("a triangle"), linear(&ranges).expect("a triangle")];
-        for order in [Order::Published, Order::Corrected] {
-            points.push(swarm(&ranges, Parameters { order, ..Parameters::FALLING }, &mut drawn));
-        }
-        for residual in [Residual::Metres, Residual::Decibels] {
-            for area in [None, area] {
-                let fix = locate(&ranges, residual, &signal, area).expect("a fix");
-                let Estimate { at, cost, precision, .. } = *fix.best();
-                points.push(at);
-                add(cost);
-                add(precision.expect("a triangle").rms_m());
-            }
-        }
-        for point in points {
-            add(point.x_m);
-            add(point.y_m);
-        }
-        add(signal.distance_m(signal.level_db(ranges[0].distance_m + 0.1)));
-    }
-    assert_eq!(digest, 9_139_611_484_346_231_528);
 }
 
 #[test]
