@@ -394,15 +394,15 @@ fn clauses_are_decided_by_name() {
 #[test]
 fn a_bound_on_memory_leaves_checks_open_and_says_so() {
     let folder = folder();
-    let enough = printed(folder.path(), &["prove", "ANTS-1", "--memory", "1GiB"], 0);
+    let enough = printed(folder.path(), &["prove", "KIT-12", "--memory", "1GiB"], 0);
     assert!(enough.contains("verdicts are the registered ones."), "{enough}");
-    let told = printed(folder.path(), &["prove", "ANTS-1", "--memory", "64KiB"], 3);
-    assert!(told.contains("ANTS-1 as published: open, registered as holds"), "{told}");
+    let told = printed(folder.path(), &["prove", "KIT-12", "--memory", "64KiB"], 3);
+    assert!(told.contains("KIT-12 as repaired: open, registered as holds"), "{told}");
     assert!(told.contains("would have taken more than 48 KiB") && told.contains("--memory"), "{told}");
-    let ledger = json(folder.path(), &["prove", "ANTS-1", "--memory", "64KiB"], 3);
+    let ledger = json(folder.path(), &["prove", "KIT-12", "--memory", "64KiB"], 3);
     assert_eq!((&ledger["out_of_memory"], &ledger["as_registered"]), (&true.into(), &false.into()));
     for wrong in ["1", "0GiB", "1GB", "-1MiB", "99999999999GiB", "GiB"] {
-        let said = refused(folder.path(), &["prove", "ANTS-1", &format!("--memory={wrong}")]);
+        let said = refused(folder.path(), &["prove", "KIT-12", &format!("--memory={wrong}")]);
         assert!(said.contains("KiB, MiB or GiB"), "{said}");
     }
 }
@@ -410,8 +410,8 @@ fn a_bound_on_memory_leaves_checks_open_and_says_so() {
 #[test]
 fn the_patience_with_a_step_is_a_number_of_seconds_and_changes_nothing_where_steps_end() {
     let folder = folder();
-    let patient = printed(folder.path(), &["prove", "KIT-2", "--patience", "1"], 0);
-    assert_eq!(patient, printed(folder.path(), &["prove", "KIT-2"], 0));
+    let patient = printed(folder.path(), &["prove", "KIT-12", "--patience", "1"], 0);
+    assert_eq!(patient, printed(folder.path(), &["prove", "KIT-12"], 0));
     let ledger = json(folder.path(), &["prove", "NOTICE-4", "--patience", "600"], 0);
     assert_eq!((&ledger["unended"], &ledger["clauses"][0]["undecided"]), (&false.into(), &().into()));
     for wrong in ["0", "-1", "1.5", "a while"] {

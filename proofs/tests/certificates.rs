@@ -85,9 +85,11 @@ fn a_certificate_with_one_bit_changed_is_refused_and_so_is_that_of_another_rule(
     let mut draw = Draw(41);
     // Of frontier cells nothing but the one that two robots share breaks the promise.
     for number in 0..20 {
+        // Rocq takes three seconds for one of frontier cells, and half a second for another: fewer of those.
+        let text = &texts[usize::from(number % 4 == 3)];
         let table = if number % 4 == 2 { "promised" } else { "kept" };
-        let changed = without_a_place(&texts[number % 2], table, &mut draw);
-        assert!(changed != texts[number % 2]);
+        let changed = without_a_place(text, table, &mut draw);
+        assert!(changed != *text);
         assert!(!rocq.accepts(&format!("Changed{number}"), &changed), "{number}: {changed}");
     }
     let repaired = Invariant::of(&contact).expect("a local rule");
