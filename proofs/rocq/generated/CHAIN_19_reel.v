@@ -185,7 +185,7 @@ Definition certificate_ : certificate := {| window := 2; kept :=
  Node [Node [Leaf 0x477dc4%N]] |}.
 
 Theorem accepted : accepts rule_ certificate_ = true.
-Proof. vm_compute; reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl true). Qed.
 
 Theorem holds_ : holds rule_.
 Proof. exact (sound rule_ certificate_ accepted). Qed.
