@@ -364,7 +364,7 @@ proptest! {
 }
 
 #[test]
-fn a_search_of_a_small_map_ends_with_the_last_unexplored_cell() {
+fn a_small_map_counts_the_cells_that_a_search_may_still_find() {
     let mut map = explored_but(&[(0, 0), (3, 3), (6, 6)]);
     assert_eq!(map.frontier(), 3);
     map.block(Cell::new(3, 3));
