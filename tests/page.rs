@@ -103,6 +103,14 @@ impl Browser {
         self.value(expression).as_str().expect("text").to_owned()
     }
 
+    /// Goes to a step by the address, once the page has heard of it.
+    fn go_to(&mut self, step: usize) {
+        self.value(&format!(
+            "location.hash === '#{step}' || new Promise(done => {{ \
+             addEventListener('hashchange', done, {{ once: true }}); location.hash = '#{step}'; }})"
+        ));
+    }
+
     /// The errors of the pages.
     fn errors(&self) -> Vec<&Value> {
         let is_error = |event: &&Value| {
@@ -185,7 +193,7 @@ fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
     for (step, line) in (1..).zip(events) {
         let event: Value = serde_json::from_str(line).expect("JSON");
         let Some(arrives) = event.get("arrives") else { continue };
-        browser.value(&format!("location.hash = '#{step}', new Promise(done => setTimeout(done, 20))"));
+        browser.go_to(step);
         let said = browser.text(SAID);
         assert!(
             said.contains(&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])),
@@ -259,7 +267,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         assert_eq!(browser.value(HASH), "#0", "{scheme}");
         // From the end backwards, forwards again over a step, and to the end by a key.
         for step in [last, last / 2, 1, 2] {
-            browser.value(&format!("location.hash = '#{step}', new Promise(done => setTimeout(done, 20))"));
+            browser.go_to(step);
             let said = browser.text(SAID);
             assert!(said.starts_with(&format!("Team move {step} of {last}")), "{scheme}: {said}");
             assert_eq!(browser.value(WHERE), cells(moves[step - 1]), "{scheme}, team move {step}");

@@ -1225,8 +1225,9 @@ const scrub = event => { const box = curve.getBoundingClientRect(); goToPart(Mat
 curve.onpointerdown = event => { curve.setPointerCapture(event.pointerId); scrub(event); };
 curve.onpointermove = event => { if (event.buttons) scrub(event); };
 
-const asked = () => { const number = parseInt(location.hash.slice(1), 10); return Number.isNaN(number) ? 0 : number - film.first; };
-addEventListener("hashchange", () => { if (asked() !== shown) go(asked()); });
+const asked = address => { const number = parseInt(new URL(address).hash.slice(1), 10); return Number.isNaN(number) ? 0 : number - film.first; };
+// Before the event comes, `putHash` may have written the step that is shown over the one that was asked for.
+addEventListener("hashchange", event => { const step = asked(event.newURL); if (step !== shown) go(step); });
 new ResizeObserver(resize).observe(canvas);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readColours(); listLayers(); repaintAll(); drawSoon(); });
 
@@ -1234,7 +1235,7 @@ readColours();
 fillIn();
 listLayers();
 listEvents();
-if (inCells) seek(Math.min(Math.max(asked(), 0), last), () => {});
+if (inCells) seek(Math.min(Math.max(asked(location.href), 0), last), () => {});
 repaintAll();
-show(asked());
+show(asked(location.href));
 resize();
