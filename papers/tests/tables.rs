@@ -148,13 +148,15 @@ fn jobs_give_the_same_table_in_any_order_and_in_shards_and_its_json_is_as_its_sc
 #[test]
 fn searches_of_the_atlas_find_the_same_in_any_order() {
     let asked = find("atlas").expect("it is in the catalogue").asked(&[]).expect("no value");
-    let jobs = &asked.jobs().expect("jobs")[..4];
+    let jobs = asked.jobs().expect("jobs");
+    // Those of the fewest robots and of the fewest walls: the others take seconds.
+    let short = || jobs[..2].iter().chain(&jobs[jobs.len() - 4..]);
     let results = |jobs: &mut dyn Iterator<Item = &String>| -> Vec<String> {
         jobs.map(|job| asked.measure(job).expect("a result")).collect()
     };
-    let mut backwards = results(&mut jobs.iter().rev());
+    let mut backwards = results(&mut short().rev());
     backwards.reverse();
-    assert_eq!(results(&mut jobs.iter()), backwards);
+    assert_eq!(results(&mut short()), backwards);
 }
 
 #[test]

@@ -114,7 +114,9 @@ impl Row {
 
     /// The theorem that machine-checks the clause beyond the bound, if the clause holds within it.
     pub fn composition(&self) -> Option<String> {
-        let words = || composition::words(self.clause.id, self.check.rule(), self.check.engine());
+        let words = || {
+            composition::words(self.clause.id, self.check.rule(), self.check.engine(), &self.check.bound())
+        };
         (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
 

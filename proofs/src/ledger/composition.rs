@@ -2,14 +2,14 @@
 //! audit of `proofs/rocq` prints, and from the list of rules beside it. `docs/machine-checked.md` says what each
 //! theorem assumes.
 
-/// The output of `proofs/rocq/Audit.v`: each theorem with its statement, and whether it rests on assumptions.
+/// What the audit of `proofs/rocq` prints: each theorem with its statement, and whether any of them rests on assumptions.
 const AUDIT: &str = include_str!("../../rocq/audit.expected");
 
 /// The rules that each theorem speaks of: it says nothing of the others that a clause is about.
 const RULES: &str = include_str!("../../rocq/rules.txt");
 
-/// The line below the statement of a theorem that rests on nothing but definitions.
-const CLOSED: &str = "Closed under the global context";
+/// The line below the statements if all theorems rest on nothing but definitions.
+const CLOSED: &str = "Closed under the global context\n";
 
 /// A theorem about a clause.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -20,6 +20,8 @@ pub struct Theorem {
     pub part: Option<String>,
     /// The rules that it speaks of, by their names in the ledger.
     pub rules: Vec<&'static str>,
+    /// The number of robots that it is about; `None` if it is about any.
+    pub robots: Option<&'static str>,
     /// Whether it is the certificate of a check by the engine of local rules: it counts for such checks alone.
     pub is_certificate: bool,
 }
@@ -38,8 +40,16 @@ impl Theorem {
         let line = rules.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(' '))?;
         let (rules, less) = line.split_once(": ").map_or((line, None), |(rules, less)| (rules, Some(less)));
         let part = less.map(str::to_owned).or(part);
+        let (robots, rules): (Vec<_>, Vec<_>) =
+            rules.split(' ').partition(|word| word.bytes().all(|letter| letter.is_ascii_digit()));
         let is_certificate = name.starts_with(CERTIFIED);
-        Some(Self { clause, part, rules: rules.split(' ').collect(), is_certificate })
+        Some(Self { clause, part, rules, robots: robots.first().copied(), is_certificate })
+    }
+
+    /// Whether it is about this clause, for this rule, within a check of this bound.
+    fn is_about(&self, clause: &str, rule: &str, bound: &str) -> bool {
+        let has_so_many = |robots| bound.contains(&format!("{robots} robots"));
+        self.clause == clause && self.rules.contains(&rule) && self.robots.is_none_or(has_so_many)
     }
 }
 
@@ -59,19 +69,20 @@ pub fn theorems() -> Vec<Theorem> {
     closed(AUDIT).filter_map(|name| Theorem::named(name, RULES)).collect()
 }
 
-/// The names in what an audit prints that stand above a line which says that the theorem is closed.
+/// The names of the theorems of an audit; none if one of them rests on an assumption.
 fn closed(audit: &str) -> impl Iterator<Item = &str> {
-    // Statements are indented.
-    let heads = || audit.lines().filter(|line| !line.is_empty() && !line.starts_with(' '));
-    heads().zip(heads().skip(1)).filter(|&(_, below)| below == CLOSED).map(|(name, _)| name)
+    let statements = audit.strip_suffix(CLOSED).unwrap_or_default();
+    // They are indented.
+    statements.lines().filter(|line| !line.starts_with(' '))
 }
 
-/// The ledger's words on a clause that holds for `rule` by `engine`: whether it, or a part of it, is machine-checked, by a
-/// certificate or beyond the bound.
-pub(super) fn words(clause: &str, rule: &str, engine: &str) -> Option<String> {
-    let about = |theorem: &Theorem| theorem.clause == clause && theorem.rules.contains(&rule);
-    let (certificates, others): (Vec<Theorem>, Vec<Theorem>) =
-        theorems().into_iter().filter(about).partition(|theorem| theorem.is_certificate);
+/// The ledger's words on a clause that holds for `rule` by `engine` within `bound`: whether it, or a part of it, is
+/// machine-checked, by a certificate or beyond the bound.
+pub(super) fn words(clause: &str, rule: &str, engine: &str, bound: &str) -> Option<String> {
+    let (certificates, others): (Vec<Theorem>, Vec<Theorem>) = theorems()
+        .into_iter()
+        .filter(|theorem| theorem.is_about(clause, rule, bound))
+        .partition(|theorem| theorem.is_certificate);
     let (what, found) = match engine {
         LOCAL if !certificates.is_empty() => ("every N", certificates),
         _ => ("composition", others),
@@ -97,11 +108,11 @@ mod tests {
     }
 
     #[test]
-    fn a_theorem_that_rests_on_an_axiom_counts_for_nothing() {
-        let audit = "CHAIN_1\n     : forall N : nat,\n       2 <= N\nClosed under the global context\n\
-                     Kit.KIT_1\n     : True\nAxioms:\nclassic : forall P : Prop, P \\/ ~ P\n\
-                     CHAIN_13_step\n     : True\nClosed under the global context\n";
-        assert!(closed(audit).eq(["CHAIN_1", "CHAIN_13_step"]));
+    fn where_a_theorem_rests_on_an_axiom_none_counts() {
+        let statements = "CHAIN_1\n     : forall N : nat,\n       2 <= N\nKit.KIT_1\n     : True\n";
+        assert!(closed(&format!("{statements}{CLOSED}")).eq(["CHAIN_1", "Kit.KIT_1"]));
+        let axioms = "Axioms:\nclassic : forall P : Prop, P \\/ ~ P\n";
+        assert_eq!(closed(&format!("{statements}{axioms}")).count(), 0);
     }
 
     #[test]
@@ -115,33 +126,42 @@ mod tests {
 
     #[test]
     fn a_theorem_counts_for_the_rules_of_its_line_alone_and_for_none_without_a_line() {
-        let rules = "CHAIN_1 repaired reel\nCHAIN_6 repaired: admitted plans\n";
-        let named = |name| Theorem::named(name, rules).map(|theorem| (theorem.rules, theorem.part));
-        assert_eq!(named("CHAIN_1"), Some((vec!["repaired", "reel"], None)));
-        assert_eq!(named("CHAIN_6"), Some((vec!["repaired"], Some("admitted plans".to_owned()))));
+        let rules = "CHAIN_1 repaired reel\nCHAIN_6 repaired 2: admitted plans\n";
+        let named =
+            |name| Theorem::named(name, rules).map(|theorem| (theorem.rules, theorem.robots, theorem.part));
+        assert_eq!(named("CHAIN_1"), Some((vec!["repaired", "reel"], None, None)));
+        assert_eq!(named("CHAIN_6"), Some((vec!["repaired"], Some("2"), Some("admitted plans".to_owned()))));
         assert_eq!((named("CHAIN_10"), named("Hold.CHAIN_1")), (None, None));
     }
 
     #[test]
+    fn a_theorem_about_two_robots_counts_for_two_alone() {
+        let words = |bound| words("KIT-7", "repaired", "states", bound);
+        let part = "composition: machine-checked in part (drives of two robots)";
+        assert_eq!(words("all layouts, 2 robots, any speeds").as_deref(), Some(part));
+        assert_eq!(words("all layouts, 3 robots, any speeds"), None);
+    }
+
+    #[test]
     fn a_certificate_counts_for_the_engine_of_local_rules_alone() {
-        assert_eq!(words("KIT-2", "repaired", LOCAL).as_deref(), Some("every N: machine-checked"));
-        assert_eq!(words("KIT-2", "repaired", "states"), None);
-        let contact = words("CHAIN-22", "reel", LOCAL);
+        assert_eq!(words("KIT-2", "repaired", LOCAL, "").as_deref(), Some("every N: machine-checked"));
+        assert_eq!(words("KIT-2", "repaired", "states", ""), None);
+        let contact = words("CHAIN-22", "reel", LOCAL, "");
         assert_eq!(contact.as_deref(), Some("every N: machine-checked in part (contact)"));
-        assert_eq!(words("CHAIN-2", "reel", LOCAL).as_deref(), Some("composition: machine-checked"));
+        assert_eq!(words("CHAIN-2", "reel", LOCAL, "").as_deref(), Some("composition: machine-checked"));
     }
 
     #[test]
     fn a_clause_of_which_a_part_is_proved_is_said_to_be_so_for_the_rules_that_the_theorem_speaks_of() {
-        assert_eq!(words("CHAIN-1", "reel", "search").as_deref(), Some("composition: machine-checked"));
+        assert_eq!(words("CHAIN-1", "reel", "search", "").as_deref(), Some("composition: machine-checked"));
         assert_eq!(
-            words("BRICKS-2", "repaired", "search").as_deref(),
+            words("BRICKS-2", "repaired", "search", "").as_deref(),
             Some("composition: machine-checked in part (marking)")
         );
         for (clause, rule) in
             [("CHAIN-14", "repaired"), ("CHAIN-24", "reel"), ("BRICKS-6", "doubting"), ("BRICKS-2", "robust")]
         {
-            assert_eq!(words(clause, rule, "search"), None, "{clause} {rule}");
+            assert_eq!(words(clause, rule, "search", ""), None, "{clause} {rule}");
         }
     }
 }
