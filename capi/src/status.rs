@@ -119,9 +119,9 @@ impl TautlineStatus {
 impl From<SetupError> for TautlineStatus {
     fn from(refused: SetupError) -> Self {
         match refused {
-            SetupError::TooFewRobots { .. } => Self::TooFewRobots,
+            SetupError::TooFewRobots(_) => Self::TooFewRobots,
             SetupError::TooManyRobots { .. } => Self::TooManyRobots,
-            SetupError::BaseOutside { .. } => Self::BaseOutside,
+            SetupError::BaseOutside(_) => Self::BaseOutside,
         }
     }
 }
@@ -131,12 +131,12 @@ impl From<Damage> for TautlineStatus {
         match damaged {
             Damage::Byte(_) => Self::DamagedByte,
             Damage::Length { .. } => Self::DamagedLength,
-            Damage::TakenBack { .. } => Self::DamagedTakenBack,
-            Damage::OutOfContact { .. } => Self::DamagedOutOfContact,
+            Damage::TakenBack(_) => Self::DamagedTakenBack,
+            Damage::OutOfContact(_) => Self::DamagedOutOfContact,
             Damage::Crowded => Self::DamagedCrowded,
-            Damage::NotHome { .. } => Self::DamagedNotHome,
-            Damage::OtherStep { .. } => Self::DamagedOtherStep,
-            Damage::OtherWorld { .. } => Self::DamagedOtherWorld,
+            Damage::NotHome(_) => Self::DamagedNotHome,
+            Damage::OtherStep(_) => Self::DamagedOtherStep,
+            Damage::OtherWorld(_) => Self::DamagedOtherWorld,
         }
     }
 }

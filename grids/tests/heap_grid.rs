@@ -6,7 +6,7 @@ use tautline_grids::heap_grid::HeapGrid;
 use tautline_kernel::chain::{Chain, End, Intent, Rule};
 use tautline_kernel::ground::{
     Area, Avoid, BitGrid, Cell, CellMark, CompactGrid, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, Plane,
-    Side, SmallGrid, Step, Steps, TinyGrid,
+    Side, SmallGrid, Step, TinyGrid,
 };
 
 const CELL_MARKS: [CellMark; 4] = [CellMark::Explored, CellMark::Occupied, CellMark::Full, CellMark::Planned];
@@ -156,12 +156,8 @@ fn everything(grid: &mut impl Grid) -> Everything {
     marks.extend(around.cells().flat_map(|cell| CELL_MARKS.map(|mark| grid.has(mark, cell))));
     marks.extend(around.edges().flat_map(|edge| EDGE_MARKS.map(|mark| grid.edge_has(mark, edge))));
     let questions = around.cells().flat_map(|cell| AVOIDS.map(|avoid| (cell, avoid)));
-    let distances = questions.map(|(cell, avoid)| {
-        let distances = grid.distances(cell, Steps::ALL, avoid);
-        assert_eq!(distances[Step::Stay.place()], grid.distance(cell, avoid));
-        distances
-    });
-    let distances = distances.collect();
+    let distances =
+        questions.map(|(cell, avoid)| Step::ALL.map(|step| grid.distance(cell.after(step), avoid))).collect();
     let starts = around.cells().step_by(1 + around.width() * around.height() / 12);
     let walks = starts.flat_map(|cell| [0, 1, 4, 200].map(|most| stops(grid, cell, most))).collect();
     (marks, distances, walks)

@@ -57,7 +57,7 @@ macro_rules! conditions {
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         pub struct Conditions(u16);
 
-        $crate::format_conditions!();
+        $crate::format_conditions!($condition);
 
         impl Conditions {
             /// The set of these conditions.
@@ -124,12 +124,18 @@ macro_rules! conditions {
     };
 }
 
-/// Logs a set of conditions by defmt: its bits.
+/// Logs a condition by defmt, by its name, and a set of them, by its bits.
 #[cfg(feature = "defmt")]
 #[doc(hidden)]
 #[macro_export]
 macro_rules! format_conditions {
-    () => {
+    ($condition:ident) => {
+        impl $crate::defmt::Format for $condition {
+            fn format(&self, f: $crate::defmt::Formatter<'_>) {
+                $crate::defmt::Format::format(Self::SENTENCES[*self as usize].0, f);
+            }
+        }
+
         impl $crate::defmt::Format for Conditions {
             fn format(&self, f: $crate::defmt::Formatter<'_>) {
                 $crate::defmt::Format::format(&self.0, f);
@@ -143,5 +149,5 @@ macro_rules! format_conditions {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! format_conditions {
-    () => {};
+    ($condition:ident) => {};
 }

@@ -24,4 +24,4 @@ pub use robot::{Next, Other, Robot, Sight, Slot, Stance, View};
 pub use rule::{
     Basis, Condition, Conditions, DETOUR, FIVE_STEPS, Otherwise, Rule, SURE_DEVIATIONS, Ties, midpoint,
 };
-pub use search::{SearchCell, Target, Way};
+pub use search::{Search, SearchCell, Target, Way};

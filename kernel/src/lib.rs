@@ -12,6 +12,7 @@ pub mod bricks;
 pub mod chain;
 pub mod choice;
 pub mod conditions;
+mod error;
 pub mod floor;
 pub mod frontier;
 pub mod ground;

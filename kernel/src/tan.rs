@@ -9,4 +9,4 @@ mod heading;
 mod homing;
 
 pub use heading::{Heading, Scan};
-pub use homing::{Conduct, Guide, Homing, Nav, Nearness, Order, ReqNav, Stage};
+pub use homing::{Guide, Homing, Nav, Nearness, Order, ReqNav, Stage};

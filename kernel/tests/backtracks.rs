@@ -22,20 +22,20 @@ fn objection(chain: &Team, messages: &[u8], is_last: bool) -> Option<Damage> {
             Err(damaged) => return Some(damaged),
         };
         let (tried, mark) = match outcome {
-            Outcome::TookBack => return Some(Damage::TakenBack { robot }),
+            Outcome::TookBack => return Some(Damage::TakenBack(robot)),
             Outcome::Blocked => (step, EdgeMark::Wall),
             Outcome::Arrived => (step.reverse(), EdgeMark::Open),
         };
         if let Step::Cross(side) = tried
             && !chain.grid().edge_has(mark, Edge::new(cells[place], side))
         {
-            return Some(Damage::OtherWorld { robot });
+            return Some(Damage::OtherWorld(robot));
         }
         if outcome == Outcome::Arrived {
             cells[place] = cells[place].after(tried);
         }
         if !chain.rule().keeps_contact(cells[place - 1], cells[place]) {
-            return Some(Damage::OutOfContact { robot });
+            return Some(Damage::OutOfContact(robot));
         }
     }
     let outside = || cells.iter().filter(|&&cell| cell != BASE);
@@ -44,7 +44,7 @@ fn objection(chain: &Team, messages: &[u8], is_last: bool) -> Option<Damage> {
         return Some(Damage::Crowded);
     }
     let away = cells.iter().position(|&cell| cell != BASE);
-    away.filter(|_| is_last).map(|place| Damage::NotHome { robot: place + 1 })
+    away.filter(|_| is_last).map(|place| Damage::NotHome(place + 1))
 }
 
 #[test]
@@ -76,9 +76,9 @@ fn of_a_log_that_cannot_be_true_the_first_message_is_named_that_tells() {
                     let result = before.clone().plan(&changed);
                     assert_eq!(result.err(), expected, "{:?} {changed:?}", before.cells());
                     match expected {
-                        Some(Damage::OutOfContact { .. }) => told[0] += 1,
+                        Some(Damage::OutOfContact(_)) => told[0] += 1,
                         Some(Damage::Crowded) => told[1] += 1,
-                        Some(Damage::NotHome { .. }) => told[2] += 1,
+                        Some(Damage::NotHome(_)) => told[2] += 1,
                         Some(_) => told[3] += 1,
                         None => told[4] += 1,
                     }

@@ -289,7 +289,7 @@ fn a_barrier_tells_of_every_byte_which_team_move_it_is_about() {
                     assert_eq!(heard.hear(from, byte), Ok(ByteEffect::Again));
                     let other = byte ^ 1;
                     if is_message(other & 0b1_1111) {
-                        assert_eq!(heard.hear(from, other), Err(Damage::OtherStep { robot: from + 1 }));
+                        assert_eq!(heard.hear(from, other), Err(Damage::OtherStep(from + 1)));
                         assert_eq!(heard.hear(from, byte), Ok(ByteEffect::Again));
                     }
                 }

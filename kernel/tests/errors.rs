@@ -14,10 +14,7 @@ fn errors_say_what_would_be_right() {
             &chain::Damage::Length { bytes: 6, sent: 7 },
             "there are 6 messages, the team sent 7: keep all of them, in their order",
         ),
-        (
-            &chain::SetupError::TooFewRobots { robots: 1 },
-            "1 robots are no chain: it needs at least 2, the base counted",
-        ),
+        (&chain::SetupError::TooFewRobots(1), "1 robots are no chain: it needs at least 2, the base counted"),
         (
             &chain::SetupError::TooManyRobots { robots: 9, most: 8 },
             "9 robots are too many: this chain holds at most 8, the base counted",
@@ -43,10 +40,10 @@ fn errors_say_what_would_be_right() {
 #[test]
 fn a_refused_position_has_a_remedy() {
     let remedies = [
-        (Refusal::Anchors { count: 2 }, "give at least three anchors, and exactly three for the closed form"),
-        (Refusal::NotFinite { anchor: 0 }, "give metres, at most 10⁹ of them"),
-        (Refusal::Negative { anchor: 0 }, "give distances from 0"),
-        (Refusal::Zero { anchor: 0 }, "give a distance above a micrometre, or ask for residuals in metres"),
+        (Refusal::Anchors(2), "give at least three anchors, and exactly three for the closed form"),
+        (Refusal::NotFinite(0), "give metres, at most 10⁹ of them"),
+        (Refusal::Negative(0), "give distances from 0"),
+        (Refusal::Zero(0), "give a distance above a micrometre, or ask for residuals in metres"),
         (Refusal::Coincident { first: 0, second: 1 }, "give three anchors at different places"),
         (Refusal::Apart { first: 0, second: 1 }, "measure again, or allow for more noise"),
         (Refusal::Collinear, "move an anchor off the line of the others"),

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use proptest::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Basis, Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Stance, Status,
-    Ties, TinyMap, View,
+    Basis, Condition, Map, Next, Other, Place, Robot, Rule, Scratch, Search, SearchCell, Sight, Slot, Stance,
+    Status, Ties, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -84,8 +84,10 @@ fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) 
         .collect();
     let (mut reached, mut queue) = ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
     let (mut rounds, mut pairs) = (0, vec![None; pairs]);
-    let mut scratch =
-        Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+    let mut scratch = Scratch {
+        search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
+        pairs: &mut pairs,
+    };
     own.decided(rule, &others);
     let view = View { others: &others, slot: Slot::Own };
     (own.next(rule, view, &mut scratch, &mut Nth(pick)), rounds)
@@ -156,8 +158,10 @@ fn a_robot_keeps_to_its_claim_and_goes_to_a_nearest_cell_once_it_has_met_another
         let (mut reached, mut queue) =
             ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
         let (mut rounds, mut pairs) = (0, [None; 4]);
-        let mut scratch =
-            Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+        let mut scratch = Scratch {
+            search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
+            pairs: &mut pairs,
+        };
         let view = View { others: &others, slot: Slot::Own };
         match robot.next(&rule, view, &mut scratch, &mut Nth(0)) {
             Next::Tries { aim, .. } => aim,

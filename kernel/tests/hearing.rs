@@ -42,7 +42,7 @@ fn objection(
             (Kind::Backtrack, World::Changing) => message.outcome != Outcome::Arrived,
         };
         if message.step != plan.steps()[robot] || !can_be {
-            return Some(Damage::OtherStep { robot: robot + 1 });
+            return Some(Damage::OtherStep(robot + 1));
         }
         let Some(edge) = crossed(chain, plan, robot) else { continue };
         if plan.kind == Kind::Backtrack && world == World::Lasting {
@@ -60,7 +60,7 @@ fn objection(
             by_another
         };
         if known.is_some_and(|known| known != is_blocked) {
-            return Some(Damage::OtherWorld { robot: robot + 1 });
+            return Some(Damage::OtherWorld(robot + 1));
         }
         met.push((edge, is_blocked));
     }

@@ -136,10 +136,10 @@ fn steps_know_no_second_minimum_and_leave_no_rectangle() {
         assert_eq!(to(Point::new(0.0, nowhere), None), Err(Refusal::NoPlace));
     }
     let two = locate_from(Point::default(), &ranges[..2], Residual::Metres, &signal(0.0), None);
-    assert_eq!(two, Err(Refusal::Anchors { count: 2 }));
+    assert_eq!(two, Err(Refusal::Anchors(2)));
     let zero = [Range::new(anchors[0], 0.0), ranges[1], ranges[2]];
     let zero = locate_from(Point::default(), &zero, Residual::Decibels, &signal(0.0), None);
-    assert_eq!(zero, Err(Refusal::Zero { anchor: 0 }));
+    assert_eq!(zero, Err(Refusal::Zero(0)));
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn equation_8_divides_by_0_for_anchors_that_stand_well() {
     let found = linear(&ranges).expect("a triangle");
     assert!(found.distance_m(Point::new(3.0, 4.0)) < 1e-12);
     let four = [ranges.clone(), ranges].concat();
-    assert_eq!(closed_form(&four), Err(Refusal::Anchors { count: 6 }));
+    assert_eq!(closed_form(&four), Err(Refusal::Anchors(6)));
 }
 
 #[test]
@@ -59,12 +59,12 @@ fn what_gives_no_position_is_refused_by_every_way() {
         ranges
     };
     let cases = [
-        (good[..2].to_vec(), Refusal::Anchors { count: 2 }),
-        (Vec::new(), Refusal::Anchors { count: 0 }),
-        (with(1, |range| range.distance_m = f64::NAN), Refusal::NotFinite { anchor: 1 }),
-        (with(2, |range| range.distance_m = f64::INFINITY), Refusal::NotFinite { anchor: 2 }),
-        (with(0, |range| range.anchor.x_m = 2e9), Refusal::NotFinite { anchor: 0 }),
-        (with(2, |range| range.distance_m = -0.5), Refusal::Negative { anchor: 2 }),
+        (good[..2].to_vec(), Refusal::Anchors(2)),
+        (Vec::new(), Refusal::Anchors(0)),
+        (with(1, |range| range.distance_m = f64::NAN), Refusal::NotFinite(1)),
+        (with(2, |range| range.distance_m = f64::INFINITY), Refusal::NotFinite(2)),
+        (with(0, |range| range.anchor.x_m = 2e9), Refusal::NotFinite(0)),
+        (with(2, |range| range.distance_m = -0.5), Refusal::Negative(2)),
         (with(2, |range| range.anchor = SQUARE[0]), Refusal::Coincident { first: 0, second: 2 }),
     ];
     for (ranges, refusal) in cases {
@@ -80,7 +80,7 @@ fn what_gives_no_position_is_refused_by_every_way() {
     let swarm = Swarm::start(&good, at, Parameters::FALLING, &mut [], &mut Congruence(1));
     assert_eq!(swarm.err(), Some(Refusal::NoParticle));
     let zero = with(1, |range| range.distance_m = 0.0);
-    assert_eq!(locate(&zero, Residual::Decibels, &signal(1.0), None), Err(Refusal::Zero { anchor: 1 }));
+    assert_eq!(locate(&zero, Residual::Decibels, &signal(1.0), None), Err(Refusal::Zero(1)));
     assert!(locate(&zero, Residual::Metres, &signal(1.0), None).is_ok());
     let least = with(1, |range| range.distance_m = 1e-6);
     assert!(locate(&least, Residual::Decibels, &signal(1.0), None).is_ok(), "a micrometre is a distance");

@@ -133,7 +133,7 @@ fn homing(oracle: &mut dyn Oracle) -> Outcome {
     let tries = one_of(oracle, &[1, 0, 3, u8::MAX]);
     let first_hops = hops(oracle);
     let mut robot = Homing::new(node(oracle), RobotId(ME as u16), node(oracle), first_hops, nearness, tries);
-    let mut guide = Guide::IDLE;
+    let mut guide = Guide::Idle;
     for _ in 0..60 {
         let nav = Nav { wfr: node(oracle), node: node(oracle), hops: hops(oracle), parent: node(oracle) };
         let next = match oracle.pick(8) {

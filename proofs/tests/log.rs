@@ -71,8 +71,8 @@ fn tamper(team: &Team, log: &[u8], of: std::ops::Range<usize>, truth: &Plan<8>) 
             let mut changed = log.to_vec();
             changed[place] = byte;
             match team.clone().plan(&changed) {
-                Err(Damage::OtherWorld { .. }) => count.other_world += 1,
-                Err(Damage::OutOfContact { .. }) => count.out_of_contact += 1,
+                Err(Damage::OtherWorld(_)) => count.other_world += 1,
+                Err(Damage::OutOfContact(_)) => count.out_of_contact += 1,
                 Err(Damage::Crowded) => count.crowded += 1,
                 Err(_) => count.otherwise_refused += 1,
                 Ok(Intent::Go(plan)) => {
@@ -142,14 +142,14 @@ fn each_kind_of_damage_is_told() {
     let (east, south, west, blocked_east) = (0, 1, 2, 8);
     assert_eq!(log, [blocked_east, west]);
     assert_eq!(plan(&team, &log), Ok(()));
-    assert_eq!(plan(&team, &[blocked_east, east]), Err(Damage::OtherWorld { robot: 2 }));
-    assert_eq!(plan(&team, &[blocked_east, south]), Err(Damage::OtherWorld { robot: 2 }));
-    assert_eq!(plan(&team, &[blocked_east, 16 | west]), Err(Damage::TakenBack { robot: 2 }));
+    assert_eq!(plan(&team, &[blocked_east, east]), Err(Damage::OtherWorld(2)));
+    assert_eq!(plan(&team, &[blocked_east, south]), Err(Damage::OtherWorld(2)));
+    assert_eq!(plan(&team, &[blocked_east, 16 | west]), Err(Damage::TakenBack(2)));
     assert_eq!(plan(&team, &[blocked_east]), Err(Damage::Length { bytes: 1, sent: 2 }));
     assert_eq!(plan(&team, &[blocked_east, 255]), Err(Damage::Byte(255)));
     assert_eq!(go_on(&mut team, &mut log), Kind::Backtrack);
     assert_eq!(plan(&team, &log), Ok(()));
-    assert_eq!(plan(&team, &[east, log[1], log[2]]), Err(Damage::NotHome { robot: 2 }));
+    assert_eq!(plan(&team, &[east, log[1], log[2]]), Err(Damage::NotHome(2)));
 }
 
 #[test]

@@ -189,7 +189,7 @@ fn bounds_that_cannot_be_searched_are_refused() {
         Some(Unsearchable::Search(tree::Unsearchable::TooManyWalls { max_walls: 13, edges: 12 }))
     );
     assert_eq!(refused(2, 12), None);
-    assert!(matches!(refused(1, 0), Some(Unsearchable::Team(SetupError::TooFewRobots { robots: 1 }))));
+    assert!(matches!(refused(1, 0), Some(Unsearchable::Team(SetupError::TooFewRobots(1)))));
     assert!(matches!(refused(65, 0), Some(Unsearchable::Team(SetupError::TooManyRobots { .. }))));
 }
 

@@ -252,11 +252,9 @@ impl Measurements {
     /// The fault of a fix, at the line of the anchor that it is about, or at its last one.
     fn refused(&self, readings: &Readings, refusal: Refusal) -> Diagnostic {
         let about = match refusal {
-            Refusal::NotFinite { anchor } | Refusal::Negative { anchor } | Refusal::Zero { anchor } => {
-                Some(anchor)
-            }
+            Refusal::NotFinite(anchor) | Refusal::Negative(anchor) | Refusal::Zero(anchor) => Some(anchor),
             Refusal::Coincident { second, .. } | Refusal::Apart { second, .. } => Some(second),
-            Refusal::Anchors { .. }
+            Refusal::Anchors(_)
             | Refusal::Collinear
             | Refusal::Division
             | Refusal::NoParticle

@@ -264,7 +264,7 @@ impl Setting {
         let refusal = tried.iter().find_map(|(_, trial)| trial.as_ref().err().copied());
         let located: Vec<Trial> = tried.into_iter().filter_map(|(_, trial)| trial.ok()).collect();
         if located.is_empty() {
-            return Err(super::refused(refusal.unwrap_or(Refusal::Anchors { count: 0 })).into());
+            return Err(super::refused(refusal.unwrap_or(Refusal::Anchors(0))).into());
         }
         let count = |is: &dyn Fn(&Fix) -> bool| {
             located.iter().filter(|trial| trial.fix.as_ref().is_some_and(is)).count() as u32

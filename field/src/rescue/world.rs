@@ -139,7 +139,7 @@ impl<'a> World<'a> {
     fn new(scenario: &'a Scenario) -> Self {
         let stations = scenario.network.nodes() + scenario.robots.len();
         let leg_ns = pace::leg_ns(&scenario.equipment, scenario.radio.reach_m(), scenario.noise_db);
-        let sensor = || Sensor { has_failed: false, guide: Guide::IDLE, until_ns: 0, relay: None };
+        let sensor = || Sensor { has_failed: false, guide: Guide::Idle, until_ns: 0, relay: None };
         Self {
             scenario,
             timers: scenario.wfrs.iter().map(|wfr| Timers::new(wfr.depth, leg_ns)).collect(),

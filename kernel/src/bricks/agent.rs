@@ -216,7 +216,7 @@ impl Agent {
     fn go_on(&mut self, rule: Rule, scan: &Scan, lap: Lap) -> (Lap, Option<Side>) {
         let reach = u32::from(rule.reach).saturating_mul(1 << (self.cut_short / 2).min(31));
         match self.along(lap.hand, scan, scan.reachable()) {
-            Some(onward) if !lap.is_cut_short() && lap.moved() >= reach => {
+            Some(onward) if !lap.is_cut_short() && lap.moved >= reach => {
                 let lap = lap.cut_short();
                 self.heading = onward.opposite();
                 (lap, self.along(lap.hand, scan, scan.reachable()))

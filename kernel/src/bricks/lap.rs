@@ -34,7 +34,8 @@ pub struct Lap {
     at: Cell,
     /// A place and heading on the way, moved on at powers of two (Brent's search for cycles).
     mark: (Cell, Side),
-    moved: u32,
+    /// The moves made since it began or was cut short.
+    pub(super) moved: u32,
     due: u32,
 }
 
@@ -47,11 +48,6 @@ impl Lap {
         let at = Cell::new(0, 0);
         let hand = Hand::Left;
         Self { first, hand, is_void: false, around, at, mark: (at, first), moved: 0, due: Self::FIRST }
-    }
-
-    /// The moves made since it began or was cut short.
-    pub(super) const fn moved(&self) -> u32 {
-        self.moved
     }
 
     /// Whether the agent is on its way back before the lap has come round.
@@ -100,7 +96,7 @@ mod tests {
             moves += 1;
             let Some(next) = lap.through(side) else { return moves };
             lap = next;
-            assert_eq!(lap.moved(), moves);
+            assert_eq!(lap.moved, moves);
         }
     }
 
@@ -112,7 +108,7 @@ mod tests {
         for before in [0, 1, 62, 63, 64, 100, 127, 128, 500] {
             let back = out(before).cut_short();
             assert!(back.is_cut_short() && !out(before).is_cut_short() && !back.is_home());
-            assert_eq!((out(before).moved(), back.moved()), (before + 1, 0));
+            assert_eq!((out(before).moved, back.moved), (before + 1, 0));
             // A mark after 64, 128, 256 and so on moves, each of which finds rounds that end before the next.
             for (columns, rows, moves) in
                 [(2, 2, 64 + 4), (17, 16, 64 + 62), (17, 17, 128 + 64), (50, 20, 256 + 136)]

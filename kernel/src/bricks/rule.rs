@@ -5,7 +5,6 @@ use crate::floor::Replaced;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// Two side neighbours are connected past the cell only if the corner between them can be gone through.
         Corners,

@@ -4,7 +4,7 @@
 
 use super::plan::{mark_occupied, unmark_occupied};
 use super::rule::{Condition, Move, Role, Rule};
-use crate::ground::{Cell, CellMark, Edge, EdgeMark, Grid, Step};
+use crate::ground::{Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps};
 
 impl Rule {
     /// Whether the conditions of this rule admit the `steps` of the robots in `team`, both base first, all at once, if
@@ -12,12 +12,13 @@ impl Rule {
     /// wants it behind and ahead of its neighbours, enters no full cell, and has a planned cell of its own. The grid is
     /// left as it was.
     pub fn admits_plan(&self, grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
-        let Some(&base) = team.first() else { return steps.is_empty() };
+        if team.is_empty() {
+            return steps.is_empty();
+        }
         if team.len() != steps.len() || steps[0] != Step::Stay {
             return false;
         }
-        let planned = || team.iter().zip(steps).map(|(cell, &step)| cell.after(step));
-        let is_distinct = !self.has(Condition::Distinct) || are_distinct(grid, planned, base);
+        let is_distinct = !self.has(Condition::Distinct) || are_distinct(grid, team, steps);
         is_distinct && self.admits_pairs(grid, team, steps) && self.admits_entries(grid, team, steps)
     }
 
@@ -44,23 +45,37 @@ impl Rule {
 
     /// The conditions on cells that two others occupy.
     fn admits_entries(&self, grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
-        if [Role::Leader, Role::Follower].iter().all(|&role| self.admits_entry(role, 2)) {
+        if !self.counts_occupants() {
             return true;
         }
-        mark_occupied(grid, team.iter().copied(), team[0]);
+        mark_occupied(grid, team);
         let admits = (1..team.len()).all(|robot| {
             let role = if robot + 1 == team.len() { Role::Leader } else { Role::Follower };
             let to = team[robot].after(steps[robot]);
             steps[robot] == Step::Stay || self.admits_entry(role, 2) || !grid.has(CellMark::Full, to)
         });
-        unmark_occupied(grid, team.iter().copied());
+        unmark_occupied(grid, team);
         admits
+    }
+
+    /// Whether it matters how many robots are in a cell.
+    pub(super) fn counts_occupants(&self) -> bool {
+        [Role::Leader, Role::Follower].iter().any(|&role| !self.admits_entry(role, 2))
+    }
+
+    /// Those of the `steps` that do not lead into a cell where there are too many to enter it.
+    pub(super) fn may_enter(&self, grid: &impl Grid, role: Role, at: Cell, steps: Steps) -> Steps {
+        if self.admits_entry(role, 2) {
+            return steps;
+        }
+        steps.minus(grid.steps_to(CellMark::Full, at, steps.without(Step::Stay)))
     }
 }
 
 /// Whether no two of the planned cells are the same, the base excepted.
-fn are_distinct<I: Iterator<Item = Cell>>(grid: &mut impl Grid, planned: impl Fn() -> I, base: Cell) -> bool {
-    let outside = || planned().skip(1).filter(|&cell| cell != base);
+fn are_distinct(grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
+    let planned = || team.iter().zip(steps).map(|(cell, &step)| cell.after(step));
+    let outside = || planned().skip(1).filter(|&cell| cell != team[0]);
     let are_distinct = outside().all(|cell| {
         let is_free = !grid.has(CellMark::Planned, cell);
         grid.put(CellMark::Planned, cell);

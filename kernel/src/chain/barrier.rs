@@ -97,7 +97,7 @@ impl<const ROBOTS: usize> Barrier<ROBOTS> {
             Some(known) if known == message => Ok(ByteEffect::Again),
             Some(known) => {
                 self.messages[from] = Some(known);
-                Err(Damage::OtherStep { robot: from + 1 })
+                Err(Damage::OtherStep(from + 1))
             }
         }
     }

@@ -138,7 +138,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
         self.take_back(trials);
         for robot in (1..self.team.len() - 1).rev() {
-            while self.left[robot].len() > 1 && !self.looks.is_over() {
+            while self.left[robot].len() > 1 && !self.looks.is_over {
                 let step = self.preferred(planner, robot);
                 let mark = self.trail_length;
                 let fits = self.leave(robot, Steps::only(step))
@@ -219,7 +219,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
 
     /// Strikes out what the steps struck out before entail; false if some robot is left with none, or the budget ends.
     fn follow_up(&mut self, mut wave: Wave<ROBOTS>) -> bool {
-        while !wave.is_over && !self.looks.is_over() {
+        while !wave.is_over && !self.looks.is_over {
             let Some(robot) = wave.next(&self.decided) else { return true };
             let struck = core::mem::replace(&mut wave.struck[robot], Steps::NONE);
             let left = self.left[robot];

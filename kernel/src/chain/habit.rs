@@ -4,7 +4,6 @@ use crate::conditions;
 
 conditions! {
     /// One habit of the reel, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Habit {
         /// A task is begun only if a rehearsal on the known map carries it through.
         Rehearses,

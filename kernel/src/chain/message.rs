@@ -2,8 +2,7 @@
 //! Of the byte's other four bits one says that the move was taken back, so that a log of messages read backwards pairs
 //! itself (clause CHAIN-8).
 
-use core::fmt;
-
+use crate::error::sentences;
 use crate::ground::Step;
 
 /// How a robot's step came out.
@@ -42,68 +41,32 @@ pub enum Damage {
         sent: usize,
     },
     /// The move to be taken back was a backtrack itself, of this robot at least.
-    TakenBack {
-        /// The robot.
-        robot: usize,
-    },
+    TakenBack(usize),
     /// With the move taken back, this robot and the one behind it would not be in contact.
-    OutOfContact {
-        /// The robot.
-        robot: usize,
-    },
+    OutOfContact(usize),
     /// With the move taken back, three robots would be in one cell other than the base.
     Crowded,
     /// All moves would be taken back, and this robot would not be in the base.
-    NotHome {
-        /// The robot.
-        robot: usize,
-    },
+    NotHome(usize),
     /// This robot's message about a team move does not fit the plan.
-    OtherStep {
-        /// The robot.
-        robot: usize,
-    },
+    OtherStep(usize),
     /// This robot says that it crossed a side which nobody is known to have crossed, or met a wall which is not known to be
     /// one; or of a side that is new to the team it says something else than another robot.
-    OtherWorld {
-        /// The robot.
-        robot: usize,
-    },
+    OtherWorld(usize),
 }
 
-impl fmt::Display for Damage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Byte(byte) => write!(f, "byte {byte:#04x} is no message of the chain"),
-            Self::Length { bytes, sent } => {
-                write!(
-                    f,
-                    "there are {bytes} messages, the team sent {sent}: keep all of them, in their order"
-                )
-            }
-            Self::TakenBack { robot } => {
-                write!(f, "R_{robot} says that the move to be taken back was a backtrack itself")
-            }
-            Self::OutOfContact { robot } => {
-                write!(
-                    f,
-                    "with the move taken back, R_{robot} would have no contact with R_{}",
-                    robot.saturating_sub(1)
-                )
-            }
-            Self::Crowded => f.write_str("with the move taken back, three robots would be in one cell"),
-            Self::NotHome { robot } => {
-                write!(f, "with all moves taken back, R_{robot} would not be in the base")
-            }
-            Self::OtherStep { robot } => write!(f, "R_{robot} says that it did something else than planned"),
-            Self::OtherWorld { robot } => {
-                write!(f, "what R_{robot} says of a side contradicts what the team knows of it")
-            }
-        }
-    }
-}
-
-impl core::error::Error for Damage {}
+sentences!(Damage {
+    Self::Byte(byte) => "byte {byte:#04x} is no message of the chain";
+    Self::Length { bytes, sent } =>
+        "there are {bytes} messages, the team sent {sent}: keep all of them, in their order";
+    Self::TakenBack(robot) => "R_{robot} says that the move to be taken back was a backtrack itself";
+    Self::OutOfContact(robot) =>
+        "with the move taken back, R_{robot} would have no contact with R_{}", robot.saturating_sub(1);
+    Self::Crowded => "with the move taken back, three robots would be in one cell";
+    Self::NotHome(robot) => "with all moves taken back, R_{robot} would not be in the base";
+    Self::OtherStep(robot) => "R_{robot} says that it did something else than planned";
+    Self::OtherWorld(robot) => "what R_{robot} says of a side contradicts what the team knows of it";
+});
 
 const WALL_BIT: u8 = 1 << 3;
 const BACKTRACK_BIT: u8 = 1 << 4;

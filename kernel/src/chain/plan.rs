@@ -40,11 +40,11 @@ impl<const ROBOTS: usize> Plan<ROBOTS> {
     }
 }
 
-/// Marks the cells other than the base in which robots of `team` are, [`CellMark::Occupied`] with one and
+/// Marks the cells other than the base in which robots of `team`, base first, are, [`CellMark::Occupied`] with one and
 /// [`CellMark::Full`] with more; whether three or more are in one.
-pub(super) fn mark_occupied(grid: &mut impl Grid, team: impl Iterator<Item = Cell>, base: Cell) -> bool {
+pub(super) fn mark_occupied(grid: &mut impl Grid, team: &[Cell]) -> bool {
     let mut is_crowded = false;
-    for cell in team.filter(|&cell| cell != base) {
+    for &cell in team.iter().filter(|&&cell| cell != team[0]) {
         is_crowded |= grid.has(CellMark::Full, cell);
         let mark = if grid.has(CellMark::Occupied, cell) { CellMark::Full } else { CellMark::Occupied };
         grid.put(mark, cell);
@@ -53,8 +53,8 @@ pub(super) fn mark_occupied(grid: &mut impl Grid, team: impl Iterator<Item = Cel
 }
 
 /// Takes the marks of [`mark_occupied`] off again.
-pub(super) fn unmark_occupied(grid: &mut impl Grid, team: impl Iterator<Item = Cell>) {
-    for cell in team {
+pub(super) fn unmark_occupied(grid: &mut impl Grid, team: &[Cell]) {
+    for &cell in team {
         grid.take(CellMark::Occupied, cell);
         grid.take(CellMark::Full, cell);
     }
@@ -75,14 +75,13 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
 
     /// Plans by `lead`, the cells that are occupied being marked.
     fn among_occupants(mut self, lead: impl Fn(&mut Self) -> bool) -> (Option<[Step; ROBOTS]>, Looks) {
-        let counts_occupants =
-            [Role::Leader, Role::Follower].iter().any(|&role| !self.rule.admits_entry(role, 2));
+        let counts_occupants = self.rule.counts_occupants();
         if counts_occupants {
-            mark_occupied(self.grid, self.team.iter().copied(), self.base());
+            mark_occupied(self.grid, self.team);
         }
         let found = lead(&mut self);
         if counts_occupants {
-            unmark_occupied(self.grid, self.team.iter().copied());
+            unmark_occupied(self.grid, self.team);
         }
         (found.then_some(self.steps), self.looks)
     }
@@ -99,7 +98,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         if steps.minus(admitted).is_empty() {
             let (first, count) = self.leader_list(at, steps, ControlFlow::Break(()));
             let first = if count == 0 { Steps::NONE } else { Steps::only(Step::Cross(first[0])) };
-            if let Some(step) = self.may_enter(Role::Leader, at, first).iter().next() {
+            if let Some(step) = self.rule.may_enter(self.grid, Role::Leader, at, first).iter().next() {
                 self.steps[leader] = step;
                 if self.descend() {
                     return true;
@@ -122,11 +121,11 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             }
             leads = leads.with(step);
         }
-        let enterable = self.may_enter(Role::Leader, at, leads);
+        let enterable = self.rule.may_enter(self.grid, Role::Leader, at, leads);
         let mut choices = None;
         for &side in list {
             let step = replaced(side);
-            if !self.looks.is_over() && enterable.has(step) {
+            if !self.looks.is_over && enterable.has(step) {
                 self.steps[leader] = step;
                 if choices.is_none() && !has_descended && self.descend() {
                     return true;
@@ -148,7 +147,8 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         let (at, behind) = (self.team[leader], self.team[leader - 1]);
         let steps = Steps::ALL.without(Step::Stay).minus(self.grid.sides(EdgeMark::Wall, at));
         let steps = steps.minus(self.grid.steps_to(CellMark::Explored, at, steps));
-        let leads = self.may_enter(Role::Leader, at, steps.and(self.rule.steps_behind(at, behind)));
+        let steps = steps.and(self.rule.steps_behind(at, behind));
+        let leads = self.rule.may_enter(self.grid, Role::Leader, at, steps);
         if leads.is_empty() {
             return false;
         }
@@ -216,7 +216,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             }
             let (step, looks) = self.preferred(at, ahead, fit);
             self.looks.take_each(looks);
-            let Some(step) = step.filter(|_| !self.looks.is_over()) else { break };
+            let Some(step) = step.filter(|_| !self.looks.is_over) else { break };
             self.steps[robot] = step;
             planned = robot;
             self.claim(robot);

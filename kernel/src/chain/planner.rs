@@ -4,15 +4,15 @@
 use core::ops::ControlFlow;
 
 use super::rule::{Budget, Condition, Move, Role, Rule};
-use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps};
+use crate::ground::{Avoid, Cell, Edge, EdgeMark, Grid, Step, Steps};
 
 /// The candidates of followers that a plan has looked at, and may look at.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Looks {
-    used: u32,
+    pub(super) used: u32,
     most: u32,
     /// Whether more were wanted than there are.
-    is_over: bool,
+    pub(super) is_over: bool,
 }
 
 impl Looks {
@@ -45,14 +45,6 @@ impl Looks {
             self.used += candidates;
         }
     }
-
-    pub(super) const fn used(self) -> u32 {
-        self.used
-    }
-
-    pub(super) const fn is_over(self) -> bool {
-        self.is_over
-    }
 }
 
 /// The making of one plan.
@@ -76,7 +68,7 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
     pub(super) fn candidates(&self, robot: usize) -> Steps {
         let (at, behind) = (self.team[robot], self.team[robot - 1]);
         let free = Steps::ALL.minus(self.grid.sides(EdgeMark::Wall, at));
-        self.may_enter(Role::Follower, at, free.and(self.rule.steps_behind(at, behind)))
+        self.rule.may_enter(self.grid, Role::Follower, at, free.and(self.rule.steps_behind(at, behind)))
     }
 
     /// The first of the steps that `fit` a follower, in the order of the paper: staying, if it is in P_high; then
@@ -97,14 +89,6 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
             });
         }
         (nearest.iter().next(), looks)
-    }
-
-    /// Those of the `steps` that do not lead into a cell where there are too many to enter it.
-    pub(super) fn may_enter(&self, role: Role, at: Cell, steps: Steps) -> Steps {
-        if self.rule.admits_entry(role, 2) {
-            return steps;
-        }
-        steps.minus(self.grid.steps_to(CellMark::Full, at, steps.without(Step::Stay)))
     }
 
     pub(super) fn base(&self) -> Cell {
@@ -143,18 +127,18 @@ mod tests {
             [(4, 4, false), (6, 10, false), (0, 10, false), (1, 10, true), (0, 10, true)]
         {
             looks.take(candidates);
-            assert_eq!((looks.used(), looks.is_over()), (used, is_over));
+            assert_eq!((looks.used, looks.is_over), (used, is_over));
         }
         let mut looks = ten();
         for (candidates, used, is_over) in
             [(3, 3, false), (7, 10, false), (0, 10, false), (1, 10, true), (0, 10, true)]
         {
             looks.take_each(candidates);
-            assert_eq!((looks.used(), looks.is_over()), (used, is_over));
+            assert_eq!((looks.used, looks.is_over), (used, is_over));
         }
         let mut unlimited = Looks::new(Budget::Unlimited, 2);
         unlimited.take(u32::MAX);
-        assert_eq!((unlimited.used(), unlimited.is_over()), (u32::MAX, false));
+        assert_eq!((unlimited.used, unlimited.is_over), (u32::MAX, false));
     }
 
     #[test]
@@ -164,12 +148,12 @@ mod tests {
         each.take_each(3);
         at_once.take(8);
         each.take_each(8);
-        assert_eq!((at_once.used(), at_once.is_over()), (3, true));
-        assert_eq!((each.used(), each.is_over()), (10, true));
+        assert_eq!((at_once.used, at_once.is_over), (3, true));
+        assert_eq!((each.used, each.is_over), (10, true));
         // Nor is any later one.
         at_once.take(1);
-        assert_eq!(at_once.used(), 3);
+        assert_eq!(at_once.used, 3);
         at_once.take_each(7);
-        assert_eq!((at_once.used(), at_once.is_over()), (3, true));
+        assert_eq!((at_once.used, at_once.is_over), (3, true));
     }
 }

@@ -14,15 +14,13 @@
 //! within reach. Clauses CHAIN-16 to CHAIN-18.
 
 use super::habit::{Habit, Habits};
-use super::plan::{mark_occupied, unmark_occupied};
 use super::rule::Rule;
 use super::solver::{Apart, Wish, solve};
-use super::walk::{Lookup, Walk, step_to};
-use crate::ground::{Cell, CellMark, Grid, Step, Steps};
+use super::walk::{Lookup, Walk};
+use crate::ground::{Cell, CellMark, Grid, Step, Steps, steps_to};
 
 /// The team's task.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Task {
     /// Nothing: the next team move begins something.
     None,
@@ -148,10 +146,8 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
 
     /// How far cells are from the one that is approached.
     fn bearings(&mut self, task: Task) -> Option<G::Bearings> {
-        match task {
-            Task::Approach { to, .. } => Some(self.grid.bearings(to, self.most_steps())),
-            Task::None | Task::DrawIn { .. } | Task::LetOut | Task::TakeBack => None,
-        }
+        let Task::Approach { to, .. } = task else { return None };
+        Some(self.grid.bearings(to, self.most_steps()))
     }
 
     /// The farthest cells that are sought.
@@ -173,17 +169,17 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
             let mut stops = [team[0]; ROBOTS];
             let found = self.grid.stops(reel.walk.cell(reel.walk.stop(stop)), &mut stops[..=links])?;
             reel.task = Task::LetOut;
-            reel.walk = reel.walk.turned_off(self.grid, stop, &stops, found);
+            reel.walk = reel.walk.turned_off(self.grid, stop, &stops[..=found]);
         }
         match reel.task {
             Task::None | Task::TakeBack => None,
             Task::Approach { robot, .. } => {
                 let wishes = self.approaching(team, robot.into(), bearings?);
-                self.solve(team, &wishes, APART)
+                solve(self.rule, self.grid, team, &wishes, APART)
             }
             Task::DrawIn { .. } => {
                 let wishes = self.drawing_in(team, &reel.walk)?;
-                let steps = self.solve(team, &wishes, Apart(0))?;
+                let steps = solve(self.rule, self.grid, team, &wishes, Apart(0))?;
                 steps.iter().any(|&step| step != Step::Stay).then_some(steps)
             }
             Task::LetOut => {
@@ -193,13 +189,6 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
                 is_admitted.then_some(steps)
             }
         }
-    }
-
-    fn solve(&mut self, team: &[Cell], wishes: &[Wish; ROBOTS], apart: Apart) -> Option<[Step; ROBOTS]> {
-        mark_occupied(self.grid, team.iter().copied(), team[0]);
-        let steps = solve(self.rule, self.grid, team, wishes, apart);
-        unmark_occupied(self.grid, team.iter().copied());
-        steps
     }
 
     const fn lookup(&self) -> Lookup {
@@ -233,7 +222,7 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         let mut wishes = [Wish::STAY; ROBOTS];
         for (robot, &at) in team.iter().enumerate() {
             if let Some(place) = places[robot].checked_sub(1) {
-                let back = step_to(at, walk.cell(place))?;
+                let back = steps_to(walk.cell(place), at).iter().next()?;
                 wishes[robot].steps = Steps::only(Step::Stay).with(back);
                 wishes[robot].cost[back.place()] = if robot == leader { -DRAWN_IN } else { STEP };
             }
@@ -363,14 +352,9 @@ enum Nearest {
     /// There is none.
     Nothing,
     /// It is at least so far, and comes behind that one.
-    Unsought {
-        least: u32,
-        behind: (u32, Cell),
-    },
-    At {
-        distance: u32,
-        cell: Cell,
-    },
+    Unsought { least: u32, behind: (u32, Cell) },
+    /// It is so far.
+    At { distance: u32, cell: Cell },
 }
 
 impl Nearest {

@@ -3,12 +3,11 @@
 //! R_{d−1}; if that does not come about, the robots behind come home, too. Then the chain goes on with one robot fewer.
 //! Within each of the two parts neighbours are always in contact: each part is where it was before (CHAIN-21).
 
-use core::fmt;
-
 use super::message::{Damage, Message};
 use super::past::Past;
 use super::reel::Reel;
 use super::team::{Chain, Stage};
+use crate::error::sentences;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Step};
 
 /// Why a chain cannot re-form.
@@ -33,23 +32,13 @@ pub enum ReformError {
     Apart,
 }
 
-impl fmt::Display for ReformError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoRobot { robot, robots } => {
-                write!(f, "R_{robot} cannot fail: name a robot from 2 to {robots}")
-            }
-            Self::TooFew => f.write_str("without that robot there is no chain: it needs at least 2 robots"),
-            Self::NoWayHome => {
-                f.write_str("the log does not lead back to the base: leave the robots where they are")
-            }
-            Self::Damaged(damaged) => damaged.fmt(f),
-            Self::Apart => f.write_str("the two parts are not in contact yet: take more moves back"),
-        }
-    }
-}
-
-impl core::error::Error for ReformError {}
+sentences!(ReformError {
+    Self::NoRobot { robot, robots } => "R_{robot} cannot fail: name a robot from 2 to {robots}";
+    Self::TooFew => "without that robot there is no chain: it needs at least 2 robots";
+    Self::NoWayHome => "the log does not lead back to the base: leave the robots where they are";
+    Self::Damaged(damage) => "{damage}";
+    Self::Apart => "the two parts are not in contact yet: take more moves back";
+});
 
 /// The two parts of a chain that has lost a robot, and how far each has taken its moves back in the log of then.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -110,17 +99,13 @@ impl<G: Grid, const ROBOTS: usize> Reformation<G, ROBOTS> {
             if let Step::Cross(side) = back
                 && !self.chain.grid.edge_has(EdgeMark::Open, Edge::new(cells[place], side))
             {
-                return Err(Damage::OtherWorld { robot: robot + 1 });
+                return Err(Damage::OtherWorld(robot + 1));
             }
             cells[place] = cells[place].after(back);
         }
         self.chain.cells = cells;
-        let earlier = Past::Home.open_before(entry, log, movers);
-        if ahead.is_some() {
-            self.parts.ahead = earlier;
-        } else {
-            self.parts.behind = earlier;
-        }
+        let next = if ahead.is_some() { &mut self.parts.ahead } else { &mut self.parts.behind };
+        *next = Past::Home.open_before(entry, log, movers);
         Ok(true)
     }
 

@@ -8,7 +8,6 @@ use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps};
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// A follower plans to be in E_S of the planned position ahead: P′_i ∈ E_S(P′_{i+1}).
         SafeAhead,

@@ -138,7 +138,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             let is_back = outcome == Outcome::TookBack;
             let is_shut = outcome == Outcome::Blocked && self.world == World::Changing;
             if step != plan.steps[robot] || (is_back != (plan.kind == Kind::Backtrack) && !is_shut) {
-                return Err(Damage::OtherStep { robot: robot + 1 });
+                return Err(Damage::OtherStep(robot + 1));
             }
             outcomes[robot] = outcome;
             let is_tried = !is_back || self.world == World::Changing;
@@ -151,7 +151,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 (1..robot).find(|&other| edge(other) == Some(crossed)).map(|other| outcomes[other])
             };
             if known.is_some_and(|known| known != outcome) {
-                return Err(Damage::OtherWorld { robot: robot + 1 });
+                return Err(Damage::OtherWorld(robot + 1));
             }
         }
         let crossed: [Option<Edge>; ROBOTS] =

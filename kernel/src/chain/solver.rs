@@ -4,6 +4,7 @@
 //! of its own is no matter of neighbours: where the cheapest move breaks it, the next cheapest step behind is tried,
 //! within a bound.
 
+use super::plan::{mark_occupied, unmark_occupied};
 use super::rule::{Condition, Move, Role, Rule};
 use crate::ground::{Cell, CellMark, EdgeMark, Grid, Step, Steps, neighbouring_steps, steps_to};
 
@@ -53,7 +54,9 @@ pub(super) fn solve<G: Grid, const ROBOTS: usize>(
 ) -> Option<[Step; ROBOTS]> {
     let left = [Steps::only(Step::Stay); ROBOTS];
     let mut solver = Solver { rule, team, wishes, apart, left, least: [[None; Step::ALL.len()]; ROBOTS] };
+    mark_occupied(grid, team);
     solver.leave(grid);
+    unmark_occupied(grid, team);
     solver.cost();
     solver.choose(grid)
 }
@@ -70,10 +73,7 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
                 steps = steps.with(Step::Stay);
             }
             steps = steps.and(self.wishes[robot].steps).minus(grid.sides(EdgeMark::Wall, at));
-            if !self.rule.admits_entry(role, 2) {
-                steps = steps.minus(grid.steps_to(CellMark::Full, at, steps.without(Step::Stay)));
-            }
-            self.left[robot] = steps;
+            self.left[robot] = self.rule.may_enter(grid, role, at, steps);
         }
     }
 
@@ -119,11 +119,9 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         let is_distinct = self.rule.has(Condition::Distinct);
         let mut steps = [Step::Stay; ROBOTS];
         let mut tried = [Steps::NONE; ROBOTS];
-        let claimed = |robot: usize, step| {
-            Some(self.team[robot].after(step)).filter(|&to| is_distinct && to != self.team[0])
-        };
+        let planned = |robot: usize, step| self.team[robot].after(step);
         let (mut robot, mut left) = (leader, (PATIENCE + 1) * self.team.len());
-        while robot > 0 {
+        while robot > 0 && left > 0 {
             let at = self.team[robot];
             let mut fit =
                 if robot == leader { self.left[leader] } else { self.agreeing(robot + 1, steps[robot + 1]) };
@@ -139,43 +137,32 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
                 }
             };
             let costs = fit.iter().filter_map(|step| cost(step).map(|cost| (cost, step.place(), step)));
-            if let Some((_, _, step)) = costs.min_by_key(|&(cost, place, _)| (cost, place))
-                && left > 0
-            {
+            if let Some((_, _, step)) = costs.min_by_key(|&(cost, place, _)| (cost, place)) {
                 left -= 1;
                 tried[robot] = tried[robot].with(step);
                 steps[robot] = step;
-                if let Some(to) = claimed(robot, step) {
+                let to = planned(robot, step);
+                if is_distinct && to != self.team[0] {
                     grid.put(CellMark::Planned, to);
                 }
                 robot -= 1;
-            } else {
+            } else if robot < leader {
                 tried[robot] = Steps::NONE;
                 robot += 1;
-                if robot > leader {
-                    break;
-                }
-                if let Some(to) = claimed(robot, steps[robot]) {
-                    grid.take(CellMark::Planned, to);
-                }
-                if left == 0 {
-                    break;
-                }
+                grid.take(CellMark::Planned, planned(robot, steps[robot]));
+            } else {
+                break;
             }
         }
-        let is_found = robot == 0;
-        for (planned, &step) in steps.iter().enumerate().take(leader + 1).skip(robot + 1) {
-            if let Some(to) = claimed(planned, step) {
-                grid.take(CellMark::Planned, to);
-            }
+        for (claimed, &step) in steps.iter().enumerate().take(leader + 1).skip(robot + 1) {
+            grid.take(CellMark::Planned, planned(claimed, step));
         }
-        is_found.then_some(steps)
+        (robot == 0).then_some(steps)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::plan::{mark_occupied, unmark_occupied};
     use super::*;
     use crate::choice::Oracle;
     use crate::choice::tests::Congruence;
@@ -224,11 +211,9 @@ mod tests {
                 wish.cost = core::array::from_fn(|_| drawn.pick(20) as i32 - 10);
             }
             let apart = drawn.pick(6) as i32;
-            mark_occupied(&mut grid, team.iter().copied(), team[0]);
             let before = grid;
             let solved = solve(&rule, &mut grid, &team, &wishes, Apart(apart));
             assert!(grid == before, "no mark is left behind");
-            unmark_occupied(&mut grid, team.iter().copied());
             let all = (0..5_usize.pow(ROBOTS as u32 - 1)).map(|number| {
                 let step = |robot: usize| Step::ALL[number / 5_usize.pow(robot as u32 - 1) % 5];
                 core::array::from_fn(|robot| if robot == 0 { Step::Stay } else { step(robot) })

@@ -1,7 +1,5 @@
 //! The state of a chain, and the two calls that make a team move of it.
 
-use core::fmt;
-
 use super::MAX_ROBOTS;
 use super::habit::Habits;
 use super::message::{Damage, Message, Outcome};
@@ -12,17 +10,15 @@ use super::reel::{Next, Reel, Task, Winder};
 use super::rule::{Condition, Pursuit, Rule};
 use super::settle::World;
 use super::unfold::unfold;
+use crate::error::sentences;
 use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 /// Why a chain cannot be set up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SetupError {
-    /// A chain is a base and at least one robot.
-    TooFewRobots {
-        /// Robots asked for, base included.
-        robots: usize,
-    },
+    /// So many robots, the base counted: a chain is a base and at least one robot.
+    TooFewRobots(usize),
     /// More robots than this chain holds.
     TooManyRobots {
         /// Robots asked for, base included.
@@ -31,27 +27,15 @@ pub enum SetupError {
         most: usize,
     },
     /// The base is not in the area.
-    BaseOutside {
-        /// The base.
-        base: Cell,
-    },
+    BaseOutside(Cell),
 }
 
-impl fmt::Display for SetupError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooFewRobots { robots } => {
-                write!(f, "{robots} robots are no chain: it needs at least 2, the base counted")
-            }
-            Self::TooManyRobots { robots, most } => {
-                write!(f, "{robots} robots are too many: this chain holds at most {most}, the base counted")
-            }
-            Self::BaseOutside { base } => write!(f, "the base {base} is outside the area"),
-        }
-    }
-}
-
-impl core::error::Error for SetupError {}
+sentences!(SetupError {
+    Self::TooFewRobots(robots) => "{robots} robots are no chain: it needs at least 2, the base counted";
+    Self::TooManyRobots { robots, most } =>
+        "{robots} robots are too many: this chain holds at most {most}, the base counted";
+    Self::BaseOutside(base) => "the base {base} is outside the area";
+});
 
 /// How a run ended by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -91,7 +75,6 @@ impl<const ROBOTS: usize> MoveOutcome<ROBOTS> {
 
 /// How far an epoch is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Stage {
     /// The chain is being unfolded towards an unexplored cell, and has not yet explored one or found a wall.
     Unfolding,
@@ -135,23 +118,21 @@ pub struct Chain<G, const ROBOTS: usize> {
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
-    const CAPACITY: () = assert!(ROBOTS <= MAX_ROBOTS, "a chain holds at most 256 robots");
-
     /// A chain of `robots`, the base counted, all in the `base` cell of a `grid` of which nothing is known but
     /// the border.
     ///
     /// # Errors
     /// [`SetupError`] if the number of robots or the base does not fit.
     pub fn new(rule: Rule, robots: usize, base: Cell, mut grid: G) -> Result<Self, SetupError> {
-        const { Self::CAPACITY };
+        const { assert!(ROBOTS <= MAX_ROBOTS, "a chain holds at most 256 robots") };
         if robots < 2 {
-            return Err(SetupError::TooFewRobots { robots });
+            return Err(SetupError::TooFewRobots(robots));
         }
         if robots > ROBOTS {
             return Err(SetupError::TooManyRobots { robots, most: ROBOTS });
         }
         if !grid.area().contains(base) {
-            return Err(SetupError::BaseOutside { base });
+            return Err(SetupError::BaseOutside(base));
         }
         grid.put(CellMark::Explored, base);
         Ok(Self {
@@ -188,12 +169,12 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// How many candidates of followers the last call of [`Chain::plan`] looked at: see [`Budget`](super::Budget).
     pub const fn looked_at(&self) -> u32 {
-        self.looks.used()
+        self.looks.used
     }
 
     /// Whether the last call of [`Chain::plan`] used up its budget, and may have planned otherwise for it.
     pub const fn is_cut_short(&self) -> bool {
-        self.looks.is_over()
+        self.looks.is_over
     }
 
     /// The log entry that a backtrack would take back, if any: entries count team moves from 0.
@@ -385,7 +366,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         for (robot, &byte) in (1..).zip(messages) {
             let message = Message::decode(byte)?;
             if message.outcome == Outcome::TookBack {
-                return Err(Damage::TakenBack { robot: robot + 1 });
+                return Err(Damage::TakenBack(robot + 1));
             }
             let back = message.made().reverse();
             let met = match (message.outcome, message.step, back) {
@@ -394,18 +375,18 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 (_, _, Step::Stay) => None,
             };
             if met.is_some_and(|(side, mark)| !self.grid.edge_has(mark, Edge::new(cells[robot], side))) {
-                return Err(Damage::OtherWorld { robot: robot + 1 });
+                return Err(Damage::OtherWorld(robot + 1));
             }
             steps[robot] = back;
             cells[robot] = cells[robot].after(back);
             if !self.rule.keeps_contact(cells[robot - 1], cells[robot]) {
-                return Err(Damage::OutOfContact { robot: robot + 1 });
+                return Err(Damage::OutOfContact(robot + 1));
             }
         }
         let team = &cells[..self.robots];
         if self.rule.keeps_apart() {
-            let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
-            unmark_occupied(&mut self.grid, team.iter().copied());
+            let is_crowded = mark_occupied(&mut self.grid, team);
+            unmark_occupied(&mut self.grid, team);
             if is_crowded {
                 return Err(Damage::Crowded);
             }
@@ -415,7 +396,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.past == Past::Home
             && let Some(robot) = team.iter().position(|&cell| cell != cells[0])
         {
-            return Err(Damage::NotHome { robot: robot + 1 });
+            return Err(Damage::NotHome(robot + 1));
         }
         Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open })
     }

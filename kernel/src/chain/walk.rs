@@ -2,7 +2,7 @@
 //! one of them on to an unexplored cell, by links.
 
 use super::unfold::goes_on;
-use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link};
+use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link, steps_to};
 
 /// A walk with the robots on it. Robots are counted from 0, the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -31,9 +31,7 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         let first = (0..leader).rev().find(is_apart).map_or(0, |robot| robot + 1);
         walk.first = first as u16;
         walk.cells.as_flattened_mut()[0] = team[first];
-        for robot in first..leader {
-            walk.link_up(grid, team[robot], team[robot + 1]);
-        }
+        walk.extend(grid, &team[first..]);
         walk.leader = walk.stops[usize::from(walk.links)];
         walk
     }
@@ -42,34 +40,32 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
     pub(super) fn between(grid: &impl Grid, stops: &[Cell], at: Cell) -> Option<Self> {
         let mut walk = Self::NONE;
         walk.cells.as_flattened_mut()[0] = *stops.first()?;
-        for link in stops.windows(2) {
-            walk.link_up(grid, link[0], link[1]);
-        }
+        walk.extend(grid, stops);
         let end = walk.stop(walk.links.into());
         walk.leader = walk.cells.as_flattened()[..=end].iter().rposition(|&cell| cell == at)? as u16;
         Some(walk)
     }
 
-    /// This walk up to its stop `stop`, and from there by the links between `stops`, of which there are `links`.
-    pub(super) fn turned_off(&self, grid: &impl Grid, stop: usize, stops: &[Cell], links: usize) -> Self {
+    /// This walk up to its stop `stop`, and from there by the links between `stops`.
+    pub(super) fn turned_off(&self, grid: &impl Grid, stop: usize, stops: &[Cell]) -> Self {
         let mut walk = Self { links: stop as u16, ..*self };
-        for link in 0..links {
-            walk.link_up(grid, stops[link], stops[link + 1]);
-        }
+        walk.extend(grid, stops);
         walk
     }
 
-    /// Adds a link at the end.
-    fn link_up(&mut self, grid: &impl Grid, from: Cell, to: Cell) {
-        let links = usize::from(self.links);
-        let mut place = usize::from(self.stops[links]);
-        let Some(way) = way(grid, from, to) else { return };
-        for cell in way.into_iter().flatten() {
-            place += 1;
-            self.cells.as_flattened_mut()[place] = cell;
+    /// Adds the links between `stops` at the end.
+    fn extend(&mut self, grid: &impl Grid, stops: &[Cell]) {
+        for link in stops.windows(2) {
+            let Some(way) = way(grid, link[0], link[1]) else { continue };
+            let links = usize::from(self.links);
+            let mut place = usize::from(self.stops[links]);
+            for cell in way.into_iter().flatten() {
+                place += 1;
+                self.cells.as_flattened_mut()[place] = cell;
+            }
+            self.links += 1;
+            self.stops[links + 1] = place as u16;
         }
-        self.links += 1;
-        self.stops[links + 1] = place as u16;
     }
 
     /// The robot at the first place.
@@ -129,7 +125,7 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
             let stop = (usize::from(self.links) + robot).saturating_sub(leader);
             let (own, last) = (places[robot], self.stop(stop));
             ahead = own + usize::from(goes_on(own, last, ahead));
-            steps[robot] = step_to(team[robot], self.cell(ahead))?;
+            steps[robot] = steps_to(self.cell(ahead), team[robot]).iter().next()?;
         }
         Some(steps)
     }
@@ -142,11 +138,6 @@ pub(super) enum Lookup {
     LastFirst,
     /// From the beginning.
     FirstFirst,
-}
-
-/// The step from one cell to another.
-pub(super) fn step_to(from: Cell, to: Cell) -> Option<Step> {
-    Step::ALL.into_iter().find(|&step| from.after(step) == to)
 }
 
 /// The cells on the way from one robot to the next, over at most two sides that are not known to be walls; the last is

@@ -3,6 +3,19 @@
 
 use crate::ground::Side;
 
+/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and the side that leads from each to the
+/// next.
+pub(super) const AROUND: [(i16, i16, Side); 8] = [
+    (0, -1, Side::East),
+    (1, -1, Side::South),
+    (1, 0, Side::South),
+    (1, 1, Side::West),
+    (0, 1, Side::West),
+    (-1, 1, Side::North),
+    (-1, 0, Side::North),
+    (-1, -1, Side::East),
+];
+
 /// A set of the eight cells around a cell, or of the eight edges between each of them and the next.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -22,22 +35,14 @@ impl Ring {
     /// The place of the cell in which a sensor lies that is localised `east` and `south` of the centre of the agent's
     /// cell, in the unit of the `side` of a cell; `None` if it is the agent's own, or none of the eight. Where in its cell
     /// the sensor lies does not matter to any rule.
-    pub const fn locate(east: i32, south: i32, side: u16) -> Option<u32> {
-        let side = side as i32;
+    pub fn locate(east: i32, south: i32, side: u16) -> Option<u32> {
+        let side = i32::from(side);
         if side == 0 || east.unsigned_abs() >= 1 << 20 || south.unsigned_abs() >= 1 << 20 {
             return None;
         }
-        match ((east + side / 2).div_euclid(side), (south + side / 2).div_euclid(side)) {
-            (0, -1) => Some(0),
-            (1, -1) => Some(1),
-            (1, 0) => Some(2),
-            (1, 1) => Some(3),
-            (0, 1) => Some(4),
-            (-1, 1) => Some(5),
-            (-1, 0) => Some(6),
-            (-1, -1) => Some(7),
-            _ => None,
-        }
+        let offset = [east, south].map(|offset| (offset + side / 2).div_euclid(side));
+        let is_there = |&(_, (x, y, _)): &(u32, (i16, i16, Side))| [x, y].map(i32::from) == offset;
+        (0..).zip(AROUND).find(is_there).map(|(place, _)| place)
     }
 
     /// The neighbour beyond `side`.

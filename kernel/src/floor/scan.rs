@@ -1,5 +1,6 @@
 //! An agent's scan of the cells around it [Ferranti 2009, I: localisation and querying].
 
+use super::ring::AROUND;
 use super::{COMPASS, Claim, Entry, Floor, Mark, Replaced, Ring, Sensor};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, Side, Step};
@@ -34,19 +35,6 @@ pub struct Scan {
     /// The identifiers of the sensors that were seen around, clockwise from the northern one; 0 where none was.
     pub serials: [u16; 8],
 }
-
-/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and the side that leads from each to the
-/// next.
-const AROUND: [(i16, i16, Side); 8] = [
-    (0, -1, Side::East),
-    (1, -1, Side::South),
-    (1, 0, Side::South),
-    (1, 1, Side::West),
-    (0, 1, Side::West),
-    (-1, 1, Side::North),
-    (-1, 0, Side::North),
-    (-1, -1, Side::East),
-];
 
 impl Scan {
     /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an

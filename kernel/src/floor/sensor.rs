@@ -96,15 +96,10 @@ impl Sensor {
     }
 
     /// The sensor that stores `bits`; `None` if no sensor does.
-    pub const fn from_bits(bits: u64) -> Option<Self> {
-        let mark = match bits & 0b111 {
-            0 => Mark::Unexplored,
-            1 => Mark::Explored,
-            2 => Mark::Closing,
-            3 => Mark::Visited,
-            4 => Mark::Sealed,
-            _ => return None,
-        };
+    pub fn from_bits(bits: u64) -> Option<Self> {
+        const MARKS: [Mark; 5] =
+            [Mark::Unexplored, Mark::Explored, Mark::Closing, Mark::Visited, Mark::Sealed];
+        let mark = *MARKS.get((bits & 0b111) as usize)?;
         let claim = match (bits >> 47 & 1, bits >> 48) {
             (0, 0) => None,
             (1, owner @ 0..=0xFF) => Some(Claim { owner: owner as u8 }),

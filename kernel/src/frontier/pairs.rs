@@ -7,22 +7,14 @@ use core::ops::ControlFlow;
 
 use super::map::{BY_NUMBER, Map, Status};
 use super::rule::{Condition, Rule};
-use super::search::{Search, SearchCell, Target, Way, search};
+use super::search::{Search, Target, Way, search};
 use crate::ground::{Area, Cell, Side};
 
-/// A robot and an unexplored cell that it could go to. What is less goes first.
+/// A robot and an unexplored cell that it could go to. What is less goes first: robots and cells count by the row and the
+/// column of their cells.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pair {
-    rank: Rank,
-    /// The side through which the robot leaves its cell.
-    first: Side,
-}
-
-/// A rank: the lesser goes first. Robots and cells count by the row and the column of their cells.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Rank {
     distance: u32,
     is_unclaimed: bool,
     /// Unexplored neighbours of the cell.
@@ -31,28 +23,18 @@ struct Rank {
     inland: u16,
     robot: (i16, i16),
     cell: (i16, i16),
+    /// The side through which the robot leaves its cell. It decides no order: no two pairs of a list differ in it alone.
+    first: Side,
 }
 
-/// The memory of searches, for as many cells as the area has.
+/// The memory of searches, and of pairs.
 #[derive(Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scratch<'a> {
-    /// One for each cell.
-    pub reached: &'a mut [SearchCell],
-    /// One for each cell.
-    pub queue: &'a mut [Cell],
-    /// Searches so far: it goes on from the last one with the same memory.
-    pub rounds: &'a mut u32,
+    /// That of searches.
+    pub search: Search<'a>,
     /// As many as the square of the robots; with fewer, fewer of the nearest cells are compared.
     pub pairs: &'a mut [Option<Pair>],
-}
-
-impl Scratch<'_> {
-    /// The memory of searches, and of pairs.
-    pub(super) const fn parts(&mut self) -> (Search<'_>, &mut [Option<Pair>]) {
-        let Self { reached, queue, rounds, pairs } = self;
-        (Search { reached, queue, rounds }, pairs)
-    }
 }
 
 /// A robot that is to be paired. Robots in one cell count as one, of which the first has a say.
@@ -68,22 +50,36 @@ pub struct Seeker {
 impl Pair {
     /// The pair of `seeker` and the cell that it has found in `map`.
     pub fn new<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: Target) -> Self {
-        Self { rank: rank(map, rule, seeker, &found), first: found.first }
+        let is_corner = rule.has(Condition::Corner);
+        let unexplored = |side: &Side| map.status(found.cell.beyond(*side)) == Status::Unexplored;
+        Self {
+            distance: found.distance,
+            is_unclaimed: rule.has(Condition::Claim) && seeker.aim != Some(found.cell),
+            unexplored: if is_corner {
+                BY_NUMBER.iter().filter(|side| unexplored(side)).count() as u8
+            } else {
+                0
+            },
+            inland: if is_corner { inland(map.area(), found.cell) } else { 0 },
+            robot: number(seeker.cell),
+            cell: number(found.cell),
+            first: found.first,
+        }
     }
 
-    const fn cell(&self) -> Cell {
-        Cell::new(self.rank.cell.1, self.rank.cell.0)
+    const fn to(&self) -> Cell {
+        Cell::new(self.cell.1, self.cell.0)
     }
 
     /// Whether a robot in `from` may be as near to the cell of this pair as the robot of this pair is.
     fn may_be_lost_to(&self, from: Cell) -> bool {
-        let (columns, rows) = from.apart(self.cell());
-        u32::from(columns) + u32::from(rows) <= self.rank.distance
+        let (columns, rows) = from.apart(self.to());
+        u32::from(columns) + u32::from(rows) <= self.distance
     }
 
     /// The way to its cell.
     pub fn found(&self) -> Target {
-        Target { cell: self.cell(), distance: self.rank.distance, first: self.first }
+        Target { cell: self.to(), distance: self.distance, first: self.first }
     }
 }
 
@@ -99,29 +95,12 @@ fn inland(area: Area, cell: Cell) -> u16 {
     columns.min(rows)
 }
 
-fn rank<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: &Target) -> Rank {
-    let is_corner = rule.has(Condition::Corner);
-    let unexplored = |side: &Side| map.status(found.cell.beyond(*side)) == Status::Unexplored;
-    Rank {
-        distance: found.distance,
-        is_unclaimed: rule.has(Condition::Claim) && seeker.aim != Some(found.cell),
-        unexplored: if is_corner {
-            BY_NUMBER.iter().filter(|side| unexplored(side)).count() as u8
-        } else {
-            0
-        },
-        inland: if is_corner { inland(map.area(), found.cell) } else { 0 },
-        robot: number(seeker.cell),
-        cell: number(found.cell),
-    }
-}
-
 /// A list of pairs of one robot, those that come first.
 type List = [Option<Pair>];
 
 /// Puts `pair` into its place of `list`, of which the last one falls out.
 fn insert(list: &mut List, pair: Pair) {
-    let place = list.iter().position(|known| known.is_none_or(|known| pair.rank < known.rank));
+    let place = list.iter().position(|known| known.is_none_or(|known| pair < known));
     if let Some(after) = place.and_then(|place| list.get_mut(place..)) {
         after.rotate_right(1);
         if let Some(free) = after.first_mut() {
@@ -144,7 +123,7 @@ fn fill<M: Map>(
     let mut level = None;
     search(map, seeker.cell, most, memory, |found| {
         let is_beyond = |last: u32| last < found.distance;
-        let last = list.last().copied().flatten().map(|last| last.rank.distance);
+        let last = list.last().copied().flatten().map(|last| last.distance);
         if level.is_some_and(is_beyond) || last.is_some_and(is_beyond) {
             return ControlFlow::Break(());
         }
@@ -166,7 +145,7 @@ pub(super) struct Pairing<'a, 'm, M, I> {
     /// Whether its way must not be longer than the one to the cell it has claimed, or to a nearest one if it has claimed none.
     pub(super) is_bound: bool,
     pub(super) others: I,
-    pub(super) memory: Search<'m>,
+    pub(super) memory: &'a mut Search<'m>,
     pub(super) pairs: &'a mut List,
 }
 
@@ -182,7 +161,7 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
         loop {
             let bounds = (level + 1, u32::MAX);
             let list = self.pairs.get_mut(..each)?;
-            let Some(next) = fill(self.map, self.rule, self.own, bounds, &mut self.memory, list) else {
+            let Some(next) = fill(self.map, self.rule, self.own, bounds, self.memory, list) else {
                 return first.map(Way::Taken);
             };
             first = first.or_else(|| list.first().copied().flatten().map(|pair| pair.found()));
@@ -199,7 +178,7 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
     fn is_within(&mut self, distance: u32, first: &Target) -> bool {
         let (cell, mut is_nearer) = (self.own.aim.unwrap_or(first.cell), false);
         if first.distance < distance {
-            search(self.map, self.own.cell, distance - 1, &mut self.memory, |found| {
+            search(self.map, self.own.cell, distance - 1, self.memory, |found| {
                 is_nearer = found.cell == cell;
                 if is_nearer { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
@@ -217,11 +196,11 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
                 let (known, free) = self.pairs.split_at_mut(filled);
                 let mut known = known.iter().flatten();
                 let counts = known.clone().any(|pair| pair.may_be_lost_to(other.cell));
-                if !counts || known.any(|pair| pair.rank.robot == number(other.cell)) {
+                if !counts || known.any(|pair| pair.robot == number(other.cell)) {
                     continue;
                 }
                 let Some(list) = free.get_mut(..each) else { continue };
-                fill(self.map, self.rule, other, (u32::MAX, level), &mut self.memory, list);
+                fill(self.map, self.rule, other, (u32::MAX, level), self.memory, list);
                 if list.first().is_some_and(Option::is_some) {
                     filled += each;
                 }
@@ -235,12 +214,11 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
     /// Takes pairs out of the lists, the first one first, until it is the robot's own.
     fn paired(&mut self, filled: usize) -> Option<Target> {
         let pairs = self.pairs.get_mut(..filled)?;
-        while let Some(next) = pairs.iter().flatten().min_by_key(|pair| pair.rank).copied() {
-            if next.rank.robot == number(self.own.cell) {
+        while let Some(next) = pairs.iter().flatten().min().copied() {
+            if next.robot == number(self.own.cell) {
                 return Some(next.found());
             }
-            let is_over =
-                |pair: &Pair| pair.rank.robot == next.rank.robot || pair.rank.cell == next.rank.cell;
+            let is_over = |pair: &Pair| pair.robot == next.robot || pair.cell == next.cell;
             pairs.iter_mut().filter(|pair| pair.as_ref().is_some_and(is_over)).for_each(|pair| *pair = None);
         }
         None

@@ -238,7 +238,7 @@ impl<M: Map> Robot<M> {
         let own = Seeker { cell: self.at, aim: self.aim };
         let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
         let others = others.iter().map(|other| Seeker { cell: other.cell, aim: other.aim });
-        let (memory, pairs) = scratch.parts();
+        let Scratch { search: memory, pairs } = scratch;
         Pairing { map: &self.map, rule, own, is_bound: self.is_bound(rule), others, memory, pairs }.found()
     }
 
@@ -256,7 +256,7 @@ impl<M: Map> Robot<M> {
                 Status::Unexplored => Some(Target { cell, distance: 1, first: side }),
                 Status::Explored => {
                     let mut way = None;
-                    search(&self.map, cell, u32::MAX, &mut scratch.parts().0, |found| {
+                    search(&self.map, cell, u32::MAX, &mut scratch.search, |found| {
                         way = Some(Target { distance: found.distance + 1, first: side, ..found });
                         ControlFlow::Break(())
                     });
@@ -281,24 +281,19 @@ impl<M: Map> Robot<M> {
         let cell = self.at.beyond(side);
         let is_new = sight == Sight::Open && self.map.status(cell) != Status::Explored;
         self.has_news = is_new || !rule.has(Condition::Keep);
+        (self.stance, self.waits) = (Stance::Stands, false);
         let is_obstacle = match sight {
             Sight::Open => {
                 self.stance = Stance::Enters(side);
-                self.waits = false;
                 return;
             }
-            Sight::Small if rule.has(Condition::Detour) => {
-                self.stance = Stance::Stands;
-                self.waits = false;
-                return;
-            }
+            Sight::Small if rule.has(Condition::Detour) => return,
             Sight::Obstacle | Sight::Small => true,
             Sight::Robot => !rule.has(Condition::Tell),
         };
         if is_obstacle && rule.has(Condition::Record) {
             self.hears(cell, Status::Obstacle);
         }
-        self.stance = Stance::Stands;
         self.aim = None;
         self.waits = sight == Sight::Robot && rule.has(Condition::Turn);
     }

@@ -10,7 +10,6 @@ use crate::position::{Belief, Gate, Odometry, Point};
 conditions! {
     /// One condition of the rule, by the sentence it stands for. As published there are none but [`Condition::Record`] and
     /// [`Condition::Detour`], and not even the first one if the paper's avoidance of obstacles is taken literally.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
         /// unexplored one.

@@ -20,12 +20,16 @@ impl SearchCell {
     pub const NEVER: Self = Self { round: 0, distance: 0, first: Side::East };
 }
 
-/// The memory of one search.
+/// The memory of searches, for as many cells as the area has.
 #[derive(Debug)]
-pub(super) struct Search<'a> {
-    pub(super) reached: &'a mut [SearchCell],
-    pub(super) queue: &'a mut [Cell],
-    pub(super) rounds: &'a mut u32,
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Search<'a> {
+    /// One for each cell.
+    pub reached: &'a mut [SearchCell],
+    /// One for each cell.
+    pub queue: &'a mut [Cell],
+    /// Searches so far: it goes on from the last one with the same memory.
+    pub rounds: &'a mut u32,
 }
 
 /// An unexplored cell that a search has reached through explored ones.
@@ -73,12 +77,8 @@ pub(super) fn search<M: Map>(
     while at.distance < most && left > 0 {
         for side in BY_NUMBER {
             let cell = at.cell.beyond(side);
-            let Some(reached) = area.place(cell).and_then(|place| memory.reached.get_mut(place)) else {
-                continue;
-            };
-            if reached.round == round {
-                continue;
-            }
+            let reached = area.place(cell).and_then(|place| memory.reached.get_mut(place));
+            let Some(reached) = reached.filter(|reached| reached.round != round) else { continue };
             let status = map.status(cell);
             if status == Status::Obstacle {
                 continue;

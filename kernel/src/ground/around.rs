@@ -1,35 +1,16 @@
 //! The steps of a robot by where they lead: into a circle round another cell, or beside it. For the circles of the paper
 //! they stand in tables by the offset of the two cells, since planning asks for them all the time.
 
-use super::{Cell, Circle, Step, Steps, neighbours};
+use super::{Cell, Circle, Step, Steps};
 
-/// Where steps lead: a set of cells round another one.
-#[derive(Clone, Copy)]
-enum Set {
-    /// The cells that lie wholly inside a circle.
-    Inside(Circle),
-    /// E_N: the cell and its side neighbours.
-    Beside,
-    /// The cell alone.
-    Cell,
-}
-
-impl Set {
-    const fn has(self, round: Cell, cell: Cell) -> bool {
-        match self {
-            Self::Inside(circle) => circle.covers(round, cell),
-            Self::Beside => neighbours(round, cell),
-            Self::Cell => cell.x == round.x && cell.y == round.y,
-        }
-    }
-
-    /// The steps from `at` that lead into the set round `round`.
+impl Circle {
+    /// The steps from `at` that lead to a cell which lies wholly inside the circle round the centre of `round`.
     #[cold]
     const fn steps(self, round: Cell, at: Cell) -> Steps {
         let mut steps = Steps::NONE;
         let mut place = 0;
         while place < Step::ALL.len() {
-            if self.has(round, at.after(Step::ALL[place])) {
+            if self.covers(round, at.after(Step::ALL[place])) {
                 steps = steps.with(Step::ALL[place]);
             }
             place += 1;
@@ -38,22 +19,22 @@ impl Set {
     }
 }
 
-/// By offset, from −4 to 3 columns and rows: the steps from there that lead into a set of cells round 0,0.
+/// By offset, from −4 to 3 columns and rows: the steps from there that lead into a circle round 0,0.
 struct Table([Steps; 64]);
 
 impl Table {
-    const fn of(set: Set) -> Self {
+    const fn of(circle: Circle) -> Self {
         let mut table = Self([Steps::NONE; 64]);
         let mut place = 0;
         while place < table.0.len() {
             let at = Cell::new((place % 8) as i16 - 4, (place / 8) as i16 - 4);
-            table.0[place] = set.steps(Cell::new(0, 0), at);
+            table.0[place] = circle.steps(Cell::new(0, 0), at);
             place += 1;
         }
         table
     }
 
-    /// The steps from `at` into the set round `round`; `None` if they are too far apart to stand here.
+    /// The steps from `at` into the circle round `round`; `None` if they are too far apart to stand here.
     #[inline]
     const fn get(&self, round: Cell, at: Cell) -> Option<Steps> {
         let column = (at.x as i32 - round.x as i32 + 4) as u32;
@@ -62,10 +43,11 @@ impl Table {
     }
 }
 
-static SAFE: Table = Table::of(Set::Inside(Circle::SAFE));
-static COVERED: Table = Table::of(Set::Inside(Circle::COVERED));
-static BESIDE: Table = Table::of(Set::Beside);
-static ONTO: Table = Table::of(Set::Cell);
+static SAFE: Table = Table::of(Circle::SAFE);
+static COVERED: Table = Table::of(Circle::COVERED);
+/// E_N is what lies wholly inside the circle of radius √10/2, and the cell itself what does inside that of √2/2.
+static BESIDE: Table = Table::of(Circle::new(10));
+static ONTO: Table = Table::of(Circle::new(2));
 
 impl Circle {
     /// The steps from `at` that lead to a cell which lies wholly inside the circle round the centre of `round`.
@@ -76,7 +58,7 @@ impl Circle {
             Self::COVERED => COVERED.get(round, at),
             _ => None,
         };
-        known.unwrap_or_else(|| Set::Inside(self).steps(round, at))
+        known.unwrap_or_else(|| self.steps(round, at))
     }
 }
 
@@ -94,6 +76,7 @@ pub fn steps_to(to: Cell, at: Cell) -> Steps {
 
 #[cfg(test)]
 mod tests {
+    use super::super::neighbours;
     use super::*;
 
     const CIRCLES: [Circle; 3] = [Circle::SAFE, Circle::COVERED, Circle::new(34)];

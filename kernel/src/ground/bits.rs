@@ -48,9 +48,7 @@ impl<P: Plane> BitGrid<P> {
             Avoid::WallsAndVirtual => walls[axis].or(&obstacles[axis]).not(),
         })
     }
-}
 
-impl<P: Plane> BitGrid<P> {
     /// The steps from a cell that leave the area.
     #[inline]
     fn leaving(&self, column: usize, row: usize) -> Steps {
@@ -238,18 +236,12 @@ impl<P: Plane> Grid for BitGrid<P> {
     }
 
     fn distance(&mut self, from: Cell, avoid: Avoid) -> Option<u32> {
-        self.distances(from, Steps::only(Step::Stay), avoid)[Step::Stay.place()]
-    }
-
-    fn distances(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> [Option<u32>; Step::ALL.len()] {
-        let mut distances = [None; Step::ALL.len()];
-        self.flood(at, steps, avoid, |arrived, length| {
-            for step in arrived.iter() {
-                distances[step.place()] = Some(length);
-            }
-            ControlFlow::Continue(())
+        let mut distance = None;
+        self.flood(from, Steps::only(Step::Stay), avoid, |_, length| {
+            distance = Some(length);
+            ControlFlow::Break(())
         });
-        distances
+        distance
     }
 
     #[inline]

@@ -86,15 +86,6 @@ pub trait Grid {
     /// Steps on the shortest path from `from` to an unexplored cell: 0 if `from` is unexplored itself, `None`
     /// if there is no path.
     fn distance(&mut self, from: Cell, avoid: Avoid) -> Option<u32>;
-    /// The distances, each by the place of its step, of the cells where `steps` lead from `at`; `None` for other
-    /// steps.
-    fn distances(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> [Option<u32>; Step::ALL.len()] {
-        let mut distances = [None; Step::ALL.len()];
-        for step in steps.iter() {
-            distances[step.place()] = self.distance(at.after(step), avoid);
-        }
-        distances
-    }
     /// Tells of the `steps` from `at`, nearest first, which lead to cells with one and the same distance, until it is told
     /// to stop; not of those from which there is no path.
     fn approach(
@@ -104,7 +95,10 @@ pub trait Grid {
         avoid: Avoid,
         mut tell: impl FnMut(Steps) -> ControlFlow<()>,
     ) {
-        let distances = self.distances(at, steps, avoid);
+        let mut distances = [None; Step::ALL.len()];
+        for step in steps.iter() {
+            distances[step.place()] = self.distance(at.after(step), avoid);
+        }
         let mut untold = steps.filter(|step| distances[step.place()].is_some());
         while let Some(least) = untold.iter().filter_map(|step| distances[step.place()]).min() {
             let nearest = untold.filter(|step| distances[step.place()] == Some(least));
@@ -125,8 +119,7 @@ pub trait Grid {
     fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)>;
     /// Fewer steps than these lead from `from` to no unexplored cell over sides that are not known to be walls. A grid that keeps what its
     /// searches have found tells more than 0; then far fewer of them are needed.
-    fn least_distance(&mut self, from: Cell) -> u32 {
-        let _ = from;
+    fn least_distance(&mut self, _from: Cell) -> u32 {
         0
     }
     /// The distances to `to`, over sides that are not known to be walls, of all cells at most `most` steps away.

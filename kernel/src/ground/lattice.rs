@@ -28,7 +28,7 @@ impl Cell {
     /// The neighbour beyond `side`. At the rim of the coordinates (±32,767) a cell is its own neighbour.
     #[inline]
     pub const fn beyond(self, side: Side) -> Self {
-        self.moved(side.offset())
+        self.after(Step::Cross(side))
     }
 
     #[inline]
@@ -109,22 +109,10 @@ impl Side {
     /// All sides in direction order.
     pub const ALL: [Self; 4] = [Self::East, Self::South, Self::West, Self::North];
 
-    /// Columns and rows from a cell to its neighbour beyond this side.
-    #[inline]
-    const fn offset(self) -> (i16, i16) {
-        const OFFSETS: [(i16, i16); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
-        OFFSETS[self as usize]
-    }
-
     /// The side to the left of who goes through this one.
     #[inline]
     pub const fn turned_left(self) -> Self {
-        match self {
-            Self::East => Self::North,
-            Self::South => Self::East,
-            Self::West => Self::South,
-            Self::North => Self::West,
-        }
+        Self::ALL[(self as usize + 3) % Self::ALL.len()]
     }
 
     /// The side to the right of who goes through this one.
@@ -136,12 +124,7 @@ impl Side {
     /// This edge seen from the cell beyond it.
     #[inline]
     pub const fn opposite(self) -> Self {
-        match self {
-            Self::East => Self::West,
-            Self::South => Self::North,
-            Self::West => Self::East,
-            Self::North => Self::South,
-        }
+        Self::ALL[(self as usize + 2) % Self::ALL.len()]
     }
 }
 
@@ -190,15 +173,8 @@ impl Step {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Edge {
     cell: Cell,
-    axis: Axis,
-}
-
-/// Which way an edge is crossed.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-enum Axis {
-    EastWest,
-    SouthNorth,
+    /// East or south.
+    side: Side,
 }
 
 impl Edge {
@@ -206,8 +182,8 @@ impl Edge {
     pub const fn new(cell: Cell, side: Side) -> Self {
         // From a cell to the western or northern one of the two.
         const OFFSETS: [(i16, i16); 4] = [(0, 0), (0, 0), (-1, 0), (0, -1)];
-        const AXES: [Axis; 4] = [Axis::EastWest, Axis::SouthNorth, Axis::EastWest, Axis::SouthNorth];
-        Self { cell: cell.moved(OFFSETS[side as usize]), axis: AXES[side as usize] }
+        const SIDES: [Side; 4] = [Side::East, Side::South, Side::East, Side::South];
+        Self { cell: cell.moved(OFFSETS[side as usize]), side: SIDES[side as usize] }
     }
 
     /// The western or northern cell of the two.
@@ -218,10 +194,7 @@ impl Edge {
     /// The side of [`Edge::cell`] on which the edge lies: east or south.
     #[inline]
     pub const fn side(self) -> Side {
-        match self.axis {
-            Axis::EastWest => Side::East,
-            Axis::SouthNorth => Side::South,
-        }
+        self.side
     }
 }
 

@@ -67,16 +67,6 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         self.stances().enumerate().filter(move |&(other, _)| other != robot).map(|(_, stance)| stance)
     }
 
-    /// Whether another one drives a path that was new when it left.
-    pub(super) fn another_drives_a_new_path(&self, robot: usize) -> bool {
-        let others = self.robots().iter().enumerate().filter(|&(other, _)| other != robot);
-        others.into_iter().any(|(_, other)| other.is_new && !other.stance.stands())
-    }
-
-    pub(super) fn someone_drives(&self) -> bool {
-        self.stances().any(|stance| !stance.stands())
-    }
-
     /// Whether the conditions let `robot` take this step from where it stands.
     pub fn admits(&self, robot: usize, step: Step) -> bool {
         !self.admitted(robot, Steps::only(step)).is_empty()

@@ -17,12 +17,11 @@ use super::team::Kit;
 use super::tether::{FAR, Formation};
 use crate::ground::{Cell, Grid, Step, Steps};
 
-/// No robot.
-const NOBODY: u8 = u8::MAX;
-
 /// Who leads, and what for.
 struct Lead<const ROBOTS: usize> {
     leader: usize,
+    /// The sides with which its way can begin.
+    sides: Steps,
     /// The drives between each two robots that are tied.
     between: [[u32; ROBOTS]; ROBOTS],
     /// The robot that shifts, and whereto, if the ends of a path are taken.
@@ -80,17 +79,24 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Who leads: of those nearest to an uncovered side the first. `None` if nobody has a way to one.
     fn lead(&self, all: &[Cell; ROBOTS]) -> Option<Lead<ROBOTS>> {
         let ends = &all[..self.count.into()];
-        let (drives, leader, node) = self.nearest(ends)?;
+        let is_goal = |node: Cell| !self.uncovered_by_all(node).is_empty();
+        let mut nearest: Option<(usize, Way)> = None;
+        for (robot, &end) in ends.iter().enumerate() {
+            let below = nearest.map_or(u16::MAX, |(_, way)| way.drives);
+            nearest = self.way(end, |_, _| true, is_goal, below).map(|way| (robot, way)).or(nearest);
+        }
+        let (leader, way) = nearest?;
+        let node = ends[leader];
         let sides = self.uncovered_by_all(node);
         let is_taken = |step: Step| ends.contains(&node.after(step));
-        let is_stuck = drives == 0 && sides.iter().all(is_taken) && self.rule.has(Condition::MakesRoom);
+        let is_stuck = way.drives == 0 && sides.iter().all(is_taken) && self.rule.has(Condition::MakesRoom);
         let other_end = sides.iter().next().filter(|_| is_stuck).map(|step| node.after(step));
         let shift = other_end.and_then(|other_end| self.shift(ends, [node, other_end]));
         let mut between = [[FAR; ROBOTS]; ROBOTS];
         if shift.is_none() {
             between.iter_mut().zip(ends).for_each(|(drives, &end)| *drives = self.drives(end, all));
         }
-        Some(Lead { leader, between, shift })
+        Some(Lead { leader, sides: way.sides, between, shift })
     }
 
     /// The sides of where `robot` stands that it takes, if it is its part.
@@ -101,9 +107,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return self.admitted(robot, steps);
         }
         if robot == lead.leader {
-            let is_goal = |node: Cell| !self.uncovered_by_all(node).is_empty();
-            let way = self.way(at, |_, _| true, is_goal, u16::MAX);
-            return self.admitted(robot, way.map_or(Steps::NONE, |way| way.sides));
+            return self.admitted(robot, lead.sides);
         }
         let now = drives_to(lead.leader, &lead.between[..count]);
         let is_nearer = |step: Step| {
@@ -116,38 +120,6 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         };
         let free = self.paths(at).filter(|step| !ends[..count].contains(&at.after(step)));
         self.admitted(robot, free).filter(is_nearer)
-    }
-
-    /// The fewest drives of a robot over known paths to a node with an uncovered side, the first of the robots that have no
-    /// more, and this node.
-    fn nearest(&self, ends: &[Cell]) -> Option<(u16, usize, Cell)> {
-        let mut from = [NOBODY; NODES];
-        let mut queue = [(0_u16, 0_u16); NODES];
-        let (mut first, mut last) = (0, 0);
-        for (robot, &node) in ends.iter().enumerate() {
-            let place = self.place(node)?;
-            if from[place] == NOBODY {
-                (from[place], queue[last]) = (robot as u8, (place as u16, 0));
-                last += 1;
-            }
-        }
-        while first < last {
-            let (place, drives) = queue[first];
-            first += 1;
-            let (node, robot) = (self.node(place.into()), from[usize::from(place)]);
-            if !self.uncovered_by_all(node).is_empty() {
-                return Some((drives, robot.into(), node));
-            }
-            for step in self.paths(node).iter() {
-                if let Some(beyond) = self.place(node.after(step))
-                    && from[beyond] == NOBODY
-                {
-                    (from[beyond], queue[last]) = (robot, (beyond as u16, drives + 1));
-                    last += 1;
-                }
-            }
-        }
-        None
     }
 
     /// Who shifts so that one of the two nodes is left, where robots are: the one beside the nearest free node.

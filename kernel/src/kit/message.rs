@@ -4,9 +4,8 @@
 //! The paper gives three flags to the four messages. [`Condition::Flags`] gives the fourth one its own, and the number of a
 //! request stands above the flag, since there is no field for it.
 
-use core::fmt;
-
 use super::rule::{Condition, Rule};
+use crate::error::sentences;
 use crate::ground::{Cell, Side, Step, Steps};
 
 /// Fields of a message: flag, x, y, north, east, south, west.
@@ -54,17 +53,11 @@ pub enum Damage {
     Overfull,
 }
 
-impl fmt::Display for Damage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Flag(flag) => write!(f, "{flag} is no flag of a message: flags are 0 to 3"),
-            Self::Covered(field) => write!(f, "a side is 0 or 1, and not {field}"),
-            Self::Overfull => f.write_str("an acknowledgement has no node and no sides"),
-        }
-    }
-}
-
-impl core::error::Error for Damage {}
+sentences!(Damage {
+    Self::Flag(flag) => "{flag} is no flag of a message: flags are 0 to 3";
+    Self::Covered(field) => "a side is 0 or 1, and not {field}";
+    Self::Overfull => "an acknowledgement has no node and no sides";
+});
 
 impl Message {
     /// The seven fields of this message with the number of its request.

@@ -1,8 +1,7 @@
 //! Why a team cannot start, and what a robot cannot be told.
 
-use core::fmt;
-
 use super::stance::Reach;
+use crate::error::sentences;
 use crate::ground::Cell;
 
 /// Why a team cannot start.
@@ -31,34 +30,18 @@ pub enum SetupError {
     OutOfContact(Reach),
 }
 
-impl fmt::Display for SetupError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Robots { robots, most } => {
-                write!(f, "a team has 1 to {most} robots, and not {robots}")
-            }
-            Self::Outside(start) => write!(f, "the start {start} is outside of the map"),
-            Self::TooManyNodes { nodes, most } => {
-                write!(f, "the map has {nodes} nodes, and there is room for {most}")
-            }
-            Self::OneNode(start) => {
-                write!(f, "two robots start at {start}: give each a node of its own")
-            }
-            Self::OutOfContact(Reach::PAPER) => f.write_str(
-                "the robots do not hear each other where they start: a node is in reach of another at most 3 columns or rows \
-                 away, and 1 to the side",
-            ),
-            Self::OutOfContact(reach) => write!(
-                f,
-                "the robots do not hear each other where they start: a node is in reach of another if the squares of the \
-                 columns and rows between them add up to at most {}",
-                reach.squared()
-            ),
-        }
-    }
-}
-
-impl core::error::Error for SetupError {}
+sentences!(SetupError {
+    Self::Robots { robots, most } => "a team has 1 to {most} robots, and not {robots}";
+    Self::Outside(start) => "the start {start} is outside of the map";
+    Self::TooManyNodes { nodes, most } => "the map has {nodes} nodes, and there is room for {most}";
+    Self::OneNode(start) => "two robots start at {start}: give each a node of its own";
+    Self::OutOfContact(Reach::PAPER) =>
+        "the robots do not hear each other where they start: a node is in reach of another at most 3 columns or rows \
+         away, and 1 to the side";
+    Self::OutOfContact(reach) =>
+        "the robots do not hear each other where they start: a node is in reach of another if the squares of the \
+         columns and rows between them add up to at most {}", reach.squared();
+});
 
 /// A robot was told something that does not fit what it does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -72,14 +55,8 @@ pub enum Misuse {
     Drives,
 }
 
-impl fmt::Display for Misuse {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Decides => "the robot may not decide now: ask `may_decide` before",
-            Self::Looks => "the robot looks at no side: `looked` comes after `Next::Looks`",
-            Self::Drives => "the robot does not drive: `arrived` comes after `Next::Drives`",
-        })
-    }
-}
-
-impl core::error::Error for Misuse {}
+sentences!(Misuse {
+    Self::Decides => "the robot may not decide now: ask `may_decide` before";
+    Self::Looks => "the robot looks at no side: `looked` comes after `Next::Looks`";
+    Self::Drives => "the robot does not drive: `arrived` comes after `Next::Drives`";
+});

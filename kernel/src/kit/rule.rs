@@ -6,7 +6,6 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// A robot drives to a node in reach of the node where the other one goes (section 4).
         NextInReach,

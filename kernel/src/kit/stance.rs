@@ -1,7 +1,7 @@
 //! Where robots are on the lattice, and who is sure to hear whom (KIT-1, KIT-3). The unit is the path between two nodes,
 //! 3 m; 10 m are between √11 and √12 of it, and no two nodes are √11 apart.
 
-use crate::ground::{Cell, EdgeMark, Side};
+use crate::ground::{Cell, Circle, EdgeMark, Side};
 
 /// A path that was seen free from one end to a robot at the other, and that nobody has driven. It is the third mark that a
 /// grid has for edges; robots of a chain use it for virtual obstacles.
@@ -37,9 +37,7 @@ impl Reach {
 
     /// Whether robots at these nodes hear each other.
     pub const fn joins(self, one: Cell, other: Cell) -> bool {
-        let (dx, dy) = one.apart(other);
-        let (dx, dy) = (dx as u64, dy as u64);
-        dx * dx + dy * dy <= self.squared as u64
+        Circle::new(4 * self.squared as u64).reaches(one, other)
     }
 }
 
@@ -108,14 +106,8 @@ pub fn touch(node: Cell, side: Side, other: Stance) -> Option<bool> {
     let is_on_the_path = |end: Cell| end == node || end == ahead;
     match (is_on_the_path(other.from()), is_on_the_path(other.to())) {
         (true, true) => Some(other != Stance::Stands(node)),
-        (false, false) => Some(false),
-        (true, false) | (false, true) => {
-            if other.has(ahead) {
-                None
-            } else {
-                Some(false)
-            }
-        }
+        (true, false) | (false, true) if other.has(ahead) => None,
+        (true, false) | (false, _) => Some(false),
     }
 }
 

@@ -96,8 +96,6 @@ pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
-    const CAPACITY: () = assert!(ROBOTS <= MAX_ROBOTS, "a team holds at most 16 robots");
-
     /// A team that knows nothing of `map` but its border, a robot in each of `starts`.
     ///
     /// # Errors
@@ -106,7 +104,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     where
         G: Copy,
     {
-        const { Self::CAPACITY };
+        const { assert!(ROBOTS <= MAX_ROBOTS, "a team holds at most 16 robots") };
         let area = map.area();
         let nodes = area.width() * area.height();
         let robots = starts.len();
@@ -317,7 +315,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return self.regroup(robot, sides, oracle);
         }
         if self.rule.has(Condition::Stays) {
-            let is_over = part.is_none() && !self.someone_drives();
+            let is_over = part.is_none() && self.stances().all(Stance::stands);
             return self.rest(robot, if is_over { Task::Done } else { Task::Stays });
         }
         let blocked = self.known(EdgeMark::Wall, self.robots[robot].stance.to());

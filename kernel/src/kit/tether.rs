@@ -14,7 +14,7 @@ use super::rule::Condition;
 use super::sets::{Set, first_robots, robots, sets};
 use super::stance::{Reach, Stance};
 use super::team::Kit;
-use crate::ground::{Cell, Grid, Side, Step};
+use crate::ground::{Cell, Grid, Side, Step, steps_to};
 
 /// More drives than there can be between two robots.
 pub(super) const FAR: u32 = 1 << 16;
@@ -185,7 +185,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return true;
         }
         let place = |other: usize| place_of(to, stances[other].to()).unwrap_or(0);
-        let back = Step::ALL.into_iter().find(|&step| to.after(step) == from);
+        let back = steps_to(from, to).iter().next();
         let new = back.filter(|&step| !self.paths(to).has(step)).map(|_| {
             let wanted = robots(all).fold(0, |wanted, other| wanted | place(other));
             self.joined::<1>(to, back, wanted)[0]

@@ -56,7 +56,9 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if self.count != 2 {
             return self.together(robot);
         }
-        let goes_alone = self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
+        let mut others = self.robots().iter().enumerate().filter(|&(other, _)| other != robot);
+        let drives_new_path = others.any(|(_, other)| other.is_new && !other.stance.stands());
+        let goes_alone = self.rule().has(Condition::Meanwhile) && drives_new_path;
         let alone = if goes_alone { self.alone(robot, &self.formation(), u16::MAX) } else { None };
         alone.map(|way| way.sides).or_else(|| self.joint(robot))
     }

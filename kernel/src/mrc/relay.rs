@@ -15,6 +15,7 @@ pub enum Hop {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Route {
     call: Call,
     robot: RobotId,

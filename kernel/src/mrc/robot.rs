@@ -105,13 +105,9 @@ impl<const CALLS: usize> Robot<CALLS> {
     }
 
     /// The timer that runs.
-    pub const fn timer(&self) -> Option<RobotTimer> {
-        match self.task {
-            Task::Asking { call, repeats_left } if self.rule.has(Condition::Repetition) => {
-                Some(RobotTimer { call, repeats_left })
-            }
-            Task::Free | Task::Asking { .. } | Task::Leased { .. } => None,
-        }
+    pub fn timer(&self) -> Option<RobotTimer> {
+        let Task::Asking { call, repeats_left } = self.task else { return None };
+        self.rule.has(Condition::Repetition).then_some(RobotTimer { call, repeats_left })
     }
 
     /// A message has arrived: what it makes of the robot, and what the robot sends.
@@ -168,7 +164,12 @@ impl<const CALLS: usize> Robot<CALLS> {
         };
         if has_epochs && known.call.epoch < call.epoch {
             *known = heard;
-            self.let_go(call);
+            // Whatever it does for an older call of the same WFR is over.
+            if let Task::Asking { call: older, .. } | Task::Leased { call: older } = self.task
+                && older.wfr == call.wfr
+            {
+                self.task = Task::Free;
+            }
         } else if !has_epochs || known.call.epoch == call.epoch {
             known.call.epoch = known.call.epoch.max(call.epoch);
             if hops < known.hops {
@@ -176,16 +177,6 @@ impl<const CALLS: usize> Robot<CALLS> {
             }
         }
         self
-    }
-
-    /// Ends what it does for an older call of the same WFR.
-    fn let_go(&mut self, newer: Call) {
-        match self.task {
-            Task::Asking { call, .. } | Task::Leased { call } if call.wfr == newer.wfr => {
-                self.task = Task::Free;
-            }
-            Task::Free | Task::Asking { .. } | Task::Leased { .. } => {}
-        }
     }
 
     /// Step 5: the SBit is set; the robot chosen sets out, and who is not chosen asks elsewhere.
@@ -220,9 +211,8 @@ impl<const CALLS: usize> Robot<CALLS> {
 
     /// Step 2: a free robot sends MOVE for the nearest call that is not served.
     fn ask_if_free(mut self) -> (Self, Option<Upward>) {
-        match self.task {
-            Task::Asking { .. } | Task::Leased { .. } => return (self, None),
-            Task::Free => {}
+        if self.task != Task::Free {
+            return (self, None);
         }
         let by_hops = self.rule.has(Condition::NearestCall);
         let by_identity = self.rule.has(Condition::LeastIdentity);

@@ -6,7 +6,6 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// A free robot asks for the call of least HC.
         NearestCall,

@@ -111,26 +111,19 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
 
     /// Whether something has happened and no robot has come yet.
     pub const fn is_waiting(&self) -> bool {
-        match self.phase {
-            Phase::Idle | Phase::Rescued { .. } => false,
-            Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Leased { .. } => true,
-        }
+        !matches!(self.phase, Phase::Idle | Phase::Rescued { .. })
     }
 
     /// The timer that runs.
-    pub const fn timer(&self) -> Option<WfrTimer> {
-        let epoch = self.call.epoch;
+    pub fn timer(&self) -> Option<WfrTimer> {
+        let (epoch, renews) = (self.call.epoch, self.rule.has(Condition::Renewal));
         match self.phase {
-            Phase::Collecting { .. } if self.rule.has(Condition::Window) => Some(WfrTimer::Window(epoch)),
-            Phase::Offered { repeats_left, .. } if repeats_left > 0 || self.rule.has(Condition::Renewal) => {
-                Some(WfrTimer::Answer { epoch, repeats_left })
+            Phase::Idle | Phase::Rescued { .. } => None,
+            Phase::Collecting { .. } => self.rule.has(Condition::Window).then_some(WfrTimer::Window(epoch)),
+            Phase::Offered { repeats_left, .. } => {
+                (repeats_left > 0 || renews).then_some(WfrTimer::Answer { epoch, repeats_left })
             }
-            Phase::Leased { .. } if self.rule.has(Condition::Renewal) => Some(WfrTimer::Lease(epoch)),
-            Phase::Idle
-            | Phase::Collecting { .. }
-            | Phase::Offered { .. }
-            | Phase::Leased { .. }
-            | Phase::Rescued { .. } => None,
+            Phase::Leased { .. } => renews.then_some(WfrTimer::Lease(epoch)),
         }
     }
 

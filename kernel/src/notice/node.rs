@@ -82,13 +82,6 @@ const HEARD: usize = Count::MOST as usize + 1;
 impl Senders {
     const NOBODY: Self = Self { senders: [NodeId(0); HEARD], count: 0 };
 
-    const fn nobody_but(sender: NodeId) -> Self {
-        let mut heard = Self::NOBODY;
-        heard.senders[0] = sender;
-        heard.count = 1;
-        heard
-    }
-
     fn has(&self, sender: NodeId) -> bool {
         self.senders.iter().take(self.count.into()).any(|&heard| heard == sender)
     }
@@ -273,7 +266,8 @@ impl Node {
         self.event = notice.call.epoch.0;
         self.parent = notice.sender;
         self.hops = notice.hops.saturating_add(1);
-        self.heard = Senders::nobody_but(notice.sender);
+        self.heard = Senders::NOBODY;
+        self.heard.add(notice.sender);
         around.begin();
         if self.is_settled(rule, heard, around) {
             return self.be_silent();

@@ -8,7 +8,6 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// From forwarding on, a node's parent and hop count stay what they are. Without it, a NOTICE with a hop count
         /// up to the node's own makes its sender the parent.

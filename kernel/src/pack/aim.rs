@@ -36,11 +36,7 @@ impl Aim {
 
     /// The aim after the next step.
     pub(super) const fn after_step(self) -> Self {
-        Self {
-            far: self.far.saturating_sub(1),
-            steps: self.steps >> 2,
-            known: self.known.saturating_sub(1),
-            ..self
-        }
+        let (far, known) = (self.far.saturating_sub(1), self.known.saturating_sub(1));
+        Self { far, steps: self.steps >> 2, known, ..self }
     }
 }

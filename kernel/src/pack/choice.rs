@@ -85,10 +85,6 @@ pub(super) fn way<W: AsRef<[[u64; 2]]>>(
     memory: &mut Scratch<'_>,
 ) -> Option<Aim> {
     let mut flood = Flood::new(chart, memory, from);
-    while let Some((cell, far, _)) = flood.next() {
-        if cell == to {
-            return Some(Aim::new(&flood, to, far));
-        }
-    }
-    None
+    let (_, far, _) = core::iter::from_fn(|| flood.next()).find(|&(cell, ..)| cell == to)?;
+    Some(Aim::new(&flood, to, far))
 }

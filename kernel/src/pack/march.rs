@@ -37,32 +37,24 @@ pub(super) fn caterpillar(cells: &[Cell], head: usize) -> (usize, [usize; MAX_RO
     let mut before = [None; MAX_ROBOTS];
     let mut order = [head; MAX_ROBOTS];
     let (mut told, mut known) = (0, 1);
-    let mut reached: Robots = 1 << (head % MAX_ROBOTS);
-    while let Some(&from) = order.get(told).filter(|_| told < known) {
+    while told < known {
+        let from = order[told];
         told += 1;
-        let Some(&at) = cells.get(from) else { break };
-        for (robot, &cell) in cells.iter().enumerate().take(MAX_ROBOTS) {
-            if reached >> robot & 1 == 1 || !neighbours(at, cell) {
-                continue;
-            }
-            reached |= 1 << robot;
-            if let (Some(place), Some(link)) = (order.get_mut(known), before.get_mut(robot)) {
-                (*place, *link) = (robot, Some(from));
+        for (robot, &cell) in cells.iter().enumerate() {
+            if robot != head && before[robot].is_none() && neighbours(cells[from], cell) {
+                (order[known], before[robot]) = (robot, Some(from));
                 known += 1;
             }
         }
     }
     // Without the robot that was reached last, all others are still reached.
-    let mut path = [head; MAX_ROBOTS];
-    let mut last = order.get(known - 1).copied();
-    let mut length = 0;
-    while let (Some(robot), Some(place)) = (last, path.get_mut(length)) {
-        *place = robot;
+    let (mut path, mut length) = ([head; MAX_ROBOTS], 0);
+    let mut last = Some(order[known - 1]);
+    while let Some(robot) = last {
+        path[length] = robot;
         length += 1;
-        last = before.get(robot).copied().flatten();
+        last = before[robot];
     }
-    if let Some(path) = path.get_mut(..length) {
-        path.reverse();
-    }
+    path[..length].reverse();
     (length, path)
 }

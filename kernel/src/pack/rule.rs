@@ -1,13 +1,11 @@
 //! The rule of a pack as a set of named conditions, how far its robots see, and how far they hear each other.
 
-use core::fmt;
-
 use super::sight::Sight;
+use crate::error::sentences;
 use crate::ground::{Cell, Circle};
 
 crate::conditions! {
     /// A condition of the rule.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// A robot takes a step only if the team is connected after it: the links join all robots, so they have a
         /// spanning tree.
@@ -48,18 +46,10 @@ pub enum RangeError {
     Range,
 }
 
-impl fmt::Display for RangeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Sight => write!(f, "a robot of a pack sees from 1 to {} cells far", Sight::MOST_CELLS),
-            Self::Range => {
-                write!(f, "robots of a pack hear each other {} cells far or more", Rule::LEAST_RANGE_CELLS)
-            }
-        }
-    }
-}
-
-impl core::error::Error for RangeError {}
+sentences!(RangeError {
+    Self::Sight => "a robot of a pack sees from 1 to {} cells far", Sight::MOST_CELLS;
+    Self::Range => "robots of a pack hear each other {} cells far or more", Rule::LEAST_RANGE_CELLS;
+});
 
 impl Rule {
     /// R_s where nobody says otherwise; the paper gives none.

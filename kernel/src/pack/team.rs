@@ -7,8 +7,6 @@
 //! takes 1, 2, 4, 8 … team moves back and tries again. Where all robots were side by side nothing is left to take back, and it goes as a
 //! caterpillar. So the distance to one frontier cell falls until that is reached, and then something new is seen.
 
-use core::fmt;
-
 use super::MAX_ROBOTS;
 use super::aim::Aim;
 use super::chart::Chart;
@@ -16,6 +14,7 @@ use super::choice::{choose, way};
 use super::flood::{Flood, Scratch};
 use super::march::{caterpillar, is_side_by_side, joined};
 use super::rule::{Condition, Rule};
+use crate::error::sentences;
 use crate::ground::{Cell, Side, Step};
 
 /// The history of a pack: its team moves, the last one first. One that forgets the oldest moves, since it is full, brings a team
@@ -43,22 +42,12 @@ pub enum SetupError {
     Apart(usize, usize),
 }
 
-impl fmt::Display for SetupError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Robots(0) => f.write_str("no robots are no pack"),
-            Self::Robots(robots) => {
-                write!(f, "{robots} robots are too many for a pack: it has at most {MAX_ROBOTS}")
-            }
-            Self::Together(cell) => write!(f, "two robots of a pack are in the cell {cell}"),
-            Self::Apart(joined, robots) => {
-                write!(f, "the pack is not connected: links join {joined} of its {robots} robots")
-            }
-        }
-    }
-}
-
-impl core::error::Error for SetupError {}
+sentences!(SetupError {
+    Self::Robots(0) => "no robots are no pack";
+    Self::Robots(robots) => "{robots} robots are too many for a pack: it has at most {MAX_ROBOTS}";
+    Self::Together(cell) => "two robots of a pack are in the cell {cell}";
+    Self::Apart(joined, robots) => "the pack is not connected: links join {joined} of its {robots} robots";
+});
 
 /// Why there is no team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -150,22 +139,12 @@ impl Team {
 
     /// Where its robots are.
     pub fn cells(&self) -> &[Cell] {
-        self.cells.get(..self.robots).unwrap_or_default()
+        &self.cells[..self.robots]
     }
 
     /// Where its robots are going, as far as they have decided.
     pub fn aims(&self) -> impl Iterator<Item = Option<Cell>> + Clone {
         self.aims.iter().take(self.robots).map(|aim| aim.map(|aim| aim.cell))
-    }
-
-    fn aim(&self, robot: usize) -> Option<Aim> {
-        self.aims.get(robot).copied().flatten()
-    }
-
-    fn set_aim(&mut self, robot: usize, aim: Option<Aim>) {
-        if let Some(own) = self.aims.get_mut(robot) {
-            *own = aim;
-        }
     }
 
     /// Makes a team move by what is on the `chart`, and returns what it is, with the step of each robot in `steps`. Each robot must have
@@ -195,13 +174,13 @@ impl Team {
             let mut making = MovePlanner { team: self, chart, memory, steps };
             let made = match stage {
                 Stage::Spread => making.spread()?,
-                Stage::Lead { goal, .. } => making.lead(goal),
+                Stage::Lead { leader, goal } => making.lead(leader, goal),
                 Stage::Back { goal, moves } => making.take_back(goal, moves, past)?,
                 Stage::March { goal } => Some(making.march(goal).ok_or(End::Stuck)?),
             };
             let Some(made) = made else { continue };
             if made != MoveKind::TakenBack {
-                past.push(steps.get(..self.robots).unwrap_or_default());
+                past.push(&steps[..self.robots]);
             }
             return Ok(made);
         }
@@ -214,26 +193,18 @@ impl Team {
 
     /// The robot goes through a side, if that is admitted; whether it is.
     fn go(&mut self, robot: usize, side: Side, steps: &mut [Step; MAX_ROBOTS]) -> bool {
-        let Some(from) = self.cells().get(robot).copied() else { return false };
+        let from = self.cells[robot];
         let to = from.beyond(side);
         if !self.rule.admits_entry(to, self.cells().iter().copied()) {
             return false;
         }
-        self.put(robot, to);
+        self.cells[robot] = to;
         if self.rule.has(Condition::Connect) && !is_connected(&self.rule, self.cells()) {
-            self.put(robot, from);
+            self.cells[robot] = from;
             return false;
         }
-        if let Some(step) = steps.get_mut(robot) {
-            *step = Step::Cross(side);
-        }
+        steps[robot] = Step::Cross(side);
         true
-    }
-
-    fn put(&mut self, robot: usize, to: Cell) {
-        if let Some(cell) = self.cells.get_mut(robot) {
-            *cell = to;
-        }
     }
 }
 
@@ -252,12 +223,12 @@ impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
             *aim = aim.filter(|aim| self.chart.is_frontier(aim.cell));
         }
         for robot in 0..self.team.robots {
-            if self.team.aim(robot).is_some() {
+            if self.team.aims[robot].is_some() {
                 continue;
             }
-            let Some(&from) = self.team.cells().get(robot) else { break };
+            let from = self.team.cells[robot];
             let aim = choose(&self.team.rule, self.chart, from, &self.team.aims().flatten(), self.memory);
-            self.team.set_aim(robot, aim);
+            self.team.aims[robot] = aim;
         }
         for robot in 0..self.team.robots {
             self.take_own_step(robot);
@@ -266,7 +237,7 @@ impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
             return Ok(Some(MoveKind::Spread));
         }
         let nearest = (0..self.team.robots)
-            .filter_map(|robot| Some((self.team.aim(robot)?, robot)))
+            .filter_map(|robot| Some((self.team.aims[robot]?, robot)))
             .min_by_key(|(aim, _)| aim.far);
         let (aim, leader) = nearest.ok_or(End::Explored)?;
         if !self.team.rule.has(Condition::Lead) {
@@ -278,43 +249,41 @@ impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
 
     /// The robot takes the next step on its own way, if it is admitted.
     fn take_own_step(&mut self, robot: usize) {
-        let (Some(aim), Some(&from)) = (self.team.aim(robot), self.team.cells().get(robot)) else { return };
+        let (Some(aim), from) = (self.team.aims[robot], self.team.cells[robot]) else { return };
         let aim = match aim.side() {
             Some(_) => Some(aim),
             None => way(self.chart, from, aim.cell, self.memory),
         };
-        self.team.set_aim(robot, aim);
+        self.team.aims[robot] = aim;
         let Some((aim, side)) = aim.and_then(|aim| Some((aim, aim.side()?))) else { return };
         if let Some(other) =
             self.team.who_is_in(from.beyond(side)).filter(|_| self.team.rule.has(Condition::Single))
         {
             // Two robots that want into each other's cells go on as each other would.
             let is_back = |aim: &Aim| aim.side() == Some(side.opposite());
-            if let Some(back) = self.team.aim(other).filter(is_back) {
-                self.team.set_aim(robot, Some(back.after_step()));
-                self.team.set_aim(other, Some(aim.after_step()));
+            if let Some(back) = self.team.aims[other].filter(is_back) {
+                self.team.aims[robot] = Some(back.after_step());
+                self.team.aims[other] = Some(aim.after_step());
             }
             return;
         }
         if self.team.go(robot, side, self.steps) {
-            self.team.set_aim(robot, Some(aim.after_step()));
+            self.team.aims[robot] = Some(aim.after_step());
         }
     }
 
     /// A team move in which the leader goes on and the others go to it; `None` if nobody can go.
-    fn lead(&mut self, goal: Cell) -> Option<MoveKind> {
+    fn lead(&mut self, leader: usize, goal: Cell) -> Option<MoveKind> {
         // A robot that is in the leader's way leads from there: it is nearer.
-        let leader = self.hand_over(goal);
+        let leader = self.hand_over(leader, goal);
         self.take_own_step(leader);
-        let to = *self.team.cells().get(leader)?;
+        let to = self.team.cells[leader];
         let mut flood = Flood::new(self.chart, self.memory, to);
         let mut left = self.team.robots;
         while let Some((cell, ..)) = flood.next() {
             // Robots that have taken their steps are not asked again.
             let is_here = |&robot: &usize| {
-                robot != leader
-                    && self.team.cells().get(robot) == Some(&cell)
-                    && self.steps.get(robot) == Some(&Step::Stay)
+                robot != leader && self.team.cells[robot] == cell && self.steps[robot] == Step::Stay
             };
             let here = (0..self.team.robots).find(is_here);
             left = left.saturating_sub(usize::from(self.team.cells().contains(&cell)));
@@ -337,21 +306,17 @@ impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
     }
 
     /// The robot that leads now, with its way to the goal.
-    fn hand_over(&mut self, goal: Cell) -> usize {
-        let mut leader = match self.team.stage {
-            Stage::Lead { leader, .. } => leader,
-            Stage::Spread | Stage::Back { .. } | Stage::March { .. } => 0,
-        };
+    fn hand_over(&mut self, mut leader: usize, goal: Cell) -> usize {
         for _ in 0..self.team.robots {
-            let Some(&from) = self.team.cells().get(leader) else { break };
-            let known = self.team.aim(leader).filter(|aim| aim.cell == goal && aim.side().is_some());
+            let from = self.team.cells[leader];
+            let known = self.team.aims[leader].filter(|aim| aim.cell == goal && aim.side().is_some());
             let Some(aim) = known.or_else(|| way(self.chart, from, goal, self.memory)) else { break };
-            self.team.set_aim(leader, Some(aim));
+            self.team.aims[leader] = Some(aim);
             let Some(other) = aim.side().and_then(|side| self.team.who_is_in(from.beyond(side))) else {
                 break;
             };
-            self.team.set_aim(leader, None);
-            self.team.set_aim(other, Some(aim.after_step()));
+            self.team.aims[leader] = None;
+            self.team.aims[other] = Some(aim.after_step());
             leader = other;
         }
         self.team.stage = Stage::Lead { leader, goal };
@@ -364,14 +329,10 @@ impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
             return Err(End::Stuck);
         }
         let mut taken = [Step::Stay; MAX_ROBOTS];
-        let is_back = moves > 0 && taken.get_mut(..self.team.robots).is_some_and(|taken| past.pop(taken));
-        if is_back {
-            for (robot, (step, taken)) in self.steps.iter_mut().zip(taken).enumerate().take(self.team.robots)
-            {
-                if let (Step::Cross(side), Some(&from)) = (taken, self.team.cells().get(robot)) {
-                    *step = Step::Cross(side.opposite());
-                    self.team.put(robot, from.beyond(side.opposite()));
-                }
+        if moves > 0 && past.pop(&mut taken[..self.team.robots]) {
+            for (robot, step) in taken.into_iter().enumerate().take(self.team.robots) {
+                self.steps[robot] = step.reverse();
+                self.team.cells[robot] = self.team.cells[robot].after(step.reverse());
             }
             if self.team.rule.has(Condition::Anew) {
                 self.team.aims = [None; MAX_ROBOTS];
@@ -396,22 +357,19 @@ impl<W: AsRef<[[u64; 2]]>> MovePlanner<'_, '_, W> {
     /// The robot nearest to a cell, and the side through which it goes there; `None` if no robot can.
     fn nearest(&mut self, to: Cell) -> Option<(usize, Side)> {
         let mut flood = Flood::new(self.chart, self.memory, to);
-        while let Some((cell, ..)) = flood.next() {
-            if let Some(robot) = self.team.who_is_in(cell) {
-                return flood.side_before(cell).map(|side| (robot, side.opposite()));
-            }
-        }
-        None
+        let mut cells = core::iter::from_fn(|| flood.next());
+        let (robot, cell) = cells.find_map(|(cell, ..)| Some((self.team.who_is_in(cell)?, cell)))?;
+        flood.side_before(cell).map(|side| (robot, side.opposite()))
     }
 
     /// A team move as a caterpillar.
     fn march(&mut self, goal: Cell) -> Option<MoveKind> {
         let (head, side) = self.nearest(goal)?;
         let (length, path) = caterpillar(self.team.cells(), head);
-        let mut left = *self.team.cells().get(head)?;
+        let mut left = self.team.cells[head];
         self.team.go(head, side, self.steps).then_some(())?;
-        for &robot in path.get(1..length).unwrap_or_default() {
-            let from = *self.team.cells().get(robot)?;
+        for &robot in &path[1..length] {
+            let from = self.team.cells[robot];
             let side = Side::ALL.into_iter().find(|&side| from.beyond(side) == left)?;
             self.team.go(robot, side, self.steps).then_some(())?;
             left = from;

@@ -126,14 +126,8 @@ impl Belief {
         let (cosine, sine) = (libm::cos(self.heading_rad), libm::sin(self.heading_rad));
         let (x, y) = (way_m * cosine, way_m * sine);
         self.at = Point::new(self.at.x_m + x, self.at.y_m + y);
-        // The place moves by (−y, x) with each radian of the heading.
         let [of_x, of_y, variance] = self.heading;
-        let slip = odometry.share * odometry.share;
-        self.place = SymmetricMatrix {
-            xx: self.place.xx - 2.0 * y * of_x + y * y * variance + slip * x * x,
-            xy: self.place.xy + x * of_x - y * of_y - x * y * variance + slip * x * y,
-            yy: self.place.yy + 2.0 * x * of_y + x * x * variance + slip * y * y,
-        };
+        self.place = self.carried(x, y, variance).plus(odometry.share * odometry.share, x, y);
         self.heading = [of_x - y * variance, of_y + x * variance, variance];
     }
 
@@ -143,15 +137,19 @@ impl Belief {
         let angle = self.heading_rad - bearing_rad;
         let (cosine, sine) = (libm::cos(angle), libm::sin(angle));
         let (x, y) = (distance_m * cosine, distance_m * sine);
-        let [of_x, of_y, variance] = self.heading;
-        let turned = variance + sight.bearing_rad * sight.bearing_rad;
-        let deep = sight.distance_m * sight.distance_m;
-        let covariance = SymmetricMatrix {
-            xx: self.place.xx - 2.0 * y * of_x + y * y * turned + deep * cosine * cosine,
-            xy: self.place.xy + x * of_x - y * of_y - x * y * turned + deep * cosine * sine,
-            yy: self.place.yy + 2.0 * x * of_y + x * x * turned + deep * sine * sine,
-        };
+        let turned = self.heading[2] + sight.bearing_rad * sight.bearing_rad;
+        let covariance = self.carried(x, y, turned).plus(sight.distance_m * sight.distance_m, cosine, sine);
         Sighting { at: Point::new(self.at.x_m + x, self.at.y_m + y), covariance }
+    }
+
+    /// The covariance of what is (x, y) away, the variance of its direction being `variance`: it moves by (−y, x) with each radian.
+    const fn carried(&self, x: f64, y: f64, variance: f64) -> SymmetricMatrix {
+        let [of_x, of_y, _] = self.heading;
+        SymmetricMatrix {
+            xx: self.place.xx - 2.0 * y * of_x + y * y * variance,
+            xy: self.place.xy + x * of_x - y * of_y - x * y * variance,
+            yy: self.place.yy + 2.0 * x * of_y + x * x * variance,
+        }
     }
 
     /// The squared Mahalanobis distance of a fix with this covariance: χ² with two degrees of freedom if the belief is right.

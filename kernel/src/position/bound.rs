@@ -33,7 +33,8 @@ pub fn bound(anchors: impl Iterator<Item = Point> + Clone, at: Point, signal: &S
     let error = signal.relative_error();
     let covariance =
         information(anchors.clone(), at, |squared_m| 1.0 / squared_m).inverse()?.times(error * error);
-    Precision { covariance, dilution: dilution(anchors, at)? }.told()
+    let dilution = libm::sqrt(information(anchors, at, |_| 1.0).inverse()?.trace());
+    Precision { covariance, dilution }.told()
 }
 
 /// The three of `anchors` by which a robot at `at` is told best: those with the least bound, since errors grow with distances. The
@@ -55,10 +56,6 @@ pub fn best_three(anchors: &[Point], at: Point) -> Option<[Point; 3]> {
         }
     }
     best.map(|(_, three)| three)
-}
-
-fn dilution(anchors: impl Iterator<Item = Point>, at: Point) -> Option<f64> {
-    Some(libm::sqrt(information(anchors, at, |_| 1.0).inverse()?.trace()))
 }
 
 /// The precision of the minimum of the squared residuals, if it is at `at`. Distances are wrong in proportion, so that those in

@@ -15,7 +15,7 @@ pub fn closed_form(ranges: &[Range]) -> Result<Point, Refusal> {
     if Layout::of(ranges).is_line() {
         return Err(Refusal::Collinear);
     }
-    let &[a, b, c] = ranges else { return Err(Refusal::Anchors { count: ranges.len() }) };
+    let &[a, b, c] = ranges else { return Err(Refusal::Anchors(ranges.len())) };
     let (d_a, d_b, d_c) = (a.distance_m, b.distance_m, c.distance_m);
     let (a, b, c) = (a.anchor, b.anchor, c.anchor);
     // (5) and (6)

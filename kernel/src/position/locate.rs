@@ -182,7 +182,7 @@ pub(super) fn check_residual(ranges: &[Range], residual: Residual) -> Result<(),
     if residual == Residual::Decibels
         && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
     {
-        return Err(Refusal::Zero { anchor });
+        return Err(Refusal::Zero(anchor));
     }
     Ok(())
 }

@@ -1,8 +1,7 @@
 //! A robot's knowledge of an anchor, and the numbers that cannot be taken for it.
 
-use core::fmt;
-
 use super::{Point, Signal};
+use crate::error::sentences;
 
 /// An anchor, and how far from it the robot is by the strength of its signal.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -32,26 +31,14 @@ pub(super) const LEAST_M: f64 = 1e-6;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
-    /// There are fewer than three anchors, or, for the closed form, another number.
-    Anchors {
-        /// How many there are.
-        count: usize,
-    },
-    /// A coordinate or a distance is infinite or no number, or is above a million kilometres.
-    NotFinite {
-        /// Of which anchor.
-        anchor: usize,
-    },
-    /// A distance is below 0.
-    Negative {
-        /// Of which anchor.
-        anchor: usize,
-    },
-    /// A distance is less than a micrometre, so little that no level is as high.
-    Zero {
-        /// Of which anchor.
-        anchor: usize,
-    },
+    /// So many anchors: fewer than three, or, for the closed form, another number.
+    Anchors(usize),
+    /// A coordinate or the distance of this anchor, from 0, is infinite or no number, or is above a million kilometres.
+    NotFinite(usize),
+    /// The distance of this anchor, from 0, is negative.
+    Negative(usize),
+    /// The distance of this anchor, from 0, is less than a micrometre, so little that no level is as high.
+    Zero(usize),
     /// The anchors stand at fewer than three places: these two are within a micrometre.
     Coincident {
         /// The first.
@@ -96,41 +83,21 @@ impl Refusal {
     }
 }
 
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Anchors { count } => {
-                write!(f, "anchors, of which there are {count}, do not tell a position")
-            }
-            Self::NotFinite { anchor } => {
-                write!(f, "a number of anchor {} is infinite, too large or none", anchor + 1)
-            }
-            Self::Negative { anchor } => write!(f, "the distance of anchor {} is negative", anchor + 1),
-            Self::Zero { anchor } => {
-                write!(f, "the distance of anchor {} is too small for a level in decibels", anchor + 1)
-            }
-            Self::Coincident { first, second } => {
-                write!(f, "anchors {} and {} are at the same place", first + 1, second + 1)
-            }
-            Self::Collinear => {
-                f.write_str("the anchors are on one line, so that a position and its mirror image fit alike")
-            }
-            Self::Division => f.write_str(
-                "the second and the third anchor have the same x, by whose difference equation (8) divides",
-            ),
-            Self::Apart { first, second } => write!(
-                f,
-                "the circles of anchors {} and {} do not meet, not even with errors of four standard deviations",
-                first + 1,
-                second + 1
-            ),
-            Self::NoParticle => f.write_str("the swarm has no particle"),
-            Self::NoPlace => f.write_str("the place to begin from is infinite, too far or no number"),
-        }
-    }
-}
-
-impl core::error::Error for Refusal {}
+sentences!(Refusal {
+    Self::Anchors(count) => "anchors, of which there are {count}, do not tell a position";
+    Self::NotFinite(anchor) => "a number of anchor {} is infinite, too large or none", anchor + 1;
+    Self::Negative(anchor) => "the distance of anchor {} is negative", anchor + 1;
+    Self::Zero(anchor) => "the distance of anchor {} is too small for a level in decibels", anchor + 1;
+    Self::Coincident { first, second } => "anchors {} and {} are at the same place", first + 1, second + 1;
+    Self::Collinear => "the anchors are on one line, so that a position and its mirror image fit alike";
+    Self::Division =>
+        "the second and the third anchor have the same x, by whose difference equation (8) divides";
+    Self::Apart { first, second } =>
+        "the circles of anchors {} and {} do not meet, not even with errors of four standard deviations",
+        first + 1, second + 1;
+    Self::NoParticle => "the swarm has no particle";
+    Self::NoPlace => "the place to begin from is infinite, too far or no number";
+});
 
 /// Whether a position can be asked of these ranges: at least three anchors at three places, and distances that are numbers
 /// from 0.
@@ -139,14 +106,14 @@ impl core::error::Error for Refusal {}
 /// [`Refusal`] if it cannot.
 pub fn check(ranges: &[Range]) -> Result<(), Refusal> {
     if ranges.len() < 3 {
-        return Err(Refusal::Anchors { count: ranges.len() });
+        return Err(Refusal::Anchors(ranges.len()));
     }
     for (anchor, range) in ranges.iter().enumerate() {
         if ![range.anchor.x_m, range.anchor.y_m, range.distance_m].into_iter().all(is_told) {
-            return Err(Refusal::NotFinite { anchor });
+            return Err(Refusal::NotFinite(anchor));
         }
         if range.distance_m < 0.0 {
-            return Err(Refusal::Negative { anchor });
+            return Err(Refusal::Negative(anchor));
         }
     }
     let mut places = ranges.iter().map(|range| range.anchor);

@@ -36,10 +36,10 @@ pub struct Nav {
     pub parent: NodeId,
 }
 
-/// A node's conduct for a time of length T_x.
+/// A path node's part in TAN: its conduct until T_x has passed.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Conduct {
+pub enum Guide {
     /// It has nothing to do with a robot.
     Idle,
     /// It sends NAV.
@@ -48,44 +48,33 @@ pub enum Conduct {
     Silent,
 }
 
-/// A path node's part in TAN.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Guide {
-    /// The node's conduct until T_x has passed.
-    pub conduct: Conduct,
-}
-
 impl Guide {
-    /// A node that nobody has asked.
-    pub const IDLE: Self = Self { conduct: Conduct::Idle };
-
     /// A REQNAV has arrived; `own` is the node's place in the tree of that WFR, if it is a path node. The one that is asked
     /// signals, the others keep silent, each for T_x from now. One that keeps silent for another robot's sake does not
     /// signal: the robot asks again.
     #[must_use]
     pub fn request(self, request: ReqNav, id: NodeId, own: Option<Nav>) -> Self {
         let own = own.filter(|own| request.node == id && own.node == id && own.wfr == request.wfr);
-        match (self.conduct, own) {
-            (Conduct::Idle | Conduct::Signals(_), Some(own)) => Self { conduct: Conduct::Signals(own) },
-            (Conduct::Silent, Some(_)) | (Conduct::Signals(_), None) => self,
-            (Conduct::Idle | Conduct::Silent, None) => Self { conduct: Conduct::Silent },
+        match (self, own) {
+            (Self::Idle | Self::Signals(_), Some(own)) => Self::Signals(own),
+            (Self::Silent, Some(_)) | (Self::Signals(_), None) => self,
+            (Self::Idle | Self::Silent, None) => Self::Silent,
         }
     }
 
     /// Another node's NAV has been heard: silence for T_x from now, unless it sends itself.
     #[must_use]
     pub const fn overhear(self) -> Self {
-        match self.conduct {
-            Conduct::Signals(_) => self,
-            Conduct::Idle | Conduct::Silent => Self { conduct: Conduct::Silent },
+        match self {
+            Self::Signals(_) => self,
+            Self::Idle | Self::Silent => Self::Silent,
         }
     }
 
     /// T_x has passed.
     #[must_use]
     pub const fn expire(self) -> Self {
-        Self::IDLE
+        Self::Idle
     }
 }
 
@@ -205,15 +194,9 @@ impl Homing {
     #[must_use]
     pub fn hear(mut self, nav: Nav) -> Self {
         let is_nearer = nav.hops.checked_add(1) == Some(self.hops);
-        match self.stage {
-            Stage::Asking { node } if nav.node == node && nav.wfr == self.wfr && is_nearer => {
-                self.stage = Stage::Scanning { nav, scan: Scan::START };
-            }
-            Stage::Asking { .. }
-            | Stage::Scanning { .. }
-            | Stage::Walking { .. }
-            | Stage::Arrived
-            | Stage::Lost => {}
+        let is_asked = self.stage == Stage::Asking { node: nav.node };
+        if is_asked && nav.wfr == self.wfr && is_nearer {
+            self.stage = Stage::Scanning { nav, scan: Scan::START };
         }
         self
     }
@@ -249,9 +232,8 @@ impl Homing {
     /// The way in the direction of its walk is barred: it scans again from where it is.
     #[must_use]
     pub const fn bump(mut self) -> Self {
-        match self.stage {
-            Stage::Walking { nav, .. } => self.stage = Stage::Scanning { nav, scan: Scan::START },
-            Stage::Asking { .. } | Stage::Scanning { .. } | Stage::Arrived | Stage::Lost => {}
+        if let Stage::Walking { nav, .. } = self.stage {
+            self.stage = Stage::Scanning { nav, scan: Scan::START };
         }
         self
     }
@@ -259,9 +241,8 @@ impl Homing {
     /// It has waited in vain for the signal of the node that it has asked.
     #[must_use]
     pub fn expire(mut self) -> Self {
-        match self.stage {
-            Stage::Asking { node } => self.ask_again(node),
-            Stage::Scanning { .. } | Stage::Walking { .. } | Stage::Arrived | Stage::Lost => {}
+        if let Stage::Asking { node } = self.stage {
+            self.ask_again(node);
         }
         self
     }
@@ -474,20 +455,20 @@ mod tests {
     #[test]
     fn the_node_that_is_asked_signals_and_the_others_keep_silent_until_the_time_has_passed() {
         let request = ReqNav { wfr: WFR, robot: RobotId(1), node: NodeId(2) };
-        let asked = Guide::IDLE.request(request, NodeId(2), Some(nav(2)));
-        assert_eq!(asked.conduct, Conduct::Signals(nav(2)));
+        let asked = Guide::Idle.request(request, NodeId(2), Some(nav(2)));
+        assert_eq!(asked, Guide::Signals(nav(2)));
         assert_eq!(asked.overhear(), asked);
         for (id, own) in [(3, Some(nav(3))), (7, None), (2, None)] {
-            let other = Guide::IDLE.request(request, NodeId(id), own);
-            assert_eq!(other.conduct, Conduct::Silent, "{id}");
-            assert_eq!(other.expire(), Guide::IDLE);
+            let other = Guide::Idle.request(request, NodeId(id), own);
+            assert_eq!(other, Guide::Silent, "{id}");
+            assert_eq!(other.expire(), Guide::Idle);
         }
         let elsewhere = Nav { wfr: NodeId(9), ..nav(2) };
         let newer = asked.request(ReqNav { wfr: NodeId(9), ..request }, NodeId(2), Some(elsewhere));
-        assert_eq!(newer.conduct, Conduct::Signals(elsewhere), "the latest request counts");
+        assert_eq!(newer, Guide::Signals(elsewhere), "the latest request counts");
         let others = ReqNav { node: NodeId(3), ..request };
         assert_eq!(asked.request(others, NodeId(2), Some(nav(2))), asked, "another's does not silence it");
-        let silent = Guide::IDLE.overhear();
+        let silent = Guide::Idle.overhear();
         assert_eq!(silent.request(request, NodeId(2), Some(nav(2))), silent);
     }
 }

@@ -92,7 +92,7 @@ impl Bounds {
     /// [`SetupError`] if the base is outside.
     pub fn reach(&self) -> Result<Area, SetupError> {
         let base = self.base;
-        area(self.area, base, self.robots).ok_or(SetupError::BaseOutside { base })
+        area(self.area, base, self.robots).ok_or(SetupError::BaseOutside(base))
     }
 
     /// How many edges can be walls.

@@ -134,7 +134,7 @@ pub(super) fn whatever_the_log(dying: &DeathCase, oracle: &mut dyn Oracle) -> Ou
             if let Step::Cross(side) = step.reverse()
                 && !crossed.contains(&key(Edge::new(reforming.cells()[place], side)))
             {
-                refused = refused.or(Some(Damage::OtherWorld { robot: robot + 1 }));
+                refused = refused.or(Some(Damage::OtherWorld(robot + 1)));
             }
             log[entry as usize * (robots - 1) + robot - 1] =
                 Message { step, outcome: Came::Arrived }.encode();
@@ -163,8 +163,8 @@ impl DeathCase {
     fn take_back(&self, reforming: &mut Reformation<SmallGrid, 8>, log: &[u8]) -> Result<bool, Damage> {
         let behind = reforming.behind();
         match reforming.take_back(log) {
-            Err(Damage::OtherWorld { robot }) if self.then == Aftermath::Renumber && robot > behind => {
-                Err(Damage::OtherWorld { robot: robot - 1 })
+            Err(Damage::OtherWorld(robot)) if self.then == Aftermath::Renumber && robot > behind => {
+                Err(Damage::OtherWorld(robot - 1))
             }
             taken => taken,
         }

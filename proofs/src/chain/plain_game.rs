@@ -25,7 +25,7 @@ impl PlainGame {
     pub(super) fn new(bounds: &Bounds) -> Result<Self, SetupError> {
         let Bounds { observed, robots, base, .. } = *bounds;
         let plain = PlainChain::new(observed.rule, robots, base, bounds.reach()?);
-        let start = plain.under(observed.readings).ok_or(SetupError::BaseOutside { base })?;
+        let start = plain.under(observed.readings).ok_or(SetupError::BaseOutside(base))?;
         Ok(Self { bounds: bounds.clone(), start })
     }
 }

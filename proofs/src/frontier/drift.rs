@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Scratch, SearchCell, Sight, Slot, Status, TinyMap,
-    View, clamped, taken_for,
+    Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Scratch, Search, SearchCell, Sight, Slot, Status,
+    TinyMap, View, clamped, taken_for,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -100,8 +100,10 @@ impl Drift {
         let (mut reached, mut queue) =
             ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
         let (mut rounds, mut pairs) = (0, [None]);
-        let mut scratch =
-            Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+        let mut scratch = Scratch {
+            search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
+            pairs: &mut pairs,
+        };
         let view = View { others: &[], slot: Slot::Own };
         state.robot.next(&self.rule, view, &mut scratch, oracle)
     }

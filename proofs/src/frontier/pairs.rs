@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::frontier::{
-    Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Status, TinyMap, View,
+    Map, Next, Other, Place, Robot, Rule, Scratch, Search, SearchCell, Sight, Slot, Status, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -104,8 +104,10 @@ fn next(rule: &Rule, map: TinyMap, team: &[Sighting], has_news: bool) -> Next {
     let others: Vec<Other> = team.iter().skip(1).map(other).collect();
     let (mut reached, mut queue) = ([SearchCell::NEVER; CELLS], [Cell::new(0, 0); CELLS]);
     let (mut rounds, mut pairs) = (0, [None; ROBOTS * ROBOTS]);
-    let mut scratch =
-        Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+    let mut scratch = Scratch {
+        search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
+        pairs: &mut pairs,
+    };
     own.next(rule, View { others: &others, slot: Slot::Own }, &mut scratch, &mut Tape(&[]))
 }
 

@@ -13,8 +13,8 @@ mod merging;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, SearchCell, Sight, Slot, Stance, Status,
-    TinyMap, View,
+    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, Search, SearchCell, Sight, Slot, Stance,
+    Status, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -250,7 +250,10 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
         let mut pairs = [[None; ROBOTS]; ROBOTS];
         let pairs = pairs.as_flattened_mut();
-        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs };
+        let mut scratch = Scratch {
+            search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
+            pairs,
+        };
         world.robots[robot].next(&self.rule, view, &mut scratch, oracle)
     }
 

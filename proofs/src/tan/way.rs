@@ -4,7 +4,7 @@
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::net::{NodeId, RobotId, Strength};
-use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
+use tautline_kernel::tan::{Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
 
 use crate::engine::{Outcome, Stop, require};
 
@@ -152,7 +152,7 @@ pub(super) fn requests() -> String {
 /// [`crate::engine::Stop`] if the clause is broken.
 pub(super) fn guides(is_patient: &bool, oracle: &mut dyn Oracle) -> Outcome {
     let own = |hops| Nav { wfr: WFR, node: NodeId(2), hops, parent: NodeId(1) };
-    let mut guide = Guide::IDLE;
+    let mut guide = Guide::Idle;
     // Since T_x has passed: the places in the tree under which it was asked, none for what was not for it.
     let mut since: Vec<Option<Nav>> = Vec::new();
     for _ in 0..REQUESTS {
@@ -172,20 +172,20 @@ pub(super) fn guides(is_patient: &bool, oracle: &mut dyn Oracle) -> Outcome {
             since.retain(Option::is_some);
         }
         let due = match since.first() {
-            None => Conduct::Idle,
-            Some(None) => Conduct::Silent,
+            None => Guide::Idle,
+            Some(None) => Guide::Silent,
             Some(Some(_)) => {
-                since.iter().rev().flatten().next().map_or(Conduct::Idle, |&nav| Conduct::Signals(nav))
+                since.iter().rev().flatten().next().map_or(Guide::Idle, |&nav| Guide::Signals(nav))
             }
         };
         require(
-            guide.conduct == due,
+            guide == due,
             "it signals if it was asked before it had to keep silent, as it was asked last",
         )?;
     }
-    Ok(match guide.conduct {
-        Conduct::Idle => "idle",
-        Conduct::Signals(_) => "it signals",
-        Conduct::Silent => "it keeps silent",
+    Ok(match guide {
+        Guide::Idle => "idle",
+        Guide::Signals(_) => "it signals",
+        Guide::Silent => "it keeps silent",
     })
 }

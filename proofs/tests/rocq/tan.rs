@@ -2,7 +2,7 @@
 //! all that is heard. A node that guides: every conduct, and its answers.
 
 use tautline_kernel::net::{NodeId, RobotId, Strength};
-use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
+use tautline_kernel::tan::{Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
 
 use super::mrc::{Answers, explore, table};
 use super::term::{definition, list};
@@ -82,15 +82,14 @@ fn answers(state: &State) -> Vec<(String, State, String)> {
 /// it. Requests come with any place in the tree, and with none.
 fn guides() -> Vec<String> {
     const NODE: NodeId = NodeId(1);
-    let conduct = |guide: Guide| match guide.conduct {
-        Conduct::Idle => "Idle".to_owned(),
-        Conduct::Signals(of) => format!("(Signals {})", nav(of)),
-        Conduct::Silent => "KeepsSilent".to_owned(),
+    let conduct = |guide: Guide| match guide {
+        Guide::Idle => "Idle".to_owned(),
+        Guide::Signals(of) => format!("(Signals {})", nav(of)),
+        Guide::Silent => "KeepsSilent".to_owned(),
     };
-    let signals = navs().into_iter().map(Conduct::Signals);
+    let signals = navs().into_iter().map(Guide::Signals);
     let mut rows = Vec::new();
-    for guide in [Conduct::Idle, Conduct::Silent].into_iter().chain(signals).map(|conduct| Guide { conduct })
-    {
+    for guide in [Guide::Idle, Guide::Silent].into_iter().chain(signals) {
         let mut add =
             |input: &str, after| rows.push(format!("({},{input},{})", conduct(guide), conduct(after)));
         for (wfr, node) in [0, 9].into_iter().flat_map(|wfr| [1, 2].map(|node| (wfr, node))) {

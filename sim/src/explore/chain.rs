@@ -116,8 +116,7 @@ fn begin<G: Grid + Clone + 'static, const ROBOTS: usize>(
     grid: impl Fn(Area) -> Option<G>,
 ) -> Result<Box<dyn Team>, SetupError> {
     let (base, robots) = (setup.base, usize::from(setup.robots));
-    let area =
-        chain::area(setup.layout.size().area(), base, robots).ok_or(SetupError::BaseOutside { base })?;
+    let area = chain::area(setup.layout.size().area(), base, robots).ok_or(SetupError::BaseOutside(base))?;
     let grid = grid(area).ok_or(SetupError::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
     Ok(Box::new(ChainTeam::new(setup, chain)))
@@ -126,11 +125,11 @@ fn begin<G: Grid + Clone + 'static, const ROBOTS: usize>(
 /// The fault of a chain that is refused.
 fn fault(refused: SetupError) -> Diagnostic {
     match refused {
-        SetupError::TooFewRobots { .. } | SetupError::TooManyRobots { .. } => {
+        SetupError::TooFewRobots(_) | SetupError::TooManyRobots { .. } => {
             let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
             Diagnostic::of_field("robots", refused, remedy)
         }
-        SetupError::BaseOutside { .. } => {
+        SetupError::BaseOutside(_) => {
             Diagnostic::of_field("base", refused, "give `base` a free cell of the layout")
         }
     }

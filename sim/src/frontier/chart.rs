@@ -1,7 +1,7 @@
 //! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again
 //! looks only at what is new.
 
-use tautline_kernel::frontier::{Map, Pair, Scratch, SearchCell, Status};
+use tautline_kernel::frontier::{Map, Pair, Scratch, Search, SearchCell, Status};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 /// A repository on the heap.
@@ -149,6 +149,6 @@ impl Memory {
 
     pub(super) fn scratch(&mut self) -> Scratch<'_> {
         let Self { reached, queue, rounds, pairs } = self;
-        Scratch { reached, queue, rounds, pairs }
+        Scratch { search: Search { reached, queue, rounds }, pairs }
     }
 }

@@ -5,7 +5,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Bid, Condition, Hop, Relay, Resb, Upward, Word};
 use tautline_kernel::net::{Epoch, NodeId, Reception};
 use tautline_kernel::notice::Stage;
-use tautline_kernel::tan::{Conduct, Guide, Nav, ReqNav};
+use tautline_kernel::tan::{Guide, Nav, ReqNav};
 
 use super::{Duty, Message, World};
 use crate::radio::Protocol;
@@ -117,13 +117,13 @@ impl World<'_> {
             && self.scenario.rule.has(Condition::AnswersAgain);
         let own = epoch.filter(|_| !is_over).and_then(|epoch| self.place_in_tree(at, wfr, epoch));
         let guide = self.sensors[at.0 as usize].guide.request(request, at, own);
-        match guide.conduct {
-            Conduct::Signals(nav) if request.node == at => {
-                self.sensors[at.0 as usize].guide = Guide::IDLE;
+        match guide {
+            Guide::Signals(nav) if request.node == at => {
+                self.sensors[at.0 as usize].guide = Guide::Idle;
                 self.conduct(at, guide, now_ns);
                 self.send(at, Message::Nav(nav));
             }
-            Conduct::Signals(_) | Conduct::Silent | Conduct::Idle => self.conduct(at, guide, now_ns),
+            Guide::Signals(_) | Guide::Silent | Guide::Idle => self.conduct(at, guide, now_ns),
         }
     }
 

@@ -3,7 +3,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::Request;
 use tautline_kernel::net::{Call, NodeId};
-use tautline_kernel::tan::{Conduct, Nav, Order, ReqNav, Stage as Leg};
+use tautline_kernel::tan::{Guide, Nav, Order, ReqNav, Stage as Leg};
 
 use super::{Duty, Message, World};
 use crate::rescue::event::millimetres;
@@ -99,7 +99,7 @@ impl World<'_> {
         let sends = |node: &NodeId| {
             let sensor = &self.sensors[node.0 as usize];
             let is_for = |nav: Nav| nav.wfr == way.call.wfr;
-            !sensor.has_failed && matches!(sensor.guide.conduct, Conduct::Signals(nav) if is_for(nav))
+            !sensor.has_failed && matches!(sensor.guide, Guide::Signals(nav) if is_for(nav))
         };
         let guide = way.walker.guide();
         let signal = guide.filter(sends).map(|node| self.scenario.signal(node, rover.place));

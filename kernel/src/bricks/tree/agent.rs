@@ -77,7 +77,8 @@ impl Agent {
 
     /// The agent's action after a scan.
     pub fn decide(&mut self, rule: Rule, view: &View) -> Act {
-        let view = View { doubted: self.doubted(rule, view.scan.unexplored), ..view.knowing(self.known) };
+        let (known, doubted) = (view.known.or(self.known), self.doubted(rule, view.scan.unexplored));
+        let view = View { known, doubted, ..*view };
         let view = if rule.has(Condition::Restores) { View { here: view.restored(), ..view } } else { view };
         let act = self.choose(rule, &view);
         if rule.has(Condition::Remembers) {

@@ -142,13 +142,9 @@ impl Note {
     }
 
     /// The sensor that stores `bits`, and no depth; `None` if no sensor does.
-    pub const fn from_bits(bits: u64) -> Option<Self> {
-        let state = match bits & 0b11 {
-            0 => State::Unexplored,
-            1 => State::Explored,
-            2 => State::Open,
-            _ => State::Visited,
-        };
+    pub fn from_bits(bits: u64) -> Option<Self> {
+        const STATES: [State; 4] = [State::Unexplored, State::Explored, State::Open, State::Visited];
+        let state = STATES[(bits & 0b11) as usize];
         let side = match bits >> 2 & 0b111 {
             0 => None,
             side @ 1..=4 => Some(Side::ALL[side as usize - 1]),

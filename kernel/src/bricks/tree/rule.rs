@@ -4,7 +4,6 @@ use crate::conditions;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
-    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
     pub enum Condition of Rule {
         /// An agent marks its cell as soon as the cell does not block (BRICKS-1), and a cell joins a tree only if it
         /// blocks.

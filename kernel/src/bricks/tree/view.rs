@@ -50,11 +50,6 @@ impl View {
         COMPASS.into_iter().zip(self.beside).filter(|(_, note)| note.state != State::Unexplored)
     }
 
-    /// This view where the cells around in `known` are known to have sensors, too.
-    pub fn knowing(self, known: Ring) -> Self {
-        Self { known: self.known.or(known), ..self }
-    }
-
     /// The side neighbours that read as unexplored.
     pub fn unexplored(&self) -> Ring {
         self.scan.unexplored.and(self.scan.beside)
