@@ -1,5 +1,5 @@
-//! Pictures as SVG, for light and dark pages: the document, its colours, and panels beside each other. Every text is
-//! escaped, or made of numbers and our own words.
+//! Pictures as SVG, for light and dark pages: the document, its colours, and panels beside each other. Titles and
+//! captions are plain text, and escaped here, where they are written; a body is SVG.
 
 use std::fmt::Write;
 
@@ -46,7 +46,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// A part of such a width and height. The caption is escaped, and empty if there is none.
+    /// A part of such a width and height. The caption is empty if there is none.
     pub const fn new(caption: String, (width, height): (i32, i32), body: String) -> Self {
         Self { caption, width, height, body }
     }
@@ -72,7 +72,7 @@ impl Panel {
                     body,
                     "<text class=\"caption\" y=\"{}\">{}</text>",
                     CAPTION / 2 - 2,
-                    panel.caption
+                    escaped(&panel.caption)
                 );
             }
             let _ = writeln!(body, "<g transform=\"translate(0,{caption})\">{}</g></g>", panel.body);
@@ -105,11 +105,27 @@ pub fn escaped(text: &str) -> String {
     })
 }
 
-/// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
+/// A picture of `body` alone, which wants `style` beside that of all pictures. The title is plain text.
 pub fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
+    let title = escaped(title);
     format!(
         "{SVG_HEAD}viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
          aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_and_captions_are_escaped_and_as_wide_as_they_are_seen() {
+        let drawn = |name: &str| Panel::picture(name, &[Panel::new(name.to_owned(), (9, 9), String::new())]);
+        let picture = drawn("R&D <a>");
+        // In an attribute, in the title and in the picture.
+        assert_eq!((picture.matches("R&amp;D &lt;a&gt;").count(), picture.contains("<a>")), (3, false));
+        let width = |picture: &str| picture.split("width=\"").nth(1)?.split('"').next().map(str::to_owned);
+        assert_eq!(width(&picture), width(&drawn("R+D +a+")));
+    }
 }

@@ -167,14 +167,17 @@ impl LineChart {
         let across = Scale::of(across.chain(self.x.shows.iter().copied()), WIDTH);
         let up = Scale::of(up.chain(self.y.shows.iter().copied()), HEIGHT);
 
-        let (title, x_name, y_name) = (escaped(&self.title), self.x.words(), self.y.words());
+        let (title, x_name, y_name) = (&self.title, self.x.words(), self.y.words());
         let left = MARGIN + 2 * TICK + up.ticks.iter().map(|tick| text_width(&tick.label)).max().unwrap_or(0);
         let top = MARGIN + 3 * LINE;
         let below = HEIGHT + 3 * LINE;
         let (middle, x_name_at) = (LINE / 2, HEIGHT + LINE / 2 + TICK + LINE);
         // Writing to a string cannot fail.
-        let mut body =
-            format!("<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{title}</text>", MARGIN + middle);
+        let mut body = format!(
+            "<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{}</text>",
+            MARGIN + middle,
+            escaped(title)
+        );
         let _ = writeln!(body, "<text class=\"start\" x=\"{MARGIN}\" y=\"{}\">{y_name}</text>", top - LINE);
         let _ = writeln!(body, "<g transform=\"translate({left},{top})\">{}", axes(&across, &up));
         let _ = writeln!(body, "<text x=\"{}\" y=\"{x_name_at}\">{x_name}</text>", WIDTH / 2);
@@ -197,11 +200,11 @@ impl LineChart {
             left + WIDTH + LINE,
             left + WIDTH / 2 + text_width(&x_name) / 2,
             MARGIN + text_width(&y_name),
-            MARGIN + text_width(&title) * 5 / 4,
+            MARGIN + text_width(title) * 5 / 4,
         ];
         let width = names.chain(texts).max().unwrap_or(0) + MARGIN;
         document(
-            &title,
+            title,
             &format!("{SERIES_STYLE}{STYLE}"),
             (width, top + below + LINE * self.series.len() as i32),
             &body,

@@ -90,12 +90,14 @@ impl Terminus {
 /// A picture of maps beside each other.
 pub fn picture(title: &str, maps: &[Map<'_>]) -> String {
     let side = if maps.len() == 1 { ALONE } else { AMONG };
-    let title = escaped(title);
     let (mut x, mut y, mut row_height) = (MARGIN, MARGIN + LINE + MARGIN / 2, 0);
-    let mut width = MARGIN + text_width(&title) * 5 / 4;
+    let mut width = MARGIN + text_width(title) * 5 / 4;
     // Writing to a string cannot fail.
-    let mut body =
-        format!("<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{title}</text>\n", MARGIN + LINE / 2);
+    let mut body = format!(
+        "<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{}</text>\n",
+        MARGIN + LINE / 2,
+        escaped(title)
+    );
     for (place, map) in maps.iter().enumerate() {
         if place > 0 && place % ROW == 0 {
             (x, y, row_height) = (MARGIN, y + row_height + MARGIN, 0);
@@ -110,7 +112,7 @@ pub fn picture(title: &str, maps: &[Map<'_>]) -> String {
     let key = key(maps);
     let _ = writeln!(body, "<g transform=\"translate({MARGIN},{y})\">{}</g>", key.body);
     document(
-        &title,
+        title,
         &format!("{SERIES_STYLE}{STYLE}"),
         (width.max(MARGIN + key.width) + MARGIN, y + LINE / 2 + MARGIN),
         &body,

@@ -139,14 +139,14 @@ impl Ground {
 
     /// The whole picture: the title, the ground with `body`, cut off at its rim, and the key.
     fn picture(&self, title: &str, body: &str, key: &[(String, &str)]) -> String {
-        let title = escaped(title);
         let (width, height) = self.size();
         let top = MARGIN + LINE + MARGIN / 2;
         let mut whole = format!(
-            "<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{title}</text>\n\
+            "<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{}</text>\n\
              <svg x=\"{MARGIN}\" y=\"{top}\" width=\"{width}\" height=\"{height}\">\n\
              <rect class=\"rim\" width=\"{width}\" height=\"{height}\"/>\n{body}</svg>\n",
-            MARGIN + LINE / 2
+            MARGIN + LINE / 2,
+            escaped(title)
         );
         let (mut x, y) = (MARGIN, top + height + LINE);
         for (mark, meaning) in key {
@@ -156,8 +156,8 @@ impl Ground {
             );
             x += 24 + text_width(meaning) + MARGIN;
         }
-        let widest = [MARGIN + width, x, MARGIN + text_width(&title) * 5 / 4];
+        let widest = [MARGIN + width, x, MARGIN + text_width(title) * 5 / 4];
         let width = widest.into_iter().max().unwrap_or(0) + MARGIN;
-        document(&title, &format!("{SERIES_STYLE}{STYLE}"), (width, y + LINE / 2 + MARGIN), &whole)
+        document(title, &format!("{SERIES_STYLE}{STYLE}"), (width, y + LINE / 2 + MARGIN), &whole)
     }
 }

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_io::svg::{Panel, SERIES, SERIES_STYLE, escaped};
+use tautline_io::svg::{Panel, SERIES, SERIES_STYLE};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
@@ -153,7 +153,7 @@ pub fn trajectories(layout: &Layout, area: Area, caption: &str, ways: &[Vec<Cell
     if let Some(base) = layout.base() {
         body.push_str(&base_mark(frame, base));
     }
-    panel(area, escaped(caption), body + &walls(layout, area))
+    panel(area, caption.to_owned(), body + &walls(layout, area))
 }
 
 /// The three environments.

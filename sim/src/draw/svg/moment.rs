@@ -25,5 +25,5 @@ pub fn moment(layout: &Layout, caption: &str, robots: &[([f64; 2], String)], bro
         let _ = write!(body, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"8\"/>");
         body += &name((x, y), &escaped(label));
     }
-    panel(area, escaped(caption), body)
+    panel(area, caption.to_owned(), body)
 }
