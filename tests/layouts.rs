@@ -140,7 +140,8 @@ fn any_layout() -> impl Strategy<Value = Layout> {
         let bits = || prop::collection::vec(any::<bool>(), 2 * cells);
         let blocked = prop::collection::vec(prop::bool::weighted(0.3), cells);
         let base = prop::option::of((0..width as i16, 0..height as i16));
-        (bits(), blocked, base, any::<Option<NonZeroU16>>()).prop_filter_map(
+        let robots = prop::option::of(1..=256_u16);
+        (bits(), blocked, base, robots).prop_filter_map(
             "a free cell is left",
             move |(walls, blocked, base, robots)| {
                 let mut layout = Layout::open(width, height).expect("a small size");
@@ -157,8 +158,8 @@ fn any_layout() -> impl Strategy<Value = Layout> {
                 if let Some((x, y)) = base.filter(|&(x, y)| layout.is_free(Cell::new(x, y))) {
                     layout.place_base(Cell::new(x, y)).expect("a free cell");
                 }
-                if let Some(robots) = robots {
-                    layout.set_robots(robots);
+                if let Some(robots) = robots.and_then(NonZeroU16::new) {
+                    layout.set_robots(robots).expect("a team");
                 }
                 (layout.free_cells() > 0).then_some(layout)
             },
@@ -206,6 +207,7 @@ fn a_bad_drawing_is_refused_at_its_place() {
     };
     assert_snapshot!(bad("layout 1", "layout 2"), @"a.txt:1:17: this is version 2, this program reads version 1; write the drawing again with this program");
     assert_snapshot!(bad("tautline layout 1\n", ""), @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml");
+    assert_snapshot!(bad("robots 4", "robots 257"), @r#"a.txt:2:8: "257" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
     assert_snapshot!(bad("robots 4", "robots 0"), @r#"a.txt:2:8: "0" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
     assert_snapshot!(bad("robots 4", "robot 4"), @"a.txt:2:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
     assert_snapshot!(bad("+--+--+--+\n", ""), @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");

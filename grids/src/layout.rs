@@ -224,9 +224,17 @@ impl Layout {
     /// # Errors
     /// [`Diagnostic`] if it is no free cell; the nearest one is named then, and the base stays where it was.
     pub fn place_base(&mut self, cell: Cell) -> Result<(), Diagnostic> {
-        self.check_free(cell, "base", "put the base on")?;
+        self.check_base(cell)?;
         self.base = Some(cell);
         Ok(())
+    }
+
+    /// Whether the base can be in `cell`.
+    ///
+    /// # Errors
+    /// [`Diagnostic`] if it is no free cell; the nearest one is named then.
+    pub fn check_base(&self, cell: Cell) -> Result<(), Diagnostic> {
+        self.check_free(cell, "base", "put the base on")
     }
 
     /// Whether a robot can start in `cell`.
@@ -258,8 +266,12 @@ impl Layout {
     }
 
     /// Says how many robots the layout is meant for.
-    pub const fn set_robots(&mut self, robots: NonZeroU16) {
-        self.robots = Some(robots);
+    ///
+    /// # Errors
+    /// [`Diagnostic`] if they are more than any team has.
+    pub fn set_robots(&mut self, robots: NonZeroU16) -> Result<(), Diagnostic> {
+        self.robots = Some(text::robots_of(&robots.to_string())?);
+        Ok(())
     }
 
     /// The free cell with the least distance to a point, given in half cells from the centre of the cell 0,0;

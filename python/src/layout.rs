@@ -124,7 +124,7 @@ impl Layout {
             ground.place_base(Cell::new(x, y)).map_err(fault)?;
         }
         if let Some(robots) = robots {
-            ground.set_robots(robots);
+            ground.set_robots(robots).map_err(fault)?;
         }
         Ok(Self { ground, name: "arrays".to_owned() })
     }

@@ -47,7 +47,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
     let second = lines.next().ok_or_else(cut)?;
     let robots = second.text.strip_prefix("robots ").map(|count| {
         let at = second.text.len() - count.len()..second.text.len();
-        count.parse::<NonZeroU16>().map_err(|_| second.misread_at(at, no_robots(count)))
+        robots_of(count).map_err(|problem| second.misread_at(at, problem))
     });
     let robots = robots.transpose()?;
     let rim = if robots.is_some() { lines.next().ok_or_else(cut)? } else { second };
@@ -76,9 +76,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
     if layout.free_cells() == 0 {
         return Err(rim.misread(problem::no_free_cell()));
     }
-    if let Some(robots) = robots {
-        layout.set_robots(robots);
-    }
+    layout.robots = robots;
     Ok(layout)
 }
 
@@ -88,10 +86,13 @@ fn cut_short() -> Diagnostic {
     Diagnostic::usage("the drawing ends before its southern rim", remedy)
 }
 
-/// The number of robots is none.
-fn no_robots(count: &str) -> Diagnostic {
-    let remedy = format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out");
-    Diagnostic::usage(format!("{count:?} is no number of robots"), remedy)
+/// The number of robots that a layout can be meant for.
+pub(super) fn robots_of(count: &str) -> Result<NonZeroU16, Diagnostic> {
+    let robots = count.parse().ok().filter(|robots: &NonZeroU16| usize::from(robots.get()) <= MAX_ROBOTS);
+    robots.ok_or_else(|| {
+        let remedy = format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out");
+        Diagnostic::usage(format!("{count:?} is no number of robots"), remedy)
+    })
 }
 
 fn open_rim() -> Diagnostic {
