@@ -10,10 +10,10 @@ use tautline_field::draw;
 use tautline_field::position::{
     Advice, Anchors, Errors, FixReport, Measurements, Place, Power, Report, Setting, Solver, refused,
 };
-use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::diagnostic::{Diagnostic, Halt, one_line};
 use tautline_io::named_values::NamedValues;
 use tautline_io::text_table::{Column, TextTable, Width};
-use tautline_io::value_parser::{Metres, within};
+use tautline_io::value_parser::{Metres, metres_within, within};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::plural::counted;
@@ -58,7 +58,7 @@ pub(super) struct Locate {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     anchors: Vec<Metres<2>>,
     /// Where the robot is, in metres. Without it anywhere, each time anew.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = place)]
     at: Option<Metres<2>>,
     /// The standard deviation of the levels, in dB.
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value = "1", value_parser = noise)]
@@ -104,6 +104,11 @@ fn noise(text: &str) -> Result<f64, &'static str> {
 
 fn power(text: &str) -> Result<Power, &'static str> {
     text.parse().ok().and_then(Power::new).ok_or("write dBm from -200 to 90")
+}
+
+/// A place from which distances are well below those that the kernel refuses.
+fn place(text: &str) -> Result<Metres<2>, String> {
+    metres_within(text, 1e8)
 }
 
 fn propagation(text: &str) -> Result<Propagation, &'static str> {
@@ -303,7 +308,7 @@ fn positions(found: &[FixReport]) -> String {
             let Place { x_m, y_m, rms_m, dilution, residual, flags, .. } = place;
             let or = if number == 0 { Vec::new() } else { vec!["or here"] };
             columns.row([
-                fix.clone(),
+                one_line(fix),
                 told(Some(*x_m)),
                 told(Some(*y_m)),
                 told(*rms_m),

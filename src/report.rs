@@ -17,7 +17,7 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name, besides those that are told by an [`Extra`].
-const FIELDS: [&str; 27] = [
+const FIELDS: [&str; 28] = [
     "seed",
     "miss",
     "robots",
@@ -42,6 +42,7 @@ const FIELDS: [&str; 27] = [
     "power-dbm",
     "exponent",
     "rule",
+    "solver",
     "plan",
     "shards",
     "shard",

@@ -17,5 +17,21 @@ use tautline_kernel::position::Refusal;
 
 /// The kernel's refusal for a person: the fault, and a hint.
 pub fn refused(refusal: Refusal) -> Diagnostic {
-    Diagnostic::usage(refusal, refusal.remedy())
+    Diagnostic::usage(refusal, remedy(refusal))
+}
+
+/// The kernel's hint, or where it is about residuals and solutions, the [`Solver`] to choose.
+fn remedy(refusal: Refusal) -> &'static str {
+    match refusal {
+        Refusal::Zero(_) => "give a distance above a micrometre, or `solver` least-squares",
+        Refusal::Division => "name the anchors in another order, or give `solver` least-squares",
+        Refusal::Anchors(_)
+        | Refusal::NotFinite(_)
+        | Refusal::Negative(_)
+        | Refusal::Coincident { .. }
+        | Refusal::Collinear
+        | Refusal::Apart { .. }
+        | Refusal::NoParticle
+        | Refusal::NoPlace => refusal.remedy(),
+    }
 }

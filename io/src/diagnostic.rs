@@ -236,8 +236,8 @@ fn name(file: &Path) -> String {
     one_line(&file.to_string_lossy())
 }
 
-/// `text` as it may stand in a message, clipped if it is very long.
-fn one_line(text: &str) -> String {
+/// `text` as it may stand in a line that a terminal shows, clipped if it is very long.
+pub fn one_line(text: &str) -> String {
     let mut characters = text.chars();
     let mut line: String = characters.by_ref().take(MAX_MESSAGE_CHARS).map(printable).collect();
     if characters.next().is_some() {

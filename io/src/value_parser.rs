@@ -66,6 +66,16 @@ impl<const COUNT: usize> FromStr for Metres<COUNT> {
     }
 }
 
+/// Metres that are all within so many of 0.
+///
+/// # Errors
+/// The words for what to write.
+pub fn metres_within<const COUNT: usize>(text: &str, most: f64) -> Result<Metres<COUNT>, String> {
+    let metres: Metres<COUNT> = text.parse()?;
+    let are_near = metres.0.iter().all(|along| along.abs() <= most);
+    are_near.then_some(metres).ok_or_else(|| format!("write metres from -{most} to {most}"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,6 +93,14 @@ mod tests {
     #[test]
     fn metres_are_as_many_as_are_wanted() {
         assert_eq!("1, 2.5".parse(), Ok(Metres([1.0, 2.5])));
+        assert_eq!(metres_within("-9,9", 9.0), Ok(Metres([-9.0, 9.0])));
+        for wrong in ["NaN,0", "0,inf", "0,9.1"] {
+            assert_eq!(
+                metres_within::<2>(wrong, 9.0),
+                Err("write metres from -9 to 9".to_owned()),
+                "{wrong}"
+            );
+        }
         let wrong: Result<Metres<2>, String> = "1,2,3".parse();
         assert_eq!(wrong, Err("write 2 numbers of metres, for example 50,100".to_owned()));
     }

@@ -196,5 +196,32 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
     fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
     // The closed form knows no mirror images.
     assert!(refused(folder, &["locate", "m.csv", "--solver", "pso"]).contains("on one line"));
+    let twice = "fix,x_m,y_m,range_m,range_m\na,0,0,5,5\na,20,0,20,5\na,0,20,20,5\n";
+    fs::write(folder.join("m.csv"), twice).expect("a file");
+    assert!(refused(folder, &["locate", "m.csv"]).contains("the column `range_m` is there twice"));
     assert_eq!(names(folder), ["m.csv"]);
+}
+
+#[test]
+fn what_is_wrong_with_the_place_or_the_noise_is_said_of_them() {
+    let folder = folder();
+    let refused = |arguments: &[&str]| refused(folder.path(), &[&["locate"], arguments].concat());
+    for at in ["1e10,0", "NaN,0"] {
+        let said = refused(&["--at", at]);
+        assert!(
+            said.contains("--at") && said.contains("write metres from -100000000 to 100000000"),
+            "{said}"
+        );
+    }
+    let said = refused(&["--noise-db", "100", "--runs", "1"]);
+    assert!(
+        said.contains("with this noise no distances tell a position") && said.contains("--noise-db"),
+        "{said}"
+    );
+}
+
+#[test]
+fn without_noise_the_bound_is_0() {
+    let told = json(folder().path(), &["locate", "--noise-db", "0", "--runs", "10"], 0);
+    assert_eq!(told["crlb_rms_m"], 0.0);
 }

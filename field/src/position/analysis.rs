@@ -92,13 +92,14 @@ pub fn bound(anchors: &[Point], at: Point, signal: &Signal) -> Option<Bound> {
     for &anchor in anchors {
         let to = Vector2::new(at.x_m - anchor.x_m, at.y_m - anchor.y_m);
         let direction = to.normalize();
-        let gradient = direction / (to.norm() * signal.relative_error());
+        let gradient = direction / to.norm();
         directions += direction * direction.transpose();
         information += gradient * gradient.transpose();
     }
     let dilution = libm::sqrt(directions.try_inverse()?.trace());
-    Some(Bound { covariance: information.try_inverse()?, dilution })
-        .filter(|bound| bound.dilution.is_finite())
+    // The gradients are those of a relative error of 1: without noise the bound is 0.
+    let covariance = information.try_inverse()? * signal.relative_error().powi(2);
+    Some(Bound { covariance, dilution }).filter(|bound| bound.dilution.is_finite())
 }
 
 const fn coordinates(place: Point) -> [f64; 2] {

@@ -147,15 +147,16 @@ impl Measurements {
         }
         let mut places = [0; COLUMNS.len()];
         for (place, column) in places.iter_mut().zip(columns) {
-            *place = names.iter().position(|&name| name == column).ok_or_else(|| {
-                let remedy = format!("begin with the names of the columns: {}", columns.join(","));
-                self.fault(
-                    text,
-                    start..start + header.len(),
-                    format_args!("the column `{column}` is missing"),
-                    remedy,
-                )
-            })?;
+            let mut named = names.iter().enumerate().filter(|(_, name)| **name == column);
+            *place = match (named.next(), named.next()) {
+                (Some((only, _)), None) => only,
+                (first, _) => {
+                    let fault = if first.is_some() { "there twice" } else { "missing" };
+                    let what = format_args!("the column `{column}` is {fault}");
+                    let remedy = format!("begin with the names of the columns: {}", columns.join(","));
+                    return Err(self.fault(text, start..start + header.len(), what, remedy));
+                }
+            };
         }
         let mut known = BTreeMap::new();
         for (start, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
@@ -262,7 +263,7 @@ impl Measurements {
         };
         let line = about.and_then(|anchor| readings.lines.get(anchor)).or_else(|| readings.lines.last());
         let what = format!("fix {}: {refusal}", readings.name);
-        self.fault(&self.text, line.cloned().unwrap_or_default(), what, refusal.remedy())
+        self.fault(&self.text, line.cloned().unwrap_or_default(), what, super::remedy(refusal))
     }
 
     /// Every anchor of the file, once.

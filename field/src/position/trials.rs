@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
-use tautline_io::diagnostic::{Halt, Watch};
+use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
     Area, Fix, Point, Range, Refusal, Residual, Signal, closed_form, linear, locate,
@@ -234,15 +234,8 @@ impl Setting {
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if no trial has a position.
     pub fn run(&self, watch: &Watch<'_>) -> Result<Report, Halt> {
-        let exact = distances(
-            self.anchors.places(),
-            &self.signal,
-            self.place(&mut SeededOracle::new(self.seed, 0)),
-            0.0,
-            &mut SeededOracle::new(0, 0),
-        );
         if self.solver == Solver::ClosedForm {
-            closed_form(&exact).map_err(super::refused)?;
+            closed_form(&self.exact()).map_err(super::refused)?;
         }
         let parts: Vec<u32> = (0..self.trials).step_by(PART as usize).collect();
         let tried: Result<Vec<Vec<_>>, Halt> = parts
@@ -261,10 +254,9 @@ impl Setting {
         let bounds: Option<Vec<f64>> = tried.iter().map(|(bound, _)| *bound).collect();
         let mean = |squares: &Vec<f64>| squares.iter().sum::<f64>() / f64::from(self.trials.max(1));
         let crlb_rms_m = bounds.as_ref().map(|squares| decimals(mean(squares).sqrt(), PARTS));
-        let refusal = tried.iter().find_map(|(_, trial)| trial.as_ref().err().copied());
         let located: Vec<Trial> = tried.into_iter().filter_map(|(_, trial)| trial.ok()).collect();
         if located.is_empty() {
-            return Err(super::refused(refusal.unwrap_or(Refusal::Anchors(0))).into());
+            return Err(self.nothing_located().into());
         }
         let count = |is: &dyn Fn(&Fix) -> bool| {
             located.iter().filter(|trial| trial.fix.as_ref().is_some_and(is)).count() as u32
@@ -284,6 +276,21 @@ impl Setting {
             crlb_rms_m,
             spread_m: spread_m(self.anchors.places()).map(|spread_m| decimals(spread_m, PARTS)),
         })
+    }
+
+    /// The distances of the first trial without noise.
+    fn exact(&self) -> Vec<Range> {
+        let at = self.place(&mut SeededOracle::new(self.seed, 0));
+        distances(self.anchors.places(), &self.signal, at, 0.0, &mut SeededOracle::new(0, 0))
+    }
+
+    /// The fault of trials that have no position: it is the place's, or that of the noise.
+    fn nothing_located(&self) -> Diagnostic {
+        let mut oracle = SeededOracle::new(self.seed, 0);
+        let solved = self.solver.solve(self.rule, &self.exact(), &self.signal, None, &mut oracle);
+        let noisy =
+            || Diagnostic::usage("with this noise no distances tell a position", "give a smaller `noise-db`");
+        solved.err().map_or_else(noisy, super::refused)
     }
 
     /// Where the robot is in a trial.
