@@ -12,6 +12,7 @@ use tautline_logs::{
     CLAUSES, Demand, Doubt, Fault, FaultPlace, Kind, Limits, Log, Misnamed, Misplaced, Numbers, Tracks,
     Verdict, judge, misplaced, not_judged, read,
 };
+use tautline_proofs::ledger;
 
 use self::given::{Given, MapArgs};
 use self::told::Told;
@@ -92,7 +93,12 @@ fn clause(id: &str) -> Result<(&'static str, Kind), String> {
     let id = id.trim().to_ascii_uppercase();
     CLAUSES.into_iter().find(|(known, _)| *known == id).ok_or_else(|| {
         let known = CLAUSES.map(|(known, _)| known).join(", ");
-        format!("positions do not decide it: {}; name some of {known}", not_judged(&id))
+        let why = if ledger::clauses().any(|clause| clause.id == id) {
+            format!("positions do not decide it: {}", not_judged(&id))
+        } else {
+            "there is no such clause".to_owned()
+        };
+        format!("{why}; name some of {known}")
     })
 }
 
@@ -223,8 +229,8 @@ impl Judge {
             Kind::Apart => Demand::Apart { least_mm: milli(self.least.unwrap_or(KIT_LEAST)) },
             Kind::Crowd { most, is_base_free } => {
                 given.check_cells(id, limits)?;
-                let base = is_base_free.then(|| given.base(tracks)).flatten();
-                Demand::Crowd { grid: given.grid(), most, base }
+                let base = is_base_free.then(|| given.base(tracks).ok_or_else(|| self.no_base(id)));
+                Demand::Crowd { grid: given.grid(), most, base: base.transpose()? }
             }
             Kind::Visited => {
                 given.check_cells(id, limits)?;
@@ -249,6 +255,13 @@ impl Judge {
                 Diagnostic::in_file(&self.log, format_args!("message {message}: {what}"), remedy)
             }
         }
+    }
+
+    fn no_base(&self, id: &str) -> Diagnostic {
+        let what = format!(
+            "{id} leaves out the base, where robot 1 is first, and the log has no position of robot 1"
+        );
+        Diagnostic::in_file(&self.log, what, "say where the base is with --map and --base")
     }
 
     fn too_much(&self, id: &str, what: &str) -> Diagnostic {

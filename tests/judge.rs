@@ -129,16 +129,22 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
     write("nobody.csv", "robot_a,1\n");
     write("twice.csv", "ugv1,1\nugv1,2\n");
+    write("lost.csv", "time,robot,x,y\n0,a,NaN,0\n0,b,0,0\n");
     write("bad.csv", "time,robot,x,y\n0,a,0,0\n1,a,0.0.1,0\n");
     write("scan.mcap", "\u{89}");
     for (arguments, words) in [
         ("field.csv --clauses CHAIN-1", "it speaks of the moments after team moves"),
+        ("field.csv --clauses FOO-1", "there is no such clause; name some of CHAIN-2"),
         ("field.csv --clauses KIT-1", "KIT-1 speaks of two robots, and the log has 4"),
         ("field.csv --clauses FRONTIER-1", "give a --map"),
         ("field.csv --clauses CHAIN-3 --least 3", "--least has no effect"),
         ("field.csv --clauses KIT-3 --range 3", "--range has no effect"),
         ("field.csv --clauses CHAIN-2 --tolerance 0.5", "give a --tolerance below half a --cell"),
         ("field.csv --clauses CHAIN-2 --map field.csv", "field.csv:1"),
+        ("field.csv --clauses CHAIN-2 --map open:9x9 --base 9,9", "the base 9,9 is outside"),
+        ("field.csv --clauses PACK-2 --origin=NaN,0", "write metres from -1000000 to 1000000"),
+        ("field.csv --clauses PACK-2 --origin 0,1e12", "write metres from -1000000 to 1000000"),
+        ("lost.csv --clauses CHAIN-2", "the log has no position of robot 1"),
         ("field.csv --clauses CHAIN-3 --names nobody.csv", "which has ugv1, ugv2, ugv3, ugv4"),
         ("field.csv --clauses CHAIN-3 --names twice.csv", "twice.csv:2"),
         ("bad.csv --clauses CHAIN-3", "bad.csv:3:5"),

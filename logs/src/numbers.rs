@@ -3,6 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 
+use super::read::BOM;
+
 /// The number of each name of a log, and the names by number.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Numbers {
@@ -66,6 +68,7 @@ impl Numbers {
     pub fn named(names: &[String], file: &str) -> Result<Self, Misnamed> {
         let mut numbers: HashMap<&str, u32> = HashMap::new();
         let (mut by_number, mut given): (Vec<(u32, &str)>, HashSet<u32>) = (Vec::new(), HashSet::new());
+        let file = file.strip_prefix(BOM).unwrap_or(file);
         let lines =
             (1..).zip(file.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
         for (place, line) in lines {

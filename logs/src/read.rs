@@ -20,6 +20,9 @@ const MOST_FRAMES: usize = 8;
 /// numbers.
 const FARTHEST_MM: f64 = 1e9;
 
+/// The byte order mark that some editors put before a text; it is no part of it.
+pub(crate) const BOM: &str = "\u{feff}";
+
 /// The form of a log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Form {
@@ -63,7 +66,7 @@ pub struct Log {
     pub form: Form,
     /// The positions.
     pub samples: Vec<Sample>,
-    /// The names of the robots, in the order of the log.
+    /// The names of the robots, in the order of the log; also of those of whom no position is taken.
     pub names: Vec<String>,
     /// The first frames that its positions are given in, where it names any.
     pub frames: Vec<String>,
@@ -148,15 +151,11 @@ impl Reading {
     /// Takes a position that stands in this place.
     fn take(&mut self, place: u32, pose: Pose<'_>) -> Result<(), Fault> {
         let log = &mut self.log;
-        if !pose.mm.iter().all(|along| along.abs() <= FARTHEST_MM) {
-            let (count, _) = log.unplaced.get_or_insert((0, place));
-            *count += 1;
-            return Ok(());
-        }
-        if log.samples.len() >= MOST_SAMPLES {
+        if log.samples.len().max(log.names.len()) >= MOST_SAMPLES {
             let what = format!("the log has more than {MOST_SAMPLES} positions");
             return Err(Fault::whole(what, "cut it into parts, or leave positions out"));
         }
+        // A robot whose positions are not taken is one all the same, and silent.
         let robot = if let Some(&known) = self.robots.get(pose.robot) {
             known
         } else {
@@ -165,6 +164,11 @@ impl Reading {
             self.robots.insert(pose.robot.to_owned(), new);
             new
         };
+        if !pose.mm.iter().all(|along| along.abs() <= FARTHEST_MM) {
+            let (count, _) = log.unplaced.get_or_insert((0, place));
+            *count += 1;
+            return Ok(());
+        }
         let [x_mm, y_mm] = pose.mm.map(|along| along.round() as i32);
         log.samples.push(Sample { at_us: pose.at_us, robot, x_mm, y_mm, place });
         Ok(())
@@ -192,7 +196,7 @@ fn micros(seconds: i64, nanos: i64) -> Option<i64> {
 pub fn read(bytes: &[u8]) -> Result<Log, Fault> {
     const REMEDY: &str = "name a table with columns time, robot, x and y, lines of JSON with these fields, or a recording of ROS 2 \
                           in MCAP";
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes);
     let log = match bytes.iter().find(|byte| !byte.is_ascii_whitespace()) {
         None => return Err(Fault::whole("the log is empty", REMEDY)),
         Some(0x89) => recording::read(bytes)?,

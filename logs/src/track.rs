@@ -107,9 +107,9 @@ impl Tracks {
         self.robots.iter().flatten()
     }
 
-    /// The first place of each robot that has one, in millimetres.
-    pub fn starts(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.robots.iter().filter_map(|track| Some([track.first()?.x_mm, track.first()?.y_mm].map(f64::from)))
+    /// The first place of each robot, in millimetres; none of a robot that has no position.
+    pub fn starts(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
+        self.robots.iter().map(|track| track.first().map(|sample| [sample.x_mm, sample.y_mm].map(f64::from)))
     }
 
     /// The positions that were not taken.

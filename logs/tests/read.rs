@@ -1,6 +1,8 @@
 //! What is read of logs, and what is said of those that are cut, damaged or of no use.
 
-use tautline_logs::{Fault, FaultPlace, Limits, Log, Misnamed, Numbers, Tracks, read};
+use tautline_logs::{
+    Demand, Doubt, Fault, FaultPlace, Limits, Log, Misnamed, Numbers, Silence, Tracks, Verdict, judge, read,
+};
 
 use super::forms::{self, Row};
 
@@ -111,6 +113,18 @@ fn numbers_that_are_none_are_counted() {
     assert_eq!((log.samples.len(), log.unplaced), (1, Some((1, 2))));
 }
 
+#[test]
+fn a_robot_without_a_valid_position_has_its_number_and_is_silent() {
+    let log = read(b"t,robot,x,y\n0,r1,0,0\n0,r2,NaN,NaN\n0,r3,4,0\n2,r1,0,0\n").expect("a log");
+    assert_eq!(log.names, ["r1", "r2", "r3"]);
+    let tracks = Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS);
+    assert_eq!(tracks.at(2, 0), Some([4_000.0, 0.0]));
+    let silence = Silence { robot: 1, from_us: 0, to_us: 2_000_000 };
+    assert!(tracks.silences().any(|other| other == silence));
+    let verdict = judge(&tracks, &LIMITS, &Demand::Neighbours { range_mm: 2_549 });
+    assert!(matches!(verdict, Ok(Verdict::Unknown(Doubt::Silent(..)))), "{verdict:?}");
+}
+
 const LIMITS: Limits = Limits { tolerance_mm: 50, gap_us: 1_000_000, jump_us: 10_000_000 };
 
 #[test]
@@ -135,6 +149,7 @@ fn names_are_numbered_by_their_digits_or_by_a_file() {
     assert_eq!(Numbers::natural(&names).names(), ["base", "robot_2", "robot_10"]);
     let named = |file: &str| Numbers::named(&names, file);
     assert_eq!(named("robot_2,2\nlost,3\nbase,1\n").expect("numbers").absent(), ["lost"]);
+    assert_eq!(named("\u{feff}robot_2,2\r\nbase,1\r\n").expect("numbers").names(), ["base", "robot_2"]);
     assert_eq!(named("robot_2,1\nbase\n"), Err(Misnamed::Line(2)));
     assert_eq!(named("robot_2,0\n"), Err(Misnamed::Line(1)));
     assert_eq!(named("robot_2,1\nbase,1\n"), Err(Misnamed::Twice(2)));

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tautline_io::diagnostic::Diagnostic;
-use tautline_io::value_parser::{Metres, real};
+use tautline_io::value_parser::{Metres, metres_within, real};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
 
 use super::super::{CellArg, needless, number};
-use super::{above_0, milli};
+use super::{MOST, above_0, milli};
 use tautline_grids::layout::{self, Coarse, Generator, Layout, ros};
 
 #[derive(Debug, Args)]
@@ -33,12 +33,17 @@ pub(super) struct MapArgs {
     #[arg(long, value_name = "METRES", value_parser = above_0)]
     cell: Option<f64>,
     /// The corner of the cells in metres: the lower left one of the map. Without it 0,0, or what a ROS map says.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = corner)]
     origin: Option<Metres<2>>,
     /// The cell of the base for CHAIN-2, as the map counts cells. Without it that of the map, or the one in which
     /// robot 1 is first.
     #[arg(long, value_name = "X,Y", requires = "map")]
     base: Option<CellArg>,
+}
+
+/// A corner from which every position has a cell of any size, and that cell a number.
+fn corner(text: &str) -> Result<Metres<2>, String> {
+    metres_within(text, MOST)
 }
 
 /// The cells under a log, and the map of them if there is one. The rows of a map are counted southwards from 0; those
@@ -96,7 +101,7 @@ impl MapArgs {
         }
         let base = self.base.map(|CellArg(cell)| cell);
         if let (Some(layout), Some(base)) = (&layout, base) {
-            layout.check_start(base)?;
+            layout.check_base(base)?;
         }
         let base = base.or_else(|| layout.as_ref()?.base());
         let grid = Grid { origin_mm: corner.map(|along| along * 1e3), cell_mm: milli(cell_m).max(1) };
@@ -154,21 +159,20 @@ impl Given {
         }
     }
 
-    /// The cell in which each robot is first.
-    fn starts(&self, tracks: &Tracks) -> impl Iterator<Item = [i32; 2]> {
-        let first = tracks.starts().map(|place| self.grid.surely(place, 0));
-        first.flatten()
+    /// The cell in which each robot is first, if the log has a position of it.
+    fn starts(&self, tracks: &Tracks) -> impl Iterator<Item = Option<[i32; 2]>> {
+        tracks.starts().map(|place| self.grid.surely(place?, 0))
     }
 
     /// The base, in the grid.
     pub(super) fn base(&self, tracks: &Tracks) -> Option<[i32; 2]> {
-        self.base.map(|base| self.northward(base)).or_else(|| self.starts(tracks).next())
+        self.base.map(|base| self.northward(base)).or_else(|| self.starts(tracks).next()?)
     }
 
     /// The cells that robots can reach from where they are first, in the grid.
     pub(super) fn reachable(&self, tracks: &Tracks) -> Vec<[i32; 2]> {
         let Some(layout) = &self.layout else { return Vec::new() };
-        let starts = self.starts(tracks).filter_map(|cell| self.southward(cell));
+        let starts = self.starts(tracks).flatten().filter_map(|cell| self.southward(cell));
         let starts: Vec<Cell> = starts.filter(|&cell| layout.is_free(cell)).collect();
         layout.reachable(&starts).into_iter().map(|cell| self.northward(cell)).collect()
     }
