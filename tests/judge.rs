@@ -171,7 +171,20 @@ fn numbers_of_robots_are_those_of_the_file_of_names() {
         "{told}"
     );
     assert!(told.contains("CHAIN-3: broken at 20 s: robots 1 (ugv3) and 2 (ugv4)"), "{told}");
-    assert!(told.contains("KIT-12: unknown: robot 3 (ugv9) is silent from 0 s to 29.5 s"), "{told}");
+    assert!(told.contains("KIT-12: unknown: the log has no position of robot 3 (ugv9)"), "{told}");
+}
+
+#[test]
+fn names_that_steer_a_terminal_or_break_xml_are_shown_as_text() {
+    let folder = folder();
+    let folder = folder.path();
+    let rows = [0, 2, 9].map(|x| format!(r#"{{"t":0,"robot":"{x}\n\u001b[31m","x":{x},"y":0}}"#));
+    fs::write(folder.join("R&D.jsonl"), rows.join("\n")).expect("a file");
+    let (told, _) = judged(folder, "R&D.jsonl --clauses CHAIN-3 --svg moment.svg", 1);
+    assert!(told.contains("2 (2 \u{fffd}[31m) and 3 (9 \u{fffd}[31m) are 7 m apart"), "{told}");
+    assert_eq!((told.lines().count(), told.contains('\u{1b}')), (4, false), "{told}");
+    let picture = fs::read_to_string(folder.join("moment.svg")).expect("a picture");
+    assert!(picture.contains("<title>tautline judge R&amp;D.jsonl</title>"), "{picture}");
 }
 
 /// `logs/tests/logs` says which programs have written them.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_io::diagnostic::Diagnostic;
+use tautline_io::diagnostic::{Diagnostic, one_line};
 use tautline_io::svg::Panel;
 use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Misplaced, Numbers, Tracks, Verdict};
 use tautline_proofs::plural::counted;
@@ -103,8 +103,8 @@ fn seconds(us: i64) -> String {
 impl Told<'_> {
     /// A robot by its number, from 1, and its name.
     fn robot(&self, robot: u32) -> String {
-        let name = self.numbers.names().get(robot as usize).map_or("", String::as_str);
-        if *name == (robot + 1).to_string() { name.to_owned() } else { format!("{} ({name})", robot + 1) }
+        let name = self.numbers.names().get(robot as usize).map_or_else(String::new, |name| one_line(name));
+        if name == (robot + 1).to_string() { name } else { format!("{} ({name})", robot + 1) }
     }
 
     pub(super) fn title(&self) -> String {
@@ -117,7 +117,7 @@ impl Told<'_> {
         let positions = self.tracks.samples().count();
         format!(
             "{}: {} of {} in {} s",
-            self.file,
+            one_line(&self.file),
             counted(positions, "position"),
             counted(self.tracks.count(), "robot"),
             seconds(last.saturating_sub(first))
@@ -151,14 +151,14 @@ impl Told<'_> {
             remarks.push(format!("the log is cut in {place} {cut}, which is not taken"));
         }
         if log.frames.len() > 1 {
-            let frames: Vec<_> = log.frames.iter().take(SHOWN).map(String::as_str).collect();
+            let frames: Vec<_> = log.frames.iter().take(SHOWN).map(|frame| one_line(frame)).collect();
             remarks.push(format!(
                 "positions are given in several frames, and taken as if they were one: {}",
                 frames.join(", ")
             ));
         }
         if !self.numbers.absent().is_empty() {
-            remarks.push(format!("not in the log: {}", self.numbers.absent().join(", ")));
+            remarks.push(format!("not in the log: {}", one_line(&self.numbers.absent().join(", "))));
         }
         let steps = self.tracks.samples().count().saturating_sub(self.tracks.count());
         let silences = self.tracks.silences().count();
@@ -241,16 +241,15 @@ impl Told<'_> {
     fn doubt(&self, doubt: &Doubt) -> String {
         match doubt {
             Doubt::Silent(silence, count) => {
-                let (from, to) = (seconds(silence.from_us), seconds(silence.to_us));
-                let all = if *count > 1 {
-                    format!(", and {count} times in all some robot is")
+                let robot = self.robot(silence.robot);
+                let what = if self.tracks.samples().any(|sample| sample.robot == silence.robot) {
+                    let (from, to) = (seconds(silence.from_us), seconds(silence.to_us));
+                    format!("robot {robot} is silent from {from} s to {to} s, longer than --gap")
                 } else {
-                    String::new()
+                    format!("the log has no position of robot {robot}")
                 };
-                format!(
-                    "robot {} is silent from {from} s to {to} s, longer than --gap{all}",
-                    self.robot(silence.robot)
-                )
+                let all = if *count > 1 { format!("; {count} silences in all") } else { String::new() };
+                what + &all
             }
             Doubt::Alone => "it speaks of several robots, and the log has one".to_owned(),
             Doubt::Parted(at_us) => {
