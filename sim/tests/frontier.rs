@@ -257,6 +257,18 @@ fn what_does_not_fit_is_refused() {
 }
 
 #[test]
+fn an_error_below_zero_is_none() {
+    let off = |error_cells| Asked { error_cells, ..asked("repaired", 1, (2, 1), 0) };
+    let hunt = FRONTIER.rule(off(None).rule).and_then(|rule| rule.hunt).expect("it is hunted");
+    for error in [-1.0, -0.5, -0.01, 0.3, 2.0, f64::NAN] {
+        let refused = hunt.hunt(&off(Some(error)), &mut Unwatched).map(|_| ()).expect_err("no error");
+        assert!(refused.to_string().contains("is not searched"), "{error}: {refused}");
+    }
+    let states = |error| hunt.hunt(&off(error), &mut Unwatched).expect("a hunt").title;
+    assert_eq!(states(Some(-0.0)), states(None));
+}
+
+#[test]
 fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
     let refused = |rule: &'static str, robots: u64| {
         let rule = RuleId::new(rule);

@@ -350,6 +350,21 @@ fn a_hunt_that_was_ended_tells_so_also_if_it_has_found_something() {
     let found = json(folder.path(), &hunt, 3);
     assert_eq!((&found["verdict"], &found["complete"]), (&"refuted".into(), &false.into()));
     assert_eq!(found["counterexamples"].as_array().map(Vec::is_empty), Some(false));
+    // What was found lies beyond what was covered, and is not called the smallest.
+    for (hunt, covered) in [
+        ("--robots 3 --max-walls 2 --budget 2000", "all layouts with at most 1 wall were"),
+        ("--robots 3 --max-walls 2 --budget 2000 --format github", "all layouts with at most 1 wall were"),
+        ("--max-cells 10 --max-walls 4 --budget 200000", "all layouts of at most 9 cells were"),
+        ("--scheme kit --size 4x1 --budget 30", "all layouts of at most 2 nodes were"),
+    ] {
+        let words: Vec<&str> = ["hunt", "--rule", "published"].into_iter().chain(hunt.split(' ')).collect();
+        let said = printed(folder.path(), &words, 3);
+        assert!(
+            said.contains(&format!("Found before the hunt was ended, when {covered} covered;")),
+            "{said}"
+        );
+        assert!(!said.contains("The smallest"), "{said}");
+    }
 }
 
 #[cfg(unix)]

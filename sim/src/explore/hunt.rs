@@ -407,7 +407,7 @@ pub struct HuntReport {
     pub through: String,
     /// The conclusion: the second line for people.
     pub outcome: String,
-    /// The smallest run that breaks each clause.
+    /// A run that breaks each clause: the smallest one, unless the hunt was ended before.
     pub found: Vec<Finding>,
 }
 
@@ -447,18 +447,28 @@ impl Shown {
 }
 
 /// The conclusion from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
-/// that it had `covered` by then, if any.
+/// that it had `covered` by then, if any: what it has found beyond those need not be the smallest.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
-    let bound = match (is_whole, covered) {
-        (true, _) => "in any layout within this bound".to_owned(),
-        (false, Some(covered)) => {
-            format!("in any layout {covered}; the hunt was ended before its bound")
+    match (found, is_whole, covered) {
+        ([], true, _) => "No clause is broken in any layout within this bound.".to_owned(),
+        ([], false, Some(covered)) => {
+            format!("No clause is broken in any layout {covered}; the hunt was ended before its bound.")
         }
-        (false, None) => "so far; the hunt was ended before it had covered any layout".to_owned(),
-    };
-    match found {
-        [] => format!("No clause is broken {bound}."),
-        _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
+        ([], false, None) => {
+            "No clause is broken so far; the hunt was ended before it had covered any layout.".to_owned()
+        }
+        (_, true, _) => {
+            "The smallest counterexample to each clause that is broken in any layout within this bound:"
+                .to_owned()
+        }
+        (_, false, Some(covered)) => format!(
+            "Found before the hunt was ended, when all layouts {covered} were covered; those beyond need not be the \
+             smallest:"
+        ),
+        (_, false, None) => {
+            "Found before the hunt was ended, when no layout was covered; they need not be the smallest:"
+                .to_owned()
+        }
     }
 }
 

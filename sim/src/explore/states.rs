@@ -113,6 +113,17 @@ pub(super) struct Count {
     pub(super) is_complete: bool,
 }
 
+impl Count {
+    /// Notes that `area` was searched, one of `all`, in their order: after the last one with as many cells, all with
+    /// so many were.
+    pub(super) fn covers(&mut self, area: (i16, i16), all: &[(i16, i16)]) {
+        let cells = |&(width, height): &(i16, i16)| (width * height) as usize;
+        if all.iter().rfind(|other| cells(other) == cells(&area)) == Some(&area) {
+            self.cells = Some(cells(&area));
+        }
+    }
+}
+
 /// Searches a system as far as the budget goes, unless the work is ended before.
 pub(super) fn watched<S: System>(
     system: &S,
@@ -134,4 +145,20 @@ pub(super) fn watched<S: System>(
     count.states += found.states;
     count.steps += found.steps;
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn areas_of_as_many_cells_are_covered_after_the_last_of_them() {
+        let all = [(1, 1), (2, 1), (1, 2), (3, 1)];
+        let mut count = Count::default();
+        let covered = all.map(|area| {
+            count.covers(area, &all);
+            count.cells
+        });
+        assert_eq!(covered, [Some(1), Some(1), Some(2), Some(3)]);
+    }
 }

@@ -3,6 +3,8 @@
 
 mod rivals;
 
+use std::cmp::Ordering;
+
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::Rule as Frontier;
 use tautline_kernel::ground::Cell;
@@ -95,7 +97,8 @@ enum Off {
 
 fn error(asked: &Asked<'_>) -> Result<Off, Diagnostic> {
     let parts = asked.error_cells.unwrap_or(0.0) * f64::from(PARTS);
-    let whole = (0..=PARTS as u8).find(|&whole| f64::from(whole).to_bits() == parts.abs().to_bits());
+    let whole =
+        (0..=PARTS as u8).find(|&whole| f64::from(whole).partial_cmp(&parts).is_some_and(Ordering::is_eq));
     match whole {
         Some(0) => Ok(Off::Never),
         Some(parts) if i32::from(parts) == PARTS => Ok(Off::OneCell),
@@ -121,7 +124,8 @@ fn drifting(
     let system = Drift { rule, error, max_obstacles };
     let mut count = Count { is_complete: true, ..Count::default() };
     let mut found = Vec::new();
-    for area in areas(size) {
+    let areas = areas(size);
+    for &area in &areas {
         let what = format!("areas up to {}×{}", area.0, area.1);
         let looked = watched(&system, system.starts(&[area]), &what, asked, &mut count, hunter);
         if let Some(run) = looked.broken.first() {
@@ -145,7 +149,7 @@ fn drifting(
         if !found.is_empty() {
             break;
         }
-        count.cells = Some((area.0 * area.1) as usize);
+        count.covers(area, &areas);
     }
     Ok(report(asked, (size, 1), &count, found))
 }
@@ -165,8 +169,8 @@ fn searched<const ROBOTS: usize>(
     let max_losses = asked.max_losses.unwrap_or(0);
     let mut found: Vec<(Demand, Counterexample<ROBOTS>)> = Vec::new();
     let mut count = Count { is_complete: true, ..Count::default() };
-    for area in areas(size) {
-        let cells = (area.0 * area.1) as usize;
+    let areas = areas(size);
+    for &area in &areas {
         let Some(all) = setting::<ROBOTS>(rule, area) else { continue };
         let all = Setting { max_obstacles: most_obstacles(asked), max_losses, max_wrong, ..all };
         let what = format!("areas up to {}×{}", area.0, area.1);
@@ -181,7 +185,7 @@ fn searched<const ROBOTS: usize>(
             count.is_complete = false;
             break;
         }
-        count.cells = Some(cells);
+        count.covers(area, &areas);
     }
     found.sort_by_key(|(demand, _)| demand.clause());
     let quarries = found.iter().map(|(demand, found)| quarry(asked, *demand, found));

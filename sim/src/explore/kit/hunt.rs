@@ -172,7 +172,8 @@ fn searched<const ROBOTS: usize>(
     hunter: &mut dyn Hunter,
 ) -> Result<Vec<Finding>, Diagnostic> {
     let mut all: Vec<Broken<ROBOTS>> = Vec::new();
-    'lattices: for lattice in lattices(size) {
+    let lattices = lattices(size);
+    'lattices: for &lattice in &lattices {
         for &pass in passes {
             // Runs at equal speeds are runs, and less is demanded of them.
             let is_kept = all.iter().all(|broken| broken.demand != Demand::Contact);
@@ -197,7 +198,7 @@ fn searched<const ROBOTS: usize>(
                 break 'lattices;
             }
         }
-        count.cells = Some((lattice.0 * lattice.1) as usize);
+        count.covers(lattice, &lattices);
     }
     all.sort_by_key(|broken| broken.clause);
     all.iter().map(|broken| quarry(asked, broken)).collect()

@@ -165,8 +165,8 @@ impl Lots for Layouts {
         Ok(())
     }
 
-    fn cover(&self, (count, _): &mut (Count, Vec<Finding>), (width, height): (i16, i16)) {
-        count.cells = Some((width * height) as usize);
+    fn cover(&self, (count, _): &mut (Count, Vec<Finding>), area: (i16, i16)) {
+        count.covers(area, &self.areas);
     }
 }
 
