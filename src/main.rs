@@ -63,7 +63,6 @@ use tautline_io::text_blocks::fit_into;
 use tautline_papers::rivals::CATALOGUE;
 #[cfg(not(feature = "papers"))]
 use tautline_sim::explore::Catalogue;
-use tautline_sim::explore::ClauseId;
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]
@@ -290,11 +289,6 @@ impl FromStr for SizeArg {
         let size = Size::new(width, height);
         size.map(Self).map_err(|problem| problem.to_string())
     }
-}
-
-/// The id of a clause that a run can break.
-fn clause(id: &str) -> Result<ClauseId, String> {
-    CATALOGUE.clause(&id.to_ascii_uppercase()).map_err(|fault| fault.to_string())
 }
 
 /// A whole number above 0.

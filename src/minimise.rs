@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_io::atomic_file::is_same;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::json_lines;
 use tautline_proofs::decide::MethodError;
@@ -17,11 +18,11 @@ use tautline_proofs::plural::counted;
 use super::explore::Wanted;
 use super::output::Output;
 use super::replay::draw;
-use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, evidence, hunt, progress};
+use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, evidence, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
-use tautline_sim::trace::{Trace, store};
+use tautline_sim::trace::{Trace, path_in, store_at};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,8 +43,8 @@ pub(super) struct Minimise {
     file: PathBuf,
     /// The clause that is to stay broken. Without it, the one that the file is a counterexample to, or else the first
     /// that the run breaks.
-    #[arg(long, value_name = "CLAUSE", value_parser = clause)]
-    clause: Option<ClauseId>,
+    #[arg(long, value_name = "CLAUSE")]
+    clause: Option<String>,
     /// The folder for the minimal run.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
@@ -130,12 +131,13 @@ impl Minimise {
         let (setup, clause) = if json_lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
             let found = evidence::read(&self.file)?;
             match evidence::run(found.clause, found.check, &found.evidence)? {
-                Some(setup) => (setup, self.clause),
+                Some(setup) => (setup, self.clause()?),
                 None => return self.shorten(&found, out),
             }
         } else {
+            let named = self.clause()?;
             let trace = Trace::open(&self.file, CATALOGUE)?;
-            let run = (trace.setup.clone(), self.clause.or(trace.clause));
+            let run = (trace.setup.clone(), named.or(trace.clause));
             trace.replay(&mut |_| Ok(()))?;
             run
         };
@@ -171,10 +173,21 @@ impl Minimise {
         Ok(Exit::Expected)
     }
 
+    /// The clause that is to stay broken, if one is named: one that a run of a team can break.
+    fn clause(&self) -> Result<Option<ClauseId>, Diagnostic> {
+        self.clause.as_ref().map(|id| CATALOGUE.clause(&id.to_ascii_uppercase())).transpose()
+    }
+
+    /// Where a minimal run stands that is not to take the place of the file that it is made from.
+    fn beside(&self) -> PathBuf {
+        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
+        self.out.join(format!("{stem}-minimal.jsonl"))
+    }
+
     /// Looks for a shorter run over states from where this one starts.
     fn shorten(&self, found: &Refutation<'_>, out: &mut Output) -> Result<Exit, Halt> {
         let &Refutation { clause, check, ref evidence } = found;
-        if let Some(other) = self.clause.filter(|asked| asked.as_str() != clause.id) {
+        if let Some(other) = self.clause.as_ref().filter(|asked| !asked.eq_ignore_ascii_case(clause.id)) {
             let what = format!("this is a counterexample to {}, not to {other}", clause.id);
             return Err(Diagnostic::in_file(&self.file, what, "leave --clause out").into());
         }
@@ -189,10 +202,8 @@ impl Minimise {
             return Err(evidence::no_run(&self.file).into());
         };
         let played = check.replay(&choices).map_err(|unfit| refused(MethodError::new(unfit)))?;
-        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
-        let path = self.out.join(format!("{stem}-minimal.jsonl"));
         let replaceable = self.force.replaceable([self.file.clone()]);
-        let stored = refutation::store(&path, clause, check, &played.evidence, &replaceable)?;
+        let stored = refutation::store(&self.beside(), clause, check, &played.evidence, &replaceable)?;
         let minimised = ShortenedJson {
             clause: clause.id,
             rule: check.rule(),
@@ -218,7 +229,9 @@ impl Minimise {
     fn store(&self, minimal: &Minimal, out: &mut Output) -> Result<(MinimiseJson, Report), Halt> {
         let Minimal { setup, clause, before, after, runs } = minimal;
         let replaceable = self.force.replaceable([self.file.clone()]);
-        let (aside, report) = store(&self.out, setup, *clause, &replaceable)?;
+        let usual = path_in(&self.out, setup, *clause);
+        let path = if is_same(&usual, &self.file) { self.beside() } else { usual };
+        let (aside, report) = store_at(&path, setup, *clause, &replaceable)?;
         let minimised = MinimiseJson {
             scheme: setup.scheme,
             rule: setup.rule,

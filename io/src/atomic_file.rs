@@ -110,7 +110,7 @@ fn is_ours(file: &Path) -> bool {
 
 /// Whether two paths lead to the same file, by whatever names.
 #[cfg(unix)]
-pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+pub fn is_same(one: &Path, other: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let place = |path: &Path| fs::metadata(path).map(|data| (data.dev(), data.ino()));
     matches!((place(one), place(other)), (Ok(one), Ok(other)) if one == other)
@@ -118,7 +118,7 @@ pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
 
 /// Whether two paths lead to the same file.
 #[cfg(not(unix))]
-pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+pub fn is_same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 

@@ -13,7 +13,7 @@ mod foreign;
 mod summary;
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -163,6 +163,11 @@ fn file_name(scheme: &str, rule: RuleId, robots: u16, clause: ClauseId) -> Strin
     format!("{clause}{scheme}-{rule}-n{robots}.jsonl")
 }
 
+/// The place in `folder` for the run of `setup`, which breaks `clause`, under a name that says so.
+pub fn path_in(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
+    folder.join(file_name(setup.scheme.name, setup.rule, setup.robots, clause))
+}
+
 /// Writes the run of `setup`, which breaks `clause`, to a file in `folder` under a name that says so. The file has yet
 /// to be put in its place.
 ///
@@ -174,8 +179,7 @@ pub fn store(
     clause: ClauseId,
     replaceable: &Replaceable,
 ) -> Result<(AtomicFile, Report), Halt> {
-    let name = file_name(setup.scheme.name, setup.rule, setup.robots, clause);
-    store_at(&folder.join(name), setup, clause, replaceable)
+    store_at(&path_in(folder, setup, clause), setup, clause, replaceable)
 }
 
 /// Writes the run of `setup`, which breaks `clause`, to a file at `path`. The file has yet to be put in its place.

@@ -62,6 +62,10 @@ fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_mini
     printed(folder, &["replay", stored], 1);
     assert_snapshot!("library_minimise", printed(folder, &["minimise", stored], 0));
     printed(folder, &["replay", "mutex-2-published-states-2-minimal.jsonl"], 1);
+    // Its own clause can be named, in small letters, too; any other one is none of its.
+    json(folder, &["minimise", stored, "--clause", "mutex-2"], 0);
+    let said = refused(folder, &["minimise", stored, "--clause", "CHAIN-2"]);
+    assert!(said.contains("this is a counterexample to MUTEX-2, not to CHAIN-2"), "{said}");
     let minimised = json(folder, &["minimise", stored, "--out", "again"], 0);
     assert_eq!(
         (minimised["shortest"].as_bool(), minimised["after"]["moves"].as_u64()),

@@ -27,7 +27,7 @@ pub(super) fn hunt(
         let runs = counted(found.runs(), "run");
         hunter.hears(Far::Words(format!("areas of {done} of {max_cells} cells, {runs}")))
     };
-    let found = search(&areas, &mut hears).map_err(fault)?;
+    let found = search(&areas, &mut hears).map_err(|refused| fault(refused, areas.robots))?;
     told(asked, &areas, &found)
 }
 

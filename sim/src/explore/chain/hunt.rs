@@ -115,7 +115,7 @@ impl Deals for Walls {
             None => Search::shard(&bounds, &deal, shard),
             Some(far) => Search::shard_at(&bounds, &deal, shard, &decode::<Position>(far, RUN_AGAIN)?),
         };
-        Ok(Box::new(Waves(search.map_err(fault)?)))
+        Ok(Box::new(Waves(search.map_err(|refused| fault(refused, bounds.robots))?)))
     }
 
     fn merge(
@@ -128,7 +128,8 @@ impl Deals for Walls {
         let bounds = self.bounds(&asked)?;
         let positions =
             shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<Position>, _>>()?;
-        let merged = Search::merged(&bounds, &deal, &positions).map_err(fault)?;
+        let merged =
+            Search::merged(&bounds, &deal, &positions).map_err(|refused| fault(refused, bounds.robots))?;
         told(&asked, &bounds, &merged.found())
     }
 }
@@ -230,7 +231,7 @@ fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result
 pub fn resume(kept: &mut Checkpoint<'_, HuntTask>, bounds: &Bounds) -> Result<Search, Diagnostic> {
     let position: Option<Position> = kept.read()?;
     let search = position.map_or_else(|| Search::new(bounds), |position| Search::at(bounds, &position));
-    search.map_err(|refused| kept.found(fault(refused)))
+    search.map_err(|refused| kept.found(fault(refused, bounds.robots)))
 }
 
 /// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
@@ -270,21 +271,24 @@ pub fn bounds(
 /// # Errors
 /// A [`Diagnostic`] if it cannot be made.
 pub fn start(bounds: &Bounds) -> Result<Search, Diagnostic> {
-    Search::new(bounds).map_err(fault)
+    Search::new(bounds).map_err(|refused| fault(refused, bounds.robots))
 }
 
-/// The fault of a search that is refused.
-pub(super) fn fault(refused: Unsearchable) -> Diagnostic {
+/// The fault of a search that is refused to so many robots.
+pub(super) fn fault(refused: Unsearchable, robots: usize) -> Diagnostic {
     let refused = match refused {
         Unsearchable::Team(refused) => return super::fault(refused),
         Unsearchable::Search(refused) => refused,
     };
     match refused {
-        tree::Unsearchable::TooManyWalls { edges, .. } => Diagnostic::of_field(
-            "max-walls",
-            refused,
-            format_args!("give `max-walls` a number up to {edges}, or a larger `size`"),
-        ),
+        tree::Unsearchable::TooManyWalls { edges, .. } => {
+            // No size gives a team of N robots more than the (2N−1)x(2N−1) cells in its reach.
+            let side = (2 * robots as u32).saturating_sub(1);
+            let is_smaller = edges < 2 * side * side.saturating_sub(1);
+            let more = if is_smaller { "a larger `size`" } else { "more `robots`" };
+            let remedy = format_args!("give `max-walls` a number up to {edges}, or {more}");
+            Diagnostic::of_field("max-walls", refused, remedy)
+        }
         tree::Unsearchable::TooLarge { .. } => {
             Diagnostic::of_field("size", refused, "give fewer `robots` or a smaller `size`")
         }
