@@ -395,14 +395,16 @@ async fn answer(line: &Line<'_>) -> Result<Value, String> {
     if told.len() as u64 > MAX_ANSWER {
         return Err(format!("the answer has more than {MAX_ANSWER} bytes: ask for less"));
     }
-    // A command that was refused prints nothing, and says why. One without a code was ended, as happens where memory is out.
-    serde_json::from_slice(&told).map_err(|_| {
-        if status.is_ok_and(|status| status.code().is_some()) {
-            String::from_utf8_lossy(&said).trim().to_owned()
-        } else {
-            format!("the call was ended, as where {memory} MiB are too few: ask for less, or give it more")
-        }
-    })
+    // A command without a code was ended, as happens where memory is out.
+    let code = status.ok().and_then(|status| status.code()).ok_or_else(|| {
+        format!("the call was ended, as where {memory} MiB are too few: ask for less, or give it more")
+    })?;
+    let reason = || String::from_utf8_lossy(&said).trim().to_owned();
+    // One that could not store a file has printed its result, and says on stderr what would be right.
+    if [Exit::Diagnostic, Exit::Bug].iter().any(|exit| i32::from(exit.code()) == code) {
+        return Err(reason());
+    }
+    serde_json::from_slice(&told).map_err(|_| reason())
 }
 
 /// As much as an answer can have, and one byte more.

@@ -108,6 +108,18 @@ fn each_tool_answers_as_its_command_does() {
 }
 
 #[test]
+fn a_call_that_could_not_store_its_file_has_failed() {
+    let folder = folder();
+    let foreign = folder.path().join("runs/found/chain-13-published-n3.jsonl");
+    fs::create_dir(folder.path().join("runs/found")).expect("a folder");
+    fs::write(&foreign, "mine").expect("a file");
+    let mut client = Client::new(folder.path());
+    let said = client.refused("hunt", &json!({"rule": "published", "robots": 3, "max_walls": 2}));
+    assert!(said.contains("tautline did not write this file"), "{said}");
+    assert_eq!(fs::read_to_string(foreign).expect("a file"), "mine");
+}
+
+#[test]
 fn no_call_leaves_the_folder() {
     let folder = folder();
     let outside = folder.path().join("outside.jsonl");
