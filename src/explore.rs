@@ -111,10 +111,11 @@ fn heading(is_told: impl Fn(&Profile) -> bool) -> String {
     }
 }
 
-/// The options of schemes, each by its own name.
+/// The options of schemes that are told, each by its own name.
 #[derive(Debug, Default)]
 struct SchemeOptions {
-    options: Options,
+    /// Each with its word, which can be read.
+    words: Vec<(&'static Extra, String)>,
     /// The fault, if something is told twice.
     wrong: Option<Wrong>,
 }
@@ -162,9 +163,10 @@ impl FromArgMatches for SchemeOptions {
                     .map(String::as_str)
                     .collect(),
             };
-            if let Some(word) = words.first() {
-                (extra.read)(word, &mut self.options)
+            if let Some(&word) = words.first() {
+                (extra.read)(word, &mut Options::default())
                     .map_err(|what| Error::raw(ErrorKind::ValueValidation, what))?;
+                self.words.push((extra, word.to_owned()));
             }
             if let ([one, other, ..], Some(twice)) = (&words[..], extra.twice) {
                 self.wrong = Some(twice(one, other));
@@ -294,8 +296,9 @@ impl Explore {
             asked.starts = self.start.iter().map(|&CellArg(cell)| cell).collect();
         }
         asked.miss = self.miss.or(asked.miss);
-        if self.told.options != Options::default() {
-            asked.options = self.told.options.clone();
+        for (extra, word) in &self.told.words {
+            // Each word was read before.
+            let _ = (extra.read)(word, &mut asked.options);
         }
         asked.limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
         asked

@@ -1,6 +1,9 @@
 //! Frontier cells on the command line: what is refused, with what would be right.
 
 use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
 
 use super::{folder, json, names, printed, refused};
 
@@ -83,4 +86,26 @@ fn the_objects_that_robots_find_are_told_with_their_errors_and_drawn_on_the_map(
     }
     let picture = fs::read_to_string(folder.join("map.svg")).expect("a picture");
     assert_eq!(picture.matches("<circle class=\"found\"").count(), 2);
+}
+
+/// The options in the header of a stored run.
+fn options(folder: &Path, run: &str) -> Value {
+    let run = fs::read_to_string(folder.join(run)).expect("a run");
+    let header: Value = serde_json::from_str(run.lines().next().unwrap_or_default()).expect("a header");
+    header["options"].clone()
+}
+
+#[test]
+fn one_option_of_a_stored_run_leaves_the_others_as_they_were() {
+    let folder = folder();
+    let folder = folder.path();
+    let run = "explore cells:4x4:0.1 --scheme frontier --robots 2 --loss 0.1 --noise-db 0.5 --objects 2 \
+               --outliers 0.01 --small 0.1 --trace run.jsonl";
+    printed(folder, &run.split_whitespace().collect::<Vec<_>>(), 0);
+    for (option, word, field) in [("--threshold", "0.4", "threshold"), ("--loss", "0", "loss")] {
+        let mut expected = options(folder, "run.jsonl");
+        expected[field] = word.parse::<f64>().expect("a number").into();
+        printed(folder, &["explore", "run.jsonl", option, word, "--trace", "new.jsonl"], 0);
+        assert_eq!(options(folder, "new.jsonl"), expected);
+    }
 }
