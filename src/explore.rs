@@ -88,6 +88,7 @@ pub(super) struct Explore {
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     /// Store what robots have mapped as a map of ROS: FILE ends in `.yaml`, and its image `.pgm` stands beside it.
+    /// Cells lie as in the map of ROS that is explored; else each is a metre wide.
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
     /// The drawing to print. Without it the outcome is drawn, if the area is small.
@@ -196,6 +197,7 @@ const SMALL_COLUMNS: usize = 33;
 impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
+        let frame = self.map.as_ref().map(|map| ros_map::frame(map, &self.layout, &setup)).transpose()?;
         let [itf, mcap] = self.viewers.paths();
         let grid = self.map.as_ref().map(|map| map.with_extension("pgm"));
         let files = [&self.trace, &self.html, &self.svg, itf, mcap, &self.map, &grid];
@@ -223,10 +225,10 @@ impl Explore {
             out.keep(page);
         }
         viewers::store([itf, mcap], &setup, out)?;
-        if let (Some(mut map), Some(mut grid)) = (map, grid) {
+        if let (Some(mut map), Some(mut grid), Some(frame)) = (map, grid, frame) {
             grid.append(ros_map::image(&setup, &report));
             let name = grid.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
-            map.append(ros_map::description(&name));
+            map.append(ros_map::description(&name, frame, &setup, &report));
             out.keep(grid);
             out.keep(map);
         }

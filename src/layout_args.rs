@@ -1,8 +1,9 @@
 //! The layout that a command is given: a file or a generator, and how a ROS map is read.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use tautline_grids::layout::ros::{self, Frame};
 use tautline_grids::layout::{self, Coarse, Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::value_parser::real;
@@ -62,6 +63,22 @@ impl LayoutArgs {
         let Self { layout, image, coarse, .. } = self;
         let coarse = Coarse { cell_m: coarse.cell_m, radius_m: coarse.radius_m };
         layout::load_coarse(layout, self.seed(), image.as_deref(), coarse)
+    }
+
+    /// Where the cells of `layout`, which was loaded, lie: as a ROS map says; else they are a metre wide.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the ROS map cannot be read again.
+    pub(super) fn frame(&self, layout: &Layout) -> Result<Frame, Diagnostic> {
+        let file = Path::new(&self.layout);
+        if !layout::is_ros(file) || self.layout.parse::<Generator>().is_ok() {
+            return Ok(Frame::METRES);
+        }
+        let (pixels, frame) = ros::load(file, self.image.as_deref())?;
+        let cell_m = self.coarse.cell_m.unwrap_or(frame.resolution_m);
+        // The rows of cells begin at the upper rim, and pixels below the last one are in none.
+        let below_m = f64::from(pixels.height()) * frame.resolution_m - f64::from(layout.height()) * cell_m;
+        Ok(Frame { resolution_m: cell_m, ..frame.moved(0.0, below_m) })
     }
 
     /// Whether a seed is given that the layout leaves unused.

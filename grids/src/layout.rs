@@ -386,7 +386,7 @@ fn extension(file: &Path) -> OsString {
 }
 
 /// Whether the name is that of a ROS map.
-fn is_ros(file: &Path) -> bool {
+pub fn is_ros(file: &Path) -> bool {
     matches!(extension(file).to_str(), Some("yaml" | "yml"))
 }
 

@@ -14,8 +14,8 @@ use tempfile::NamedTempFile;
 use crate::diagnostic::{Diagnostic, Halt};
 
 /// How the files begin that this program writes: stored runs and kept hunts, certificates, pictures, pages, manual
-/// pages, ITF traces, recordings, tables.
-const OURS: [&[u8]; 8] = [
+/// pages, ITF traces, recordings, tables, maps of ROS.
+const OURS: [&[u8]; 10] = [
     b"{\"format\":\"tautline ",
     b"tautline certificate ",
     SVG_HEAD.as_bytes(),
@@ -24,6 +24,8 @@ const OURS: [&[u8]; 8] = [
     ITF_HEAD.as_bytes(),
     MCAP_HEAD,
     CSV_HEAD.as_bytes(),
+    ROS_HEADS[0].as_bytes(),
+    ROS_HEADS[1].as_bytes(),
 ];
 
 /// The beginning of a picture.
@@ -50,6 +52,9 @@ const MCAP_HEAD: &[u8] = b"\x89MCAP0\r\n\x01\x14\0\0\0\0\0\0\0\x04\0\0\0ros2\x08
 
 /// The beginning of a table as comma-separated values: its first columns.
 pub const CSV_HEAD: &str = "schema_version,id,list,";
+
+/// The beginnings of a map of ROS: of its description, and of its image.
+pub const ROS_HEADS: [&str; 2] = ["# Written by tautline.\n", "P5\n# tautline\n"];
 
 /// The beginning of a manual page: a comment.
 pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";

@@ -68,7 +68,39 @@ fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
     let cells = told.lines().find_map(|line| line.split_once(" explored")).expect("what is explored").0;
     let again = ["explore", "map.yaml", "--scheme", "frontier", "--robots", "2"];
     assert!(printed(folder, &again, 0).contains(&format!("{cells} explored")), "{told}");
+    // The next run replaces what an earlier one stored, and nothing else.
+    printed(folder, &[&explored[..], &["--map", "map.yaml"]].concat(), 0);
     assert_eq!(names(folder), ["map.pgm", "map.yaml"]);
+    for (layout, map, what) in [
+        ("open:3x3", "map.txt", "name a file that ends in .yaml"),
+        ("open:3x3", "map.pgm", "name a file that ends in .yaml"),
+        ("walls:5x5:0.3", "walls.yaml", "the layout has walls between cells"),
+    ] {
+        let said = refused(folder, &["explore", layout, "--robots", "3", "--map", map]);
+        assert!(said.contains(what), "{said}");
+    }
+    assert_eq!(names(folder), ["map.pgm", "map.yaml"]);
+}
+
+#[test]
+fn the_cells_of_a_map_of_ros_lie_where_those_of_the_layout_do() {
+    let folder = folder();
+    let folder = folder.path();
+    let floor = "image: floor.pgm\nresolution: 0.1\norigin: [-1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
+                 free_thresh: 0.196\n";
+    fs::write(folder.join("floor.yaml"), floor).expect("a file");
+    fs::write(folder.join("floor.pgm"), format!("P2\n4 5\n255\n{}", "254 ".repeat(20))).expect("a file");
+    // The lowest row of pixels is in no cell; of a floor of five cells a chain of two robots gets to the three in the
+    // middle.
+    let coarse = "explore floor.yaml --cell 0.2 --radius 0.05 --scheme frontier --robots 2 --map map.yaml";
+    let inner = "explore open:5x5 --robots 2 --map map.yaml";
+    for (run, lies) in
+        [(coarse, "resolution: 0.2\norigin: [-1, 2.1, 0]\n"), (inner, "resolution: 1\norigin: [1, 1, 0]\n")]
+    {
+        printed(folder, &run.split(' ').collect::<Vec<_>>(), 0);
+        let map = fs::read_to_string(folder.join("map.yaml")).expect("a map");
+        assert!(map.contains(lies), "{run}: {map}");
+    }
 }
 
 #[test]

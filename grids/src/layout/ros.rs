@@ -30,6 +30,19 @@ pub struct Frame {
     pub yaw_rad: f64,
 }
 
+impl Frame {
+    /// Cells of a metre, from 0,0 on.
+    pub const METRES: Self = Self { resolution_m: 1.0, x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
+
+    /// This frame from another corner: so far along the rows of the image, and so far up its columns.
+    #[must_use]
+    pub fn moved(self, along_m: f64, up_m: f64) -> Self {
+        let (sine, cosine) = self.yaw_rad.sin_cos();
+        let (x_m, y_m) = (along_m * cosine - up_m * sine, along_m * sine + up_m * cosine);
+        Self { x_m: self.x_m + x_m, y_m: self.y_m + y_m, ..self }
+    }
+}
+
 /// A checked description of an image.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Description {
