@@ -45,8 +45,11 @@ pub fn line_of(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_default() + "\n"
 }
 
-/// The format that the first line of a file names, if it names one.
+/// The format that the first line of a file names, if it names one. Nothing is taken out of a pipe.
 pub fn format(path: &Path) -> Option<String> {
+    if !path.is_file() {
+        return None;
+    }
     let mut bytes = Vec::new();
     let file = File::open(path).ok()?;
     BufReader::new(file).take(MAX_FILE_BYTES).read_until(b'\n', &mut bytes).ok()?;
@@ -81,6 +84,10 @@ impl Lines {
         };
         if path.is_dir() {
             return Err(unreadable("this is a folder".to_owned()));
+        }
+        if path.exists() && !path.is_file() {
+            let what = "this is a pipe or a device, and a stored run is read more than once";
+            return Err(Diagnostic::in_file(path, what, "store it in a file first"));
         }
         let file = File::open(path).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => unreadable("there is no such file".to_owned()),

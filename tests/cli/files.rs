@@ -1,6 +1,8 @@
 //! The files that commands store: where they may stand, what becomes of them when there is no room, and that no signal
 //! leaves anything half-written.
 
+use std::io::Write;
+
 use super::*;
 
 /// A map of 4x3 cells as MovingAI has it.
@@ -365,6 +367,24 @@ fn a_hunt_that_was_ended_tells_so_also_if_it_has_found_something() {
         );
         assert!(!said.contains("The smallest"), "{said}");
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
+    let folder = folder();
+    let folder = folder.path();
+    let made = Command::new("mkfifo").arg(folder.join("pipe")).status().expect("mkfifo runs");
+    assert!(made.success());
+    for command in ["replay", "minimise"] {
+        let said = refused(folder, &[command, "pipe"]);
+        assert!(said.contains("pipe: this is a pipe or a device"), "{said}");
+    }
+    let mut explore = tautline(folder, &["explore", "/dev/stdin", "--robots", "3"]);
+    let mut child = explore.stdin(Stdio::piped()).stdout(Stdio::null()).spawn().expect("the program runs");
+    let drawing = printed(folder, &["show", "open:5x5"], 0);
+    child.stdin.take().expect("a pipe").write_all(drawing.as_bytes()).expect("a reader");
+    assert_eq!(child.wait().expect("it ends").code(), Some(0));
 }
 
 #[cfg(unix)]
