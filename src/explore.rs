@@ -184,7 +184,7 @@ enum Draw {
     Order,
     /// Every team move.
     Moves,
-    /// What robots have mapped, objects among it.
+    /// What robots have mapped; objects are drawn in a picture of it.
     Map,
 }
 
@@ -312,10 +312,10 @@ impl Explore {
             Some(Draw::Moves) => {
                 draw_moves(setup, report, &Wanted::All(1..=report.steps), draw::Pose::Before, out)?;
             }
-            Some(Draw::Map) | None if report.chart.area().width() <= SMALL_COLUMNS => {
+            None if report.chart.area().width() > SMALL_COLUMNS => {}
+            Some(Draw::Map) | None => {
                 out.text(format_args!("\n{}", draw::outcome(setup, &report.chart, &report.team)))?;
             }
-            Some(Draw::Map) | None => {}
         }
         Ok(())
     }

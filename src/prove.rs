@@ -212,6 +212,8 @@ impl Deciding {
             ("--certificate", self.certificate.is_some()),
             ("--html", self.html.is_some()),
             ("--spill", self.spill.is_some()),
+            ("--memory", self.memory.is_some()),
+            ("--patience", self.patience != PATIENCE),
             ("--force", self.force.force),
         ] {
             if is_given {

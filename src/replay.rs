@@ -19,6 +19,7 @@ use tautline_proofs::judge::AnyCase;
 use tautline_proofs::judge::chain::{Exhibit, judge, judges};
 use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
+use tautline_proofs::plural::counted;
 
 use super::evidence::{self, EvidenceJson, setup, shown, story};
 use super::explore::{Wanted, draw_moves, summary};
@@ -285,15 +286,16 @@ impl Replay {
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let is_drawn = page.is_none() && picture.is_none();
-        let moves = self.moves(report);
+        let moves = self.moves(report)?;
+        let is_said = self.all || self.moves.is_some();
         if let Some(mut page) = page {
-            let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
-            page::write(&mut page, run, report, &moves)?;
+            let all = 1..=report.steps;
+            page::write(&mut page, run, report, if is_said { &moves } else { &all })?;
             out.keep(page);
         }
         if let Some(mut picture) = picture {
-            let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
-            picture.draw(svg::team_moves(run, report, &moves))?;
+            let last = report.steps..=report.steps;
+            picture.draw(svg::team_moves(run, report, if is_said { &moves } else { &last }))?;
             out.keep(picture);
         }
         viewers::store(viewers, run, out)?;
@@ -315,7 +317,6 @@ impl Replay {
                     out.text(format_args!("{said}\n"))?;
                 }
                 if is_drawn {
-                    let is_said = self.all || self.moves.is_some();
                     let wanted = if is_said { Wanted::All(moves) } else { Wanted::Last(moves) };
                     let first = *draw(run, report, &wanted, out)?.start();
                     if !is_said && first > 1 {
@@ -346,10 +347,10 @@ impl Replay {
     }
 
     fn run_refutation(&self, page: Option<AtomicFile>, out: &mut Output) -> Result<Exit, Halt> {
-        if self.moves.is_some() || self.svg.is_some() {
+        if self.moves.is_some() || self.all || self.svg.is_some() {
             let what = "a refutation has no team moves to choose from, and no picture";
-            let remedy =
-                "leave out --moves and --svg, or name a run of a team; a refutation has a page, with --html";
+            let remedy = "leave out --moves, --all and --svg, or name a run of a team; a refutation has a page, with \
+                          --html";
             return Err(Diagnostic::usage(what, remedy).into());
         }
         let Refutation { clause, check, evidence } = evidence::read(&self.file)?;
@@ -425,11 +426,23 @@ impl Replay {
         Diagnostic::in_file(&self.file, what, "make it again with `tautline hunt` or `tautline prove --out`")
     }
 
-    fn moves(&self, report: &Report) -> RangeInclusive<u32> {
+    /// The team moves to show.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the run has none of those that are asked for.
+    fn moves(&self, report: &Report) -> Result<RangeInclusive<u32>, Diagnostic> {
         match &self.moves {
-            Some(Moves(moves)) => moves.clone(),
-            None if self.all => 1..=report.steps,
-            None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
+            Some(Moves(moves)) if *moves.end() == 0 || *moves.start() > report.steps => {
+                let what = format!("the run has {}, from 1 on", counted(report.steps, "team move"));
+                Err(Diagnostic::of_field(
+                    "moves",
+                    what,
+                    "give `moves` the first and the last of some of them",
+                ))
+            }
+            Some(Moves(moves)) => Ok(moves.clone()),
+            None if self.all => Ok(1..=report.steps),
+            None => Ok(report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps),
         }
     }
 }

@@ -23,7 +23,7 @@ use super::output::Output;
 use super::prove::{Deciding, Detail};
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
-use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, progress, whole};
+use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, needless, progress, whole};
 
 /// The most gaps that are named.
 const MOST_NAMED: usize = 20;
@@ -241,6 +241,9 @@ impl Merge {
         if !matches!(plan.of, Work::Table { .. }) && (self.csv.is_some() || !self.pictures.is_empty()) {
             let what = "only a table has --picture and --csv";
             return Err(Diagnostic::usage(what, "leave them out").into());
+        }
+        if matches!(plan.of, Work::Table { .. }) && self.out.is_some() {
+            return Err(needless("--out", "a table has no counterexamples").into());
         }
         match plan.of {
             Work::Library { .. } => {

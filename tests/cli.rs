@@ -1345,7 +1345,9 @@ fn an_option_that_can_have_no_effect_is_refused() {
     let folder = folder();
     let folder = folder.path();
     fs::write(folder.join("ring"), RING).expect("a file");
-    let wrong: [&[&str]; 13] = [
+    let wrong: [&[&str]; 15] = [
+        &["library", "--memory", "1GiB"],
+        &["library", "--patience", "3"],
         &["explore", "ring", "--seed", "1"],
         &["explore", "open:9x9", "--seed", "0"],
         &["explore", "rooms-a", "--scheme", "bricks", "--seed", "7"],

@@ -198,6 +198,13 @@ fn the_shards_of_a_table_give_what_one_process_gives() {
     }
     let merge = ["merge", "plan.json", "--picture", "svg", "cost.svg"];
     assert_eq!(printed(many, &merge, 0), whole);
+    let bare = folder();
+    planned(bare.path(), &["reproduce", "repair-cost", "--runs", "2"], "1");
+    printed(bare.path(), &["reproduce", "--plan", "plan.json", "--shard", "1"], 0);
+    let (_, said) = super::files::left_out(bare.path(), &["merge", "plan.json", "--picture", "a", "b.svg"]);
+    assert!(said.contains("leave it out: this table has no pictures"), "{said}");
+    let said = refused(many, &["merge", "plan.json", "--out", "found"]);
+    assert!(said.contains("--out has no effect: a table has no counterexamples"), "{said}");
     assert_eq!(read(many, "cost.svg"), read(one, "cost.svg"));
 }
 

@@ -225,7 +225,10 @@ impl<T: Table> Report for TableReport<'_, T> {
         let TableExperiment { table, settings } = self.asked;
         let names: Vec<&str> = Table::about(*table).pictures.iter().map(|&(name, _)| name).collect();
         let place = names.iter().position(|&known| known == name).ok_or_else(|| {
-            let remedy = format!("ask for one of {names:?}");
+            let remedy = match names[..] {
+                [] => "leave it out: this table has no pictures".to_owned(),
+                _ => format!("ask for one of {}", names.join(", ")),
+            };
             Diagnostic::usage(format_args!("there is no picture {name}"), remedy)
         })?;
         table.draw(place, settings, &self.merged)
