@@ -134,8 +134,8 @@ ours. Where several apply, the code is the first of 70, 2, 4, 3, 1, 0. With --ex
 
 /// The fate of files.
 const FILES: &str = "\
-Files stand in their places whole or not at all, those of one command together at its end. Only a process that is killed \
-(SIGKILL) can leave a file .tautline-….part behind, which nobody needs.";
+Files stand in their places whole or not at all, those of one command together at its end. Only a process that ends \
+by a signal other than Ctrl-C, SIGTERM and SIGHUP can leave a file .tautline-….part behind, which nobody needs.";
 
 const LAYOUTS: &str = "\
 LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
@@ -309,10 +309,27 @@ fn main() -> ExitCode {
             arguments.join(" ")
         );
     }));
-    let arguments = with_negative_numbers(program()).get_matches();
-    let cli = Cli::from_arg_matches(&arguments).unwrap_or_else(|error| error.exit());
-    let name = arguments.subcommand_name().unwrap_or_default();
-    guarded(|| command(&cli, name)).into()
+    let arguments = with_negative_numbers(program()).try_get_matches();
+    let read = arguments.and_then(|arguments| Ok((Cli::from_arg_matches(&arguments)?, arguments)));
+    match read {
+        Ok((cli, arguments)) => {
+            guarded(|| command(&cli, arguments.subcommand_name().unwrap_or_default())).into()
+        }
+        Err(error) => told(&error).into(),
+    }
+}
+
+/// Prints the help, the version, or what is wrong with the command line.
+fn told(error: &clap::Error) -> Exit {
+    let printed = error.print().and_then(|()| io::stdout().flush());
+    match printed {
+        _ if error.use_stderr() => Exit::Diagnostic,
+        Err(fault) if fault.kind() != io::ErrorKind::BrokenPipe => {
+            complain(&output::unwritable(&fault));
+            Exit::Diagnostic
+        }
+        Ok(()) | Err(_) => Exit::Expected,
+    }
 }
 
 /// The command line, as the help, the manual pages and the completions tell of it.

@@ -135,8 +135,9 @@ fn target(path: &Path) -> Result<PathBuf, Diagnostic> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
         match fs::read_link(&target) {
-            Ok(link) => target = folder(&target).join(link),
-            Err(_) => return Ok(target),
+            // A link to a pipe, as /dev/stdout may be one, leads to no name.
+            Ok(link) if path.is_file() || !path.exists() => target = folder(&target).join(link),
+            Ok(_) | Err(_) => return Ok(target),
         }
     }
     Err(Diagnostic::in_file(path, "the symbolic links lead to no end", "name a file"))

@@ -258,6 +258,45 @@ fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
 }
 
 #[test]
+fn team_moves_that_a_run_does_not_have_are_refused_and_all_are_drawn_where_all_are_wanted() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
+    let replay = ["replay", "run.jsonl", "--svg", "a.svg"];
+    for moves in ["9..12", "0..0"] {
+        let said = refused(folder, &[&replay[..], &["--moves", moves]].concat());
+        assert!(said.contains("the run has 8 team moves"), "{said}");
+    }
+    assert_eq!(names(folder), ["run.jsonl"]);
+    let drawn = |moves: &[&str]| {
+        printed(folder, &[&replay[..], moves].concat(), 0);
+        read(folder, "a.svg")
+    };
+    assert_eq!(drawn(&["--all"]), drawn(&["--moves", "1..8"]));
+    // A map that is asked for is drawn, however wide.
+    let wide = printed(
+        folder,
+        &["explore", "open:40x1", "--scheme", "frontier", "--robots", "2", "--draw", "map"],
+        0,
+    );
+    assert!(wide.contains("+---+"), "{wide}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_pipe_is_no_place_for_a_file_and_help_that_has_no_place_is_a_fault() {
+    let folder = folder();
+    let said = refused(folder.path(), &["show", "open:3x3", "--svg", "/dev/stdout"]);
+    assert!(said.contains("/dev/stdout: this is a device or a pipe"), "{said}");
+    for asked in ["--help", "--version"] {
+        let full = fs::File::options().write(true).open("/dev/full").expect("a device");
+        let output = tautline(folder.path(), &[asked]).stdout(full).output().expect("the program runs");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains("standard output"), "{asked}: {said}");
+    }
+}
+
+#[test]
 fn what_is_known_to_be_too_large_is_refused_before_the_work() {
     let folder = folder();
     let folder = folder.path();
