@@ -397,7 +397,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "minutes without optimisation"]
     fn no_layout_within_the_wider_bounds_breaks_anything_of_a_reel() {
         assert_eq!(searched(3, 4), [(31_286, 278_645, 52); 2]);
         assert_eq!(searched(4, 3), [(26_389, 346_459, 71); 2]);
