@@ -27,7 +27,7 @@ const BELOW: &str = "
 /// By crate and rooms: the other rooms that may import them; `*` are all. The robust rule of bricks goes where an agent
 /// has been least, as ants do.
 const KNOWN_TO: &str = "
-    kernel choice conditions floor ground net: *
+    kernel choice conditions error floor ground net: *
     kernel ants: bricks
     kernel position: frontier
     kernel bricks chain frontier kit mrc notice pack tan:
