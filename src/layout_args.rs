@@ -76,9 +76,7 @@ impl LayoutArgs {
         }
         let (pixels, frame) = ros::load(file, self.image.as_deref())?;
         let cell_m = self.coarse.cell_m.unwrap_or(frame.resolution_m);
-        // The rows of cells begin at the upper rim, and pixels below the last one are in none.
-        let below_m = f64::from(pixels.height()) * frame.resolution_m - f64::from(layout.height()) * cell_m;
-        Ok(Frame { resolution_m: cell_m, ..frame.moved(0.0, below_m) })
+        Ok(frame.of_cells(pixels.height(), cell_m, layout.height()))
     }
 
     /// Whether a seed is given that the layout leaves unused.

@@ -26,6 +26,7 @@ use tokio::time::timeout;
 
 use super::Exit;
 use super::output::Output;
+use tautline_grids::layout::is_ros;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::plural::counted;
 
@@ -185,10 +186,7 @@ impl Line<'_> {
                 return refused("goes through a symbolic link");
             }
         }
-        let is_map = at
-            .extension()
-            .is_some_and(|end| end.eq_ignore_ascii_case("yaml") || end.eq_ignore_ascii_case("yml"));
-        if is_map {
+        if is_ros(&at) {
             return refused("names an image, which may be elsewhere");
         }
         let links = |folder: &Path| {

@@ -12,7 +12,8 @@ use tautline_logs::{Grid, Ground, Limits, Tracks};
 
 use super::super::{CellArg, needless, number};
 use super::{MOST, above_0, milli};
-use tautline_grids::layout::{self, Coarse, Generator, Layout, ros};
+use tautline_grids::layout::ros::{self, Frame};
+use tautline_grids::layout::{self, Coarse, Generator, Layout};
 
 #[derive(Debug, Args)]
 pub(super) struct MapArgs {
@@ -71,10 +72,9 @@ impl MapArgs {
             None => None,
             Some(map) => {
                 let (image, path) = (self.image.as_deref(), Path::new(map));
-                let is_ros = path.extension().is_some_and(|end| end == "yaml" || end == "yml");
                 let mut coarse = Coarse { cell_m: None, radius_m: self.radius };
-                let mut top = None;
-                if is_ros && map.parse::<Generator>().is_err() {
+                let mut of_pixels = None;
+                if layout::is_ros(path) && map.parse::<Generator>().is_err() {
                     let (pixels, frame) = ros::load(path, image)?;
                     if frame.yaw_rad != 0.0 {
                         let what = format!("the map is turned by {} rad", frame.yaw_rad);
@@ -83,12 +83,12 @@ impl MapArgs {
                     }
                     coarse.cell_m = self.cell;
                     cell_m = self.cell.unwrap_or(frame.resolution_m);
-                    top = Some(frame.y_m + f64::from(pixels.height()) * frame.resolution_m);
-                    corner = [frame.x_m, frame.y_m];
+                    of_pixels = Some((frame, pixels.height()));
                 }
                 let layout = layout::load_coarse(map, self.seed.unwrap_or(0), image, coarse)?;
-                if let Some(top) = top {
-                    corner[1] = top - f64::from(layout.height()) * cell_m;
+                if let Some((frame, rows)) = of_pixels {
+                    let Frame { x_m, y_m, .. } = frame.of_cells(rows, cell_m, layout.height());
+                    corner = [x_m, y_m];
                 }
                 Some(layout)
             }

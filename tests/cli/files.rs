@@ -16,6 +16,13 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).expect("text")
 }
 
+/// Makes `pipe`, a pipe.
+#[cfg(unix)]
+fn make_pipe(folder: &Path) {
+    let made = Command::new("mkfifo").arg(folder.join("pipe")).status().expect("mkfifo runs");
+    assert!(made.success());
+}
+
 /// The texts on stdout and on stderr of a program that ends with 2: something was left out, and the rest given.
 pub(crate) fn left_out(folder: &Path, arguments: &[&str]) -> (String, String) {
     let output = ran(folder, arguments);
@@ -413,8 +420,7 @@ fn a_hunt_that_was_ended_tells_so_also_if_it_has_found_something() {
 fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
     let folder = folder();
     let folder = folder.path();
-    let made = Command::new("mkfifo").arg(folder.join("pipe")).status().expect("mkfifo runs");
-    assert!(made.success());
+    make_pipe(folder);
     for command in ["replay", "minimise"] {
         let said = refused(folder, &[command, "pipe"]);
         assert!(said.contains("pipe: this is a pipe or a device"), "{said}");
@@ -431,8 +437,7 @@ fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
 fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
     let folder = folder();
     let folder = folder.path();
-    let made = Command::new("mkfifo").arg(folder.join("pipe")).status().expect("mkfifo runs");
-    assert!(made.success());
+    make_pipe(folder);
     let large = fs::File::create(folder.join("large")).expect("a file");
     large.set_len((128 << 20) + 1).expect("room for nothing");
     let said = ["/dev/zero", "pipe", "large"].map(|name| {
