@@ -408,7 +408,7 @@ impl Replay {
 
     /// Whether the judge of the chain accepts it.
     fn judge_chain(&self, exhibit: &Exhibit) -> Result<bool, Halt> {
-        judge(exhibit).map_err(|objection| self.rejected(&objection))?;
+        judge(exhibit).map_err(|objection| self.rejected(&objection.of("team move")))?;
         Ok(true)
     }
 
@@ -416,7 +416,7 @@ impl Replay {
     fn judge_floor(&self, exhibit: &floor::Exhibit) -> Result<bool, Halt> {
         match floor::judge(exhibit) {
             Ok(judgement) => Ok(judgement == floor::Judgement::Broken),
-            Err(objection) => Err(self.rejected(&objection).into()),
+            Err(objection) => Err(self.rejected(&objection.of("turn")).into()),
         }
     }
 

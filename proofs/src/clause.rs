@@ -6,8 +6,8 @@ use std::fmt;
 
 use crate::ambiguity::Paper;
 use crate::decide::{
-    Answer, Cache, Context, Drawn, Evidence, Method, MethodError, Portion, RandomRuns, RefutationPlay, Size,
-    Systems, Verdict,
+    Answer, Cache, Context, Decided, Drawn, Evidence, Method, MethodError, Portion, RandomRuns,
+    RefutationPlay, Size, Systems, Verdict,
 };
 use crate::engine::states::{Limits, MemoryLimit};
 use crate::engine::tree::Watch;
@@ -133,6 +133,20 @@ impl<R> Check<R> {
         mutants: &'static [NamedRule<R>],
     ) -> Self {
         Self { about, method, expected, mutants, readings: &[], reason: None, paper: None, case: None }
+    }
+
+    /// A check that holds.
+    pub const fn holds(
+        about: NamedRule<R>,
+        method: &'static dyn Method<R>,
+        mutants: &'static [NamedRule<R>],
+    ) -> Self {
+        Self::new(about, method, Verdict::Holds, mutants)
+    }
+
+    /// A check that is refuted.
+    pub const fn refuted(about: NamedRule<R>, method: &'static dyn Method<R>) -> Self {
+        Self::new(about, method, Verdict::Refuted, &[])
     }
 
     /// The rule of the variant with this number: of a mutant, or of a reading.
@@ -275,19 +289,14 @@ pub trait AnyCheck: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
+    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Decided;
 
     /// The answer about the variant with this number; open if there is none. One violation is enough, unless the
     /// decision is to tell of more.
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_variant(
-        &self,
-        number: usize,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError>;
+    fn decide_variant(&self, number: usize, until: Until, desk: &mut Context<'_, '_>) -> Decided;
 
     /// Into how many parts it can be divided: see [`Method::portions`].
     fn portions(&self) -> usize;
@@ -297,12 +306,8 @@ pub trait AnyCheck: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_portion(
-        &self,
-        variant: Option<usize>,
-        portion: Portion,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError>;
+    fn decide_portion(&self, variant: Option<usize>, portion: Portion, desk: &mut Context<'_, '_>)
+    -> Decided;
 
     /// Decides it, and its variants, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
@@ -408,16 +413,11 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.method.family(self.variant(number)?)
     }
 
-    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Decided {
         self.method.decide(&self.about.rule, Until::Exhausted, desk)
     }
 
-    fn decide_variant(
-        &self,
-        number: usize,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide_variant(&self, number: usize, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let Some(rule) = self.variant(number) else { return Ok(Answer::open()) };
         self.method.decide(rule, until, desk)
     }
@@ -431,7 +431,7 @@ impl<R: Sync> AnyCheck for Check<R> {
         variant: Option<usize>,
         portion: Portion,
         desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    ) -> Decided {
         let (rule, until) = match variant {
             None => (Some(&self.about.rule), Until::Exhausted),
             Some(number) => (self.variant(number), Until::Violation),

@@ -206,6 +206,9 @@ impl fmt::Debug for Cache {
     }
 }
 
+/// The answer of a method, or why it cannot begin.
+pub type Decided = Result<Answer, MethodError>;
+
 /// A method's surroundings.
 pub struct Context<'a, 'w> {
     /// Results found before.
@@ -250,7 +253,7 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError>;
+    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Decided;
 
     /// Into how many parts it can be divided, of which each is looked at by itself.
     fn portions(&self) -> usize {
@@ -262,13 +265,7 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn decide_portion(
-        &self,
-        rule: &R,
-        _: Portion,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide_portion(&self, rule: &R, _: Portion, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         self.decide(rule, until, desk)
     }
 
@@ -389,7 +386,7 @@ impl<R: Sync> Method<R> for EveryAnswer<R> {
         (self.range)()
     }
 
-    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Decided {
         let tally = engine::exhaust(|oracle| (self.body)(rule, oracle));
         Ok(Answer::of_tally(tally, self.covers, self.shows()))
     }
@@ -412,7 +409,7 @@ impl<R: Sync> Method<R> for RandomAnswers<R> {
         Verdict::Unrefuted
     }
 
-    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Decided {
         let tally = engine::sample(self.runs, SEED, |oracle| (self.body)(rule, oracle));
         Ok(Answer::of_tally(tally, self.covers, self.shows()))
     }
@@ -488,7 +485,7 @@ where
     }
 
     /// The choices are the number of the start, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Decided {
         let system = (self.system)(rule);
         let limits = Limits { most_steps: self.most_steps.into(), room: desk.room };
         let found = states::search(&system, (self.starts)(&system), limits);

@@ -68,12 +68,26 @@ pub struct Objection {
     pub what: &'static str,
 }
 
+impl Objection {
+    /// In words, where a step is called this.
+    pub fn of(self, step: &str) -> String {
+        match self.at {
+            0 => self.what.to_owned(),
+            at => format!("{step} {at}: {}", self.what),
+        }
+    }
+}
+
+/// About the case as a whole.
+impl From<&'static str> for Objection {
+    fn from(what: &'static str) -> Self {
+        Self { at: 0, what }
+    }
+}
+
 impl fmt::Display for Objection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.at {
-            0 => f.write_str(self.what),
-            at => write!(f, "step {at}: {}", self.what),
-        }
+        f.write_str(&self.of("step"))
     }
 }
 

@@ -25,9 +25,10 @@ pub use self::invariant::Invariant;
 pub use self::kept::Kept;
 use self::team::Team;
 use self::wider::Wider;
-use crate::decide::{Answer, Context, Evidence, Method, MethodError, RefutationPlay};
+use crate::decide::{Answer, Context, Decided, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{self, Limits};
 use crate::engine::{Choices, Script, ScriptError, Until};
+use crate::protocol::arrangements;
 
 /// A robot as others see it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -172,11 +173,7 @@ pub fn in_a_row<S: Copy>(robots: usize, state: S) -> Vec<Robot<S>> {
 
 /// Every way to name `of` of so many robots, in any order.
 pub fn all_tuples(robots: usize, of: usize) -> Vec<Vec<usize>> {
-    let with = |tuple: Vec<usize>| {
-        let others = (0..robots).filter(|other| !tuple.contains(other));
-        others.map(|other| [&tuple[..], &[other]].concat()).collect::<Vec<_>>()
-    };
-    (0..of).fold(vec![Vec::new()], |tuples, _| tuples.into_iter().flat_map(with).collect())
+    arrangements(&(0..robots).collect::<Vec<_>>(), of)
 }
 
 /// Each robot with the next one.
@@ -234,7 +231,7 @@ impl<R: Local> Method<R> for EveryNumber {
     }
 
     /// The choices are how many robots there are beyond the fewest, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Decided {
         let invariant = Invariant::of(rule)?;
         if invariant.holds() {
             return Ok(self.answer::<R, _>(&invariant, None, None));

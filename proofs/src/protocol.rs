@@ -78,13 +78,21 @@ pub struct Move<S> {
 
 impl<S> Move<S> {
     /// A move of one actor.
+    ///
+    /// # Panics
+    /// If its number is above 15.
     pub const fn of(actor: usize, words: &'static str, to: S) -> Self {
+        assert!(actor < Bits::BITS as usize, "the actors of a protocol have the numbers 0 to 15");
         Self { actors: 1 << actor, words, to }
     }
 
     /// A move of so many actors at once.
+    ///
+    /// # Panics
+    /// If they are more than 16.
     pub const fn of_all(actors: usize, words: &'static str, to: S) -> Self {
-        Self { actors: (1 << actors) - 1, words, to }
+        assert!(actors <= Bits::BITS as usize, "a protocol has at most 16 actors");
+        Self { actors: ((1_u32 << actors) - 1) as Bits, words, to }
     }
 
     /// A fault.
@@ -101,6 +109,15 @@ impl<S> Move<S> {
 /// The set of these, a bit for each.
 pub fn set(members: impl IntoIterator<Item = usize>) -> Bits {
     members.into_iter().fold(0, |set, member| set | 1 << member)
+}
+
+/// Every way to put so many of these in a row, none of them twice, the last one changing first.
+pub fn arrangements<T: Copy + PartialEq>(all: &[T], length: usize) -> Vec<Vec<T>> {
+    let with = |row: Vec<T>| {
+        let others = all.iter().filter(|one| !row.contains(one));
+        others.map(|&one| [&row[..], &[one]].concat()).collect::<Vec<_>>()
+    };
+    (0..length).fold(vec![Vec::new()], |rows, _| rows.into_iter().flat_map(with).collect())
 }
 
 /// Every way to take one of each of these, the last one changing first.

@@ -28,6 +28,7 @@ use crate::decide::MethodError;
 use crate::engine::Until;
 use crate::engine::states::Bits;
 use crate::engine::tree::{Limits, Tree};
+use crate::protocol::arrangements;
 
 /// Where robots start, or where they are to go.
 #[derive(Clone, Copy, Debug)]
@@ -188,8 +189,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// The cells in which robots may be placed, for each way to place them.
     fn placed(&self, places: &Places<R>, rule: &R, map: &Map) -> Result<Vec<Vec<Cell>>, MethodError> {
         let robots = self.robots;
-        let is_apart = match places {
-            Places::None => return Ok(vec![Vec::new()]),
+        Ok(match places {
+            Places::None => vec![Vec::new()],
             Places::At(cells) => {
                 let cells = cells(rule);
                 if cells.len() != robots {
@@ -206,26 +207,15 @@ impl<'a, R: Rule> Setting<'a, R> {
                     };
                     return Err(MethodError::new(format_args!("a robot starts in {outside}, {why}")));
                 }
-                return Ok(vec![cells]);
+                vec![cells]
             }
-            Places::Any => false,
-            Places::Distinct => true,
-        };
-        let free = map.free();
-        let mut placed = vec![Vec::new()];
-        for _ in 0..robots {
-            let next = |cells: Vec<Cell>| {
-                let may_be = |cell: &Cell| !is_apart || !cells.contains(cell);
-                let more: Vec<Vec<Cell>> = free
-                    .iter()
-                    .filter(|cell| may_be(cell))
-                    .map(|&cell| [&cells[..], &[cell]].concat())
-                    .collect();
-                more
-            };
-            placed = placed.into_iter().flat_map(next).collect();
-        }
-        Ok(placed)
+            Places::Any => {
+                let free = map.free();
+                let longer = |row: Vec<Cell>| free.iter().map(move |&cell| [&row[..], &[cell]].concat());
+                (0..robots).fold(vec![Vec::new()], |rows, _| rows.into_iter().flat_map(longer).collect())
+            }
+            Places::Distinct => arrangements(&map.free(), robots),
+        })
     }
 
     /// Every scene in which a run begins: of every layout that is decided before, with every start and goal.

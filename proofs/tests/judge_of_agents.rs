@@ -195,7 +195,7 @@ type Ruling = (&'static str, usize, &'static [(usize, Place, bool)], usize, &'st
 fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
     let says = |exhibit: &Exhibit| match judge(exhibit) {
         Ok(judgement) => format!("{judgement:?}"),
-        Err(objection) => objection.to_string(),
+        Err(objection) => objection.of("turn"),
     };
     let no_clause_needs_it = "a counterexample needs an agent and its turns";
     let not_round = "the last turns do not come back to where they began, or leave an agent out";

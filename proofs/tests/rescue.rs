@@ -173,7 +173,10 @@ fn each_condition_is_needed_for_the_clauses_that_the_spec_names() {
             found(&Setting { rule, ..setting(robots_wfrs, events, 2, Faults::any(1)) }).broken
         };
         let found = [of((2, 1), 2), of((1, 2), 3)].concat();
-        Demand::ALL.into_iter().filter(|&demand| found.iter().any(|broken| broken.demand == demand)).collect()
+        Demand::ALL
+            .into_iter()
+            .filter(|&demand| found.iter().any(|broken| broken.run.demand == demand))
+            .collect()
     };
     let expected: [(&[Condition], &[Demand]); 13] = [
         (&[NearestCall], &[AsksNearest]),
@@ -203,7 +206,7 @@ fn the_repaired_rule_holds_where_a_robot_lets_a_lease_go_that_is_over_and_not_wh
     holds(&lapsing(setting((2, 2), 2, 1, Faults::any(1))), 55_068, 186_954);
     holds(&lapsing(setting((2, 1), 2, 2, Faults::any(2))), 265_216, 1_045_264);
     let early = Setting { leases: Leases::Any, ..setting((1, 2), 2, 1, Faults::any(0)) };
-    let broken: Vec<Demand> = found(&early).broken.iter().map(|broken| broken.demand).collect();
+    let broken: Vec<Demand> = found(&early).broken.iter().map(|broken| broken.run.demand).collect();
     assert_eq!(broken, [Demand::OneCallForARobot, Demand::IsServed]);
 }
 

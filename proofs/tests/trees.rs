@@ -4,9 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use tautline_kernel::bricks::tree::{Agent, Condition, Label, Next, Note, Rule, State, act, settle};
-use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor;
 use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::engine::Tape;
 
 const WOVEN: [&str; 5] = ["....##", "#.#.##", "....##", ".#...#", "...#.."];
 
@@ -14,19 +14,6 @@ const STARTS: [(i16, i16); 4] = [(1, 0), (5, 4), (1, 4), (3, 3)];
 
 /// Who acts, in order.
 const ORDER: [u8; 27] = [0, 0, 3, 3, 3, 3, 3, 3, 1, 3, 3, 3, 0, 2, 2, 2, 2, 3, 3, 3, 3, 3, 0, 0, 1, 1, 1];
-
-/// Nothing is missed.
-struct ClearSight;
-
-impl Oracle for ClearSight {
-    fn pick(&mut self, _: u32) -> u32 {
-        0
-    }
-
-    fn mishap(&mut self) -> bool {
-        false
-    }
-}
 
 #[derive(Default)]
 struct Floor {
@@ -128,7 +115,7 @@ fn fails(rule: Rule) -> Vec<usize> {
     settle(&mut floor, &cells);
     let mut failed = Vec::new();
     for (number, agent) in ORDER.into_iter().map(usize::from).enumerate() {
-        (_, cells[agent]) = act(rule, &mut floor, &mut agents[agent], cells[agent], &mut ClearSight);
+        (_, cells[agent]) = act(rule, &mut floor, &mut agents[agent], cells[agent], &mut Tape(&[]));
         failed.extend((!floor.is_claim_true()).then_some(number + 1));
         assert!(floor.are_trees_whole(), "after {} actions", number + 1);
     }
@@ -152,7 +139,7 @@ fn an_agent_that_has_founded_as_many_trees_as_there_are_labels_founds_no_more_an
     agent.founded = Label::TREES;
     settle(&mut floor, &[cell]);
     for _ in 0..100 {
-        let (done, next) = act(Rule::TREE, &mut floor, &mut agent, cell, &mut ClearSight);
+        let (done, next) = act(Rule::TREE, &mut floor, &mut agent, cell, &mut Tape(&[]));
         assert!(matches!(done.next, Next::Goes(_) | Next::Explores(_)), "{done:?}");
         cell = next;
     }

@@ -10,7 +10,7 @@ use super::{replaced, ties};
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
-use crate::decide::{EveryAnswer, Verdict};
+use crate::decide::EveryAnswer;
 use crate::floor::plans::Area;
 use crate::floor::series::Deception::CountsNothing;
 use crate::floor::series::Given::{Dark, UncountedStart};
@@ -100,23 +100,21 @@ pub static CLAUSES: [Clause; 3] = [
         sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
                finite number of times.",
         checks: &[
-            &Check::new(PUBLISHED, &EXPLORES, Verdict::Holds, &[]).under(&HOLDS_BUT_IN_THE_DARK).of(&PAPER),
-            &Check::new(
+            &Check::holds(PUBLISHED, &EXPLORES, &[]).under(&HOLDS_BUT_IN_THE_DARK).of(&PAPER),
+            &Check::holds(
                 NamedRule::new("apart", Subject::of(Apart)),
                 &EXPLORES_APART,
-                Verdict::Holds,
                 &[NamedRule::new("sensors count nothing", Subject::of(Apart).deceived(CountsNothing))],
             ),
-            &Check::new(REPAIRED, &EXPLORES, Verdict::Holds, &[uncounted(Rule::Repaired)]),
+            &Check::holds(REPAIRED, &EXPLORES, &[uncounted(Rule::Repaired)]),
         ],
     },
     Clause {
         id: "ANTS-2",
         sentence: "An ant MUST go to the side neighbour that was entered least, the first in the order of the compass.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             PUBLISHED,
             &EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] },
-            Verdict::Holds,
             &[uncounted(Rule::PUBLISHED)],
         )],
     },
@@ -124,23 +122,22 @@ pub static CLAUSES: [Clause; 3] = [
         id: "ANTS-3",
         sentence: "A cell MUST NOT count fewer agents after a missed sensor was replaced than before.",
         checks: &[
-            &Check::new(NamedRule::new("published", Rule::PUBLISHED), &KEEPS, Verdict::Refuted, &[])
+            &Check::refuted(NamedRule::new("published", Rule::PUBLISHED), &KEEPS)
                 .under(&holding(READINGS, [0, 1]))
                 .of(&PAPER)
                 .judged(replaced::replacement),
-            &Check::new(BESIDE, &KEEPS, Verdict::Holds, LOST),
-            &Check::new(COUNTED, &KEEPS, Verdict::Holds, LOST),
-            &Check::new(
+            &Check::holds(BESIDE, &KEEPS, LOST),
+            &Check::holds(COUNTED, &KEEPS, LOST),
+            &Check::holds(
                 NamedRule::new("apart", Pile::entered as Entered),
                 &EveryAnswer {
                     body: apart::keeps,
                     range: apart::piles,
                     covers: &["both are missed", "both are seen", "one is missed"],
                 },
-                Verdict::Holds,
                 &[NamedRule::new("the missed sensor is lost", apart::losing)],
             ),
-            &Check::new(NamedRule::new("repaired", Rule::Repaired), &KEEPS, Verdict::Refuted, &[])
+            &Check::refuted(NamedRule::new("repaired", Rule::Repaired), &KEEPS)
                 .because("the repair loses counts as well")
                 .judged(replaced::replacement),
         ],

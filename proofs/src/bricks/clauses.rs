@@ -19,7 +19,6 @@ use super::tree::{Going, Own, To, labels};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
-use crate::decide::Verdict;
 use crate::floor::series::Given::Dark;
 use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
@@ -142,7 +141,7 @@ const fn holds<S: Demands>(
     floors: &'static Floors<S::Own>,
     mutants: &'static [NamedRule<Subject<S>>],
 ) -> Check<Subject<S>> {
-    Check::new(about, floors, Verdict::Holds, mutants)
+    Check::holds(about, floors, mutants)
 }
 
 /// A check that is refuted.
@@ -150,7 +149,7 @@ const fn refuted<S: Demands>(
     about: NamedRule<Subject<S>>,
     floors: &'static Floors<S::Own>,
 ) -> Check<Subject<S>> {
-    Check::new(about, floors, Verdict::Refuted, &[])
+    Check::refuted(about, floors)
 }
 
 step_checks! { Rule;

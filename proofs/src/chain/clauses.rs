@@ -108,14 +108,13 @@ const SPIRALS: EveryAnswer<Subject> =
 const SOLVED: EveryAnswer<Subject> =
     EveryAnswer { body: optimum::least_in_the_open, range: optimum::solved, covers: &["an open area"] };
 
-const SAME_PLAN: Check<Subject> = Check::new(
+const SAME_PLAN: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer {
         body: whole::same_plan_in_all_layouts,
         range: whole::layouts_with_few_walls,
         covers: &ENDS,
     },
-    Verdict::Holds,
     &[
         NamedRule::new("P_high from present positions", Subject::high_from_present()),
         NamedRule::new("without distinctness", Subject::without(Distinct)),
@@ -145,7 +144,7 @@ const CHEAP: Check<Subject> = Check::new(
     &[NamedRule::new("the plain recursion", Subject::deceiving(Deception::PlainRecursion))],
 );
 
-const DEAR: Check<Subject> = Check::new(
+const DEAR: Check<Subject> = Check::refuted(
     PUBLISHED,
     &RandomAnswers {
         body: whole::cheap_among_few_walls,
@@ -153,8 +152,6 @@ const DEAR: Check<Subject> = Check::new(
         range: whole::runs_among_few_walls,
         covers: &["a longer run"],
     },
-    Verdict::Refuted,
-    &[],
 );
 
 /// The clauses.
@@ -163,89 +160,53 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-1",
         sentence: "After every team move each robot MUST be in E_C of its neighbours in the chain.",
         checks: &[
-            &Check::new(
+            &Check::refuted(
                 PUBLISHED,
                 &EveryArea(Invariant::Without(Breach::Contact), AREAS, READ_AMONG_FOUR_WALLS),
-                Verdict::Refuted,
-                &[],
             )
             .under(&holding([LAST], []))
             .of(&PAPER),
             &contact::CHECK,
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Contact), FOUR_ROBOTS),
-                Verdict::Holds,
                 &[
                     NamedRule::new("as published", Subject::PUBLISHED),
                     NamedRule::new("without unsure neighbour", Subject::without(UnsureAhead)),
                 ],
             ),
-            &Check::new(
-                UNHELD,
-                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[],
-            ),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[],
-            ),
-            &Check::new(
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 NamedRule::new("repaired", Contact::<false>(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[
                     NamedRule::new("as published", Contact(Rule::PUBLISHED)),
                     NamedRule::new("without E_S ahead", Contact(Rule::REPAIRED.without(SafeAhead))),
                     NamedRule::new("without E_C behind", Contact(Rule::REPAIRED.without(CoveredBehind))),
                 ],
             ),
-            &Check::new(
-                NamedRule::new("reel", Contact::<false>(Rule::REEL)),
-                &EveryNumber::DEFAULT,
-                Verdict::Holds,
-                &[],
-            ),
+            &Check::holds(NamedRule::new("reel", Contact::<false>(Rule::REEL)), &EveryNumber::DEFAULT, &[]),
         ],
     },
     Clause {
         id: "CHAIN-2",
         sentence: "There MUST never be three robots or more in one cell other than the base.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &EveryArea(Invariant::Without(Breach::Crowding), AREAS, READ),
-                Verdict::Refuted,
-                &[],
-            )
-            .under(&holding(READINGS, []))
-            .of(&PAPER),
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Without(Breach::Crowding), AREAS, READ))
+                .under(&holding(READINGS, []))
+                .of(&PAPER),
             &crowding::CHECK,
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
-                Verdict::Holds,
                 &[NamedRule::new("as published", Subject::PUBLISHED)],
             ),
-            &Check::new(
-                UNHELD,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[],
-            ),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[],
-            ),
-            &Check::new(
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 NamedRule::new("repaired", Crowd::of(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[
                     NamedRule::new("as published", Crowd::of(Rule::PUBLISHED)),
                     NamedRule::new(
@@ -259,12 +220,7 @@ pub static CLAUSES: [Clause; 15] = [
                     NamedRule::new("without distinctness", Crowd::of(Rule::REPAIRED.without(Distinct))),
                 ],
             ),
-            &Check::new(
-                NamedRule::new("reel", Crowd::of(Rule::REEL)),
-                &EveryNumber::DEFAULT,
-                Verdict::Holds,
-                &[],
-            ),
+            &Check::holds(NamedRule::new("reel", Crowd::of(Rule::REEL)), &EveryNumber::DEFAULT, &[]),
         ],
     },
     Clause {
@@ -273,51 +229,37 @@ pub static CLAUSES: [Clause; 15] = [
                    chain MUST stay within r_cov of each other.",
         checks: &[
             &coverage::CHECK,
-            &Check::new(
+            &Check::holds(
                 PUBLISHED,
                 &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_ROBOTS),
-                Verdict::Holds,
                 &[NamedRule::new(
                     "without E_S ahead",
                     Subject::following(Rule::PUBLISHED.without(SafeAhead)),
                 )],
             ),
             &Check { about: UNCOVERED, ..coverage::CHECK },
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[],
-            ),
-            &Check::new(
+            &Check::holds(REEL, &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 NamedRule::new("published", Coverage(Rule::PUBLISHED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[NamedRule::new("without E_S ahead", Coverage(Rule::PUBLISHED.without(SafeAhead)))],
             ),
-            &Check::new(
+            &Check::holds(
                 NamedRule::new("uncovered", Coverage(Rule::PUBLISHED.without(CoveredBehind))),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[],
             ),
-            &Check::new(
-                NamedRule::new("reel", Coverage(Rule::REEL)),
-                &EveryNumber::DEFAULT,
-                Verdict::Holds,
-                &[],
-            ),
+            &Check::holds(NamedRule::new("reel", Coverage(Rule::REEL)), &EveryNumber::DEFAULT, &[]),
         ],
     },
     Clause {
         id: "CHAIN-4",
         sentence: "Every step of a planned team move MUST be admitted by the conditions of the rule.",
         checks: &[
-            &Check::new(PUBLISHED, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[
                     NamedRule::new("without E_S ahead", Subject::without(SafeAhead)),
                     NamedRule::new("without E_C behind", Subject::without(CoveredBehind)),
@@ -326,30 +268,28 @@ pub static CLAUSES: [Clause; 15] = [
                     NamedRule::new("without full cell for the leader", Subject::without(FullForLeader)),
                 ],
             ),
-            &Check::new(REEL, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), &[]),
         ],
     },
     Clause {
         id: "CHAIN-5",
         sentence: "In a planned team move every robot MUST have a cell of its own, the base excepted.",
         checks: &[
-            &Check::new(PUBLISHED, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[NamedRule::new("without distinctness", Subject::without(Distinct))],
             ),
-            &Check::new(REEL, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), &[]),
         ],
     },
     Clause {
         id: "CHAIN-6",
         sentence: "The base MUST never plan to move, and never move.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             REPAIRED,
             &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
-            Verdict::Holds,
             &[NamedRule::new("the base follows R_2", Subject::deceiving(Deception::BaseFollows))],
         )],
     },
@@ -357,15 +297,10 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-7",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(
-                REPAIRED,
-                &EveryLayout(Invariant::Progress, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &ENDLESS,
-            ),
-            &Check::new(PUBLISHED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), Verdict::Holds, &ENDLESS),
-            &Check::new(REEL, &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &EveryLayout(Invariant::Progress, FOUR_FEWER_WALLS), &ENDLESS),
+            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &[]),
+            &Check::holds(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &ENDLESS),
+            &Check::holds(REEL, &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS), &[]),
         ],
     },
     Clause {
@@ -373,13 +308,12 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "One byte for each robot and team move MUST be enough to know the state of the whole team.",
         checks: &[
             &message::CHECK,
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[NamedRule::new("message bits swapped", Subject::deceiving(Deception::SwappedBits))],
             ),
-            &Check::new(REEL, &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS), &[]),
         ],
     },
     Clause {
@@ -387,14 +321,13 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Without obstacles a chain of N robots MUST have explored all (2N−1)² cells after exactly \
                    9(N−1)−1 team moves.",
         checks: &[
-            &Check::new(PUBLISHED, &SPIRALS, Verdict::Holds, &[]).under(&holding(READINGS, [0])).of(&PAPER),
-            &Check::new(
+            &Check::holds(PUBLISHED, &SPIRALS, &[]).under(&holding(READINGS, [0])).of(&PAPER),
+            &Check::holds(
                 REPAIRED,
                 &SPIRALS,
-                Verdict::Holds,
                 &[NamedRule::new("P_high from present positions", Subject::high_from_present())],
             ),
-            &Check::new(REEL, &SPIRALS, Verdict::Holds, &[]),
+            &Check::holds(REEL, &SPIRALS, &[]),
         ],
     },
     Clause {
@@ -402,17 +335,15 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "A chain of N robots MUST need at least 9(N−1)−1 team moves to explore (2N−1)² cells.",
         checks: &[
             &ring::CHECK,
-            &Check::new(
+            &Check::holds(
                 PUBLISHED,
                 &EveryAnswer { body: small::ring_cells, range: small::rings, covers: &["a ring"] },
-                Verdict::Holds,
                 &[],
             ),
-            &Check::new(PUBLISHED, &SOLVED, Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(PUBLISHED, &SOLVED, &[]),
+            &Check::holds(
                 REPAIRED,
                 &SOLVED,
-                Verdict::Holds,
                 &[NamedRule::new("without E_S ahead", Subject::without(SafeAhead))],
             ),
         ],
@@ -431,7 +362,7 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "A plan MUST look at no more candidates of followers than its budget of 100 for each robot.",
         checks: &[
             &DEAR,
-            &Check::new(SPARING, &EveryLayout(Invariant::Cheap, FOUR_FEWER_WALLS), Verdict::Holds, &[LAVISH]),
+            &Check::holds(SPARING, &EveryLayout(Invariant::Cheap, FOUR_FEWER_WALLS), &[LAVISH]),
             &CHEAP,
         ],
     },
@@ -439,31 +370,23 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-13",
         sentence: "When a run ends, every cell within reach of the chain MUST be explored.",
         checks: &[
-            &Check::new(
-                PUBLISHED,
-                &EveryArea(Invariant::Without(Breach::Completeness), AREAS, READ),
-                Verdict::Refuted,
-                &[],
-            )
-            .under(&holding(READINGS, []))
-            .of(&PAPER),
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Without(Breach::Completeness), AREAS, READ))
+                .under(&holding(READINGS, []))
+                .of(&PAPER),
             &unfolding::CHECK,
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_ROBOTS),
-                Verdict::Holds,
                 &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
-            &Check::new(
+            &Check::holds(
                 UNHELD,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[],
             ),
-            &Check::new(
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[],
             ),
         ],
@@ -472,16 +395,15 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-14",
         sentence: "When a run ends, every chain-reachable cell MUST be explored.",
         checks: &[
-            &Check::new(PUBLISHED, &EveryArea(Invariant::Exhausts, AREAS, READ), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Exhausts, AREAS, READ))
                 .under(&holding(READINGS, []))
                 .of(&PAPER),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Exhausts, (3, 2)),
-                Verdict::Holds,
                 &[NamedRule::new("without unfolding", Subject::without(Unfold))],
             ),
-            &Check::new(REPAIRED, &EveryArea(Invariant::Exhausts, AREAS, READ), Verdict::Refuted, &[])
+            &Check::refuted(REPAIRED, &EveryArea(Invariant::Exhausts, AREAS, READ))
                 .because("no repair yet: walls part the ways of neighbours"),
         ],
     },
@@ -490,25 +412,18 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "As published a chain of three robots MUST keep to CHAIN-1 and CHAIN-2 in every layout.",
         checks: &[
             &contact_of_three::CHECK,
-            &Check::new(
+            &Check::holds(
                 PUBLISHED,
                 &EveryLayout(Invariant::Without(Breach::Contact), THREE_ROBOTS),
-                Verdict::Holds,
                 &[NamedRule::new(
                     "without E_S ahead",
                     Subject::following(Rule::PUBLISHED.without(SafeAhead)),
                 )],
             ),
-            &Check::new(
-                PUBLISHED,
-                &EveryLayout(Invariant::Without(Breach::Crowding), THREE_ROBOTS),
-                Verdict::Holds,
-                &[],
-            ),
-            &Check::new(
+            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Without(Breach::Crowding), THREE_ROBOTS), &[]),
+            &Check::holds(
                 NamedRule::new("published", OfThree(Rule::PUBLISHED)),
                 &local::THREE,
-                Verdict::Holds,
                 &[
                     NamedRule::new("without E_S ahead", OfThree(Rule::PUBLISHED.without(SafeAhead))),
                     NamedRule::new("without E_C behind", OfThree(Rule::PUBLISHED.without(CoveredBehind))),

@@ -8,7 +8,9 @@ use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
 use super::observed::Subject;
 use super::search::replay;
-use crate::decide::{self, Answer, Context, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict};
+use crate::decide::{
+    self, Answer, Context, Decided, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
+};
 use crate::engine::smallest::{Certificate, Class, Most};
 use crate::engine::tree::{Watch, unwatched};
 use crate::engine::{Choices, Script, ScriptError, Until};
@@ -86,12 +88,7 @@ impl Method<Subject> for EveryArea {
         format!("{areas}, N = {fewest} to {most}, at most {barriers} walls")
     }
 
-    fn decide(
-        &self,
-        observed: &Subject,
-        _: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide(&self, observed: &Subject, _: Until, desk: &mut Context<'_, '_>) -> Decided {
         let made = self.look(observed, desk.watch)?;
         let evidence = made.smallest.as_ref().map(|smallest| Self::evidence(&smallest.found));
         let cases = made.exhausted.iter().map(|(_, cases)| cases).sum();

@@ -49,7 +49,7 @@ const NO_NEARER: NamedRule<Subject> = NamedRule::new(
 const TAKES_BACK_ONE: NamedRule<Subject> =
     NamedRule::new("take-backs always of one", Subject::without_habits(&[Habit::Doubles]));
 
-const BARRIER: Check<Reading> = Check::new(
+const BARRIER: Check<Reading> = Check::holds(
     NamedRule::new("reel", Reading::True),
     &EveryAnswer {
         body: barrier::barrier,
@@ -61,7 +61,6 @@ const BARRIER: Check<Reading> = Check::new(
             "a byte that was missing",
         ],
     },
-    Verdict::Holds,
     &[
         NamedRule::new("team moves are not told apart", Reading::Present),
         NamedRule::new("one bit counts team moves", Reading::OneBit),
@@ -77,10 +76,9 @@ const fn dying(observed: Subject, then: Aftermath) -> DeathCase {
 
 const DEATHS: [&str; 2] = ["the chain goes on after some moves taken back", "the chain goes on at once"];
 
-const DEATH: Check<DeathCase> = Check::new(
+const DEATH: Check<DeathCase> = Check::holds(
     NamedRule::new("reel", dying(Subject::REEL, Aftermath::Reform)),
     &EveryAnswer { body: death::in_few_walls, range: death::few_walls, covers: &DEATHS },
-    Verdict::Holds,
     &[
         NamedRule::new("the robots ahead wait", dying(Subject::REEL, Aftermath::Wait)),
         NamedRule::new("two team moves are taken back at once", dying(Subject::REEL, Aftermath::Skip)),
@@ -89,14 +87,13 @@ const DEATH: Check<DeathCase> = Check::new(
     ],
 );
 
-const MEETING: Check<DeathCase> = Check::new(
+const MEETING: Check<DeathCase> = Check::holds(
     DEATH.about,
     &EveryAnswer {
         body: death::whatever_the_log,
         range: death::meetings,
         covers: &["one chain", "one chain, the part ahead home", "three robots in one cell", "two parts"],
     },
-    Verdict::Holds,
     &[
         NamedRule::new("three robots go on in one cell", dying(Subject::REEL, Aftermath::Crowd)),
         NamedRule::new(
@@ -126,14 +123,13 @@ const fn shut(observed: Subject, world: World) -> WallsCase {
     WallsCase { observed, world, plans_in: world }
 }
 
-const SHUT: Check<WallsCase> = Check::new(
+const SHUT: Check<WallsCase> = Check::holds(
     NamedRule::new("reel", shut(Subject::REEL, World::Changing)),
     &EveryAnswer {
         body: shut::in_few_walls,
         range: shut::few_walls,
         covers: &["a wall appears", "no wall appears"],
     },
-    Verdict::Holds,
     &[
         NamedRule::new("crossed sides are not tried", shut(Subject::REEL, World::Lasting)),
         NamedRule::new(
@@ -161,18 +157,16 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",
         checks: &[
-            &Check::new(PUBLISHED, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[NamedRule::new("E_S narrowed to E_N", Subject::with_safe(NARROWER))],
             ),
-            &Check::new(UNHELD, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[NamedRule::new(
                     "tasks are not rehearsed, E_S narrowed to E_N",
                     Subject::reeling(Rule { safe: NARROWER, ..UNREHEARSED.rule.rule }),
@@ -184,17 +178,15 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-17",
         sentence: "Each team move of the reel MUST gain, or bring its measure down; so every run ends.",
         checks: &[
-            &Check::new(UNHELD, &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[UNREHEARSED, FICKLE, NO_NEARER, TAKES_BACK_ONE],
             ),
-            &Check::new(
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[UNREHEARSED, FICKLE, NO_NEARER],
             ),
         ],
@@ -204,13 +196,8 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "A rehearsal of the reel that meets no surprise MUST explore a cell in exactly its number of team \
                    moves.",
         checks: &[
-            &Check::new(UNHELD, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[UNREHEARSED],
-            ),
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[UNREHEARSED]),
         ],
     },
     Clause {
@@ -218,13 +205,12 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "Whichever robots go, and in whatever order, each robot MUST be in E_C of its neighbours in the \
                    chain before, between and after their moves.",
         checks: &[
-            &Check::new(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS, AREAS), Verdict::Refuted, &[])
+            &Check::refuted(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS, AREAS))
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
-            &Check::new(
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
             ),
             &Check::new(
@@ -238,10 +224,9 @@ pub static CLAUSES: [Clause; 10] = [
                 Verdict::Unrefuted,
                 &[NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule))],
             ),
-            &Check::new(
+            &Check::holds(
                 NamedRule::new("reel", Contact::<true>(Rule::REEL)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[
                     NamedRule::new("without hold", Contact(Rule::REPAIRED)),
                     NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
@@ -269,10 +254,9 @@ pub static CLAUSES: [Clause; 10] = [
         checks: &[
             &SHUT,
             &SHUT_AT_RANDOM,
-            &Check::new(
+            &Check::holds(
                 NamedRule::new("reel", Contact::<true>(Rule::REEL)),
                 &local::ITS_CONTACT,
-                Verdict::Holds,
                 &[
                     NamedRule::new("without hold", Contact(Rule::REPAIRED)),
                     NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
@@ -286,40 +270,33 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "As long as nothing is gained, the reel MUST take back one team move, then two, then four, each time twice \
                    as many, as far as there are.",
         checks: &[
-            &Check::new(UNHELD, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[TAKES_BACK_ONE],
-            ),
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), &[TAKES_BACK_ONE]),
         ],
     },
     Clause {
         id: "CHAIN-24",
         sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, and N² more for each wall that it meets.",
         checks: &[
-            &Check::new(UNHELD, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
-                Verdict::Holds,
                 &[NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
             ),
-            &Check::new(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), Verdict::Holds, &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[]),
         ],
     },
     Clause {
         id: "CHAIN-25",
         sentence: "Each team move of the reel MUST be the one that its procedure names first.",
         checks: &[
-            &Check::new(
+            &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Chosen, FOUR_TWO_WALLS),
-                Verdict::Holds,
                 &[UNREHEARSED, FICKLE, NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
             ),
-            &Check::new(REEL, &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS), Verdict::Holds, &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS), &[]),
         ],
     },
 ];

@@ -27,7 +27,8 @@ impl Answer {
     pub fn merged(answers: impl IntoIterator<Item = Self>) -> Self {
         let key = |answer: &Self| {
             let choices = answer.counterexample.as_ref().map(|found| &found.choices);
-            let length = choices.map(|choices| (choices.once.len() + choices.again.len(), choices.once[0]));
+            let length = choices
+                .map(|choices| (choices.once.len() + choices.again.len(), choices.once.first().copied()));
             let rank = match answer.verdict {
                 Verdict::Refuted => 0,
                 Verdict::Open if answer.cases > 0 => 1,

@@ -54,14 +54,14 @@ pub struct Tally {
 
 impl Tally {
     /// Counts one outcome. Returns whether it was a violation.
-    fn count(&mut self, outcome: Outcome, choices: &[u32]) -> bool {
+    fn count(&mut self, outcome: Outcome, choices: impl FnOnce() -> Vec<u32>) -> bool {
         match outcome {
             Err(Stop::Assumed) => return false,
             Err(Stop::GivenUp) => {
                 self.given_up += 1;
                 return false;
             }
-            Err(Stop::Violated(demand)) => self.violation = Some((choices.to_vec(), demand)),
+            Err(Stop::Violated(demand)) => self.violation = Some((choices(), demand)),
             Ok(situation) => cover(&mut self.covered, situation),
         }
         self.cases += 1;
@@ -84,8 +84,7 @@ pub fn exhaust(mut body: impl FnMut(&mut dyn Oracle) -> Outcome) -> Tally {
     loop {
         steps.next();
         let outcome = body(&mut odometer);
-        let choices = odometer.answers();
-        if tally.count(outcome, &choices) || !odometer.advance() {
+        if tally.count(outcome, || odometer.answers()) || !odometer.advance() {
             return tally;
         }
     }
@@ -108,7 +107,7 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + 
             (body(&mut recorder), recorder.choices)
         });
         for (outcome, choices) in outcomes {
-            if tally.count(outcome, &choices) {
+            if tally.count(outcome, || choices) {
                 break;
             }
         }

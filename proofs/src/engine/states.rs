@@ -313,7 +313,12 @@ impl<D> Run<D> {
 
     /// Its start and its steps as choices, those of its round apart.
     pub fn choices(&self) -> Choices {
-        let once = [&[self.start as u32], &self.steps[..]].concat();
+        self.choices_after(&[])
+    }
+
+    /// The same after these.
+    pub(crate) fn choices_after(&self, first: &[u32]) -> Choices {
+        let once = [first, &[self.start as u32], &self.steps].concat();
         Choices { once, again: self.round().to_vec() }
     }
 

@@ -11,7 +11,7 @@ use super::team::{Demand, Demands, Series, Team, Turns};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation};
 use crate::decide::{
-    Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+    Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
 };
 use crate::engine::model::Started;
 use crate::engine::smallest::{Class, Most, Searched, smallest};
@@ -248,12 +248,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
 
     /// Looks at the demands of several clauses on the same floors in one pass. Where something is broken there, each
     /// clause looks for its own first violation.
-    fn decide(
-        &self,
-        subject: &Subject<S>,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide(&self, subject: &Subject<S>, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let shown = Method::<Subject<S>>::shows(self);
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
@@ -363,7 +358,7 @@ impl<D: Copy> Floors<D> {
             for team in teams {
                 let found = search(&team, team.starts(), Limits::NONE);
                 let run = found.broken.into_iter().next();
-                let shortest = run.map(|run| (run.steps.len() + run.round().len(), team.plan.to_string()));
+                let shortest = run.map(|run| (run.length(), team.plan.to_string()));
                 let is_enough = shortest.is_some() && until == Until::Violation;
                 all.add(Searched { cases: found.states, is_whole: found.is_whole, shortest });
                 if is_enough {

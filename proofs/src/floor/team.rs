@@ -7,7 +7,7 @@ use std::slice;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Cell, Edge, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View, unseen};
 use super::plans::{Area, FloorPlan};
@@ -272,7 +272,7 @@ impl<S: Demands> Team<S> {
             let is_shut = known(body.cell).is_some_and(|mark| mark != judge::Mark::Explored);
             let is_missed = has_marks && body.cell != from && (is_shut || new(body.cell) < known(body.cell));
             let side = match step {
-                Step::Cross(side) => Side::ALL.iter().position(|&other| other == side),
+                Step::Cross(side) => Some(side as usize),
                 Step::Stay => None,
             };
             judge::Turn { agent, side, fate, writes, is_missed }

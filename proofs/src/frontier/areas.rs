@@ -2,16 +2,17 @@
 //! FRONTIER-5). A counterexample has the fewest cells, of these the fewest obstacles, and of these the fewest steps.
 
 use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
-use tautline_kernel::ground::{Area, Cell, Side};
+use tautline_kernel::ground::{Area, Cell};
 
 use super::world::{Demand, Event, Setting, World};
 use crate::decide::{
-    self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
+    self, Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
 };
 use crate::engine::model::Started;
 use crate::engine::smallest::{Class, Most, Searched, smallest};
-use crate::engine::states::{AnySystem, Limits, Run, search};
-use crate::engine::{Choices, Script, ScriptError, Until, cover};
+use crate::engine::states::{AnySystem, Findings, Limits, Run, search};
+use crate::engine::{Choices, Script, ScriptError, Until};
+use crate::ground::name_of;
 use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::counted;
 use crate::run::{self, Ending, Scripted};
@@ -30,14 +31,6 @@ pub(super) struct Areas<const ROBOTS: usize> {
     pub(super) demand: Demand,
     /// The situations that must occur.
     pub(super) covers: &'static [&'static str],
-}
-
-/// The findings of a search for all demands.
-struct All {
-    states: u64,
-    is_whole: bool,
-    covered: Vec<&'static str>,
-    is_broken: bool,
 }
 
 /// A run that breaks a demand, and where.
@@ -179,10 +172,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 /// An event as the judge reads it, if no message is lost.
 fn written(event: &Event) -> Option<judge::Step> {
     let (robot, what, side, fix) = match *event {
-        Event::Decides(robot, side, _, 0) => {
-            let side = Side::ALL.iter().position(|&other| other == side);
-            (robot, judge::What::Decides, side, None)
-        }
+        Event::Decides(robot, side, _, 0) => (robot, judge::What::Decides, Some(side as usize), None),
         Event::Looks(robot, _, Sight::Open, ..) => (robot, judge::What::Enters, None, None),
         Event::Looks(robot, _, Sight::Obstacle, 0, _) => (robot, judge::What::IsBarred, None, None),
         Event::Arrives(robot, fix, 0) => {
@@ -200,17 +190,11 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
         let each: Vec<String> = robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect();
         each.concat()
     };
-    let towards = |side: Side| match side {
-        Side::East => "east",
-        Side::South => "south",
-        Side::West => "west",
-        Side::North => "north",
-    };
     match *event {
         Event::Decides(.., 0) => None,
         Event::Decides(robot, _, aim, lost) => Some(format!("R{} claims {aim}{}", robot + 1, missed(lost))),
         Event::Looks(robot, side, sight, lost, _) => {
-            let (name, side) = (robot + 1, towards(side));
+            let (name, side) = (robot + 1, name_of(side));
             Some(match sight {
                 Sight::Open => format!("R{name} goes {side}"),
                 Sight::Obstacle => format!("R{name} finds an obstacle in the {side}{}", missed(lost)),
@@ -236,23 +220,23 @@ impl<const ROBOTS: usize> Areas<ROBOTS> {
         Ok(Setting { max_losses, max_wrong, max_small, demand: Some(demand), ..setting })
     }
 
-    /// Searches all areas for all demands, as far as nothing is broken.
-    fn all(&self, rule: &Rule, limits: Limits<'_>) -> Result<All, MethodError> {
-        let mut all = All { states: 0, is_whole: true, covered: Vec::new(), is_broken: false };
-        for &size in self.sizes {
-            let setting = Setting { demand: None, ..self.setting(rule, size)? };
-            let found = search(&setting, setting.starts(), limits);
-            all.states += found.states;
-            all.is_whole &= found.is_whole;
-            for situation in found.covered {
-                cover(&mut all.covered, situation);
-            }
-            all.is_broken = !found.broken.is_empty();
-            if all.is_broken {
-                break;
+    /// Looks at these areas in their order, until this is broken, or anything where no demand is named: what is found,
+    /// and the number of the last area.
+    fn look(
+        &self,
+        rule: &Rule,
+        demand: Option<Demand>,
+        limits: Limits<'_>,
+    ) -> Result<(Findings<Demand>, usize), MethodError> {
+        let mut looked = Findings::NONE;
+        for (number, &size) in self.sizes.iter().enumerate() {
+            let setting = Setting { demand, ..self.setting(rule, size)? };
+            looked.add(search(&setting, setting.starts(), limits));
+            if !looked.broken.is_empty() {
+                return Ok((looked, number));
             }
         }
-        Ok(all)
+        Ok((looked, self.sizes.len()))
     }
 
     fn evidence(choices: Choices, found: &Counterexample<ROBOTS>) -> Evidence {
@@ -297,36 +281,25 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     /// search.
     ///
     /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let limits = Limits { room: desk.room, ..Limits::NONE };
+        let answer = |found: &Findings<Demand>, evidence| {
+            let is_covered = self.covers.iter().all(|situation| found.covered.contains(situation));
+            Answer::new(evidence, found.is_whole && is_covered, Method::<Rule>::shows(self), found.states)
+        };
         if until == Until::Exhausted {
             let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, self.max_small, *rule);
-            let all = desk.memory.recall(asked, |_| self.all(rule, limits))?;
-            if !all.is_broken {
-                let is_covered = self.covers.iter().all(|situation| all.covered.contains(situation));
-                return Ok(Answer::new(None, all.is_whole && is_covered, self.shows_of(), all.states));
+            let (found, _) = desk.memory.recall(asked, |_| self.look(rule, None, limits))?;
+            if found.broken.is_empty() {
+                return Ok(answer(found, None));
             }
         }
-        let (mut states, mut is_whole, mut covered) = (0, true, Vec::new());
-        for (number, &size) in (0..).zip(self.sizes) {
-            let setting = self.setting(rule, size)?;
-            let found = search(&setting, setting.starts(), limits);
-            states += found.states;
-            is_whole &= found.is_whole;
-            for situation in found.covered {
-                cover(&mut covered, situation);
-            }
-            if let Some(run) = found.broken.into_iter().next() {
-                let found = fewest(setting, run, limits);
-                let first = [number, u32::from(found.setting.max_obstacles), found.run.start as u32];
-                let once = [&first[..], &found.run.steps[..]].concat();
-                let choices = Choices { once, again: found.run.round().to_vec() };
-                let evidence = Self::evidence(choices, &found);
-                return Ok(Answer::new(Some(evidence), is_whole, self.shows_of(), states));
-            }
-        }
-        let is_covered = self.covers.iter().all(|situation| covered.contains(situation));
-        Ok(Answer::new(None, is_whole && is_covered, self.shows_of(), states))
+        let (found, number) = self.look(rule, Some(self.demand), limits)?;
+        let Some(run) = found.broken.first() else { return Ok(answer(&found, None)) };
+        let fewest = fewest(self.setting(rule, self.sizes[number])?, run.clone(), limits);
+        let first = [number as u32, fewest.setting.max_obstacles.into()];
+        let evidence = Self::evidence(fewest.run.choices_after(&first), &fewest);
+        Ok(answer(&found, Some(evidence)))
     }
 
     fn systems(&self, rule: &Rule) -> Result<Systems, MethodError> {
@@ -352,7 +325,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {
         let (_, Counterexample { setting, run }) = self.found(rule, choices).ok()?;
         let class = Class { area: setting.area, barriers: setting.max_obstacles.into(), robots: ROBOTS };
-        Some((class.to_string(), run.steps.len() + run.round().len()))
+        Some((class.to_string(), run.length()))
     }
 
     fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
@@ -379,13 +352,10 @@ impl<const ROBOTS: usize> Areas<ROBOTS> {
         let setting = Setting { max_obstacles: class.barriers as u8, ..setting };
         let found = search(&setting, setting.starts(), Limits::NONE);
         let run = found.broken.into_iter().next();
-        let shortest =
-            run.map(|run| (run.steps.len() + run.round().len(), Counterexample { setting, run }.story()));
+        let shortest = run.map(|run| (run.length(), Counterexample { setting, run }.story()));
         Ok(Searched { cases: found.states, is_whole: found.is_whole, shortest })
     }
-}
 
-impl<const ROBOTS: usize> Areas<ROBOTS> {
     /// From how many each choice is made, and the run.
     fn found(
         &self,
@@ -401,9 +371,5 @@ impl<const ROBOTS: usize> Areas<ROBOTS> {
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
         Ok((of, Counterexample { setting, run }))
-    }
-
-    fn shows_of(&self) -> crate::decide::Verdict {
-        Method::<Rule>::shows(self)
     }
 }

@@ -16,7 +16,7 @@ use super::place::{self, ErrorBudget};
 use super::readings::{PAPER, READINGS, adaptive};
 use super::world::Demand;
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
-use crate::decide::{EveryAnswer, EveryState, Verdict};
+use crate::decide::{EveryAnswer, EveryState};
 use crate::local::EveryNumber;
 use crate::step_checks;
 
@@ -198,60 +198,43 @@ pub static CLAUSES: [Clause; 12] = [
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[])
-                .under(&COVERS)
-                .of(&PAPER),
-            &Check::new(PRINTED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[])
-                .because("another reading of the paper"),
-            &Check::new(ALL_CELLS, &smallest::<1>(Demand::Covers), Verdict::Holds, &[NEIGHBOURS_ALONE]),
-            &Check::new(PLAIN, &one(Demand::Covers), Verdict::Holds, &[plain(Route)]),
-            &Check::new(PLAIN, &two(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &three(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(two(Demand::Covers)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Covers), Verdict::Holds, &[repaired(Route)]),
-            &Check::new(REPAIRED, &two_repaired(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Covers)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(three(Demand::Covers)), Verdict::Holds, &[]),
-            &Check::new(PLAIN_SMALL, &small(one(Demand::Covers)), Verdict::Holds, &[plain(Detour)]),
-            &Check::new(
-                REPAIRED_SMALL,
-                &small(two_repaired(Demand::Covers)),
-                Verdict::Holds,
-                &[repaired(Detour)],
-            ),
+            &Check::refuted(PUBLISHED, &smallest::<1>(Demand::Covers)).under(&COVERS).of(&PAPER),
+            &Check::refuted(PRINTED, &smallest::<1>(Demand::Covers)).because("another reading of the paper"),
+            &Check::holds(ALL_CELLS, &smallest::<1>(Demand::Covers), &[NEIGHBOURS_ALONE]),
+            &Check::holds(PLAIN, &one(Demand::Covers), &[plain(Route)]),
+            &Check::holds(PLAIN, &two(Demand::Covers), &[]),
+            &Check::holds(PLAIN, &three(Demand::Covers), &[]),
+            &Check::holds(PLAIN, &lossy(two(Demand::Covers)), &[]),
+            &Check::holds(REPAIRED, &one(Demand::Covers), &[repaired(Route)]),
+            &Check::holds(REPAIRED, &two_repaired(Demand::Covers), &[]),
+            &Check::holds(REPAIRED, &three(Demand::Covers), &[]),
+            &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Covers)), &[]),
+            &Check::holds(REPAIRED, &lossy(three(Demand::Covers)), &[]),
+            &Check::holds(PLAIN_SMALL, &small(one(Demand::Covers)), &[plain(Detour)]),
+            &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Covers)), &[repaired(Detour)]),
         ],
     },
     Clause {
         id: "FRONTIER-2",
         sentence: "Two robots MUST never be in one cell.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[])
-                .under(&APART)
-                .of(&PAPER),
-            &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[plain(Look)]),
-            &Check::new(PLAIN, &three(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(two(Demand::Alone)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two_repaired(Demand::Alone), Verdict::Holds, &[repaired(Look)]),
-            &Check::new(REPAIRED, &three(Demand::Alone), Verdict::Holds, &[repaired(Look)]),
-            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Alone)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(three(Demand::Alone)), Verdict::Holds, &[]),
-            &Check::new(
-                REPAIRED_SMALL,
-                &small(two_repaired(Demand::Alone)),
-                Verdict::Holds,
-                &[repaired(Look)],
-            ),
-            &Check::new(
+            &Check::refuted(PUBLISHED, &smallest::<2>(Demand::Alone)).under(&APART).of(&PAPER),
+            &Check::holds(PLAIN, &two(Demand::Alone), &[plain(Look)]),
+            &Check::holds(PLAIN, &three(Demand::Alone), &[]),
+            &Check::holds(PLAIN, &lossy(two(Demand::Alone)), &[]),
+            &Check::holds(REPAIRED, &two_repaired(Demand::Alone), &[repaired(Look)]),
+            &Check::holds(REPAIRED, &three(Demand::Alone), &[repaired(Look)]),
+            &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Alone)), &[]),
+            &Check::holds(REPAIRED, &lossy(three(Demand::Alone)), &[]),
+            &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Alone)), &[repaired(Look)]),
+            &Check::holds(
                 NamedRule::new("plain", Alone::of(Rule::PLAIN)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[NamedRule::new(plain(Look).name, Alone::of(plain(Look).rule))],
             ),
-            &Check::new(
+            &Check::holds(
                 NamedRule::new("repaired", Alone::of(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[NamedRule::new(repaired(Look).name, Alone::of(repaired(Look).rule))],
             ),
         ],
@@ -260,81 +243,62 @@ pub static CLAUSES: [Clause; 12] = [
         id: "FRONTIER-3",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Ends), Verdict::Holds, &[]).under(&ENDS).of(&PAPER),
-            &Check::new(LITERAL, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[])
-                .because("another reading of the paper"),
-            &Check::new(WANDERS, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[])
-                .because("another reading of the paper"),
-            &Check::new(ADAPTIVE, &smallest::<1>(Demand::Ends), Verdict::Holds, &[NEVER_ADAPTED]),
-            &Check::new(PLAIN, &one(Demand::Ends), Verdict::Holds, &[plain(Record)]),
-            &Check::new(PLAIN, &two(Demand::Ends), Verdict::Holds, &[plain(Turn)]),
-            &Check::new(PLAIN, &three(Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(two(Demand::Ends)), Verdict::Holds, &[plain(Share)]),
-            &Check::new(REPAIRED, &one(Demand::Ends), Verdict::Holds, &[repaired(Record)]),
-            &Check::new(REPAIRED, &two_repaired(Demand::Ends), Verdict::Holds, &[repaired(Turn)]),
-            &Check::new(REPAIRED, &three(Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Ends)), Verdict::Holds, &[repaired(Share)]),
-            &Check::new(REPAIRED, &lossy(three(Demand::Ends)), Verdict::Holds, &[]),
-            &Check::new(
-                REPAIRED_SMALL,
-                &small(two_repaired(Demand::Ends)),
-                Verdict::Holds,
-                &[repaired(Turn)],
-            ),
+            &Check::holds(PUBLISHED, &smallest::<1>(Demand::Ends), &[]).under(&ENDS).of(&PAPER),
+            &Check::refuted(LITERAL, &smallest::<1>(Demand::Ends)).because("another reading of the paper"),
+            &Check::refuted(WANDERS, &smallest::<1>(Demand::Ends)).because("another reading of the paper"),
+            &Check::holds(ADAPTIVE, &smallest::<1>(Demand::Ends), &[NEVER_ADAPTED]),
+            &Check::holds(PLAIN, &one(Demand::Ends), &[plain(Record)]),
+            &Check::holds(PLAIN, &two(Demand::Ends), &[plain(Turn)]),
+            &Check::holds(PLAIN, &three(Demand::Ends), &[]),
+            &Check::holds(PLAIN, &lossy(two(Demand::Ends)), &[plain(Share)]),
+            &Check::holds(REPAIRED, &one(Demand::Ends), &[repaired(Record)]),
+            &Check::holds(REPAIRED, &two_repaired(Demand::Ends), &[repaired(Turn)]),
+            &Check::holds(REPAIRED, &three(Demand::Ends), &[]),
+            &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Ends)), &[repaired(Share)]),
+            &Check::holds(REPAIRED, &lossy(three(Demand::Ends)), &[]),
+            &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Ends)), &[repaired(Turn)]),
         ],
     },
     Clause {
         id: "FRONTIER-4",
         sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
         checks: &[
-            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[])
-                .under(&REFUTED)
-                .of(&PAPER),
-            &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[plain(Route)]),
-            &Check::new(PLAIN, &two(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &three(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(two(Demand::Knows)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Knows), Verdict::Holds, &[repaired(Route)]),
-            &Check::new(REPAIRED, &two_repaired(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &three(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Knows)), Verdict::Holds, &[repaired(Lapse)]),
-            &Check::new(REPAIRED, &lossy(three(Demand::Knows)), Verdict::Holds, &[repaired(Lapse)]),
-            &Check::new(
-                REPAIRED_SMALL,
-                &small(two_repaired(Demand::Knows)),
-                Verdict::Holds,
-                &[repaired(Route)],
-            ),
+            &Check::refuted(PUBLISHED, &smallest::<1>(Demand::Knows)).under(&REFUTED).of(&PAPER),
+            &Check::holds(PLAIN, &one(Demand::Knows), &[plain(Route)]),
+            &Check::holds(PLAIN, &two(Demand::Knows), &[]),
+            &Check::holds(PLAIN, &three(Demand::Knows), &[]),
+            &Check::holds(PLAIN, &lossy(two(Demand::Knows)), &[]),
+            &Check::holds(REPAIRED, &one(Demand::Knows), &[repaired(Route)]),
+            &Check::holds(REPAIRED, &two_repaired(Demand::Knows), &[]),
+            &Check::holds(REPAIRED, &three(Demand::Knows), &[]),
+            &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Knows)), &[repaired(Lapse)]),
+            &Check::holds(REPAIRED, &lossy(three(Demand::Knows)), &[repaired(Lapse)]),
+            &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Knows)), &[repaired(Route)]),
         ],
     },
     Clause {
         id: "FRONTIER-5",
         sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
         checks: &[
-            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]).under(&MARKS).of(&PAPER),
-            &Check::new(PUBLISHED, &OFF_QUARTER, Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &wrong(Demand::Marks)).under(&MARKS).of(&PAPER),
+            &Check::refuted(PUBLISHED, &OFF_QUARTER)
                 .judged(|rule, choices| drift_of(rule, QUARTER).case(&SMALLEST, choices)),
-            &Check::new(PUBLISHED, &OFF_LESS, Verdict::Holds, &[]),
-            &Check::new(PLAIN, &OFF_HALF, Verdict::Holds, &[plain(Track)]),
-            &Check::new(PLAIN, &wrong(Demand::Marks), Verdict::Holds, &[plain(Track)]),
-            &Check::new(REPAIRED, &OFF_HALF, Verdict::Holds, &[repaired(Track)]),
-            &Check::new(REPAIRED, &wrong(Demand::Marks), Verdict::Holds, &[repaired(Track)]),
-            &Check::new(PLAIN, &one(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &two(Demand::Marks), Verdict::Holds, &[plain(Tell)]),
-            &Check::new(PLAIN, &three(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(two(Demand::Marks)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two_repaired(Demand::Marks), Verdict::Holds, &[repaired(Tell)]),
-            &Check::new(REPAIRED, &three(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Marks)), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(three(Demand::Marks)), Verdict::Holds, &[]),
-            &Check::new(PLAIN_SMALL, &small(one(Demand::Marks)), Verdict::Holds, &[plain(Detour)]),
-            &Check::new(
-                REPAIRED_SMALL,
-                &small(two_repaired(Demand::Marks)),
-                Verdict::Holds,
-                &[repaired(Detour)],
-            ),
+            &Check::holds(PUBLISHED, &OFF_LESS, &[]),
+            &Check::holds(PLAIN, &OFF_HALF, &[plain(Track)]),
+            &Check::holds(PLAIN, &wrong(Demand::Marks), &[plain(Track)]),
+            &Check::holds(REPAIRED, &OFF_HALF, &[repaired(Track)]),
+            &Check::holds(REPAIRED, &wrong(Demand::Marks), &[repaired(Track)]),
+            &Check::holds(PLAIN, &one(Demand::Marks), &[]),
+            &Check::holds(PLAIN, &two(Demand::Marks), &[plain(Tell)]),
+            &Check::holds(PLAIN, &three(Demand::Marks), &[]),
+            &Check::holds(PLAIN, &lossy(two(Demand::Marks)), &[]),
+            &Check::holds(REPAIRED, &one(Demand::Marks), &[]),
+            &Check::holds(REPAIRED, &two_repaired(Demand::Marks), &[repaired(Tell)]),
+            &Check::holds(REPAIRED, &three(Demand::Marks), &[]),
+            &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Marks)), &[]),
+            &Check::holds(REPAIRED, &lossy(three(Demand::Marks)), &[]),
+            &Check::holds(PLAIN_SMALL, &small(one(Demand::Marks)), &[plain(Detour)]),
+            &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Marks)), &[repaired(Detour)]),
         ],
     },
     Clause {
@@ -351,15 +315,10 @@ pub static CLAUSES: [Clause; 12] = [
         id: "FRONTIER-8",
         sentence: "The occupancy probability of a cell MUST be 1 at its midpoint, MUST not grow with the distance to it, and MUST be 0 from half a cell on.",
         checks: &[
-            &Check::new(
-                NamedRule::new("published", Occupancy::Printed),
-                occupancy::CHECK.method,
-                Verdict::Refuted,
-                &[],
-            )
-            .under(&OCCUPANCIES)
-            .judged(place::occupied),
-            &Check::new(SIDES, occupancy::CHECK.method, Verdict::Refuted, &[])
+            &Check::refuted(NamedRule::new("published", Occupancy::Printed), occupancy::CHECK.method)
+                .under(&OCCUPANCIES)
+                .judged(place::occupied),
+            &Check::refuted(SIDES, occupancy::CHECK.method)
                 .judged(place::occupied)
                 .because("another reading of the paper"),
             &occupancy::CHECK,
@@ -368,24 +327,22 @@ pub static CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-9",
         sentence: "A robot with preferences MUST go to the unexplored cell that it is paired with, and to the one that comes first for it if all are the others', or if, without news, that one is farther than the one that it has claimed, or than a nearest one if it has claimed none.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             REPAIRED,
             &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
-            Verdict::Holds,
             &[repaired(Nearer), repaired(Claim), repaired(Corner), repaired(Lapse), repaired(Keep)],
         )],
     },
     Clause {
         id: "FRONTIER-10",
         sentence: "A robot whose fixes err by at most E and whose moves by at most D, and which corrects its place by at least the share K of what a fix says, MUST be in the cell that it has counted if E + D/K < L/2.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             NamedRule::new("repaired", FusedBudget::FUSED),
             &EveryAnswer {
                 body: fused::stays,
                 range: fused::errors,
                 covers: &["a fix that is believed", "a fix that is weighed"],
             },
-            Verdict::Holds,
             &[
                 NamedRule::new("E + D/K = L/2 is borne", FusedBudget::AT_MOST),
                 NamedRule::new("the share does not count", FusedBudget::WITHOUT_GAIN),
@@ -396,14 +353,13 @@ pub static CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-11",
         sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, and fixes MUST make one that knows its heading sure after finitely many.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             NamedRule::new("repaired", Standing::REPAIRED),
             &EveryAnswer {
                 body: fused::is_sure_again,
                 range: fused::stops,
                 covers: &["it moves on", "it stands"],
             },
-            Verdict::Holds,
             &[
                 NamedRule::new(repaired(Sure).name, Standing::UNSURE),
                 NamedRule::new("wheels alone", Standing::WHEELS_ALONE),
@@ -413,14 +369,13 @@ pub static CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-12",
         sentence: "A robot whose place errs by at most E, with E + F < L/2 for the five steps F of a detour, MUST stay in its cell until it enters the next one through the side between both, and MUST pass the middle of that side at F/2 − (1 + F/L) E or more.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             NamedRule::new("repaired", Round::FIVE_STEPS),
             &EveryAnswer {
                 body: detour::goes_round,
                 range: detour::errors,
                 covers: &["it passes an obstacle", "it may touch one"],
             },
-            Verdict::Holds,
             &[
                 NamedRule::new("E + F = L/2 is borne", Round::AT_MOST),
                 NamedRule::new("it does not turn", Round::STRAIGHT),

@@ -8,7 +8,7 @@ use tautline_kernel::frontier::{
     Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Scratch, Search, SearchCell, Sight, Slot, Status,
     TinyMap, View, clamped, taken_for,
 };
-use tautline_kernel::ground::{Area, Cell, Side};
+use tautline_kernel::ground::{Area, Cell};
 
 use super::areas::Size;
 use super::world::Demand;
@@ -124,7 +124,7 @@ impl Drift {
             let is_arrival = step.state.place != state.place;
             state = step.state;
             let off = is_arrival.then(|| sixteenths(state.fix, state.place));
-            moves.push(Move { side: Side::ALL.iter().position(|&other| other == side)?, off });
+            moves.push(Move { side: side as usize, off });
         }
         let (area, place) = (state.truth.area(), |cell: Cell| (i32::from(cell.x), i32::from(cell.y)));
         let is_barred = |cell: &Cell| state.truth.status(*cell) == Status::Obstacle;

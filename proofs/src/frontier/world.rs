@@ -18,7 +18,7 @@ use tautline_kernel::frontier::{
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
-use crate::engine::outcomes;
+use crate::engine::{Tape, outcomes};
 
 /// A demand on a team.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -244,8 +244,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// The next action of `robot`, if it stands.
     fn next(&self, world: &World<ROBOTS>, robot: usize, slot: Slot, oracle: &mut dyn Oracle) -> Next {
-        let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
-        let view = View { others: &others, slot };
+        let (mut others, mut told) = ([says(&world.robots[robot]); ROBOTS], 0);
+        for other in world.told[robot].into_iter().flatten() {
+            (others[told], told) = (other, told + 1);
+        }
+        let view = View { others: &others[..told], slot };
         let (mut reached, mut queue, mut rounds) =
             ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
         let mut pairs = [[None; ROBOTS]; ROBOTS];
@@ -259,7 +262,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// The next action of `robot` if the slot were its own.
     fn would(&self, world: &World<ROBOTS>, robot: usize) -> Next {
-        self.next(world, robot, Slot::Own, &mut First)
+        self.next(world, robot, Slot::Own, &mut Tape(&[]))
     }
 
     /// Whether `robot` waits for its slot.
@@ -281,7 +284,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let is_own = usize::from(world.slot) == robot && !world.has_tried;
         let slot = if is_own { Slot::Own } else { Slot::Others };
         world.robots[robot].stance() == Stance::Stands
-            && matches!(self.next(world, robot, slot, &mut First), Next::Tries { .. })
+            && matches!(self.next(world, robot, slot, &mut Tape(&[])), Next::Tries { .. })
     }
 
     /// Every step from `world`.
@@ -475,13 +478,4 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 /// The message that a robot sends of itself.
 fn says(robot: &Robot<TinyMap>) -> Other {
     Other { cell: robot.at(), place: Place::midpoint(robot.at()), aim: robot.aim() }
-}
-
-/// An oracle that always takes the first.
-struct First;
-
-impl Oracle for First {
-    fn pick(&mut self, _: u32) -> u32 {
-        0
-    }
 }

@@ -5,7 +5,7 @@ use tautline_kernel::ground::Circle;
 use super::environments::{self, Circles};
 use super::frontier::{self, Flooding};
 use crate::clause::{Check, Clause, NamedRule};
-use crate::decide::{EveryAnswer, Verdict};
+use crate::decide::EveryAnswer;
 use crate::step_checks;
 
 /// The next larger circle: E_C with eight cells more.
@@ -40,24 +40,22 @@ pub static CLAUSES: [Clause; 2] = [
                    over edges that are not known to be walls, for the leader over those of them without a virtual \
                    obstacle.",
         checks: &[
-            &Check::new(
+            &Check::holds(
                 WHOLE,
                 &EveryAnswer {
                     body: frontier::in_six_cells,
                     range: frontier::small_maps,
                     covers: &["a frontier", "no frontier"],
                 },
-                Verdict::Holds,
                 &[NamedRule::new("virtual obstacles bind followers", Flooding::BindsFollowers)],
             ),
-            &Check::new(
+            &Check::holds(
                 WHOLE,
                 &EveryAnswer {
                     body: frontier::along_every_line,
                     range: frontier::lines,
                     covers: &["a column", "a row"],
                 },
-                Verdict::Holds,
                 &[NamedRule::new("a line is not flooded", Flooding::SkipsALine)],
             ),
         ],

@@ -11,8 +11,9 @@ mod place;
 use broken::{Violation, broken};
 use court::Court;
 use duty::{Duty, MOST_LED};
-pub use judge_input::{Exhibit, Move, Objection, Repairs};
-pub use place::Place;
+pub use judge_input::{Exhibit, Move, Repairs};
+
+pub use super::{Objection, Place};
 
 /// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule; whether in each of them the
 /// leader does what its rule says, and a backtrack is due; whether each of the walls was met; and whether the last move,
@@ -23,17 +24,16 @@ pub use place::Place;
 /// # Errors
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
-    let whole = |what| Objection { at: 0, what };
     let Some(clause) = broken(&exhibit.clause) else {
-        return Err(whole("there is no such clause to break in a run"));
+        return Err("there is no such clause to break in a run".into());
     };
     let first = exhibit.moves.first().filter(|_| exhibit.robots >= 2);
-    let Some(first) = first else { return Err(whole("a counterexample needs two robots and a move")) };
+    let Some(first) = first else { return Err("a counterexample needs two robots and a move".into()) };
     if !exhibit.is_free(exhibit.base) {
-        return Err(whole("the base is not a free cell of the layout"));
+        return Err("the base is not a free cell of the layout".into());
     }
     if matches!(clause, Violation::AtEnd(_)) && exhibit.robots > MOST_LED {
-        return Err(whole("the judge cannot say of more than 12 robots whether their run is over"));
+        return Err("the judge cannot say of more than 12 robots whether their run is over".into());
     }
     let mut court = Court::new(exhibit, first.places.len());
     for (index, made) in exhibit.moves.iter().enumerate() {
@@ -55,15 +55,15 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         court.places.clone_from(&made.places);
     }
     if let Violation::AtEnd(is_broken) = clause {
-        if court.duty().map_err(whole)? != Duty::Nothing {
-            return Err(whole("the run goes on after the last move"));
+        if court.duty()? != Duty::Nothing {
+            return Err("the run goes on after the last move".into());
         }
-        if !is_broken(&court).map_err(whole)? {
-            return Err(whole("the end of the run does not break the clause"));
+        if !is_broken(&court)? {
+            return Err("the end of the run does not break the clause".into());
         }
     }
     if exhibit.walls.iter().any(|wall| !court.walls.contains(wall)) {
-        return Err(whole("a wall was never met"));
+        return Err("a wall was never met".into());
     }
     Ok(())
 }

@@ -4,13 +4,10 @@
 //! rules, so it does not say whether a rule makes the agents act so. Whoever asks it plays the rule, too.
 
 use std::collections::BTreeSet;
-use std::fmt;
 
 use super::change::plain;
 use super::{Case, must};
-
-/// Column and row.
-pub type Place = (i32, i32);
+pub use super::{Objection, Place};
 
 /// A counterexample, written down.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -53,40 +50,18 @@ pub enum Judgement {
     Unseen,
 }
 
-/// Why an exhibit is no counterexample: the sentence, and the turn that it is about, counted from 1; 0 for the exhibit
-/// as a whole.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Objection {
-    /// The turn.
-    pub at: usize,
-    /// The fault, in words.
-    pub what: &'static str,
-}
-
-impl fmt::Display for Objection {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.at {
-            0 => f.write_str(self.what),
-            at => write!(f, "turn {at}: {}", self.what),
-        }
-    }
-}
-
-impl std::error::Error for Objection {}
-
 /// Judges an exhibit: whether every turn is possible in its layout, and whether the last one, and no earlier one, breaks
 /// the clause; or whether it is broken by how the run ends, or by going round for ever.
 ///
 /// # Errors
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
-    let whole = |what| Objection { at: 0, what };
     let Exhibit { clause, starts, turns, round, .. } = exhibit;
     if starts.is_empty() || turns.is_empty() || *round > turns.len() {
-        return Err(whole("a counterexample needs an agent and its turns"));
+        return Err("a counterexample needs an agent and its turns".into());
     }
     if !starts.iter().all(|&start| exhibit.is_free(start)) {
-        return Err(whole("an agent starts where there is no free cell"));
+        return Err("an agent starts where there is no free cell".into());
     }
     let due = exhibit.connected();
     let mut court =
@@ -122,16 +97,16 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
         ("BRICKS-4", 0) if last_is_done && is_unexplored => Ok(Judgement::Broken),
         ("BRICKS-4", 0) if last_is_done => Ok(Judgement::Unseen),
         ("BRICKS-12", 0) if starts.len() == 1 && moves > 2 * due.len() => Ok(Judgement::Broken),
-        ("BRICKS-12", _) => Err(whole("an agent alone makes no more than two moves a cell")),
-        ("BRICKS-4", _) => Err(whole("in the last turn no agent is done")),
+        ("BRICKS-12", _) => Err("an agent alone makes no more than two moves a cell".into()),
+        ("BRICKS-4", _) => Err("in the last turn no agent is done".into()),
         ("BRICKS-5" | "BRICKS-6", 0) if is_over && is_unexplored => Ok(Judgement::Broken),
-        ("BRICKS-5", 0) => Err(whole("the run is not over, or every cell is explored")),
+        ("BRICKS-5", 0) => Err("the run is not over, or every cell is explored".into()),
         ("BRICKS-6", 0) if is_over => Ok(Judgement::Unseen),
-        ("BRICKS-6", 0) => Err(whole("the run is not over")),
+        ("BRICKS-6", 0) => Err("the run is not over".into()),
         ("BRICKS-5" | "BRICKS-6", _) if !goes_round => {
-            Err(whole("the last turns do not come back to where they began, or leave an agent out"))
+            Err("the last turns do not come back to where they began, or leave an agent out".into())
         }
-        ("BRICKS-5", _) if !is_unexplored => Err(whole("every cell is explored")),
+        ("BRICKS-5", _) if !is_unexplored => Err("every cell is explored".into()),
         ("BRICKS-5" | "BRICKS-6", _) => Ok(Judgement::Broken),
         _ => Ok(Judgement::Unseen),
     }
@@ -231,18 +206,17 @@ impl Case for Replacement {
         self.clause
     }
 
-    fn judge(&self) -> Result<(), super::Objection> {
-        let whole = |what| super::Objection { at: 0, what };
+    fn judge(&self) -> Result<(), Objection> {
         let Self { clause, count, from, before, after } = *self;
-        must(clause == "ANTS-3", "the judge does not know this clause").map_err(whole)?;
-        must(from > 0 && before > 0, "there is no sensor where no agent has been").map_err(whole)?;
+        must(clause == "ANTS-3", "the judge does not know this clause")?;
+        must(from > 0 && before > 0, "there is no sensor where no agent has been")?;
         let due = match count {
             Count::FromNothing => 1,
             Count::TheHigher => before.max(1),
             Count::OnFromOld => before + 1,
             Count::OnFromCell => from,
         };
-        must(after == due, "the new sensor counts otherwise").map_err(whole)?;
-        must(after < before, "the cell counts no fewer agents").map_err(whole)
+        must(after == due, "the new sensor counts otherwise")?;
+        Ok(must(after < before, "the cell counts no fewer agents")?)
     }
 }

@@ -107,16 +107,12 @@ impl Case for Run {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { starts, steps, floor, .. } = self;
         let alone: BTreeSet<Place> = starts.iter().copied().collect();
-        must(!starts.is_empty() && alone.len() == starts.len(), "robots start in cells of their own")
-            .map_err(whole)?;
-        must(starts.iter().all(|&start| floor.is_free(start)), "a robot starts in no free cell")
-            .map_err(whole)?;
-        must((self.clause == "FRONTIER-3") == (self.round > 0), "FRONTIER-3 is broken by a round alone")
-            .map_err(whole)?;
-        must(self.round <= steps.len(), "there are not so many steps").map_err(whole)?;
+        must(!starts.is_empty() && alone.len() == starts.len(), "robots start in cells of their own")?;
+        must(starts.iter().all(|&start| floor.is_free(start)), "a robot starts in no free cell")?;
+        must((self.clause == "FRONTIER-3") == (self.round > 0), "FRONTIER-3 is broken by a round alone")?;
+        must(self.round <= steps.len(), "there are not so many steps")?;
         let known: Repository = alone.iter().map(|&start| (start, true)).collect();
         let robot = |&at: &Place| Robot {
             cell: at,
@@ -143,24 +139,23 @@ impl Case for Run {
                 must(breaks == (number == steps.len()), what).map_err(object)?;
             }
         }
-        must(floor.barred.is_subset(&team.met), "an obstacle was never met").map_err(whole)?;
+        must(floor.barred.is_subset(&team.met), "an obstacle was never met")?;
         let is_over = team.robots.iter().all(|robot| !self.is_awake(robot));
         match self.clause {
-            "FRONTIER-2" | "FRONTIER-5" => must(!steps.is_empty(), "nothing happens").map_err(whole),
+            "FRONTIER-2" | "FRONTIER-5" => Ok(must(!steps.is_empty(), "nothing happens")?),
             "FRONTIER-3" => {
-                must(before.is_some_and(|before| before == team), "the last steps lead elsewhere")
-                    .map_err(whole)?;
-                must(awake.is_subset(&acting), "a robot that may act never does").map_err(whole)
+                must(before.is_some_and(|before| before == team), "the last steps lead elsewhere")?;
+                Ok(must(awake.is_subset(&acting), "a robot that may act never does")?)
             }
             "FRONTIER-1" | "FRONTIER-4" => {
-                must(is_over, "the run goes on").map_err(whole)?;
+                must(is_over, "the run goes on")?;
                 // Without repairs a robot that stops does not know that nothing is left, so that each end breaks
                 // FRONTIER-4.
                 let is_left =
                     self.floor.walkable(&self.starts).iter().any(|cell| !team.entered.contains(cell));
-                must(is_left || self.clause == "FRONTIER-4", "every cell is explored").map_err(whole)
+                Ok(must(is_left || self.clause == "FRONTIER-4", "every cell is explored")?)
             }
-            _ => Err(whole("the judge does not know this clause")),
+            _ => Err("the judge does not know this clause".into()),
         }
     }
 }

@@ -135,20 +135,16 @@ impl Case for Run {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
-        must(self.starts.len() == 2, "the judge knows runs of two robots").map_err(whole)?;
+        must(self.starts.len() == 2, "the judge knows runs of two robots")?;
         let are_there = self.starts.iter().all(|&start| self.lattice.has(start) && start == self.starts[0]);
-        must(are_there, "both robots start at one node").map_err(whole)?;
-        must((self.clause == "KIT-2") <= (self.speeds == Speeds::Equal), "KIT-2 is about equal speeds")
-            .map_err(whole)?;
+        must(are_there, "both robots start at one node")?;
+        must((self.clause == "KIT-2") <= (self.speeds == Speeds::Equal), "KIT-2 is about equal speeds")?;
         must(
             (self.contact == Contact::AtNodes) <= (self.clause == "KIT-1"),
             "KIT-1 alone is judged at nodes",
-        )
-        .map_err(whole)?;
-        must((self.clause == BY_ROUND) == (self.round > 0), "KIT-7 is broken by a round alone")
-            .map_err(whole)?;
-        must(self.round <= self.steps.len(), "there are not so many steps").map_err(whole)?;
+        )?;
+        must((self.clause == BY_ROUND) == (self.round > 0), "KIT-7 is broken by a round alone")?;
+        must(self.round <= self.steps.len(), "there are not so many steps")?;
         let mut team = Team::new(&self.starts);
         let home = self.steps.len() - self.round;
         let (mut before, mut acting, mut awake) = (None, BTreeSet::new(), BTreeSet::from([0, 1]));
@@ -169,22 +165,20 @@ impl Case for Run {
                 .map_err(object)?;
             }
         }
-        must(self.lattice.barred.iter().all(|wall| team.seen.contains(wall)), "a wall was never met")
-            .map_err(whole)?;
+        must(self.lattice.barred.iter().all(|wall| team.seen.contains(wall)), "a wall was never met")?;
         if self.clause == BY_ROUND {
             let is_round = before.is_some_and(|before| self.looks_like(&before, &team));
-            must(is_round, "the last steps do not lead back to where they began").map_err(whole)?;
-            return must(awake.is_subset(&acting), "a robot that may act never does").map_err(whole);
+            must(is_round, "the last steps do not lead back to where they began")?;
+            return Ok(must(awake.is_subset(&acting), "a robot that may act never does")?);
         }
         if BY_STEP.contains(&self.clause) {
             return Ok(());
         }
-        must(BY_END.contains(&self.clause), "the judge does not know this clause").map_err(whole)?;
-        must((0..2).all(|robot| !team.drives(robot) && !team.may_decide(robot)), "the run goes on")
-            .map_err(whole)?;
+        must(BY_END.contains(&self.clause), "the judge does not know this clause")?;
+        must((0..2).all(|robot| !team.drives(robot) && !team.may_decide(robot)), "the run goes on")?;
         // As published no robot ever knows that all is over, so that the end of a run breaks KIT-8.
         let is_owed = self.joint_way(&team, team.goals()).is_some();
-        must(is_owed || self.clause == "KIT-8", "no uncovered side is within reach").map_err(whole)
+        Ok(must(is_owed || self.clause == "KIT-8", "no uncovered side is within reach")?)
     }
 }
 

@@ -219,19 +219,18 @@ impl Case for Run {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { clause, ref floor, ref walls, ref starts, ref turns, round } = *self;
         let is_able = !starts.is_empty() && !turns.is_empty() && round <= turns.len();
-        must(is_able, "a counterexample needs an agent and its turns").map_err(whole)?;
+        must(is_able, "a counterexample needs an agent and its turns")?;
         let is_placed = |place: &Place| floor.is_free(*place);
-        must(starts.iter().all(is_placed), "an agent starts where there is no free cell").map_err(whole)?;
-        must(clause != "BRICKS-12" || starts.len() == 1, "the agent is not alone").map_err(whole)?;
-        must(clause != "BRICKS-3" || starts.len() == 2, "there are not two agents").map_err(whole)?;
+        must(starts.iter().all(is_placed), "an agent starts where there is no free cell")?;
+        must(clause != "BRICKS-12" || starts.len() == 1, "the agent is not alone")?;
+        must(clause != "BRICKS-3" || starts.len() == 2, "there are not two agents")?;
         let due = self.connected(starts, |_| true);
         let is_all = floor.places().filter(|place| floor.is_free(*place)).all(|place| due.contains(&place));
-        must(is_all, "a cell is not connected with the agents").map_err(whole)?;
+        must(is_all, "a cell is not connected with the agents")?;
         let is_wall = |&(one, other): &(Place, Place)| floor.is_free(one) && floor.is_free(other);
-        must(walls.iter().all(is_wall), "a wall is not between free cells").map_err(whole)?;
+        must(walls.iter().all(is_wall), "a wall is not between free cells")?;
         let (mut scene, mut before, mut acting) = (self.start(), None, BTreeSet::new());
         for (number, turn) in turns.iter().enumerate() {
             let at = number + 1;
@@ -246,8 +245,7 @@ impl Case for Run {
         let awake = |scene: &Scene, agent: usize| scene.fates[agent] == Fate::Awake;
         let is_over = (0..starts.len()).all(|agent| !awake(&scene, agent));
         let fails = scene.fates.iter().filter(|fate| **fate == Fate::Fails).count();
-        must(clause != "BRICKS-11" || fails > 0 && fails < starts.len(), "nobody fails, or everybody")
-            .map_err(whole)?;
+        must(clause != "BRICKS-11" || fails > 0 && fails < starts.len(), "nobody fails, or everybody")?;
         let goes_round = before.is_some_and(|before| {
             let acts = |agent: usize| !awake(&before, agent) || acting.contains(&agent);
             let is_same = Scene { moves: 0, ..before.clone() } == Scene { moves: 0, ..scene.clone() };
@@ -266,13 +264,13 @@ impl Case for Run {
             ("BRICKS-6" | "BRICKS-11", _) => goes_round,
             _ => false,
         };
-        must(is_broken, "the clause is not broken").map_err(whole)?;
+        must(is_broken, "the clause is not broken")?;
         // Marks are written down only where they matter.
         let matters = match clause {
             "BRICKS-3" => true,
             "BRICKS-4" | "BRICKS-6" | "BRICKS-11" => !is_unexplored && round == 0,
             _ => false,
         };
-        must(matters || !self.has_marks(), "marks play no part").map_err(whole)
+        Ok(must(matters || !self.has_marks(), "marks play no part")?)
     }
 }

@@ -128,13 +128,11 @@ impl Case for Run {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let wfrs = self.hops.first().map_or(0, Vec::len);
         let is_table = self.hops.iter().all(|row| row.len() == wfrs && row.iter().all(|&hops| hops >= 1));
-        must(wfrs > 0 && is_table, "each robot is some hops from each WFR").map_err(whole)?;
+        must(wfrs > 0 && is_table, "each robot is some hops from each WFR")?;
         let is_fault = |step: &&Step| step.fate != Fate::Arrives || step.what == What::Fails;
-        must(self.steps.iter().filter(is_fault).count() == self.faults, "there are more faults, or fewer")
-            .map_err(whole)?;
+        must(self.steps.iter().filter(is_fault).count() == self.faults, "there are more faults, or fewer")?;
         let robot =
             Robot { task: Task::Free, lives: true, records: vec![None; wfrs], taken: vec![None; wfrs] };
         let robots = vec![robot; self.hops.len()];
@@ -149,12 +147,12 @@ impl Case for Run {
                 must(breaks == (number == self.steps.len()), what).map_err(object)?;
             }
         }
-        must(!self.steps.is_empty(), "nothing happens").map_err(whole)?;
+        must(!self.steps.is_empty(), "nothing happens")?;
         if self.clause == "MRC-5" {
             let goes = court.robots.iter().any(|robot| robot.lives && matches!(robot.task, Task::Goes(..)));
-            must(court.network.is_empty() && !goes, "something more is bound to happen").map_err(whole)?;
-            must(court.wfrs.iter().any(|wfr| wfr.waits), "no WFR waits").map_err(whole)?;
-            must(court.robots.iter().any(|robot| robot.lives), "no robot lives").map_err(whole)?;
+            must(court.network.is_empty() && !goes, "something more is bound to happen")?;
+            must(court.wfrs.iter().any(|wfr| wfr.waits), "no WFR waits")?;
+            must(court.robots.iter().any(|robot| robot.lives), "no robot lives")?;
         }
         Ok(())
     }
@@ -370,13 +368,11 @@ impl Case for Record {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
-        must(self.clause == "MRC-10", "the judge does not know this clause").map_err(whole)?;
+        must(self.clause == "MRC-10", "the judge does not know this clause")?;
         let is_notice = |heard: &Heard| heard.epoch >= 1 && heard.hops >= 0 && heard.sender >= 0;
-        must(self.heard.iter().all(is_notice), "that is no NOTICE").map_err(whole)?;
+        must(self.heard.iter().all(is_notice), "that is no NOTICE")?;
         let wfr = self.record.wfr;
-        must(self.heard.last().is_some_and(|last| last.wfr == wfr), "the last NOTICE is of another WFR")
-            .map_err(whole)?;
+        must(self.heard.last().is_some_and(|last| last.wfr == wfr), "the last NOTICE is of another WFR")?;
         for length in 1..=self.heard.len() {
             let object = |what| Objection { at: length, what };
             let of_wfr = || self.heard[..length].iter().filter(|heard| heard.wfr == wfr);

@@ -68,12 +68,10 @@ impl Case for Spread {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Network { nodes, links } = &self.network;
-        must(self.clause == "NOTICE-5" && self.k >= 1, "the judge does not know this").map_err(whole)?;
-        must((1..=64).contains(nodes), "a network has 1 to 64 nodes").map_err(whole)?;
-        must(links.iter().all(|(one, other)| one < other && other < nodes), "a link leads nowhere")
-            .map_err(whole)?;
+        must(self.clause == "NOTICE-5" && self.k >= 1, "the judge does not know this")?;
+        must((1..=64).contains(nodes), "a network has 1 to 64 nodes")?;
+        must(links.iter().all(|(one, other)| one < other && other < nodes), "a link leads nowhere")?;
         let beside = |node: usize| {
             let ends = links.iter().filter_map(move |&(one, other)| match node {
                 _ if node == one => Some(other),
@@ -115,7 +113,7 @@ impl Case for Spread {
         }
         let comes = under_way.iter().any(|&(_, to)| stages[to] != Stage::Through);
         let waits = stages.iter().any(|stage| matches!(stage, Stage::Waits(_)));
-        must(!comes && !waits, "something more happens").map_err(whole)?;
+        must(!comes && !waits, "something more happens")?;
         let (mut reached, mut rim) = (BTreeSet::new(), vec![0]);
         while let Some(node) = rim.pop() {
             if reached.insert(node) {
@@ -123,7 +121,7 @@ impl Case for Spread {
             }
         }
         let is_left = reached.iter().any(|&node| stages[node] == Stage::Unaware);
-        must(is_left, "every node that links connect to the source has heard of the event").map_err(whole)
+        Ok(must(is_left, "every node that links connect to the source has heard of the event")?)
     }
 }
 
@@ -161,16 +159,14 @@ impl Case for Later {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
-        must(self.clause == "NOTICE-4", "the judge does not know this clause").map_err(whole)?;
+        must(self.clause == "NOTICE-4", "the judge does not know this clause")?;
         let is_notice =
             |heard: &Heard| heard.event >= 1 && heard.hops >= 0 && heard.sender >= 0 && heard.sender != 1;
-        must(self.before.iter().chain([&self.news]).all(is_notice), "that is no NOTICE that a node hears")
-            .map_err(whole)?;
+        must(self.before.iter().chain([&self.news]).all(is_notice), "that is no NOTICE that a node hears")?;
         let is_newer = self.before.iter().all(|heard| heard.event < self.news.event);
-        must(is_newer, "the last NOTICE is of no newer event").map_err(whole)?;
+        must(is_newer, "the last NOTICE is of no newer event")?;
         // As published the first NOTICE of a source is the first of all its events.
-        must(self.is_first == self.before.is_empty(), "the node takes it otherwise").map_err(whole)?;
-        must(!self.is_first, "the node takes the NOTICE for a first one").map_err(whole)
+        must(self.is_first == self.before.is_empty(), "the node takes it otherwise")?;
+        Ok(must(!self.is_first, "the node takes the NOTICE for a first one")?)
     }
 }

@@ -87,20 +87,17 @@ impl Case for Run {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { starts, moves, floor, .. } = self;
-        must((1..=20).contains(&self.sight) && self.range >= 3, "robots see a cell, and hear three")
-            .map_err(whole)?;
+        must((1..=20).contains(&self.sight) && self.range >= 3, "robots see a cell, and hear three")?;
         let alone: BTreeSet<Place> = starts.iter().copied().collect();
         let are_free = starts.iter().all(|&start| floor.is_free(start));
         must(
             starts.len() > 1 && alone.len() == starts.len() && are_free,
             "robots start in cells of their own",
-        )
-        .map_err(whole)?;
+        )?;
         let side_by_side = joins(starts, |one, other| (0..4).any(|side| beside(one, side) == Some(other)));
         let is_linked = if self.clause == "PACK-5" { self.is_joined(starts) } else { side_by_side };
-        must(is_linked, "the robots start otherwise").map_err(whole)?;
+        must(is_linked, "the robots start otherwise")?;
         let mut team = self.team();
         for (number, made) in (1..).zip(moves) {
             let object = |what| Objection { at: number, what };
@@ -114,21 +111,21 @@ impl Case for Run {
             must(breaks == is_last, what).map_err(object)?;
         }
         let is_seen = floor.barred.iter().all(|cell| team.seen.contains_key(cell));
-        must(is_seen, "an obstacle was never seen").map_err(whole)?;
+        must(is_seen, "an obstacle was never seen")?;
         match self.clause {
-            "PACK-1" => must(!moves.is_empty(), "nothing happens").map_err(whole),
+            "PACK-1" => Ok(must(!moves.is_empty(), "nothing happens")?),
             "PACK-3" | "PACK-5" => {
                 let goes_on = if self.clause == "PACK-5" {
                     self.can_step(&team.cells)
                 } else {
                     self.advance(&mut team)
                 };
-                must(!goes_on, "the run goes on").map_err(whole)?;
+                must(!goes_on, "the run goes on")?;
                 let is_left =
                     self.floor.walkable(&self.starts).iter().any(|cell| !team.seen.contains_key(cell));
-                must(is_left, "every cell is explored").map_err(whole)
+                Ok(must(is_left, "every cell is explored")?)
             }
-            _ => Err(whole("the judge does not know this clause")),
+            _ => Err("the judge does not know this clause".into()),
         }
     }
 }

@@ -66,13 +66,12 @@ impl Case for Exact {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
-        must(self.clause == "POSITION-1", "the judge does not know this clause").map_err(whole)?;
-        must(!is_line(self.anchors), "the anchors are on one line").map_err(whole)?;
-        must(!self.anchors.contains(&self.robot), "the robot is on an anchor").map_err(whole)?;
-        must(self.is_told == is_told(self.anchors), "the equations return something else").map_err(whole)?;
+        must(self.clause == "POSITION-1", "the judge does not know this clause")?;
+        must(!is_line(self.anchors), "the anchors are on one line")?;
+        must(!self.anchors.contains(&self.robot), "the robot is on an anchor")?;
+        must(self.is_told == is_told(self.anchors), "the equations return something else")?;
         // The equations are right: a position that they return from exact distances is that of the robot.
-        must(!self.is_told, "the position is where the robot is").map_err(whole)
+        Ok(must(!self.is_told, "the position is where the robot is")?)
     }
 }
 
@@ -82,20 +81,19 @@ impl Case for Strongest {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { anchors: [taken @ .., left], robot, .. } = *self;
-        must(self.clause == "POSITION-1", "the judge does not know this clause").map_err(whole)?;
+        must(self.clause == "POSITION-1", "the judge does not know this clause")?;
         let is_one = (0..4).any(|place| self.anchors[..place].contains(&self.anchors[place]));
-        must(!is_one, "two anchors are one").map_err(whole)?;
+        must(!is_one, "two anchors are one")?;
         let is_one_line = is_line(taken) && is_line([taken[0], taken[1], left]);
-        must(!is_one_line, "the anchors are on one line").map_err(whole)?;
-        must(!self.anchors.contains(&robot), "the robot is on an anchor").map_err(whole)?;
+        must(!is_one_line, "the anchors are on one line")?;
+        must(!self.anchors.contains(&robot), "the robot is on an anchor")?;
         let far = |anchor: Place| (anchor.0 - robot.0).pow(2) + (anchor.1 - robot.1).pow(2);
         let is_strongest = taken.into_iter().all(|taken| far(taken) <= far(left));
-        must(is_strongest, "a stronger anchor is left out").map_err(whole)?;
+        must(is_strongest, "a stronger anchor is left out")?;
         let is_due = !is_line(taken) && is_told(taken);
-        must(self.is_told == is_due, "the equations return something else").map_err(whole)?;
-        must(!self.is_told, "the position is where the robot is").map_err(whole)
+        must(self.is_told == is_due, "the equations return something else")?;
+        Ok(must(!self.is_told, "the position is where the robot is")?)
     }
 }
 
@@ -105,19 +103,18 @@ impl Case for Moved {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { anchors, distances, motion: [x, y, _], .. } = *self;
-        must(self.clause == "POSITION-4", "the judge does not know this clause").map_err(whole)?;
-        must(!is_line(anchors), "the anchors are on one line").map_err(whole)?;
-        must(distances.iter().all(|&far| far > 0), "a robot is on an anchor").map_err(whole)?;
+        must(self.clause == "POSITION-4", "the judge does not know this clause")?;
+        must(!is_line(anchors), "the anchors are on one line")?;
+        must(distances.iter().all(|&far| far > 0), "a robot is on an anchor")?;
         let length = |(x, y): Place| x * x + y * y;
         let keeps = length(x) == 100 && length(y) == 100 && x.0 * y.0 + x.1 * y.1 == 0;
-        must(keeps, "the motion changes distances").map_err(whole)?;
+        must(keeps, "the motion changes distances")?;
         // The origin goes along with all, and plays no part in what is divided by.
         let moved = anchors.map(|(a, b)| (x.0 * a + y.0 * b, x.1 * a + y.1 * b));
         let due = [is_told(anchors), is_told(moved)];
-        must(self.is_told == due, "the equations return something else").map_err(whole)?;
-        must(due[0] != due[1], "the positions move with the anchors, or there are none").map_err(whole)
+        must(self.is_told == due, "the equations return something else")?;
+        Ok(must(due[0] != due[1], "the positions move with the anchors, or there are none")?)
     }
 }
 
@@ -169,21 +166,17 @@ impl Case for Second {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { anchors, distances, noise, ref told, other, .. } = *self;
-        must(self.clause == "POSITION-3", "the judge does not know this clause").map_err(whole)?;
-        must(!is_line(anchors), "the anchors are on one line").map_err(whole)?;
-        must(distances.iter().all(|&far| far > 0), "a distance is not positive").map_err(whole)?;
-        must(noise > 0, "there is no noise").map_err(whole)?;
-        let Some(&best) = told.first() else { return Err(whole("no position is told")) };
-        must(told.iter().all(|&place| self.is_minimum(place)), "a place is told that is no minimum")
-            .map_err(whole)?;
-        must(self.is_minimum(other), "a place beside the other one fits better").map_err(whole)?;
-        must(told.iter().all(|&place| apart(place, other) > ONE_MM), "the other position is told")
-            .map_err(whole)?;
+        must(self.clause == "POSITION-3", "the judge does not know this clause")?;
+        must(!is_line(anchors), "the anchors are on one line")?;
+        must(distances.iter().all(|&far| far > 0), "a distance is not positive")?;
+        must(noise > 0, "there is no noise")?;
+        let Some(&best) = told.first() else { return Err("no position is told".into()) };
+        must(told.iter().all(|&place| self.is_minimum(place)), "a place is told that is no minimum")?;
+        must(self.is_minimum(other), "a place beside the other one fits better")?;
+        must(told.iter().all(|&place| apart(place, other) > ONE_MM), "the other position is told")?;
         let errors = distances.map(|far| (f64::from(far) * f64::from(noise) / 1e6).powi(2));
         let alike = 3.84 * errors.iter().sum::<f64>() / 3.0;
-        must((self.misfit(other) - self.misfit(best)).abs() <= alike, "the two do not fit alike")
-            .map_err(whole)
+        Ok(must((self.misfit(other) - self.misfit(best)).abs() <= alike, "the two do not fit alike")?)
     }
 }

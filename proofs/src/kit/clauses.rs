@@ -16,7 +16,7 @@ use super::world::{Answers, Demand, Speeds, Starts};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
-use crate::decide::{EveryState, Verdict};
+use crate::decide::EveryState;
 use crate::local::EveryNumber;
 use crate::step_checks;
 
@@ -247,36 +247,22 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",
         checks: &[
             &contact::CHECK,
-            &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(
-                NamedRule::new("ahead", Rule::AHEAD),
-                &published(Demand::Contact),
-                Verdict::Refuted,
-                &[],
-            )
-            .because("another reading of the paper"),
-            &Check::new(
-                REPAIRED,
-                &repaired(Demand::Contact),
-                Verdict::Holds,
-                &[NO_NEXT, NO_FROM, NO_STAY, OLD_PATHS],
-            ),
-            &Check::new(
+            &Check::refuted(PUBLISHED, &published(Demand::Contact)).under(REFUTED).of(&PAPER),
+            &Check::refuted(NamedRule::new("ahead", Rule::AHEAD), &published(Demand::Contact))
+                .because("another reading of the paper"),
+            &Check::holds(REPAIRED, &repaired(Demand::Contact), &[NO_NEXT, NO_FROM, NO_STAY, OLD_PATHS]),
+            &Check::holds(
                 NamedRule::new("repaired", Two::in_contact(Rule::REPAIRED)),
                 &local::TWO,
-                Verdict::Holds,
                 &[
                     NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule)),
                     NamedRule::new(NO_FROM.name, Two::in_contact(NO_FROM.rule)),
                 ],
             ),
-            &Check::new(PUBLISHED, &AT_NODES, Verdict::Refuted, &[]).under(STAYING).of(&PAPER),
-            &Check::new(
+            &Check::refuted(PUBLISHED, &AT_NODES).under(STAYING).of(&PAPER),
+            &Check::holds(
                 NamedRule::new("at-nodes", Two::at_nodes(Rule::PUBLISHED)),
                 &local::AT_NODES,
-                Verdict::Holds,
                 &[NamedRule::new(NO_NEXT.name, Two::at_nodes(Rule::PUBLISHED.without(NextInReach)))],
             ),
         ],
@@ -285,23 +271,20 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-2",
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
-            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(STAYING).of(&PAPER),
-            &Check::new(
+            &Check::refuted(PUBLISHED, &AT_EQUAL_SPEEDS).under(STAYING).of(&PAPER),
+            &Check::holds(
                 NamedRule::new("filtered", AtEqualSpeeds(Rule::PUBLISHED)),
                 &local::TWO,
-                Verdict::Holds,
                 &[NamedRule::new(NO_NEXT.name, AtEqualSpeeds(Rule::PUBLISHED.without(NextInReach)))],
             ),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &repaired_at_equal_speeds(Demand::Contact),
-                Verdict::Holds,
                 &[NO_NEXT, NO_STAY, OLD_PATHS],
             ),
-            &Check::new(
+            &Check::holds(
                 NamedRule::new("repaired", Two::in_contact(Rule::REPAIRED)),
                 &local::TWO,
-                Verdict::Holds,
                 &[NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule))],
             ),
         ],
@@ -311,21 +294,13 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Two robots MUST never be nearer to each other than 3 m, once both have left their starts.",
         checks: &[
             &apart::CHECK,
-            &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(PUBLISHED, &APART_AT_EQUAL_SPEEDS, Verdict::Refuted, &[]).under(REFUTED).of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::Apart), Verdict::Holds, &[NOT_APART, NO_STAY]),
-            &Check::new(
-                REPAIRED,
-                &repaired_at_equal_speeds(Demand::Apart),
-                Verdict::Holds,
-                &[NOT_APART, NO_STAY],
-            ),
-            &Check::new(
+            &Check::refuted(PUBLISHED, &published(Demand::Apart)).under(REFUTED).of(&PAPER),
+            &Check::refuted(PUBLISHED, &APART_AT_EQUAL_SPEEDS).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::Apart), &[NOT_APART, NO_STAY]),
+            &Check::holds(REPAIRED, &repaired_at_equal_speeds(Demand::Apart), &[NOT_APART, NO_STAY]),
+            &Check::holds(
                 NamedRule::new("repaired", Two::apart(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[NamedRule::new(NOT_APART.name, Two::apart(NOT_APART.rule))],
             ),
         ],
@@ -334,20 +309,19 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-4",
         sentence: "A robot that waits for an answer MUST be answered in the end.",
         checks: &[
-            &Check::new(PUBLISHED, &ANSWERED, Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &ANSWERED)
                 .judged(|rule, choices| talks::case(&talks(rule, talks::Demand::Answered), choices))
                 .under(&holding(ANSWERING, []))
                 .of(&PAPER_ON_ANSWERS),
-            &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
-            &Check::new(REPAIRED, &ANSWERED_THOUGH_LOST, Verdict::Refuted, &[])
+            &Check::holds(REPAIRED, &ANSWERED, &[NO_TURN]),
+            &Check::refuted(REPAIRED, &ANSWERED_THOUGH_LOST)
                 .because("a message is lost; the rule robust asks again")
                 .judged(|rule, choices| {
                     talks::case(&Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) }, choices)
                 }),
-            &Check::new(
+            &Check::holds(
                 ROBUST,
                 &ANSWERED_THOUGH_LOST,
-                Verdict::Holds,
                 &[NamedRule::new("no repeats", Rule::ROBUST.without(Repeats))],
             ),
         ],
@@ -356,10 +330,9 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-5",
         sentence: "A robot that decides MUST know where the other one goes or stands.",
         checks: &[
-            &Check::new(
+            &Check::holds(
                 PUBLISHED,
                 &FRESH,
-                Verdict::Holds,
                 &[
                     NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
                     NamedRule::new(
@@ -368,21 +341,19 @@ pub static CLAUSES: [Clause; 14] = [
                     ),
                 ],
             ),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &FRESH,
-                Verdict::Holds,
                 &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
             ),
-            &Check::new(REPAIRED, &FRESH_THOUGH_DOUBLED, Verdict::Refuted, &[])
+            &Check::refuted(REPAIRED, &FRESH_THOUGH_DOUBLED)
                 .because("a message comes twice; the rule robust knows it")
                 .judged(|rule, choices| {
                     talks::case(&Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) }, choices)
                 }),
-            &Check::new(
+            &Check::holds(
                 ROBUST,
                 &FRESH_THOUGH_LOST,
-                Verdict::Holds,
                 &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::ROBUST })],
             ),
         ],
@@ -391,50 +362,41 @@ pub static CLAUSES: [Clause; 14] = [
         id: "KIT-6",
         sentence: "While an uncovered side is within reach, a robot MUST drive or be able to decide.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Moves), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::Moves), Verdict::Holds, &[NO_TURN, NO_REGROUP]),
+            &Check::refuted(PUBLISHED, &published(Demand::Moves)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::Moves), &[NO_TURN, NO_REGROUP]),
         ],
     },
     Clause {
         id: "KIT-7",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]).under(REFUTED).of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::Ends), Verdict::Holds, &[NO_STAY]),
-            &Check::new(REPAIRED, &side_by_side(Demand::Ends), Verdict::Holds, &[]),
+            &Check::refuted(PUBLISHED, &published(Demand::Ends)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::Ends), &[NO_STAY]),
+            &Check::holds(REPAIRED, &side_by_side(Demand::Ends), &[]),
         ],
     },
     Clause {
         id: "KIT-8",
         sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know it.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::Covers), Verdict::Holds, &[NO_REGROUP, UNMARKED]),
-            &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &published(Demand::Covers)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::Covers), &[NO_REGROUP, UNMARKED]),
+            &Check::refuted(REPAIRED, &three(Demand::Covers))
                 .because("three robots that start anywhere; side by side it holds"),
         ],
     },
     Clause {
         id: "KIT-9",
         sentence: "Every message MUST be read as it was sent, and fields that are no message MUST be refused.",
-        checks: &[
-            &Check::new(PUBLISHED, read_back::CHECK.method, Verdict::Refuted, &[]).judged(pairs::wire),
-            &read_back::CHECK,
-        ],
+        checks: &[&Check::refuted(PUBLISHED, read_back::CHECK.method).judged(pairs::wire), &read_back::CHECK],
     },
     Clause {
         id: "KIT-10",
         sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it blocked, and \
                    no other side.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Marks), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::Marks), Verdict::Holds, &[UNMARKED, OTHERS]),
+            &Check::refuted(PUBLISHED, &published(Demand::Marks)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::Marks), &[UNMARKED, OTHERS]),
         ],
     },
     Clause {
@@ -442,30 +404,22 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while another \
                    one drives a new path.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::Shortens), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::Shortens), Verdict::Holds, &[NO_STAY]),
+            &Check::refuted(PUBLISHED, &published(Demand::Shortens)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::Shortens), &[NO_STAY]),
         ],
     },
     Clause {
         id: "KIT-12",
         sentence: "Robots that hear each other directly or over others when they start MUST do so all the time.",
-        checks: &[&Check::new(
-            REPAIRED,
-            &three(Demand::Contact),
-            Verdict::Holds,
-            &[NO_NEXT, NO_FROM, OLD_PATHS],
-        )],
+        checks: &[&Check::holds(REPAIRED, &three(Demand::Contact), &[NO_NEXT, NO_FROM, OLD_PATHS])],
     },
     Clause {
         id: "KIT-13",
         sentence: "Three robots and more that start side by side MUST drive, or see blocked, every side of every node that \
                    paths join to their starts, unless they fill all of these nodes; and every robot MUST know it.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             REPAIRED,
             &side_by_side(Demand::Whole),
-            Verdict::Holds,
             &[NO_LOOK_BESIDE, NO_CARAVAN, NO_ROOM],
         )],
     },
@@ -474,10 +428,8 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "Of two robots one that drives a path again MUST be able to take each side that begins a shortest way, and no \
                    other.",
         checks: &[
-            &Check::new(PUBLISHED, &published(Demand::AnyShortest), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(REPAIRED, &repaired(Demand::AnyShortest), Verdict::Holds, &[NO_STAY, NO_NEXT]),
+            &Check::refuted(PUBLISHED, &published(Demand::AnyShortest)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &repaired(Demand::AnyShortest), &[NO_STAY, NO_NEXT]),
         ],
     },
 ];

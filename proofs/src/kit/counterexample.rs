@@ -6,6 +6,7 @@ use tautline_kernel::kit::{Next, Rule, Sight};
 
 use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
+use crate::ground::name_of;
 use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
 use crate::run::{self, Ending, Scripted};
@@ -175,13 +176,12 @@ pub fn case<const ROBOTS: usize>(
 /// An event as the judge reads it.
 fn written(event: &Event) -> Option<judge::Step> {
     let look = |&(side, sight): &(Side, Sight)| {
-        let side = Side::ALL.iter().position(|&other| other == side)?;
         let sees = match sight {
             Sight::Free => judge::Sees::Free,
             Sight::Obstacle => judge::Sees::Obstacle,
             Sight::Robot => judge::Sees::Robot,
         };
-        Some(judge::Look { side, sees })
+        judge::Look { side: side as usize, sees }
     };
     let (robot, what, looks) = match event {
         &Event::Arrives(robot, _) => (robot, judge::What::Arrives, Vec::new()),
@@ -192,7 +192,7 @@ fn written(event: &Event) -> Option<judge::Step> {
                 Next::Done => judge::What::IsDone,
                 Next::Looks(_) => return None,
             };
-            (*robot, what, looks.iter().map(look).collect::<Option<Vec<_>>>()?)
+            (*robot, what, looks.iter().map(look).collect())
         }
     };
     Some(judge::Step { robot, what, looks })
@@ -204,12 +204,7 @@ pub fn words(event: &Event) -> String {
         Event::Arrives(robot, node) => format!("R{} arrives at {node}", robot + 1),
         Event::Decides(robot, looks, next) => {
             let look = |&(side, sight): &(Side, Sight)| {
-                let side = match side {
-                    Side::East => "east",
-                    Side::South => "south",
-                    Side::West => "west",
-                    Side::North => "north",
-                };
+                let side = name_of(side);
                 let sight = match sight {
                     Sight::Free => "free",
                     Sight::Obstacle => "blocked",

@@ -7,12 +7,12 @@ use tautline_kernel::kit::Rule;
 use super::counterexample::Counterexample;
 use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
 use crate::decide::{
-    self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
+    self, Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
 };
 use crate::engine::model::Started;
 use crate::engine::smallest::{Class, Most, Searched, smallest};
-use crate::engine::states::{AnySystem, END, Limits, search};
-use crate::engine::{Choices, Script, ScriptError, Until, cover};
+use crate::engine::states::{AnySystem, END, Findings, Limits, search};
+use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::AnyCase;
 use crate::run::Scripted;
 
@@ -43,13 +43,8 @@ pub(super) enum Pass {
     Together,
 }
 
-/// The findings in the states.
-struct Findings<const ROBOTS: usize> {
-    states: u64,
-    is_whole: bool,
-    covered: Vec<&'static str>,
-    broken: Option<(Choices, Counterexample<ROBOTS>)>,
-}
+/// A run that breaks something, and the choices that make it, if there is one.
+type Broken<const ROBOTS: usize> = Option<(Choices, Counterexample<ROBOTS>)>;
 
 impl<const ROBOTS: usize> Lattices<ROBOTS> {
     /// The teams on one lattice.
@@ -66,8 +61,8 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         rule: &Rule,
         demand: Option<Demand>,
         (until, limits): (Until, Limits<'_>),
-    ) -> Findings<ROBOTS> {
-        let mut looked = Findings { states: 0, is_whole: true, covered: Vec::new(), broken: None };
+    ) -> (Findings<Demand>, Broken<ROBOTS>) {
+        let mut looked = Findings::NONE;
         for (number, &(width, height, most)) in (0..).zip(self.sizes) {
             // Mostly nothing is broken; where it is, the fewest walls are looked for, unless one violation is enough.
             let all = self.search(rule, (width, height, most), demand, (limits, &mut looked));
@@ -82,14 +77,10 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
             let Some((walls, found)) = fewer.or_else(|| all.map(|found| (most, found))) else {
                 continue;
             };
-            let run = &found.run;
-            let first = [number, u32::from(walls), run.start as u32];
-            let choices =
-                Choices { once: [&first[..], &run.steps[..]].concat(), again: run.round().to_vec() };
-            looked.broken = Some((choices, found));
-            break;
+            let choices = found.run.choices_after(&[number, walls.into()]);
+            return (looked, Some((choices, found)));
         }
-        looked
+        (looked, None)
     }
 
     /// The first run that breaks something on one lattice.
@@ -98,21 +89,18 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         rule: &Rule,
         size: Size,
         demand: Option<Demand>,
-        (limits, looked): (Limits<'_>, &mut Findings<ROBOTS>),
+        (limits, looked): (Limits<'_>, &mut Findings<Demand>),
     ) -> Option<Counterexample<ROBOTS>> {
         let setting = self.setting(rule, size, demand)?;
-        let found = search(&setting, setting.starts(), limits);
-        looked.states += found.states;
-        looked.is_whole &= found.is_whole;
-        for situation in found.covered {
-            cover(&mut looked.covered, situation);
-        }
-        Some(Counterexample { setting, run: found.broken.into_iter().next()? })
+        let mut found = search(&setting, setting.starts(), limits);
+        let run = found.broken.drain(..).next();
+        looked.add(found);
+        Some(Counterexample { setting, run: run? })
     }
 
-    fn answer(&self, looked: Findings<ROBOTS>) -> Answer {
+    fn answer(&self, looked: &Findings<Demand>, broken: Broken<ROBOTS>) -> Answer {
         let is_covered = self.covers.iter().chain(&[END]).all(|situation| looked.covered.contains(situation));
-        let evidence = looked.broken.map(|(choices, found)| evidence(choices, &found));
+        let evidence = broken.map(|(choices, found)| evidence(choices, &found));
         Answer::new(evidence, looked.is_whole && is_covered, Method::<Rule>::shows(self), looked.states)
     }
 }
@@ -160,20 +148,18 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     }
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         if self.pass == Pass::Together && until == Until::Exhausted {
             let key = (self.family(rule), *rule);
-            let kept: Result<&(bool, u64, bool, Vec<&'static str>), MethodError> =
-                desk.memory.recall(key, |_| {
-                    let looked = self.look(rule, None, (until, limits));
-                    Ok((looked.broken.is_none(), looked.states, looked.is_whole, looked.covered))
-                });
-            if let (true, states, is_whole, covered) = kept?.clone() {
-                return Ok(self.answer(Findings { states, is_whole, covered, broken: None }));
+            let kept: Result<&(Findings<Demand>, Broken<ROBOTS>), MethodError> =
+                desk.memory.recall(key, |_| Ok(self.look(rule, None, (until, limits))));
+            if let (looked, None) = kept? {
+                return Ok(self.answer(looked, None));
             }
         }
-        Ok(self.answer(self.look(rule, Some(self.demand), (until, limits))))
+        let (looked, broken) = self.look(rule, Some(self.demand), (until, limits));
+        Ok(self.answer(&looked, broken))
     }
 
     fn systems(&self, rule: &Rule) -> Result<Systems, MethodError> {
@@ -197,7 +183,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     fn size(&self, rule: &Rule, choices: &Choices) -> Option<decide::Size> {
         let (_, Counterexample { setting, run }) = self.found(rule, choices).ok()?;
         let class = Class { area: setting.area, barriers: setting.max_walls.into(), robots: ROBOTS };
-        Some((class.to_string(), run.steps.len() + run.round().len()))
+        Some((class.to_string(), run.length()))
     }
 
     fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
@@ -225,10 +211,10 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     /// The shortest run in a class that breaks the demand; nothing where the lattice is too large.
     fn shortest(&self, rule: &Rule, class: Class) -> Searched<String> {
         let ((width, height), walls) = (class.size(), class.barriers as u8);
-        let mut looked = Findings { states: 0, is_whole: true, covered: Vec::new(), broken: None };
+        let mut looked = Findings::NONE;
         let desk = (Limits::NONE, &mut looked);
         let found = self.search(rule, (width, height, walls), Some(self.demand), desk);
-        let shortest = found.map(|found| (found.run.steps.len() + found.run.round().len(), found.story()));
+        let shortest = found.map(|found| (found.run.length(), found.story()));
         Searched { cases: looked.states, is_whole: looked.is_whole, shortest }
     }
 

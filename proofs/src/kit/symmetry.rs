@@ -1,8 +1,6 @@
 //! Images of a lattice: turned, in a mirror, and with other numbers on two robots. A rule does alike in all of them
 //! (`two_robots_do_alike_in_every_image`), so that of all images of a team one is searched.
 
-use std::cell::Cell as Counter;
-
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Condition, Robot, Runs, Stance};
@@ -110,7 +108,6 @@ pub struct SymmetricLattice {
     images: Vec<Image>,
     /// In which orders the robots may be numbered.
     orders: &'static [[usize; 2]],
-    drives: Counter<u64>,
 }
 
 impl SymmetricLattice {
@@ -121,12 +118,7 @@ impl SymmetricLattice {
         let are_alike = setting.rule.has(Condition::Turn) && setting.rule.has(Condition::Apart);
         let orders: &[[usize; 2]] = if are_alike { &[[0, 1], [1, 0]] } else { &[[0, 1]] };
         let (edges, images) = (area.edges().collect(), Image::all(area));
-        Self { setting, edges, images, orders, drives: Counter::new(0) }
-    }
-
-    /// How many drives were looked at so far.
-    pub const fn drives(&self) -> u64 {
-        self.drives.get()
+        Self { setting, edges, images, orders }
     }
 
     /// The image of a map.
@@ -194,7 +186,7 @@ impl SymmetricLattice {
 impl world::World for SymmetricLattice {
     type State = World<2>;
     type Plan = Vec<Successor<2>>;
-    type Event = Successor<2>;
+    type Event = usize;
     type Demand = Demand;
 
     fn plan(&self, state: &mut World<2>, log: &[u8]) -> Option<Vec<Successor<2>>> {
@@ -207,15 +199,12 @@ impl world::World for SymmetricLattice {
         turns: &Vec<Successor<2>>,
         log: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Successor<2> {
-        let turned = self.setting.settle(state, turns, log, world);
-        let is_drive = matches!(turned.situation, "a new path" | "an old path");
-        self.drives.set(self.drives.get() + u64::from(is_drive));
-        turned
+    ) -> usize {
+        self.setting.settle(state, turns, log, world)
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
-        turn.event.breaks.clone()
+        turn.plan[*turn.event].breaks.clone()
     }
 
     fn broken_at_end(&self, state: &World<2>, log: &[u8]) -> Vec<Demand> {
@@ -227,7 +216,7 @@ impl world::World for SymmetricLattice {
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        world::bit(&SITUATIONS, turn.event.situation)
+        world::bit(&SITUATIONS, turn.plan[*turn.event].situation)
     }
 }
 
@@ -274,7 +263,7 @@ impl System for SymmetricLattice {
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
-        1 << turn.event.robot
+        1 << turn.plan[*turn.event].robot
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {
@@ -300,8 +289,8 @@ mod tests {
 
     use super::super::world::Starts;
     use super::*;
-    use crate::engine::SeededOracle;
     use crate::engine::states::{Findings, Limits, search};
+    use crate::engine::{SeededOracle, Tape};
 
     /// The events that can happen next, and where they lead, as it looks in this image.
     type Nexts = HashSet<(&'static str, Vec<&'static str>, World<2>)>;
@@ -342,23 +331,14 @@ mod tests {
         })
     }
 
-    /// Answers 0.
-    struct First;
-
-    impl Oracle for First {
-        fn pick(&mut self, _: u32) -> u32 {
-            0
-        }
-    }
-
     #[test]
     fn an_image_has_its_drives_and_walls_where_they_are_taken() {
         let setting = Setting::new(Rule::REPAIRED, (3, 3)).expect("a lattice");
         let lattice = SymmetricLattice::new(setting);
         let mut team = setting.start([Cell::new(0, 0), Cell::new(2, 0)]).expect("a start").team;
-        assert_eq!(team.decide(0, &mut First), Ok(Next::Looks(Side::East)));
-        assert_eq!(team.looked(0, Sight::Obstacle, &mut First), Ok(Next::Looks(Side::South)));
-        assert_eq!(team.looked(0, Sight::Free, &mut First), Ok(Next::Drives(Cell::new(0, 1))));
+        assert_eq!(team.decide(0, &mut Tape(&[])), Ok(Next::Looks(Side::East)));
+        assert_eq!(team.looked(0, Sight::Obstacle, &mut Tape(&[])), Ok(Next::Looks(Side::South)));
+        assert_eq!(team.looked(0, Sight::Free, &mut Tape(&[])), Ok(Next::Drives(Cell::new(0, 1))));
         let turned = |flips| {
             let is_turned = |image: &&Image| image.transposes && image.flips == flips;
             lattice.images.iter().find(is_turned).expect("a square")
@@ -473,11 +453,10 @@ mod tests {
         let lattice = SymmetricLattice::new(setting);
         let found = search(&lattice, setting.starts(), Limits::NONE);
         println!(
-            "{columns}×{rows}, at most {} walls, {speeds:?}: {} states, {} steps, {} drives, {} MiB, {:.0} s",
+            "{columns}×{rows}, at most {} walls, {speeds:?}: {} states, {} steps, {} MiB, {:.0} s",
             setting.max_walls,
             found.states,
             found.steps,
-            lattice.drives(),
             found.bytes >> 20,
             begun.elapsed().as_secs_f64()
         );

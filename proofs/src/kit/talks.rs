@@ -8,7 +8,7 @@ use tautline_kernel::kit::{Condition, Letter, Message, NUMBERS, Outbox, Phase, R
 
 use crate::engine::Choices;
 use crate::engine::states::{Bits, System, steps};
-use crate::engine::world::{Turn, World, any_of, bit, picked};
+use crate::engine::world::{Turn, World, any_of, bit};
 use crate::judge::AnyCase;
 use crate::judge::kit::{Act, Said, Talk as Written, Word};
 
@@ -231,7 +231,6 @@ impl Talks {
 }
 
 /// A step, with what happens in it.
-#[derive(Clone)]
 pub(super) struct Successor {
     state: State,
     /// Who acts; nobody in a fault.
@@ -253,7 +252,7 @@ const SITUATIONS: [&str; 7] =
 impl World for Talks {
     type State = State;
     type Plan = Vec<Successor>;
-    type Event = Successor;
+    type Event = usize;
     type Demand = &'static str;
 
     fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Successor>> {
@@ -268,14 +267,14 @@ impl World for Talks {
         turns: &Vec<Successor>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Successor {
-        let turned = picked(turns, world);
-        state.clone_from(&turned.state);
-        turned
+    ) -> usize {
+        let number = world.pick(turns.len() as u32) as usize;
+        state.clone_from(&turns[number].state);
+        number
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
-        turn.event.breaks.into_iter().collect()
+        turn.plan[*turn.event].breaks.into_iter().collect()
     }
 
     fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<&'static str> {
@@ -287,7 +286,7 @@ impl World for Talks {
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        bit(&SITUATIONS, turn.event.situation)
+        bit(&SITUATIONS, turn.plan[*turn.event].situation)
     }
 }
 
@@ -303,12 +302,12 @@ impl System for Talks {
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
-        turn.event.acting
+        turn.plan[*turn.event].acting
     }
 
     /// Whatever becomes of a message by a fault has nobody who acts.
     fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
-        turn.event.acting != 0
+        turn.plan[*turn.event].acting != 0
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

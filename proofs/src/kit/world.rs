@@ -310,7 +310,7 @@ pub(super) const SITUATIONS: [&str; 5] = ["a new path", "a stay", "an arrival", 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
     type Plan = Vec<Successor<ROBOTS>>;
-    type Event = Successor<ROBOTS>;
+    type Event = usize;
     type Demand = Demand;
 
     fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Successor<ROBOTS>>> {
@@ -323,14 +323,14 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
         turns: &Vec<Successor<ROBOTS>>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Successor<ROBOTS> {
-        let turned = world::picked(turns, world);
-        *state = turned.world;
-        turned
+    ) -> usize {
+        let number = world.pick(turns.len() as u32) as usize;
+        *state = turns[number].world;
+        number
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
-        turn.event.breaks.clone()
+        turn.plan[*turn.event].breaks.clone()
     }
 
     fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
@@ -342,7 +342,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        world::bit(&SITUATIONS, turn.event.situation)
+        world::bit(&SITUATIONS, turn.plan[*turn.event].situation)
     }
 }
 
@@ -384,7 +384,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
-        1 << turn.event.robot
+        1 << turn.plan[*turn.event].robot
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {

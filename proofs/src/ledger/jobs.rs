@@ -16,7 +16,7 @@ use rayon::Yield;
 
 use super::{Row, checks};
 use crate::clause::{Clause, Decision, Variant};
-use crate::decide::{Answer, Cache, Context, MethodError};
+use crate::decide::{Answer, Cache, Context, Decided, MethodError};
 use crate::engine::Until;
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Progress;
@@ -177,9 +177,9 @@ impl SharedState {
                 let words = question.words(&self.checks);
                 let mut desk = Context { memory, watch, room: self.limits.room.asked(&words) };
                 match job.answer(question, &self.checks, &mut desk) {
-                    Ok(came) => {
-                        let seconds = task.spent().as_secs_f64();
-                        let done = Completion { question, seconds, came, undecided: None };
+                    Ok(answer) => {
+                        let (variant, seconds) = (question.variant(&self.checks), task.spent().as_secs_f64());
+                        let done = Completion { question, variant, seconds, answer, undecided: None };
                         send(ThreadNews::Done(Box::new(done)));
                     }
                     Err(refused) => return send(ThreadNews::Refused(refused)),
@@ -248,17 +248,14 @@ impl Collector<'_> {
             let mut is_unended = unended.contains(&number);
             for &question in job.questions.iter().filter(|question| !is_answered(question)) {
                 let variant = question.variant(&self.shared.checks);
-                let came = match variant {
-                    None => Reply::Own(Answer::open()),
-                    Some(variant) => Reply::Variant(variant, Answer::open()),
-                };
                 let undecided = if is_unended {
                     Indecision::Unended { variant, seconds: self.shared.limits.patience_s }
                 } else {
                     Indecision::Behind
                 };
                 is_unended = false;
-                missing.push(Completion { question, seconds: 0.0, came, undecided: Some(undecided) });
+                let (answer, undecided) = (Answer::open(), Some(undecided));
+                missing.push(Completion { question, variant, seconds: 0.0, answer, undecided });
             }
         }
         missing
@@ -269,20 +266,20 @@ impl Collector<'_> {
         done.extend(self.missing(&done, unended));
         done.sort_by_key(|done| done.question);
         let mut rows: Vec<Row> = Vec::new();
-        for Completion { question: Question { place, .. }, seconds, came, undecided } in done {
+        for Completion { question: Question { place, .. }, variant, seconds, answer, undecided } in done {
             let (clause, number) = self.shared.checks[place];
-            match (came, rows.last_mut()) {
-                (Reply::Own(answer), _) => {
+            match (variant, rows.last_mut()) {
+                (None, _) => {
                     let (check, decision) = (clause.checks[number], Decision::of(answer));
                     rows.push(Row { clause, number, check, decision, undecided, seconds });
                 }
-                (Reply::Variant(variant, answer), Some(row)) => {
+                (Some(variant), Some(row)) => {
                     row.decision.add(variant, answer);
                     row.undecided = [row.undecided, undecided].into_iter().flatten().min();
                     row.seconds += seconds;
                 }
                 // A check comes before its variants.
-                (Reply::Variant(..), None) => {}
+                (Some(_), None) => {}
             }
         }
         rows
@@ -341,15 +338,11 @@ impl Question {
 /// A question that is answered, or given up.
 struct Completion {
     question: Question,
+    /// The variant that it is about, if it is about one.
+    variant: Option<Variant>,
     seconds: f64,
-    came: Reply,
+    answer: Answer,
     undecided: Option<Indecision>,
-}
-
-/// The answer to a question.
-enum Reply {
-    Own(Answer),
-    Variant(Variant, Answer),
 }
 
 /// The checks, those with most others in their family first, as these may take longest, each family with the variants
@@ -404,14 +397,12 @@ impl Job {
         question: Question,
         checks: &[(&'static Clause, usize)],
         desk: &mut Context<'_, '_>,
-    ) -> Result<Reply, MethodError> {
+    ) -> Decided {
         let (clause, number) = checks[question.place];
         let check = clause.checks[number];
-        Ok(match (question.variant, question.variant(checks)) {
-            (Some(number), Some(variant)) => {
-                Reply::Variant(variant, check.decide_variant(number, self.until, desk)?)
-            }
-            _ => Reply::Own(check.decide_own(desk)?),
-        })
+        match question.variant {
+            Some(variant) => check.decide_variant(variant, self.until, desk),
+            None => check.decide_own(desk),
+        }
     }
 }

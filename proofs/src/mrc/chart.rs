@@ -5,8 +5,9 @@ use std::fmt::Write;
 
 use tautline_kernel::mrc::{Phase, Task, Upward, WfrTimer, Word};
 
-use super::space::{Ending, Refutation};
+use super::space::Refutation;
 use super::state::{Action, Actor, Message, Setting, State, place};
+use crate::engine::states::Ending;
 use crate::plural::counted;
 
 /// Columns of text between two lifelines.
@@ -23,7 +24,7 @@ enum Reach {
 
 /// Draws a run that breaks a demand.
 pub fn chart(setting: &Setting, broken: &Refutation) -> String {
-    let mut state = setting.starts().swap_remove(broken.start);
+    let mut state = setting.starts().swap_remove(broken.run.start);
     let actors: Vec<Actor> =
         (0..setting.wfrs).map(Actor::Wfr).chain((0..setting.robots).map(Actor::Robot)).collect();
     let mut lines = vec![hops(setting, &state), String::new(), heads(&actors)];
@@ -35,22 +36,21 @@ pub fn chart(setting: &Setting, broken: &Refutation) -> String {
     for &action in &broken.actions {
         play(&mut state, action);
     }
-    let round: &[Action] = if let Ending::Round(round) = &broken.ending { round } else { &[] };
     let first = state.clone();
-    for &action in round {
+    for &action in &broken.round {
         play(&mut state, action);
     }
     lines.push(String::new());
-    if !first.network().is_empty() && round.is_empty() {
+    if !first.network().is_empty() && broken.round.is_empty() {
         let under_way: Vec<String> = first.network().iter().map(|&message| sentence(message)).collect();
         lines.push(format!("still on the way: {}", under_way.join(", ")));
     }
-    let how = match &broken.ending {
+    let how = match &broken.run.ending {
         Ending::There => String::new(),
         Ending::Still => "nothing more is bound to happen: ".to_owned(),
         Ending::Round(round) => format!("the last {} can go on for ever: ", counted(round.len(), "event")),
     };
-    lines.push(format!("{how}{}", broken.demand.broken()));
+    lines.push(format!("{how}{}", broken.run.demand.broken()));
     lines.join("\n") + "\n"
 }
 

@@ -11,60 +11,60 @@ use super::{Demand, Faults, Leases, LossKind, Misreading, Served, Setting, Subje
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
-use crate::decide::{EveryAnswer, Verdict};
+use crate::decide::EveryAnswer;
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::rescuing(Rule::PUBLISHED));
 const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::rescuing(Rule::REPAIRED));
 
-const RECORDS: Check<Subject> = Check::new(
+const RECORDS: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer { body: records::records, range: records::notices, covers: &["one call", "several calls"] },
-    Verdict::Holds,
-    &[NamedRule::new("no epoch", NO_EPOCH)],
+    &[NO_EPOCH],
 );
 
-const SERVED: Check<Subject> = Check::new(
+const SERVED: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer {
         body: records::served,
         range: records::answers,
         covers: &["asked in vain", "no SBit", "told of a choice"],
     },
-    Verdict::Holds,
-    &[NamedRule::new("no epoch", NO_EPOCH)],
+    &[NO_EPOCH],
 );
 
-const WAYS_BACK: Check<Subject> = Check::new(
+const WAYS_BACK: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer {
         body: records::ways_back,
         range: records::messages,
         covers: &["a way back", "no way back"],
     },
-    Verdict::Holds,
     &[
         NamedRule::new("all robots are one", Subject::misreading(Misreading::OneRobot)),
         NamedRule::new("all calls are one", Subject::misreading(Misreading::OneCall)),
     ],
 );
 
-const REPEATED: Check<Subject> = Check::new(
+const REPEATED: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer { body: records::repeated, range: records::repeats, covers: &["a WFR", "a robot"] },
-    Verdict::Holds,
-    &[NamedRule::new("no repetition", Subject::rescuing(Rule::REPAIRED.without(Repetition)))],
+    &[lacking("no repetition", Repetition)],
 );
 
-const FILLED: Check<Subject> = Check::new(
+const FILLED: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer {
         body: records::filled,
         range: records::fillings,
         covers: &["nobody gives way", "one gives way", "room for all"],
     },
-    Verdict::Holds,
-    &[NamedRule::new("whoever is chosen goes", Subject::rescuing(Rule::REPAIRED.without(StillAsks)))],
+    &[lacking("whoever is chosen goes", StillAsks)],
 );
+
+/// The repaired rule without this.
+const fn lacking(name: &'static str, condition: Condition) -> NamedRule<Subject> {
+    NamedRule::new(name, Subject::rescuing(Rule::REPAIRED.without(condition)))
+}
 
 /// The reading with these conditions, under which a choice stands.
 const fn chosen(conditions: &[Condition]) -> Subject {
@@ -145,10 +145,10 @@ const HOLDS_IN_A_WINDOW: &[Reading<Subject>] = &holding(READINGS, [5, 6, 7, 8]);
 /// A WFR that is asked again by the robot that it has not chosen may have called anew since, and answers for that call.
 const HOLDS_ANSWERED_IN_A_WINDOW: &[Reading<Subject>] = &holding(READINGS, [7]);
 
-const REDECIDE: Subject = Subject::rescuing(Rule::REPAIRED.without(ChoiceStands));
+const REDECIDE: NamedRule<Subject> = lacking("redecide on a late MOVE", ChoiceStands);
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
-const NO_EPOCH: Subject = Subject::rescuing(Rule::REPAIRED.without(Epochs));
-const NO_CONSENT: Subject = Subject::rescuing(Rule::REPAIRED.without(Consent));
+const NO_EPOCH: NamedRule<Subject> = lacking("no epoch", Epochs);
+const NO_CONSENT: NamedRule<Subject> = lacking("no consent", Consent);
 
 /// The settings of a rescue.
 const TWO: Setting = Setting {
@@ -176,131 +176,98 @@ pub static CLAUSES: [Clause; 14] = [
         id: "MRC-1",
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE))
                 .under(HOLDS_IF_IT_STANDS)
                 .of(&PAPER),
-            &Check::new(
-                REPAIRED,
-                &Within(Demand::OneRobotForACall, TWO),
-                Verdict::Holds,
-                &[NamedRule::new("redecide on a late MOVE", REDECIDE)],
-            ),
-            &Check::new(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::OneRobotForACall, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO), &[REDECIDE]),
+            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-2",
         sentence: "Two WFRs MUST never count on the same robot.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO))
                 .under(HOLDS_IN_A_WINDOW)
                 .of(&PAPER),
-            &Check::new(
-                REPAIRED,
-                &Within(Demand::OneCallForARobot, TWO),
-                Verdict::Holds,
-                &[NamedRule::new("no consent", NO_CONSENT)],
-            ),
-            &Check::new(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO), &[NO_CONSENT]),
+            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-3",
         sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE))
                 .under(REFUTED)
                 .of(&PAPER),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &Within(Demand::BestOfTheWindow, TWO),
-                Verdict::Holds,
                 &[
-                    NamedRule::new("no collection window", Subject::rescuing(Rule::REPAIRED.without(Window))),
-                    NamedRule::new("redecide on a late MOVE", REDECIDE),
-                    NamedRule::new(
-                        "the least MID, however far",
-                        Subject::rescuing(Rule::REPAIRED.without(NearestRobot)),
-                    ),
+                    lacking("no collection window", Window),
+                    REDECIDE,
+                    lacking("the least MID, however far", NearestRobot),
                     NamedRule::new("of equal MHC the first heard", FIRST_OF_EQUALS),
                     NamedRule::new(
                         "the first MOVE heard",
                         Subject::rescuing(Rule::REPAIRED.without(NearestRobot).without(LeastIdentity)),
                     ),
-                    NamedRule::new("no epoch", NO_EPOCH),
+                    NO_EPOCH,
                 ],
             ),
-            &Check::new(REPAIRED, &Within(Demand::BestOfTheWindow, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::BestOfTheWindow, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::BestOfTheWindow, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::BestOfTheWindow, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-4",
         sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::CountsOnConsent, TWO_AND_ONE), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::CountsOnConsent, TWO_AND_ONE))
                 .under(REFUTED)
                 .of(&PAPER),
-            &Check::new(
-                REPAIRED,
-                &Within(Demand::CountsOnConsent, TWO),
-                Verdict::Holds,
-                &[NamedRule::new("no consent", NO_CONSENT)],
-            ),
-            &Check::new(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO), &[NO_CONSENT]),
+            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-5",
         sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE))
                 .under(&holding(CHOICES, []))
                 .of(&PAPER),
-            &Check::new(PUBLISHED, &Within(Demand::IsServed, ALONE), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(
+            &Check::refuted(PUBLISHED, &Within(Demand::IsServed, ALONE)).under(REFUTED).of(&PAPER),
+            &Check::holds(
                 REPAIRED,
                 &Within(Demand::IsServed, TWO_AND_ONE),
-                Verdict::Holds,
-                &[
-                    NamedRule::new("no renewal", Subject::rescuing(Rule::REPAIRED.without(Renewal))),
-                    NamedRule::new("no epoch", NO_EPOCH),
-                ],
+                &[lacking("no renewal", Renewal), NO_EPOCH],
             ),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &Within(Demand::IsServed, ONE_AND_TWO),
-                Verdict::Holds,
                 &[NamedRule::new(
                     "late MOVEs unanswered",
                     Subject::rescuing(Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
                 )],
             ),
-            &Check::new(REPAIRED, &Within(Demand::IsServed, TWO), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::IsServed, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::IsServed, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-6",
         sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE), Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(
-                REPAIRED,
-                &Within(Demand::AsksAnew, TWO),
-                Verdict::Holds,
-                &[NamedRule::new("no epoch", NO_EPOCH)],
-            ),
-            &Check::new(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::refuted(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE)).under(REFUTED).of(&PAPER),
+            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO), &[NO_EPOCH]),
+            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
@@ -308,10 +275,9 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear, until it is \
                    set.",
         checks: &[
-            &Check::new(
+            &Check::holds(
                 PUBLISHED,
                 &Within(Demand::AsksNearest, ONE_AND_THREE),
-                Verdict::Holds,
                 &[
                     NamedRule::new(
                         "the least SN, however far",
@@ -323,15 +289,11 @@ pub static CLAUSES: [Clause; 14] = [
                     ),
                 ],
             ),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &Within(Demand::AsksNearest, TWO),
-                Verdict::Holds,
                 &[
-                    NamedRule::new(
-                        "the least SN, however far",
-                        Subject::rescuing(Rule::REPAIRED.without(NearestCall)),
-                    ),
+                    lacking("the least SN, however far", NearestCall),
                     NamedRule::new("of equal HC the first heard", FIRST_OF_EQUALS),
                     NamedRule::new(
                         "the first call heard",
@@ -339,8 +301,8 @@ pub static CLAUSES: [Clause; 14] = [
                     ),
                 ],
             ),
-            &Check::new(REPAIRED, &Within(Demand::AsksNearest, ONE_AND_THREE), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::AsksNearest, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::AsksNearest, ONE_AND_THREE), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::AsksNearest, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
@@ -348,53 +310,39 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot MUST take the lease of a call only when it is told, while it asks for that call, that it is \
                    chosen.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE))
                 .under(REFUTED)
                 .of(&PAPER),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &Within(Demand::TakesWhatItAsksFor, TWO),
-                Verdict::Holds,
-                &[
-                    NamedRule::new(
-                        "it no longer asks, and accepts",
-                        Subject::rescuing(Rule::REPAIRED.without(StillAsks)),
-                    ),
-                    NamedRule::new("no consent", NO_CONSENT),
-                ],
+                &[lacking("it no longer asks, and accepts", StillAsks), NO_CONSENT],
             ),
-            &Check::new(REPAIRED, &Within(Demand::TakesWhatItAsksFor, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::TakesWhatItAsksFor, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::TakesWhatItAsksFor, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::TakesWhatItAsksFor, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-9",
         sentence: "A WFR MUST tell its choice to every robot whose MOVE of its call it has received, and to no other.",
         checks: &[
-            &Check::new(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE))
                 .under(HOLDS_ANSWERED_IN_A_WINDOW)
                 .of(&PAPER),
-            &Check::new(
+            &Check::holds(
                 REPAIRED,
                 &Within(Demand::TellsWhoAsked, TWO),
-                Verdict::Holds,
-                &[NamedRule::new(
-                    "late MOVEs unanswered",
-                    Subject::rescuing(Rule::REPAIRED.without(AnswersAgain)),
-                )],
+                &[lacking("late MOVEs unanswered", AnswersAgain)],
             ),
-            &Check::new(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &Within(Demand::TellsWhoAsked, THREE_AND_TWO), Verdict::Holds, &[]),
+            &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
         id: "MRC-10",
         sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest under \
                    it and the first node that told it so, and bid by that record.",
-        checks: &[
-            &Check::new(PUBLISHED, RECORDS.method, Verdict::Refuted, &[]).judged(records::recorded),
-            &RECORDS,
-        ],
+        checks: &[&Check::refuted(PUBLISHED, RECORDS.method).judged(records::recorded), &RECORDS],
     },
     Clause {
         id: "MRC-11",

@@ -9,7 +9,7 @@ use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State,
 use crate::engine::model::Started;
 use crate::engine::states::{self, AnySystem, Bits, Limits, Places, Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
-use crate::engine::{Choices, Script, ScriptError};
+use crate::engine::{Script, ScriptError};
 
 /// When to stop.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -20,28 +20,15 @@ pub enum Until {
     Broken(Demand),
 }
 
-/// How a run breaks a demand.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Ending {
-    /// Its last state does.
-    There,
-    /// Nothing more is bound to happen.
-    Still,
-    /// These actions lead from its last state back to it.
-    Round(Vec<Action>),
-}
-
 /// The shortest run that breaks a demand.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Refutation {
-    /// Which.
-    pub demand: Demand,
-    /// Which of [`Setting::starts`] it starts from.
-    pub start: usize,
-    /// The actions.
+    /// The run, from one of [`Setting::starts`].
+    pub run: Run<Demand>,
+    /// Its actions.
     pub actions: Vec<Action>,
-    /// How it ends.
-    pub ending: Ending,
+    /// Those that come again for ever, if some do.
+    pub round: Vec<Action>,
 }
 
 /// The findings in the states.
@@ -62,7 +49,7 @@ pub struct Findings {
 impl Findings {
     /// The shortest run that breaks `demand`.
     pub fn broken(&self, demand: Demand) -> Option<&Refutation> {
-        self.broken.iter().find(|broken| broken.demand == demand)
+        self.broken.iter().find(|broken| broken.run.demand == demand)
     }
 }
 
@@ -71,7 +58,7 @@ pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Findings {
     let space = Space { setting: *setting, until };
     let found = states::search(&space, setting.starts(), limits);
     let mut broken: Vec<Refutation> = found.broken.into_iter().map(|run| space.broken(run)).collect();
-    broken.sort_by_key(|broken| broken.demand);
+    broken.sort_by_key(|broken| broken.run.demand);
     Findings {
         states: found.states,
         steps: found.steps,
@@ -100,27 +87,6 @@ pub(crate) fn replay(
     let start = (number, starts.swap_remove(number));
     let (of, run) = script.play(&space, start, |&broken| broken == demand)?;
     Ok((of, space.broken(run)))
-}
-
-impl Refutation {
-    /// The choices that make this run in `setting`.
-    pub fn choices(&self, setting: &Setting) -> Choices {
-        let mut state = setting.start(self.start as u32);
-        let mut numbers = |actions: &[Action]| -> Vec<u32> {
-            let number = |&action: &Action| {
-                let number = state.actions(setting).iter().position(|&other| other == action)?;
-                state = state.after(setting, action);
-                Some(number as u32)
-            };
-            actions.iter().map_while(number).collect()
-        };
-        let once = [&[self.start as u32], &numbers(&self.actions)[..]].concat();
-        let again = match &self.ending {
-            Ending::There | Ending::Still => Vec::new(),
-            Ending::Round(round) => numbers(round),
-        };
-        Choices { once, again }
-    }
 }
 
 /// The states of a setting.
@@ -190,21 +156,16 @@ impl Space {
     /// The violation in a run.
     fn broken(&self, run: Run<Demand>) -> Refutation {
         let mut state = self.setting.start(run.start as u32);
-        let mut played = |numbers: Vec<u32>| -> Vec<Action> {
-            let play = |number: u32| {
+        let mut played = |numbers: &[u32]| -> Vec<Action> {
+            let play = |&number: &u32| {
                 let action = *state.actions(&self.setting).get(number as usize)?;
                 state = state.after(&self.setting, action);
                 Some(action)
             };
-            numbers.into_iter().map_while(play).collect()
+            numbers.iter().map_while(play).collect()
         };
-        let actions = played(run.steps);
-        let ending = match run.ending {
-            states::Ending::There => Ending::There,
-            states::Ending::Still => Ending::Still,
-            states::Ending::Round(round) => Ending::Round(played(round)),
-        };
-        Refutation { demand: run.demand, start: run.start, actions, ending }
+        let (actions, round) = (played(&run.steps), played(run.round()));
+        Refutation { run, actions, round }
     }
 }
 

@@ -5,11 +5,11 @@ use std::fmt;
 use tautline_kernel::mrc::{Rule, Upward, Word};
 
 use super::chart::chart;
-use super::space::{self, Ending, Refutation};
+use super::space::{self, Refutation};
 use super::state::{Action, Message, place};
 use super::{Demand, Faults, Served, Setting, Subject};
 use crate::decide::{
-    Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+    Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
 };
 use crate::engine::smallest::{Certificate, Searched};
 use crate::engine::states::Limits;
@@ -30,7 +30,7 @@ impl Within {
 
     fn evidence(setting: &Setting, broken: &Refutation) -> Evidence {
         let seen = Depiction::Messages { events: broken.actions.len(), chart: chart(setting, broken) };
-        Evidence { choices: broken.choices(setting), demand: broken.demand.broken(), seen }
+        Evidence { choices: broken.run.choices(), demand: broken.run.demand.broken(), seen }
     }
 }
 
@@ -47,12 +47,7 @@ impl Method<Subject> for Within {
         Some(format!("{:?}", self.setting(observed)))
     }
 
-    fn decide(
-        &self,
-        observed: &Subject,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide(&self, observed: &Subject, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let (demand, setting) = (self.0, self.setting(observed));
         let until = match until {
             Until::Exhausted => space::Until::Exhausted,
@@ -86,7 +81,7 @@ impl Method<Subject> for Within {
     fn size(&self, observed: &Subject, choices: &Choices) -> Option<Size> {
         let setting = self.setting(observed);
         let (_, broken) = space::replay(&setting, self.0, Script::new(choices)).ok()?;
-        Some((Counts::of(&setting).to_string(), length(&broken)))
+        Some((Counts::of(&setting).to_string(), broken.run.length()))
     }
 
     /// Fewest WFRs first, then faults, robots, hops and events.
@@ -98,20 +93,11 @@ impl Method<Subject> for Within {
                 Setting { wfrs, faults, robots, max_hops: max_hops as u16, events: events as u8, ..most };
             let found = space::search(&setting, space::Until::Broken(demand), Limits::NONE);
             let broken = found.broken(demand);
-            let shortest = broken.map(|broken| (length(broken), chart(&setting, broken)));
+            let shortest = broken.map(|broken| (broken.run.length(), chart(&setting, broken)));
             Ok::<_, MethodError>(Searched { cases: found.states, is_whole: found.complete, shortest })
         };
         Ok(Some(Certificate::in_order(Counts::up_to(&most), search)?.drawn(|chart| chart)))
     }
-}
-
-/// The actions of a run, those that come again once.
-const fn length(broken: &Refutation) -> usize {
-    let again = match &broken.ending {
-        Ending::Round(round) => round.len(),
-        Ending::There | Ending::Still => 0,
-    };
-    broken.actions.len() + again
 }
 
 /// WFRs, faults, robots, hops and events.
@@ -151,14 +137,11 @@ impl fmt::Display for Counts {
 
 /// A run by the published rule, written down for the judge; `None` if more happens in it than the judge knows.
 fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
-    let Refutation { demand, start, ref actions, ref ending } = *broken;
-    if setting.rule != Rule::PUBLISHED
-        || setting.served != Served::ByAny
-        || matches!(ending, Ending::Round(_))
-    {
+    let Refutation { run, actions, round } = broken;
+    if setting.rule != Rule::PUBLISHED || setting.served != Served::ByAny || !round.is_empty() {
         return None;
     }
-    let mut state = setting.start(start as u32);
+    let mut state = setting.start(run.start as u32);
     let hops = |robot: usize| (0..setting.wfrs).map(|wfr| i32::from(state.hops(robot, wfr))).collect();
     let hops: Vec<Vec<i32>> = (0..setting.robots).map(hops).collect();
     let does = |what, wfr, robot| {
@@ -181,7 +164,7 @@ fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
     }
     let is_fault = |step: &&judge::Step| step.fate != judge::Fate::Arrives || step.what == judge::What::Fails;
     let faults = steps.iter().filter(is_fault).count();
-    Some(Box::new(judge::Run { clause: demand.clause(), hops, faults, steps }))
+    Some(Box::new(judge::Run { clause: run.demand.clause(), hops, faults, steps }))
 }
 
 /// The fate of a message, as the judge reads it.

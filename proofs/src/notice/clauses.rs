@@ -2,11 +2,12 @@
 
 use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 
+use super::spread::Demand;
 use super::{Counted, Subject, networks, random};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding, readings};
-use crate::decide::{RandomAnswers, Verdict};
+use crate::decide::{Body, RandomAnswers, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLISHED);
@@ -51,6 +52,11 @@ const FORGETFUL: [NamedRule<Subject>; 1] =
 const FINITE: [NamedRule<Subject>; 1] =
     [NamedRule::new("k = ∞ is taken for 1", Subject { takes_endless_for_one: true, ..Subject::REPAIRED })];
 
+/// Random networks in which this is tried.
+const fn at_random(body: Body<Subject>) -> RandomAnswers<Subject> {
+    RandomAnswers { body, runs: RUNS, range: random::random_networks, covers: &random::SPREADS }
+}
+
 step_checks! { Subject;
     second_event: random::second_event, REPAIRED, random::later_events,
         covers ["silent about the first", "through with the first", "unaware of the first", "waiting with the first"],
@@ -66,15 +72,10 @@ pub static CLAUSES: [Clause; 6] = [
         sentence: "At every moment the parent pointers MUST form a tree rooted at the source, each node one hop \
                    farther from it than its parent.",
         checks: &[
-            &Check::new(PUBLISHED, &networks::TREE, Verdict::Holds, &UNFROZEN),
+            &Check::holds(PUBLISHED, &networks::TREE, &UNFROZEN),
             &Check::new(
                 PUBLISHED,
-                &RandomAnswers {
-                    body: random::tree_at_random,
-                    runs: RUNS,
-                    range: random::random_networks,
-                    covers: &random::SPREADS,
-                },
+                &at_random(|subject, oracle| random::spread_at_random(subject, oracle, Demand::Tree)),
                 Verdict::Unrefuted,
                 &UNFROZEN,
             )
@@ -86,15 +87,10 @@ pub static CLAUSES: [Clause; 6] = [
         id: "NOTICE-2",
         sentence: "A node MUST forward an event at most once.",
         checks: &[
-            &Check::new(PUBLISHED, &networks::ONCE, Verdict::Holds, &FORGETFUL),
+            &Check::holds(PUBLISHED, &networks::ONCE, &FORGETFUL),
             &Check::new(
                 PUBLISHED,
-                &RandomAnswers {
-                    body: random::once_at_random,
-                    runs: RUNS,
-                    range: random::random_networks,
-                    covers: &random::SPREADS,
-                },
+                &at_random(|subject, oracle| random::spread_at_random(subject, oracle, Demand::Once)),
                 Verdict::Unrefuted,
                 &FORGETFUL,
             )
@@ -107,11 +103,11 @@ pub static CLAUSES: [Clause; 6] = [
         sentence: "With k = ∞ every node that links connect to the source MUST receive the event and forward it, as \
                    under flooding.",
         checks: &[
-            &Check::new(PUBLISHED, &networks::FLOOD, Verdict::Holds, &FINITE),
+            &Check::holds(PUBLISHED, &networks::FLOOD, &FINITE),
             &Check::new(
                 PUBLISHED,
                 &RandomAnswers {
-                    body: random::flood_at_random,
+                    body: |subject, oracle| random::spread_at_random(subject, oracle, Demand::Floods),
                     runs: RUNS,
                     range: random::random_floods,
                     covers: &["most nodes forward"],
@@ -126,7 +122,7 @@ pub static CLAUSES: [Clause; 6] = [
         sentence: "A node MUST take the first NOTICE of a newer event of a source as a first one, whatever it has \
                    made of the events before.",
         checks: &[
-            &Check::new(PUBLISHED, second_event::CHECK.method, Verdict::Refuted, &[]).judged(random::later),
+            &Check::refuted(PUBLISHED, second_event::CHECK.method).judged(random::later),
             &second_event::CHECK,
         ],
     },
@@ -134,13 +130,9 @@ pub static CLAUSES: [Clause; 6] = [
         id: "NOTICE-5",
         sentence: "Every node that links connect to the source MUST receive the event.",
         checks: &[
-            &Check::new(PUBLISHED, &networks::REACH_WITH_ONE, Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(PUBLISHED, &networks::REACH_WITH_TWO, Verdict::Refuted, &[])
-                .under(REFUTED)
-                .of(&PAPER),
-            &Check::new(PUBLISHED, &networks::REACH_WITH_ALL, Verdict::Holds, &FINITE),
+            &Check::refuted(PUBLISHED, &networks::REACH_WITH_ONE).under(REFUTED).of(&PAPER),
+            &Check::refuted(PUBLISHED, &networks::REACH_WITH_TWO).under(REFUTED).of(&PAPER),
+            &Check::holds(PUBLISHED, &networks::REACH_WITH_ALL, &FINITE),
         ],
     },
     Clause {
@@ -148,15 +140,12 @@ pub static CLAUSES: [Clause; 6] = [
         sentence: "Of the senders that a node has heard before it forwards or falls silent, its parent MUST be one with \
                    the least hop count, and of several the first heard.",
         checks: &[
-            &Check::new(PUBLISHED, &networks::NEAREST_PARENT, Verdict::Holds, &ANOTHER_PARENT),
+            &Check::holds(PUBLISHED, &networks::NEAREST_PARENT, &ANOTHER_PARENT),
             &Check::new(
                 PUBLISHED,
-                &RandomAnswers {
-                    body: random::nearest_parent_at_random,
-                    runs: RUNS,
-                    range: random::random_networks,
-                    covers: &random::SPREADS,
-                },
+                &at_random(|subject, oracle| {
+                    random::spread_at_random(subject, oracle, Demand::NearestParent)
+                }),
                 Verdict::Unrefuted,
                 &ANOTHER_PARENT,
             )

@@ -10,7 +10,7 @@ use super::shapes::shapes;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
 use super::{Counted, Subject};
 use crate::decide::{
-    Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+    Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
 };
 use crate::engine::model::Started;
 use crate::engine::smallest::{Certificate, Searched};
@@ -315,12 +315,7 @@ impl Method<Subject> for Networks {
 
     /// Demands of several clauses on the same networks are looked at in one pass. Each clause looks for its own
     /// violations.
-    fn decide(
-        &self,
-        observed: &Subject,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide(&self, observed: &Subject, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let kept = match until {
             Until::Violation => None,
             Until::Exhausted => {

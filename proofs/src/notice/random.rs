@@ -22,12 +22,12 @@ const NODES: RangeInclusive<usize> = SMALL + 1..=LARGE;
 /// Links of a random network, in percent of all pairs of nodes.
 const LINKS: RangeInclusive<u32> = 5..=44;
 
-/// The networks that [`tree_at_random`] and its like draw, in words.
+/// The networks that [`spread_at_random`] draws, in words.
 pub(super) fn random_networks() -> String {
     format!("{}, k = 1 … {} or ∞", random_nodes(), Count::MOST)
 }
 
-/// The networks that [`flood_at_random`] draws, in words.
+/// Those that it draws for flooding, in words.
 pub(super) fn random_floods() -> String {
     format!("{}, k = ∞", random_nodes())
 }
@@ -41,8 +41,11 @@ fn random_nodes() -> String {
 /// Events after which nothing more is left to chance, so that copies do not go on arriving for ever.
 const MOST_EVENTS: usize = 4_000;
 
-/// A random network, a random order and some k, the demand checked after every event.
-fn spread_at_random(observed: &Subject, oracle: &mut dyn Oracle, demand: Demand) -> Outcome {
+/// NOTICE-1 to NOTICE-3 and NOTICE-6: a random network, a random order and some k, the demand checked after every event.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn spread_at_random(observed: &Subject, oracle: &mut dyn Oracle, demand: Demand) -> Outcome {
     // k = ∞ is one of them, and for flooding the only one.
     let k = if demand == Demand::Floods { 0 } else { oracle.pick(u32::from(Count::MOST) + 1) };
     let rule = observed.farthest(Count::new(k as u8));
@@ -71,38 +74,6 @@ fn spread_at_random(observed: &Subject, oracle: &mut dyn Oracle, demand: Demand)
 
 /// The situations that the random runs cover.
 pub(super) const SPREADS: [&str; 2] = ["few nodes forward", "most nodes forward"];
-
-/// NOTICE-1: larger networks, at random.
-///
-/// # Errors
-/// [`Stop`] if the clause is broken.
-pub(super) fn tree_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    spread_at_random(observed, oracle, Demand::Tree)
-}
-
-/// NOTICE-2: the same.
-///
-/// # Errors
-/// [`Stop`] if the clause is broken.
-pub(super) fn once_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    spread_at_random(observed, oracle, Demand::Once)
-}
-
-/// NOTICE-6: the same.
-///
-/// # Errors
-/// [`Stop`] if the clause is broken.
-pub(super) fn nearest_parent_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    spread_at_random(observed, oracle, Demand::NearestParent)
-}
-
-/// NOTICE-3: the same with k = ∞.
-///
-/// # Errors
-/// [`Stop`] if the clause is broken.
-pub(super) fn flood_at_random(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    spread_at_random(observed, oracle, Demand::Floods)
-}
 
 /// The fates of the event before.
 const FATES: [&str; 4] =

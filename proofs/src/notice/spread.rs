@@ -4,12 +4,11 @@
 
 use core::num::NonZeroU32;
 
-use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Count, Node, Reaction, Rule, Stage, Surroundings};
 
 use super::Counted;
-use crate::engine::{Stop, require};
+use crate::engine::{Stop, Tape, require};
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -82,15 +81,6 @@ pub struct Spread<const NODES: usize> {
     pub(super) nearest: [Option<(usize, u16)>; NODES],
 }
 
-/// A source that is never asked for more than a wait, which plays no part.
-pub(super) struct AtOnce;
-
-impl Oracle for AtOnce {
-    fn pick(&mut self, _: u32) -> u32 {
-        0
-    }
-}
-
 /// Any distance will do.
 pub(super) const RANGE: NonZeroU32 = NonZeroU32::MIN;
 
@@ -106,7 +96,7 @@ pub(super) const fn notice(sender: usize) -> Notice {
 /// All waits are over as soon as they begin.
 pub(super) fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
     let heard = Reception { message: notice, distance_um: RANGE.get(), now_ns: 0 };
-    node.receive(rule, heard, Surroundings::none, &mut AtOnce)
+    node.receive(rule, heard, Surroundings::none, &mut Tape(&[]))
 }
 
 impl<const NODES: usize> Spread<NODES> {

@@ -10,7 +10,7 @@ use super::played::{Demand, SITUATIONS};
 use super::rays::{self, Rays};
 use super::readings::{PAPER, READINGS, Subject};
 use crate::clause::{Check, Clause, NamedRule, holding};
-use crate::decide::{EveryAnswer, Verdict};
+use crate::decide::EveryAnswer;
 use crate::local::EveryNumber;
 
 const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::of(Rule::PUBLISHED));
@@ -112,42 +112,30 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-1",
         sentence: "After every team move, links MUST join all robots of a pack: robots are linked if the whole cell of one is within R_c of the midpoint of the other's.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(NO_TIES, Demand::Connected), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &demand(NO_TIES, Demand::Connected))
                 .under(&holding(READINGS, []))
                 .of(&PAPER),
-            &Check::new(
-                REPAIRED,
-                &wholly(SMALLEST, Demand::Connected),
-                Verdict::Holds,
-                &[NO_CONNECT, NO_CORNERS],
-            ),
-            &Check::new(REPAIRED, &far(Demand::Connected), Verdict::Holds, &[NO_CONNECT, NO_CORNERS]),
-            &Check::new(
-                REPAIRED,
-                &wholly(OF_THREE, Demand::Connected),
-                Verdict::Holds,
-                &[NO_CONNECT, NO_CORNERS],
-            ),
+            &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Connected), &[NO_CONNECT, NO_CORNERS]),
+            &Check::holds(REPAIRED, &far(Demand::Connected), &[NO_CONNECT, NO_CORNERS]),
+            &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Connected), &[NO_CONNECT, NO_CORNERS]),
         ],
     },
     Clause {
         id: "PACK-2",
         sentence: "Two robots of a pack MUST never be in one cell.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Single), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
-            &Check::new(REPAIRED, &far(Demand::Single), Verdict::Holds, &[NO_SINGLE]),
-            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
-            &Check::new(
+            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Single), &[]),
+            &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Single), &[NO_SINGLE]),
+            &Check::holds(REPAIRED, &far(Demand::Single), &[NO_SINGLE]),
+            &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Single), &[NO_SINGLE]),
+            &Check::holds(
                 NamedRule::new("published", local::Single(Rule::PUBLISHED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[NamedRule::new(NO_SINGLE.name, local::Single(Rule::PUBLISHED.without(Single)))],
             ),
-            &Check::new(
+            &Check::holds(
                 NamedRule::new("repaired", local::Single(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
-                Verdict::Holds,
                 &[NamedRule::new(NO_SINGLE.name, local::Single(Rule::REPAIRED.without(Single)))],
             ),
         ],
@@ -156,30 +144,30 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-3",
         sentence: "When the run of a pack whose robots start side by side ends, every free cell that a robot can walk to MUST be explored.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Covers), Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &demand(OF_FEW, Demand::Covers))
                 .under(&holding(READINGS, []))
                 .of(&PAPER),
-            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
-            &Check::new(REPAIRED, &far(Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
-            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
+            &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Covers), &[NO_LEAD, NO_BACK]),
+            &Check::holds(REPAIRED, &far(Demand::Covers), &[NO_LEAD, NO_BACK]),
+            &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Covers), &[NO_LEAD, NO_BACK]),
         ],
     },
     Clause {
         id: "PACK-4",
         sentence: "Every run of a pack MUST end.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
-            &Check::new(REPAIRED, &far(Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
-            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
+            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Ends), &[]),
+            &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Ends), &[NO_DOUBLE]),
+            &Check::holds(REPAIRED, &far(Demand::Ends), &[NO_DOUBLE]),
+            &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Ends), &[NO_DOUBLE]),
         ],
     },
     Clause {
         id: "PACK-5",
         sentence: "When the run of a pack whose robots start anywhere, but linked, ends, every free cell that one of them can walk to MUST be explored.",
         checks: &[
-            &Check::new(REPAIRED, &demand(ANYWHERE_IN_THE_OPEN, Demand::Covers), Verdict::Holds, &[NO_LEAD]),
-            &Check::new(REPAIRED, &demand(ANYWHERE, Demand::Covers), Verdict::Refuted, &[])
+            &Check::holds(REPAIRED, &demand(ANYWHERE_IN_THE_OPEN, Demand::Covers), &[NO_LEAD]),
+            &Check::refuted(REPAIRED, &demand(ANYWHERE, Demand::Covers))
                 .because("no rule can: who is shut in holds the others"),
         ],
     },
@@ -187,19 +175,18 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-6",
         sentence: "A robot of a pack MUST always be in a free cell, and in a team move go one step at most.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Free), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Free), Verdict::Holds, &[NO_ANEW]),
-            &Check::new(REPAIRED, &far(Demand::Free), Verdict::Holds, &[NO_ANEW]),
-            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Free), Verdict::Holds, &[NO_ANEW]),
+            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Free), &[]),
+            &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Free), &[NO_ANEW]),
+            &Check::holds(REPAIRED, &far(Demand::Free), &[NO_ANEW]),
+            &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Free), &[NO_ANEW]),
         ],
     },
     Clause {
         id: "PACK-7",
         sentence: "A robot of a pack MUST see a cell within R_s if and only if a ray goes there.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             NamedRule::new("published", Rays::Stopped),
             &EveryAnswer { body: rays::sees, range: rays::views, covers: &rays::COVERS },
-            Verdict::Holds,
             &[
                 NamedRule::new("a ray passes between two obstacles", Rays::PassCorners),
                 NamedRule::new("one obstacle at a corner stops a ray", Rays::StopAtCorners),
@@ -211,11 +198,10 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-8",
         sentence: "A robot of a pack that goes its own way MUST choose a frontier cell whose metric gain no other cell that it may go to exceeds.",
         checks: &[
-            &Check::new(REPAIRED, &demand(OF_GAINS, Demand::Best), Verdict::Holds, &[NO_CORNERS]),
-            &Check::new(
+            &Check::holds(REPAIRED, &demand(OF_GAINS, Demand::Best), &[NO_CORNERS]),
+            &Check::holds(
                 REPAIRED,
                 &demand(Bounds { sight_cells: 2, ..OF_GAINS }, Demand::Best),
-                Verdict::Holds,
                 &[NO_CORNERS],
             ),
         ],
@@ -225,7 +211,7 @@ pub static CLAUSES: [Clause; 8] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::{Cache, Context, Method};
+    use crate::decide::{Cache, Context, Method, Verdict};
     use crate::engine::Until;
     use crate::engine::states::MemoryLimit;
     use crate::engine::tree::unwatched;

@@ -7,13 +7,14 @@ use super::gains::Gains;
 use super::played::{Demand, Floor, RunOutcome, play, story};
 use super::readings::{Subject, place};
 use crate::decide::{
-    self, Answer, Context, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
+    self, Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
 };
 use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, pack as judge};
 use crate::plural::counted;
+use crate::protocol::arrangements;
 
 /// Columns and rows.
 pub(super) type Size = (i16, i16);
@@ -101,14 +102,7 @@ impl Bounds {
             .filter(|(place, _)| obstacles >> place & 1 == 0)
             .map(|(_, cell)| cell)
             .collect();
-        let mut starts: Vec<Vec<Cell>> = vec![Vec::new()];
-        for _ in 0..self.robots {
-            let longer = starts.iter().flat_map(|before| {
-                let others = free.iter().filter(|cell| !before.contains(cell));
-                others.map(|&cell| before.iter().copied().chain([cell]).collect())
-            });
-            starts = longer.collect();
-        }
+        let mut starts = arrangements(&free, self.robots);
         starts.retain(|starts| self.starts == Starts::Linked || is_one(starts));
         starts
     }
@@ -276,12 +270,7 @@ impl Method<Subject> for Floors {
     }
 
     /// The choices are the numbers of the size, of the set of obstacles, and of the starts.
-    fn decide(
-        &self,
-        subject: &Subject,
-        until: Until,
-        desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    fn decide(&self, subject: &Subject, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let once;
         let found = match until {
             Until::Exhausted => {

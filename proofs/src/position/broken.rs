@@ -75,13 +75,3 @@ pub(super) fn lenient(ranges: &[Range], area: Option<Area>) -> Result<WayResult,
         ranges.iter().map(|range| Range { distance_m: range.distance_m.max(0.0), ..*range }).collect();
     metres(&ranges, area)
 }
-
-/// The rectangle is forgotten.
-pub(super) fn anywhere(ranges: &[Range], _: Option<Area>) -> Result<WayResult, Refusal> {
-    metres(ranges, None)
-}
-
-/// The rectangle is forgotten, in decibels.
-pub(super) fn any_level(ranges: &[Range], _: Option<Area>) -> Result<WayResult, Refusal> {
-    decibels(ranges, None)
-}

@@ -13,15 +13,18 @@ use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 
 const PUBLISHED: NamedRule<Way> = NamedRule::new("published", way::published);
+/// The three that are heard strongest.
+const STRONGEST: NamedRule<Way> =
+    NamedRule::new("published", |ranges, area| way::published(&way::strongest(ranges), area));
 const REPAIRED: NamedRule<Way> = NamedRule::new("repaired", way::repaired);
 const METRES: NamedRule<Way> = NamedRule::new("metres", way::metres);
 const DECIBELS: NamedRule<Way> = NamedRule::new("decibels", way::decibels);
 
 /// The readings of four anchors, of which three are taken.
 const OF_FOUR: [(&str, Way); 3] = [
-    ("renamed", way::renamed_strongest),
-    ("told best", way::published_best),
-    ("renamed + told best", way::renamed_best),
+    ("renamed", |ranges, area| way::renamed(&way::strongest(ranges), area)),
+    ("told best", |ranges, area| way::published(&way::best_told(ranges), area)),
+    ("renamed + told best", |ranges, area| way::renamed(&way::best_told(ranges), area)),
 ];
 
 static PAPER: Paper = Paper {
@@ -118,35 +121,31 @@ pub static CLAUSES: [Clause; 7] = [
         sentence: "From distances without error a way MUST return where the robot is, wherever anchors are that are not on one \
                    line.",
         checks: &[
-            &Check::new(
+            &Check::refuted(
                 PUBLISHED,
                 &EveryAnswer {
                     body: lattice::is_exact_of_three,
                     range: lattice::places_of_three,
                     covers: &["three anchors"],
                 },
-                Verdict::Refuted,
-                &[],
             )
             .under(&holding([("renamed", way::renamed as Way)], [0]))
             .of(&PAPER)
             .judged(lattice::exact),
-            &Check::new(
-                NamedRule::new("published", way::published_strongest as Way),
+            &Check::refuted(
+                STRONGEST,
                 &EveryAnswer {
                     body: lattice::is_exact_of_four,
                     range: lattice::places_of_four,
                     covers: &["four anchors"],
                 },
-                Verdict::Refuted,
-                &[],
             )
             .under(&holding(OF_FOUR, [2]))
             .of(&PAPER)
             .judged(lattice::exact_of_strongest),
-            &Check::new(REPAIRED, &EXACT, Verdict::Holds, &INEXACT),
-            &Check::new(METRES, &EXACT, Verdict::Holds, &INEXACT),
-            &Check::new(DECIBELS, &EXACT, Verdict::Holds, &INEXACT),
+            &Check::holds(REPAIRED, &EXACT, &INEXACT),
+            &Check::holds(METRES, &EXACT, &INEXACT),
+            &Check::holds(DECIBELS, &EXACT, &INEXACT),
         ],
     },
     Clause {
@@ -154,29 +153,23 @@ pub static CLAUSES: [Clause; 7] = [
         sentence: "Anchors at fewer than three places, and distances that are negative, infinite or no numbers, MUST be refused; \
                    anchors on one line never give one position beside it, and every coordinate is a number.",
         checks: &[
-            &Check::new(PUBLISHED, &REFUSES, Verdict::Holds, &CREDULOUS),
-            &Check::new(REPAIRED, &REFUSES, Verdict::Holds, &CREDULOUS),
-            &Check::new(METRES, &REFUSES, Verdict::Holds, &CREDULOUS),
-            &Check::new(DECIBELS, &REFUSES, Verdict::Holds, &CREDULOUS),
+            &Check::holds(PUBLISHED, &REFUSES, &CREDULOUS),
+            &Check::holds(REPAIRED, &REFUSES, &CREDULOUS),
+            &Check::holds(METRES, &REFUSES, &CREDULOUS),
+            &Check::holds(DECIBELS, &REFUSES, &CREDULOUS),
         ],
     },
     Clause {
         id: "POSITION-3",
         sentence: "Two positions that fit alike MUST both be told.",
         checks: &[
-            &Check::new(
-                METRES,
-                &MIRRORED,
-                Verdict::Holds,
-                &[NamedRule::new("the better one alone", broken::better_alone)],
-            ),
-            &Check::new(
+            &Check::holds(METRES, &MIRRORED, &[NamedRule::new("the better one alone", broken::better_alone)]),
+            &Check::holds(
                 DECIBELS,
                 &MIRRORED,
-                Verdict::Holds,
                 &[NamedRule::new("the better one alone", broken::better_level_alone)],
             ),
-            &Check::new(
+            &Check::refuted(
                 METRES,
                 &RandomAnswers {
                     body: minima::tells_second_minima,
@@ -184,8 +177,6 @@ pub static CLAUSES: [Clause; 7] = [
                     range: minima::random_anchors,
                     covers: &["one minimum", "two minima"],
                 },
-                Verdict::Refuted,
-                &[],
             )
             .because("with noise, rarely, the second is not told")
             .judged(minima::second),
@@ -195,21 +186,21 @@ pub static CLAUSES: [Clause; 7] = [
         id: "POSITION-4",
         sentence: "When anchors are moved, turned and mirrored, positions MUST be moved, turned and mirrored with them.",
         checks: &[
-            &Check::new(PUBLISHED, &FOLLOWS, Verdict::Refuted, &[])
+            &Check::refuted(PUBLISHED, &FOLLOWS)
                 .under(&holding([("renamed", way::renamed as Way)], [0]))
                 .of(&PAPER)
                 .judged(lattice::turned),
-            &Check::new(REPAIRED, &FOLLOWS, Verdict::Holds, &UNMOVED),
-            &Check::new(METRES, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
-            &Check::new(DECIBELS, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
+            &Check::holds(REPAIRED, &FOLLOWS, &UNMOVED),
+            &Check::holds(METRES, &FOLLOWS_TWO, &UNMOVED),
+            &Check::holds(DECIBELS, &FOLLOWS_TWO, &UNMOVED),
         ],
     },
     Clause {
         id: "POSITION-5",
         sentence: "The best position of a swarm MUST never fit worse than the one before, nor than any particle does.",
         checks: &[
-            &Check::new(NamedRule::new("published", Conduct::PUBLISHED), &COARSE, Verdict::Holds, &FORGETFUL),
-            &Check::new(NamedRule::new("repaired", Conduct::REPAIRED), &COARSE, Verdict::Holds, &FORGETFUL),
+            &Check::holds(NamedRule::new("published", Conduct::PUBLISHED), &COARSE, &FORGETFUL),
+            &Check::holds(NamedRule::new("repaired", Conduct::REPAIRED), &COARSE, &FORGETFUL),
             &Check::new(
                 NamedRule::new("repaired", Conduct::REPAIRED),
                 &RandomAnswers {
@@ -228,17 +219,15 @@ pub static CLAUSES: [Clause; 7] = [
         sentence: "A position that is asked for within a rectangle MUST be in it, and the same as without the rectangle if that one \
                    is in it.",
         checks: &[
-            &Check::new(
+            &Check::holds(
                 METRES,
                 &INSIDE,
-                Verdict::Holds,
-                &[NamedRule::new("the rectangle is forgotten", broken::anywhere)],
+                &[NamedRule::new("the rectangle is forgotten", |ranges, _| way::metres(ranges, None))],
             ),
-            &Check::new(
+            &Check::holds(
                 DECIBELS,
                 &INSIDE,
-                Verdict::Holds,
-                &[NamedRule::new("the rectangle is forgotten", broken::any_level)],
+                &[NamedRule::new("the rectangle is forgotten", |ranges, _| way::decibels(ranges, None))],
             ),
         ],
     },
@@ -246,14 +235,13 @@ pub static CLAUSES: [Clause; 7] = [
         id: "POSITION-7",
         sentence: "A belief MUST be the mean of what wheels and a fix say, each weighed by its covariance, and MUST leave out a fix \
                    that is as unlikely as one in a thousand.",
-        checks: &[&Check::new(
+        checks: &[&Check::holds(
             NamedRule::new("repaired", belief::fused as Takes),
             &EveryAnswer {
                 body: belief::is_mean,
                 range: belief::drives,
                 covers: &["a fix that counts", "an outlier"],
             },
-            Verdict::Holds,
             &[
                 NamedRule::new("fixes are believed without covariance", belief::believed),
                 NamedRule::new("wheels alone", belief::by_wheels_alone),

@@ -48,7 +48,12 @@ pub(super) fn places() -> String {
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn is_exact(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
-    let (count, side) = one_of(oracle, &[(3, SIDES[0]), (4, SIDES[1])]);
+    let case = one_of(oracle, &[(3, SIDES[0]), (4, SIDES[1])]);
+    is_exact_among(way, case, oracle)
+}
+
+/// So many anchors on a lattice of this side, on no line, and a robot beside them.
+fn is_exact_among(way: &Way, (count, side): (usize, u32), oracle: &mut dyn Oracle) -> Outcome {
     let anchors = anchors(oracle, count, side)?;
     let at = place(oracle, side);
     assume(!is_line(&anchors) && !anchors.contains(&at))?;
@@ -73,8 +78,7 @@ pub(super) fn places_of_three() -> String {
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn is_exact_of_three(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
-    // The first of the two cases has three anchors.
-    is_exact(way, &mut First { oracle, first: Some(0) })
+    is_exact_among(way, (3, SIDES[0]), oracle)
 }
 
 /// The bound of [`is_exact_of_four`], in words.
@@ -88,8 +92,7 @@ pub(super) fn places_of_four() -> String {
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn is_exact_of_four(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
-    // The second of the two cases has four.
-    is_exact(way, &mut First { oracle, first: Some(1) })
+    is_exact_among(way, (4, SIDES[1]), oracle)
 }
 
 /// A place of a lattice in whole metres, or tenths of a length, as the judge reads it.
@@ -123,18 +126,6 @@ pub(super) fn exact_of_strongest(way: &Way, choices: &Choices) -> Option<Box<dyn
     taken.extend(ranges.iter().find(|range| !taken.contains(range)));
     let anchors = <[Range; 4]>::try_from(taken).ok()?.map(|range| written(range.anchor, 1.0));
     Some(Box::new(Strongest { clause: "POSITION-1", anchors, robot: written(at, 1.0), is_told }))
-}
-
-/// One case of the first choice.
-struct First<'a> {
-    oracle: &'a mut dyn Oracle,
-    first: Option<u32>,
-}
-
-impl Oracle for First<'_> {
-    fn pick(&mut self, below: u32) -> u32 {
-        self.first.take().unwrap_or_else(|| self.oracle.pick(below))
-    }
 }
 
 /// Ways to move the plane that keep distances.

@@ -76,32 +76,12 @@ pub(super) fn strongest(ranges: &[Range]) -> Vec<Range> {
 }
 
 /// The three anchors, not on one line, that tell a robot best where all of them put it.
-fn best_told(ranges: &[Range]) -> Vec<Range> {
+pub(super) fn best_told(ranges: &[Range]) -> Vec<Range> {
     let (Some(signal), Ok(at)) = (signal(), linear(ranges)) else { return ranges.to_vec() };
     best_three(ranges, |three| {
         let bound = bound(three.iter().map(|range| range.anchor), at, &signal);
         bound.filter(|_| linear(&three).is_ok()).map(|bound| bound.rms_m())
     })
-}
-
-/// [`published`], of the strongest three.
-pub(super) fn published_strongest(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
-    published(&strongest(ranges), area)
-}
-
-/// [`renamed`], of the strongest three.
-pub(super) fn renamed_strongest(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
-    renamed(&strongest(ranges), area)
-}
-
-/// [`published`], of the three that tell best.
-pub(super) fn published_best(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
-    published(&best_told(ranges), area)
-}
-
-/// [`renamed`], of the three that tell best.
-pub(super) fn renamed_best(ranges: &[Range], area: Option<Area>) -> Result<WayResult, Refusal> {
-    renamed(&best_told(ranges), area)
 }
 
 /// Linear least squares.

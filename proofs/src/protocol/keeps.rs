@@ -8,7 +8,8 @@ use tautline_kernel::choice::Oracle;
 use super::playing::Playing;
 use super::{Bound, Protocol};
 use crate::decide::{
-    Answer, Context, Evidence, Method, MethodError, Portion, RandomRuns, RefutationPlay, Systems, Verdict,
+    Answer, Context, Decided, Evidence, Method, MethodError, Portion, RandomRuns, RefutationPlay, Systems,
+    Verdict,
 };
 use crate::engine::model::Started;
 use crate::engine::states::{self, AnySystem, Findings, Limits};
@@ -66,7 +67,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         self.0.to_string()
     }
 
-    fn decide(&self, rule: &P, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &P, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         self.decide_portion(rule, Portion::WHOLE, until, desk)
     }
 
@@ -82,7 +83,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         portion: Portion,
         until: Until,
         desk: &mut Context<'_, '_>,
-    ) -> Result<Answer, MethodError> {
+    ) -> Decided {
         let all = self.playing(rule)?;
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let found = searched(&all, portion, until, limits, rayon::current_num_threads())?;

@@ -1,5 +1,6 @@
 //! A protocol in one of its surroundings, as a system whose states are searched.
 
+use std::mem;
 use std::ops::ControlFlow;
 
 use tautline_kernel::choice::Oracle;
@@ -82,12 +83,18 @@ impl<P: Protocol> System for Playing<P> {
     }
 
     fn make_canonical(&self, state: &mut P::State) {
-        let all = self.rule.alike(&self.here, state).into_iter();
-        let least = all.map(|other| (bytes(&other), other)).min_by(|one, other| one.0.cmp(&other.0));
-        if let Some((bytes_of, other)) = least
-            && bytes_of < bytes(state)
-        {
-            *state = other;
+        let all = self.rule.alike(&self.here, state);
+        if all.is_empty() {
+            return;
+        }
+        let (mut least, mut image) = (bytes(state), Vec::new());
+        for other in all {
+            image.clear();
+            other.write(&mut image);
+            if image < least {
+                mem::swap(&mut image, &mut least);
+                *state = other;
+            }
         }
     }
 

@@ -3,18 +3,17 @@
 use super::legs::{self, Reading};
 use super::way::{self, Patience, TRUE};
 use crate::clause::{Check, Clause, NamedRule};
-use crate::decide::{EveryAnswer, Verdict};
+use crate::decide::EveryAnswer;
 
 const REPAIRED: NamedRule<Reading> = NamedRule::new("repaired", Reading::True);
 
-const FOLLOWS: Check<Reading> = Check::new(
+const FOLLOWS: Check<Reading> = Check::holds(
     REPAIRED,
     &EveryAnswer {
         body: legs::follows,
         range: legs::signals,
         covers: &["a signal followed", "a signal ignored"],
     },
-    Verdict::Holds,
     &[
         NamedRule::new("any nearer node", Reading::AnyNearer),
         NamedRule::new("any node", Reading::AnyNode),
@@ -22,39 +21,36 @@ const FOLLOWS: Check<Reading> = Check::new(
     ],
 );
 
-const GOES_ON: Check<Reading> = Check::new(
+const GOES_ON: Check<Reading> = Check::holds(
     REPAIRED,
     &EveryAnswer {
         body: legs::goes_on,
         range: legs::signals,
         covers: &["at a node", "at the WFR", "no signal followed", "the signal lost"],
     },
-    Verdict::Holds,
     &[NamedRule::new("a node is its own parent", Reading::NoParent)],
 );
 
-const WHOLE_WAY: Check<Patience> = Check::new(
+const WHOLE_WAY: Check<Patience> = Check::holds(
     NamedRule::new("repaired", TRUE),
     &EveryAnswer {
         body: way::whole_way,
         range: way::events,
         covers: &["at the WFR", "it asks", "lost", "on its way"],
     },
-    Verdict::Holds,
     &[
         NamedRule::new("asks three times", Patience { tries: 3, ..TRUE }),
         NamedRule::new("goes nearer twice", Patience { times: 2, ..TRUE }),
     ],
 );
 
-const GUIDES: Check<bool> = Check::new(
+const GUIDES: Check<bool> = Check::holds(
     NamedRule::new("repaired", true),
     &EveryAnswer {
         body: way::guides,
         range: way::requests,
         covers: &["idle", "it keeps silent", "it signals"],
     },
-    Verdict::Holds,
     &[NamedRule::new("others do not count", false)],
 );
 

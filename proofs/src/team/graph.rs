@@ -10,7 +10,7 @@ use super::Moves;
 use super::ground::{Ground, Map, Which};
 use crate::decide::MethodError;
 use crate::plural::counted;
-use crate::protocol::Bound;
+use crate::protocol::{Bound, arrangements};
 
 /// A kind of layouts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -300,15 +300,7 @@ impl Graph {
 
     /// Every way to put so many robots into cells, no two into one.
     pub fn places(&self, robots: usize) -> Vec<Vec<u8>> {
-        let mut placed = vec![Vec::new()];
-        for _ in 0..robots {
-            let next = |cells: Vec<u8>| {
-                let free = (0..self.len() as u8).filter(|cell| !cells.contains(cell));
-                free.map(|cell| [&cells[..], &[cell]].concat()).collect::<Vec<_>>()
-            };
-            placed = placed.into_iter().flat_map(next).collect();
-        }
-        placed
+        arrangements(&(0..self.len() as u8).collect::<Vec<_>>(), robots)
     }
 
     /// A drawing of the layout, each cell as `sign` says, all of them alike in width. What is blocked is `#`; walls are

@@ -6,7 +6,7 @@ use super::ground::{Map, words};
 use super::rule::{Rule, Scene, When};
 use super::{Moves, Places, Promise, Setting, Strategy, TeamWorld};
 use crate::decide::{
-    Answer, Context, Depiction, Evidence, Method, MethodError, RefutationPlay, Systems, Verdict,
+    Answer, Context, Decided, Depiction, Evidence, Method, MethodError, RefutationPlay, Systems, Verdict,
 };
 use crate::engine::model::Started;
 use crate::engine::states;
@@ -120,7 +120,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         })
     }
 
-    fn in_tree(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn in_tree(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         let playing = self.0.playing(rule, &[])?;
         let start = playing.start.clone();
         states::repeats(&playing, [start.clone()]).map_err(MethodError::new)?;
@@ -133,7 +133,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
-    fn in_states(&self, rule: &R, desk: &Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn in_states(&self, rule: &R, desk: &Context<'_, '_>) -> Decided {
         let starts = self.0.starts(rule)?;
         let Some(start) = starts.first().cloned() else {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
@@ -185,7 +185,7 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
     }
 
     /// The choices are the answers of the world in a tree; among states, the number of the start and those of the steps.
-    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Result<Answer, MethodError> {
+    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Decided {
         match self.0.strategy() {
             Strategy::Tree => self.in_tree(rule, until, desk),
             Strategy::States => self.in_states(rule, desk),

@@ -227,17 +227,6 @@ impl<R: Rule> TeamStep<'_, R> {
     pub fn has_moved(&self, robot: usize) -> bool {
         self.before.cell(robot) != self.after.cell(robot)
     }
-
-    /// Whether two robots have changed places.
-    pub fn has_swap(&self) -> bool {
-        let (before, after) = (self.before, self.after);
-        let swap = |one: usize, other: usize| {
-            before.cell(one) == after.cell(other)
-                && after.cell(one) == before.cell(other)
-                && self.has_moved(one)
-        };
-        (0..before.robots()).any(|one| (0..one).any(|other| swap(one, other)))
-    }
 }
 
 /// A question about a step.

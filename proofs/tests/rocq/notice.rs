@@ -3,24 +3,15 @@
 use std::collections::{BTreeSet, HashSet};
 use std::num::NonZeroU32;
 
-use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Condition, Conditions, Count, Node, Rule, Scheme, Stage, Surroundings};
+use tautline_proofs::engine::Tape;
 
 use super::term::{definition, list};
 
 const ME: u32 = 9;
 const SOURCE: NodeId = NodeId(0);
 const RANGE: NonZeroU32 = NonZeroU32::MIN;
-
-/// Waits are over at once.
-struct AtOnce;
-
-impl Oracle for AtOnce {
-    fn pick(&mut self, _: u32) -> u32 {
-        0
-    }
-}
 
 /// How far a node is, its parent, and its hops.
 type State = (usize, u32, u16);
@@ -65,7 +56,7 @@ fn explore(conditions: Conditions, rows: &mut Rows) {
                 let message = Notice { call, hops, sender: NodeId(sender) };
                 let mut after = node;
                 let heard = Reception { message, distance_um: RANGE.get(), now_ns: 0 };
-                after.receive(&rule, heard, Surroundings::none, &mut AtOnce);
+                after.receive(&rule, heard, Surroundings::none, &mut Tape(&[]));
                 rows.heard.insert((state(&node), (sender, hops), state(&after)));
                 next.push(after);
             }
@@ -105,7 +96,7 @@ fn spread() -> Vec<String> {
                     let message =
                         Notice { call, hops: hops[sender] as u16, sender: NodeId(1 + sender as u32) };
                     let heard = Reception { message, distance_um: RANGE.get(), now_ns: 0 };
-                    node.receive(&rule, heard, Surroundings::none, &mut AtOnce);
+                    node.receive(&rule, heard, Surroundings::none, &mut Tape(&[]));
                 }
                 let (stage, parent, hops) = state(&node);
                 codes.push((16 * stage + 4 * parent as usize + usize::from(hops)).to_string());
@@ -135,7 +126,7 @@ fn numbered() -> Vec<String> {
                     let message =
                         Notice { call: Call { wfr: SOURCE, epoch }, hops: (happening % 3) as u16, sender };
                     let heard = Reception { message, distance_um: RANGE.get(), now_ns: 0 };
-                    node.receive(&rule, heard, Surroundings::none, &mut AtOnce);
+                    node.receive(&rule, heard, Surroundings::none, &mut Tape(&[]));
                 }
                 let (stage, parent, hops) = state(&node);
                 let event = node.event().map_or(0, |event| event.0 as usize);

@@ -5,8 +5,9 @@ use std::fmt::Write;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::text_blocks::{Block, beside};
 use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Cell, Side, Step};
+use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::floor_trace::Course;
+use tautline_proofs::ground::name_of;
 use tautline_proofs::ledger;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run};
@@ -56,17 +57,8 @@ fn did(made: &TeamMove<'_>, robot: usize) -> String {
     let to = made.frame.cells[robot];
     match (made.frame.steps[robot], made.frame.blocked[robot]) {
         (Step::Stay, _) => "stays".to_owned(),
-        (Step::Cross(side), true) => format!("tries to go {}, meets a wall and stays", towards(side)),
-        (Step::Cross(side), false) => format!("goes {} to {to}", towards(side)),
-    }
-}
-
-const fn towards(side: Side) -> &'static str {
-    match side {
-        Side::East => "east",
-        Side::South => "south",
-        Side::West => "west",
-        Side::North => "north",
+        (Step::Cross(side), true) => format!("tries to go {}, meets a wall and stays", name_of(side)),
+        (Step::Cross(side), false) => format!("goes {} to {to}", name_of(side)),
     }
 }
 

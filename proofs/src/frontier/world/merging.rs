@@ -31,7 +31,7 @@ const SITUATIONS: [&str; 7] =
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
     type Plan = Vec<Successor<ROBOTS>>;
-    type Event = Successor<ROBOTS>;
+    type Event = usize;
     type Demand = Demand;
 
     fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Successor<ROBOTS>>> {
@@ -44,14 +44,14 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
         turns: &Vec<Successor<ROBOTS>>,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Successor<ROBOTS> {
-        let turned = world::picked(turns, world);
-        *state = turned.world;
-        turned
+    ) -> usize {
+        let number = world.pick(turns.len() as u32) as usize;
+        *state = turns[number].world;
+        number
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
-        turn.event.breaks.clone()
+        turn.plan[*turn.event].breaks.clone()
     }
 
     fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
@@ -69,7 +69,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        match turn.event.event {
+        match turn.plan[*turn.event].event {
             Event::Decides(..) => 1,
             Event::Looks(_, _, Sight::Robot, ..) => 1 << 1,
             Event::Ticks => 1 << 2,
@@ -128,7 +128,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
-        match turn.event.event {
+        match turn.plan[*turn.event].event {
             Event::Decides(robot, ..) | Event::Looks(robot, ..) | Event::Arrives(robot, ..) => 1 << robot,
             Event::Ticks => 1 << ROBOTS,
         }

@@ -1,7 +1,6 @@
 //! The input of the judge, and what can be said against it.
 
 use std::collections::BTreeSet;
-use std::fmt;
 
 use super::place::{Place, SIDES, add, side_between};
 
@@ -50,27 +49,6 @@ pub struct Move {
     /// Where it is now.
     pub places: Vec<Place>,
 }
-
-/// Why an exhibit is no counterexample: the sentence, and the team move that it is about, counted from 1; 0 for
-/// the exhibit as a whole.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Objection {
-    /// The team move.
-    pub at: usize,
-    /// The fault, in words.
-    pub what: &'static str,
-}
-
-impl fmt::Display for Objection {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.at {
-            0 => f.write_str(self.what),
-            at => write!(f, "team move {at}: {}", self.what),
-        }
-    }
-}
-
-impl std::error::Error for Objection {}
 
 impl Exhibit {
     pub(super) fn is_free(&self, (x, y): Place) -> bool {

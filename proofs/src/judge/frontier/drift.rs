@@ -51,11 +51,10 @@ impl Case for Drift {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let is_known = self.clause == "FRONTIER-5" && (0..HALF).contains(&self.error);
-        must(is_known, "the judge does not know this").map_err(whole)?;
-        must(self.floor.is_free(self.start), "the robot starts in no free cell").map_err(whole)?;
-        must(self.may_err(self.off), "a fix is off by another length").map_err(whole)?;
+        must(is_known, "the judge does not know this")?;
+        must(self.floor.is_free(self.start), "the robot starts in no free cell")?;
+        must(self.may_err(self.off), "a fix is off by another length")?;
         let (mut entered, mut met) = (BTreeSet::from([self.start]), BTreeSet::new());
         let mut known = BTreeMap::from([(self.start, true)]);
         let (mut at, mut place) = (self.start, midpoint(self.start));
@@ -91,8 +90,8 @@ impl Case for Drift {
             let what = if breaks { "the clause is broken before" } else { "the clause is not broken" };
             must(breaks == (number == self.moves.len()), what).map_err(object)?;
         }
-        must(!self.moves.is_empty(), "nothing happens").map_err(whole)?;
-        must(self.floor.barred.is_subset(&met), "an obstacle was never met").map_err(whole)
+        must(!self.moves.is_empty(), "nothing happens")?;
+        Ok(must(self.floor.barred.is_subset(&met), "an obstacle was never met")?)
     }
 }
 
@@ -157,12 +156,11 @@ impl Case for Occupancy {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
-        must(self.clause == "FRONTIER-8", "the judge does not know this clause").map_err(whole)?;
+        must(self.clause == "FRONTIER-8", "the judge does not know this clause")?;
         let is_in = |&(x, y): &Place| x.abs() <= HALF && y.abs() <= HALF;
-        must(self.places.iter().all(is_in), "a place is not in the cell").map_err(whole)?;
+        must(self.places.iter().all(is_in), "a place is not in the cell")?;
         let [near, far] = self.places.map(|(x, y)| x * x + y * y);
-        must(near <= far, "the second place is nearer").map_err(whole)?;
+        must(near <= far, "the second place is nearer")?;
         // It is the distance over half a side, at most 1.
         let is_broken = match self.distance {
             // It is 0 at the midpoint, grows, and is 1 from the rim on.
@@ -172,6 +170,6 @@ impl Case for Occupancy {
                 by_near < by_far || far >= HALF * HALF && by_far > 0
             }
         };
-        must(is_broken, "the probability is as demanded").map_err(whole)
+        Ok(must(is_broken, "the probability is as demanded")?)
     }
 }

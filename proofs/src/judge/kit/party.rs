@@ -60,32 +60,29 @@ impl Case for Party {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { lattice, starts, .. } = self;
-        must(Self::knows(self.clause), "the judge does not know this clause").map_err(whole)?;
+        must(Self::knows(self.clause), "the judge does not know this clause")?;
         let alone: BTreeSet<Place> = starts.iter().copied().collect();
         let are_there = starts.iter().all(|&start| lattice.has(start));
         must(
             starts.len() > 2 && alone.len() == starts.len() && are_there,
             "three robots start at nodes of their own",
-        )
-        .map_err(whole)?;
+        )?;
         let stances: Vec<Ends> = starts.iter().map(|&start| [start; 2]).collect();
         must(
             parts(&(0..starts.len()).collect(), |one, other| hears(stances[one], stances[other])).len() == 1,
             "robots start out of contact",
-        )
-        .map_err(whole)?;
+        )?;
         let rests = vec![Rest::Asks; starts.len()];
         let [driven, blocked, free] = [(); 3].map(|()| BTreeSet::new());
         let mut team = Team { lattice, stances, rests, turn: 0, driven, blocked, free };
         for (number, step) in (1..).zip(&self.steps) {
             team.step(step).map_err(|what| Objection { at: number, what })?;
         }
-        must(lattice.barred.is_subset(&team.blocked), "a wall was never met").map_err(whole)?;
+        must(lattice.barred.is_subset(&team.blocked), "a wall was never met")?;
         let goes_on = (0..starts.len()).any(|robot| team.drives(robot) || team.may_decide(robot));
-        must(!goes_on, "the run goes on").map_err(whole)?;
-        must(team.rests.contains(&Rest::Stays), "all robots know that the run is over").map_err(whole)
+        must(!goes_on, "the run goes on")?;
+        Ok(must(team.rests.contains(&Rest::Stays), "all robots know that the run is over")?)
     }
 }
 

@@ -63,14 +63,11 @@ impl Case for Wire {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let whole = |what| Objection { at: 0, what };
         let Self { flags, sent, fields, read, .. } = self;
-        must(self.clause == "KIT-9" && [3, 4].contains(flags), "the judge does not know this")
-            .map_err(whole)?;
-        must(sent.is_one(), "that is no message").map_err(whole)?;
-        must(sent.fields(*flags) == *fields, "the message has other fields").map_err(whole)?;
-        must(Sent::in_fields(*fields, *flags) == *read, "something else is read in these fields")
-            .map_err(whole)?;
-        must(*read != Some(*sent), "the message is read as it was sent").map_err(whole)
+        must(self.clause == "KIT-9" && [3, 4].contains(flags), "the judge does not know this")?;
+        must(sent.is_one(), "that is no message")?;
+        must(sent.fields(*flags) == *fields, "the message has other fields")?;
+        must(Sent::in_fields(*fields, *flags) == *read, "something else is read in these fields")?;
+        Ok(must(*read != Some(*sent), "the message is read as it was sent")?)
     }
 }
