@@ -404,7 +404,10 @@ fn the_commands_of_the_pages_answer() {
             }
         }
         for arguments in block.commands.iter().filter(|arguments| seen.insert((*arguments).clone())) {
-            match ended(folder.path(), arguments) {
+            // The whole ledger is the matter of another test.
+            let is_ledger = arguments[0] == "prove"
+                && !arguments.iter().any(|argument| argument.starts_with(char::is_uppercase));
+            match (!is_ledger).then(|| ended(folder.path(), arguments)).flatten() {
                 Some(code) => {
                     // 4: of the shards that a page names only the first was run.
                     assert!(

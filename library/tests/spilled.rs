@@ -198,7 +198,9 @@ impl Write for Full {
 
 #[test]
 fn a_full_disk_leaves_a_search_open_and_nothing_half_written_behind() {
-    let bytes = written(&WRITES, Limits::NONE, 1).bytes / 3;
+    let in_memory = written(&WRITES, Limits::NONE, 1);
+    let bytes = in_memory.bytes / 3;
+    let right = found(in_memory);
     let nothing: Create = |_| Err(io::ErrorKind::PermissionDenied.into());
     let little: Create = |path| Ok(Box::new(Full(fs::File::create(path)?, 1 << 17)));
     let second: Create = |path| {
@@ -218,7 +220,7 @@ fn a_full_disk_leaves_a_search_open_and_nothing_half_written_behind() {
         // There is room again.
         let whole =
             written(&WRITES, Limits { room: self::room(bytes, &folder).asked("words"), ..Limits::NONE }, 1);
-        assert_eq!((found(whole), files(&folder).len()), (found(written(&WRITES, Limits::NONE, 1)), 0));
+        assert_eq!((found(whole), files(&folder).len()), (right.clone(), 0));
     }
 }
 

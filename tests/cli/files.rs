@@ -119,23 +119,20 @@ fn what_tautline_did_not_write_is_replaced_only_with_force() {
 fn a_counterexample_that_has_no_place_is_left_out_and_the_others_are_stored() {
     let folder = folder();
     let folder = folder.path();
-    let hunt = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "4"];
-    let (mine, other, third) =
-        ("chain-1-published-n4.jsonl", "chain-2-published-n4.jsonl", "chain-13-published-n4.jsonl");
+    let hunt = ["hunt", "--rule", "published", "--max-cells", "10", "--max-walls", "13"];
+    let (mine, other) = ("chain-1-published-n4.jsonl", "chain-2-published-n4.jsonl");
     write(folder, mine, "a thesis\n");
     let (told, said) = left_out(folder, &hunt);
     assert!(said.contains("chain-1-published-n4.jsonl: tautline did not write this file"), "{said}");
-    assert!(told.contains("\nCHAIN-1, 4 walls") && !told.contains(mine), "{told}");
-    assert!(told.contains(other) && told.contains(third), "{told}");
+    assert!(told.contains("\nCHAIN-1, 3x3 cells") && !told.contains(mine), "{told}");
+    assert!(told.contains(other), "{told}");
     assert_eq!(read(folder, mine), "a thesis\n");
-    for name in [other, third] {
-        printed(folder, &["replay", name], 1);
-    }
+    printed(folder, &["replay", other], 1);
     let (told, _) = left_out(folder, &[&hunt[..], &["--format", "json"]].concat());
     let told: Value = serde_json::from_str(&told).expect("JSON");
     let files: Vec<&Value> =
         told["counterexamples"].as_array().expect("a list").iter().map(|one| &one["file"]).collect();
-    assert_eq!(files, [&Value::Null, &other.into(), &third.into()]);
+    assert_eq!(files, [&Value::Null, &Value::from(other)]);
 }
 
 #[test]
@@ -569,7 +566,7 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
     let rescue = ["rescue", "--nodes", "100000", "--area", "3600x3600", "--seeds", "0", "--wfr", "3"];
     let fig7 = ["reproduce", "rescue-fig7", "--runs", "5000", "--svg", "a.svg"];
     let fig5 = ["reproduce", "notice-fig5", "--runs", "5000", "--svg-reach", "a.svg"];
-    let commands: [&[&str]; 12] = [
+    let commands: [&[&str]; 9] = [
         &[&explore[..], &files].concat(),
         &[&rescue[..], &files].concat(),
         &["hunt", "--rule", "published", "--robots", "5", "--max-walls", "6", "--resume", "a.json"],
@@ -578,14 +575,11 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
         &["replay", &floor, "--html", "a.html", "--svg", "a.svg"],
         &fig7,
         &[&fig5[..], &["--svg-rebroadcasts", "b.svg"]].concat(),
-        &["reproduce", "bricks-fig11", "--runs", "1000", "--svg", "a.svg"],
-        &["reproduce", "antenna-fig4", "--runs", "1000000", "--svg", "a.svg"],
-        &["reproduce", "rescue-fig8", "--runs", "5000", "--svg", "a.svg"],
         &["show", "cells:724x724:0.4", "--svg", "a.svg"],
     ];
     for command in commands {
         let mut ended = 0;
-        for millis in [2, 10, 20, 40, 70, 110, 160, 230, 310, 400] {
+        for millis in [2, 20, 70, 160, 310, 400] {
             let folder = folder();
             let folder = folder.path();
             let mut child = tautline(folder, command);
@@ -615,6 +609,6 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
             assert!(is_together, "{command:?} after {millis} ms: {:?}", names(folder));
         }
         // To show a layout takes no longer than to begin.
-        assert!(ended >= 3 || command[0] == "show", "{command:?}: ended {ended} times");
+        assert!(ended >= 2 || command[0] == "show", "{command:?}: ended {ended} times");
     }
 }
