@@ -119,67 +119,58 @@ pub const MISS: Probability = Probability::new(0.0556).expect("a probability");
 const SIDE: u16 = 30;
 const AGENTS: u16 = 20;
 
+/// The description that all figures of agents share.
+const ABOUT: Description = Description {
+    examples: &["bricks-fig11 --svg fig11.svg", "bricks-ideal --runs 20 --format json"],
+    doing: "exploring",
+    pictures: &[("svg", "Store a chart")],
+    ..Description::NOTHING
+};
+
 /// Figure 11.
-pub const BRICKS_FIG11: Agents = Agents::of(
-    Figure::Agents,
-    "bricks-fig11",
-    [
-        "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
-     visited, by the number of agents",
-        "What agents explore by their number, with missed sensors",
-        "a minute",
-    ],
-);
+pub const BRICKS_FIG11: Agents = Agents {
+    figure: Figure::Agents,
+    about: Description {
+        id: "bricks-fig11",
+        shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they \
+            explore and mark as visited, by the number of agents",
+        help: "What agents explore by their number, with missed sensors",
+        takes: "a minute",
+        ..ABOUT
+    },
+};
 
 /// Figure 12.
-pub const BRICKS_FIG12: Agents = Agents::of(
-    Figure::Area,
-    "bricks-fig12",
-    [
-        "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
-     as visited, by the area",
-        "What agents explore by the area, with missed sensors",
-        "a minute",
-    ],
-);
+pub const BRICKS_FIG12: Agents = Agents {
+    figure: Figure::Area,
+    about: Description {
+        id: "bricks-fig12",
+        shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 \
+            agents explore and mark as visited, by the area",
+        help: "What agents explore by the area, with missed sensors",
+        takes: "a minute",
+        ..ABOUT
+    },
+};
 
 /// The work of agents where no sensor is missed.
-pub const BRICKS_IDEAL: Agents = Agents::of(
-    Figure::Ideal,
-    "bricks-ideal",
-    [
-        "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
-     until all agents know it, by the number of agents",
-        "How long agents take, with none missed",
-        "some seconds",
-    ],
-);
+pub const BRICKS_IDEAL: Agents = Agents {
+    figure: Figure::Ideal,
+    about: Description {
+        id: "bricks-ideal",
+        shows: "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until \
+            everything is explored, and until all agents know it, by the number of agents",
+        help: "How long agents take, with none missed",
+        takes: "some seconds",
+        ..ABOUT
+    },
+};
 
 /// Agents on the floors of offices.
 #[derive(Clone, Copy, Debug)]
 pub struct Agents {
     figure: Figure,
     about: Description,
-}
-
-impl Agents {
-    const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
-        let examples = &["bricks-fig11 --svg fig11.svg", "bricks-ideal --runs 20 --format json"];
-        let pictures = &[("svg", "Store a chart")];
-        Self {
-            figure,
-            about: Description {
-                id,
-                shows,
-                help,
-                examples,
-                doing: "exploring",
-                takes,
-                pictures,
-                ..Description::NOTHING
-            },
-        }
-    }
 }
 
 /// The number that is varied in a figure.

@@ -24,61 +24,85 @@ use super::prelude::*;
 use tautline_field::radio::{Lake, SHAPES};
 use tautline_field::tan::Scans;
 
-/// Figure 6.
-pub const RESCUE_FIG6: Journeys = Journeys::of(
-    Figure::Trajectories,
-    "rescue-fig6",
-    [
-        "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture",
-        "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
-        "a second",
+/// The description that all figures of journeys share.
+const ABOUT: Description = Description {
+    examples: &[
+        "rescue-fig7 --svg ratios.svg",
+        "rescue-fig7 --nodes 700 --k 8 --format json",
+        "rescue-fig6 --svg ways.svg",
+        "rescue-fig10 --noise-db 2 --obstacle 40,50,130,120 --obstacle 170,30,240,130",
+        "rescue-fig9 --obstacle u:100,90,200,210 --scan once",
     ],
-);
+    doing: "walking",
+    pictures: &[(
+        "svg",
+        "Store a picture: of figure 7 a chart, else the ways in the topology in which the shortest is the longest",
+    )],
+    ..Description::NOTHING
+};
+
+/// Figure 6.
+pub const RESCUE_FIG6: Journeys = Journeys {
+    figure: Figure::Trajectories,
+    about: Description {
+        id: "rescue-fig6",
+        shows: "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, \
+            as a picture",
+        help: "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
+        takes: "a second",
+        ..ABOUT
+    },
+};
 
 /// Figure 7.
-pub const RESCUE_FIG7: Journeys = Journeys::of(
-    Figure::Ratios,
-    "rescue-fig7",
-    [
-        "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's schemes, \
-     by the number of nodes, and what becomes of the paper's words about it",
-        "How far a robot walks by TAN and its rivals, by the number of nodes",
-        "some seconds",
-    ],
-);
+pub const RESCUE_FIG7: Journeys = Journeys {
+    figure: Figure::Ratios,
+    about: Description {
+        id: "rescue-fig7",
+        shows: "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's \
+            and Sheu's schemes, by the number of nodes, and what becomes of the paper's words about it",
+        help: "How far a robot walks by TAN and its rivals, by the number of nodes",
+        takes: "some seconds",
+        ..ABOUT
+    },
+};
 
 /// Figure 9.
-pub const RESCUE_FIG9: Journeys = Journeys::of(
-    Figure::OneObstacle,
-    "rescue-fig9",
-    [
-        "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
-        "How far a robot walks round a large obstacle",
-        "a second",
-    ],
-);
+pub const RESCUE_FIG9: Journeys = Journeys {
+    figure: Figure::OneObstacle,
+    about: Description {
+        id: "rescue-fig9",
+        shows: "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
+        help: "How far a robot walks round a large obstacle",
+        takes: "a second",
+        ..ABOUT
+    },
+};
 
 /// Figure 10.
-pub const RESCUE_FIG10: Journeys = Journeys::of(
-    Figure::FourObstacles,
-    "rescue-fig10",
-    [
-        "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
-        "How far a robot walks round four large obstacles",
-        "a second",
-    ],
-);
+pub const RESCUE_FIG10: Journeys = Journeys {
+    figure: Figure::FourObstacles,
+    about: Description {
+        id: "rescue-fig10",
+        shows: "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
+        help: "How far a robot walks round four large obstacles",
+        takes: "a second",
+        ..ABOUT
+    },
+};
 
 /// Obstacles of any shape, which the paper “might have problems” with (5).
-pub const RESCUE_SHAPES: Journeys = Journeys::of(
-    Figure::Shapes,
-    "rescue-shapes",
-    [
-        "the ways of a robot round a large obstacle by its shape: how many arrive, and how far they walk",
-        "How far a robot walks round obstacles of any shape",
-        "some seconds",
-    ],
-);
+pub const RESCUE_SHAPES: Journeys = Journeys {
+    figure: Figure::Shapes,
+    about: Description {
+        id: "rescue-shapes",
+        shows: "the ways of a robot round a large obstacle by its shape: how many arrive, and how far they \
+            walk",
+        help: "How far a robot walks round obstacles of any shape",
+        takes: "some seconds",
+        ..ABOUT
+    },
+};
 
 /// Journeys of a robot to the node that waits for rescue.
 #[derive(Clone, Copy, Debug)]
@@ -227,33 +251,6 @@ pub struct Summary {
 type Measured = (usize, Option<&'static str>, Settings);
 
 impl Journeys {
-    const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
-        let examples = &[
-            "rescue-fig7 --svg ratios.svg",
-            "rescue-fig7 --nodes 700 --k 8 --format json",
-            "rescue-fig6 --svg ways.svg",
-            "rescue-fig10 --noise-db 2 --obstacle 40,50,130,120 --obstacle 170,30,240,130",
-            "rescue-fig9 --obstacle u:100,90,200,210 --scan once",
-        ];
-        let pictures = &[(
-            "svg",
-            "Store a picture: of figure 7 a chart, else the ways in the topology in which the shortest is the longest",
-        )];
-        Self {
-            figure,
-            about: Description {
-                id,
-                shows,
-                help,
-                examples,
-                doing: "walking",
-                takes,
-                pictures,
-                ..Description::NOTHING
-            },
-        }
-    }
-
     /// The settings with what the figure has where nothing was asked for.
     fn whole(&self, settings: &Settings) -> Settings {
         let mut whole = settings.clone();

@@ -70,53 +70,44 @@ const RACES: [[usize; 2]; 5] = [[0, 1], [2, 3], [4, 5], [1, 5], [3, 5]];
 /// Drives without a new path after which a run is ended.
 const PATIENCE: usize = 1000 * PATHS;
 
+/// The description that both figures share.
+const ABOUT: Description = Description {
+    examples: &["kit-fig14 --svg overlap.svg", "kit-fig9 --runs 100 --format json"],
+    doing: "driving",
+    pictures: &[("svg", "Store a chart")],
+    ..Description::NOTHING
+};
+
 /// How long it takes to find the nodes.
-pub const KIT_FIG9: Kit = Kit::of(
-    Figure::Time,
-    "kit-fig9",
-    [
-        "KIT: how long one robot and two take to find the nodes of random lattices",
-        "How long robots that keep in touch take to find the nodes",
-        "some seconds",
-    ],
-);
+pub const KIT_FIG9: Kit = Kit {
+    figure: Figure::Time,
+    about: Description {
+        id: "kit-fig9",
+        shows: "KIT: how long one robot and two take to find the nodes of random lattices",
+        help: "How long robots that keep in touch take to find the nodes",
+        takes: "some seconds",
+        ..ABOUT
+    },
+};
 
 /// Figure 14: how much both robots drive.
-pub const KIT_FIG14: Kit = Kit::of(
-    Figure::Overlap,
-    "kit-fig14",
-    [
-        "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and how long all take",
-        "How much robots that keep in touch overlap",
-        "some seconds",
-    ],
-);
+pub const KIT_FIG14: Kit = Kit {
+    figure: Figure::Overlap,
+    about: Description {
+        id: "kit-fig14",
+        shows: "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and \
+            how long all take",
+        help: "How much robots that keep in touch overlap",
+        takes: "some seconds",
+        ..ABOUT
+    },
+};
 
 /// Robots that keep in touch on random lattices.
 #[derive(Clone, Copy, Debug)]
 pub struct Kit {
     figure: Figure,
     about: Description,
-}
-
-impl Kit {
-    const fn of(figure: Figure, id: &'static str, [shows, help, takes]: [&'static str; 3]) -> Self {
-        let examples = &["kit-fig14 --svg overlap.svg", "kit-fig9 --runs 100 --format json"];
-        let pictures = &[("svg", "Store a chart")];
-        Self {
-            figure,
-            about: Description {
-                id,
-                shows,
-                help,
-                examples,
-                doing: "driving",
-                takes,
-                pictures,
-                ..Description::NOTHING
-            },
-        }
-    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
