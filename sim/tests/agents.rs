@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs, thread};
 
-use crate::common::Unwatched;
+use crate::common::{Unwatched, generated};
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use tautline_grids::chance::Probability;
@@ -208,8 +208,7 @@ fn built_in_layouts_are_visited() {
     for described in
         ["rooms-a", "rooms-b", "open:20x7", "office:30x30:4x4", "cells:24x24:0.3", "walls:24x24:0.3"]
     {
-        let generator: Generator = described.parse().expect("a generator");
-        let layout = generator.generate(1).expect("a layout");
+        let layout = generated(described, 1);
         is_visited(described, &layout, largest_part(&layout));
     }
 }
@@ -275,18 +274,10 @@ fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
 
 fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> HuntReport {
     let asked = Asked {
-        scheme: scheme.into(),
-        rule,
         robots: Some(robots),
         size: Some(Size::new(side, side).expect("a size")),
-        budget: None,
-        max_walls: None,
-        max_cells: None,
         max_misses: Some(max_misses),
-        max_losses: None,
-        error_cells: None,
-        range_cells: None,
-        resume: None,
+        ..Asked::new(scheme, rule)
     };
     let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");
     rule.hunt.expect("a hunt").hunt(&asked, &mut Unwatched).expect("it can be searched")

@@ -6,8 +6,9 @@ mod judge;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use crate::common::generated;
 use judge::{Broken, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
-use tautline_grids::layout::{Generator, Layout};
+use tautline_grids::layout::Layout;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Rule as Cells, Status};
@@ -73,8 +74,7 @@ fn drawn(oracle: &mut SeededOracle, kinds: &[&str], most: u32) -> (String, Layou
     let share = one_of(oracle, &["0", "0.05", "0.1", "0.2", "0.3", "0.4"]);
     let text = format!("{kind}:{columns}x{rows}:{share}");
     let seed = u64::from(oracle.pick(u32::MAX));
-    let layout = text.parse::<Generator>().expect("a generator").generate(seed).expect("a layout");
-    (format!("{text} --seed {seed}"), layout)
+    (format!("{text} --seed {seed}"), generated(&text, seed))
 }
 
 fn place(cell: Cell) -> Place {

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};
 
+use crate::common::generated;
 use proptest::prelude::*;
-use tautline_grids::layout::{self, Generator, Layout};
+use tautline_grids::layout::{self, Layout};
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::{Cell, Edge, Step};
@@ -24,10 +25,6 @@ const MANY: u32 = 20_000;
 fn setup(rule: RuleName, robots: u16, mut layout: Layout) -> Setup {
     let base = Setup::choose_base(&mut layout, None).expect("a free cell");
     Setup::new(&CHAIN, rule, robots, layout, base)
-}
-
-fn generated(description: &str, seed: u64) -> Layout {
-    description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
 }
 
 fn run(setup: &Setup) -> (Report, Vec<Frame>) {

@@ -1,15 +1,14 @@
 //! Chains in which something fails: what is promised holds, and without *Hold* it does not.
 
+use crate::common::generated;
 use tautline_grids::chance::Probability;
-use tautline_grids::layout::Generator;
 use tautline_sim::explore::chain::{ANY_ORDER, CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Report, RuleId, Setup, Stopped, explore};
 use tautline_sim::failures::{Failure, Going};
 use tautline_sim::options::Options;
 
 fn ran(rule: RuleId, robots: u16, density: f64, seed: u64, options: Options) -> Report {
-    let ground = format!("walls:15x15:{density}").parse::<Generator>().expect("a generator");
-    let mut layout = ground.generate(seed).expect("a layout");
+    let mut layout = generated(&format!("walls:15x15:{density}"), seed);
     let base = Setup::choose_base(&mut layout, None).expect("a base");
     let setup = Setup { options, seed, ..Setup::new(&CHAIN, rule, robots, layout, base) };
     explore(&setup, &mut |_| Ok(())).map_err(|_| ()).expect("a run")

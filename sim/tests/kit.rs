@@ -5,22 +5,18 @@ use std::fs;
 use std::num::NonZeroU32;
 use std::path::Path;
 
-use crate::common::Unwatched;
-use tautline_grids::layout::{Generator, Layout, Size};
+use crate::common::{Unwatched, generated, run_again};
+use tautline_grids::layout::{Layout, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::{minimise::minimise, refutation};
-use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize, Shown};
+use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize};
 use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
 use tautline_sim::options::Options;
 use tautline_sim::trace::Trace;
-
-fn generated(description: &str, seed: u64) -> Layout {
-    description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
-}
 
 fn setup(rule: impl Into<RuleId>, robots: u16, layout: Layout, seed: u64) -> Setup {
     let base = layout.default_base().expect("a free cell");
@@ -235,18 +231,10 @@ fn teams_without_room_or_contact_say_so() {
 
 fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {
     Asked {
-        scheme: (&KIT).into(),
-        rule: rule.into(),
         robots: Some(robots),
         size: Some(Size::new(columns, rows).expect("a size")),
-        budget: None,
         max_walls: Some(2),
-        max_cells: None,
-        max_misses: None,
-        max_losses: None,
-        error_cells: None,
-        range_cells: None,
-        resume: None,
+        ..Asked::new(&KIT, rule.into())
     }
 }
 
@@ -263,22 +251,6 @@ fn broken(hunted: &HuntReport) -> Vec<(&'static str, [usize; 4])> {
         RunSize::Runs { .. } | RunSize::Misses { .. } => panic!("an area"),
     };
     hunted.found.iter().map(|quarry| (quarry.clause, size(quarry))).collect()
-}
-
-/// Runs each counterexample that a file tells again: it breaks its clause.
-fn run_again(hunted: &HuntReport) -> usize {
-    let stored = hunted.found.iter().filter_map(|quarry| match quarry.shown {
-        Shown::Run(clause) | Shown::Story(clause, _) => Some((clause, quarry)),
-        Shown::Endless | Shown::Told(_) => None,
-    });
-    let mut count = 0;
-    for (clause, quarry) in stored {
-        let report = run(&quarry.setup);
-        let is_broken = report.violations.iter().any(|violation| violation.clause == clause);
-        assert!(is_broken, "{clause}: {:?}", report.violations);
-        count += 1;
-    }
-    count
 }
 
 #[test]

@@ -3,18 +3,17 @@
 
 use std::fmt::Write;
 
+use crate::common::generated;
 use crc32fast::Hasher;
 use insta::assert_snapshot;
 use tautline_grids::chance::Probability;
-use tautline_grids::layout::Generator;
 use tautline_kernel::bricks::{Condition, Rule};
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::agents::Agents;
 
 /// The team moves that agents take by a rule, and a checksum of their steps.
 fn run(rule: Rule, layout: &str, robots: usize, chance: Probability) -> String {
-    let generator: Generator = layout.parse().expect("a generator");
-    let layout = generator.generate(5).expect("a layout");
+    let layout = generated(layout, 5);
     let free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
     let starts: Vec<Cell> = (0..robots).map(|robot| free[robot * free.len() / robots]).collect();
     let mut agents = Agents::new(rule, &layout, &starts, chance, 5);

@@ -6,7 +6,8 @@ use std::env;
 use std::num::NonZeroU32;
 use std::path::Path;
 
-use tautline_grids::layout::{self, Generator, Layout};
+use crate::common::generated;
+use tautline_grids::layout::{self, Layout};
 use tautline_io::atomic_file::Replaceable;
 use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Edge, Side};
@@ -144,10 +145,6 @@ impl Case {
 fn setup(robots: u16, mut layout: Layout) -> Setup {
     let base = Setup::choose_base(&mut layout, None).expect("a free cell");
     Setup::new(&CHAIN, RuleName::Published, robots, layout, base)
-}
-
-fn generated(description: &str, seed: u64) -> Layout {
-    description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
 }
 
 fn minimal(setup: &Setup, asked: Option<Breach>) -> Option<Minimal> {

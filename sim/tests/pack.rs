@@ -1,6 +1,6 @@
 //! Packs in whole layouts: what the repaired rule promises holds, and what is no pack is refused with a remedy.
 
-use tautline_grids::layout::Generator;
+use crate::common::generated;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::pack::PACK;
@@ -16,8 +16,7 @@ fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> Asked {
 }
 
 fn ran(asked: Asked, ground: &str, seed: u64) -> Result<Report, Diagnostic> {
-    let layout = ground.parse::<Generator>().expect("a generator").generate(seed).expect("a layout");
-    let setup = asked.setup(layout)?;
+    let setup = asked.setup(generated(ground, seed))?;
     Ok(explore(&setup, &mut |_| Ok(())).map_err(|_| ()).expect("a run"))
 }
 
@@ -45,8 +44,7 @@ fn robots_that_only_follow_the_definitions_wait_for_each_other() {
 #[test]
 fn what_is_no_pack_is_refused() {
     let refused = |asked: Asked| {
-        let layout = "open:9x9".parse::<Generator>().expect("a generator").generate(0).expect("a layout");
-        let setup = asked.setup(layout).expect("it fits its scheme");
+        let setup = asked.setup(generated("open:9x9", 0)).expect("it fits its scheme");
         tautline_sim::explore::team(&setup).map(|_| ()).expect_err("it is refused").to_string()
     };
     let far: Vec<Cell> = [(0, 0), (8, 8), (0, 1), (8, 7)].into_iter().map(Cell::from).collect();

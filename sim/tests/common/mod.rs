@@ -2,8 +2,31 @@
 
 use std::ops::ControlFlow;
 
+use tautline_grids::layout::{Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_sim::explore::hunt::{Far, Hunter};
+use tautline_sim::explore::explore;
+use tautline_sim::explore::hunt::{Far, HuntReport, Hunter, Shown};
+
+/// The layout of this seed that a description stands for.
+pub(crate) fn generated(description: &str, seed: u64) -> Layout {
+    description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
+}
+
+/// Runs each counterexample that has a file once more, checks that it breaks its clause, and counts them.
+pub(crate) fn run_again(hunted: &HuntReport) -> usize {
+    let stored = hunted.found.iter().filter_map(|quarry| match quarry.shown {
+        Shown::Run(clause) | Shown::Story(clause, _) => Some((clause, quarry)),
+        Shown::Endless | Shown::Told(_) => None,
+    });
+    let mut count = 0;
+    for (clause, quarry) in stored {
+        let report = explore(&quarry.setup, &mut |_| Ok(())).expect("a run");
+        let is_broken = report.violations.iter().any(|violation| violation.clause == clause);
+        assert!(is_broken, "{clause}: {:?}", report.violations);
+        count += 1;
+    }
+    count
+}
 
 /// Nobody watches; the hunts of these tests keep no file.
 pub(crate) struct Unwatched;
