@@ -49,6 +49,23 @@ fn ran(folder: &Path, arguments: &[&str]) -> Output {
     tautline(folder, arguments).output().expect("the program runs")
 }
 
+/// The text that a command prints with so many threads, if it succeeds.
+fn with_threads(folder: &Path, threads: &str, arguments: &[&str]) -> String {
+    let output = tautline(folder, arguments).env("RAYON_NUM_THREADS", threads).output();
+    let output = output.expect("the program runs");
+    assert_eq!(output.status.code(), Some(0));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The exit code of a command that gets a Ctrl-C at work.
+#[cfg(unix)]
+fn interrupted(folder: &Path, arguments: &[&str]) -> Option<i32> {
+    let mut child = tautline(folder, arguments).stdout(Stdio::piped()).spawn().expect("the program runs");
+    std::thread::sleep(Duration::from_millis(500));
+    files::send("-INT", &child);
+    child.wait().expect("it ends").code()
+}
+
 /// The text on stdout of a program that ends with `code` and says nothing on stderr.
 fn printed(folder: &Path, arguments: &[&str], code: i32) -> String {
     let output = ran(folder, arguments);
@@ -202,14 +219,7 @@ fn a_hunt_that_ends_before_its_bound_claims_nothing() {
 #[test]
 fn ctrl_c_ends_a_hunt_without_a_claim() {
     let folder = folder();
-    let mut hunt = tautline(folder.path(), &["hunt", "--robots", "6", "--max-walls", "6"])
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
-    std::thread::sleep(Duration::from_millis(500));
-    let sent = Command::new("kill").args(["-INT", &hunt.id().to_string()]).status().expect("kill runs");
-    assert!(sent.success());
-    assert_eq!(hunt.wait().expect("it ends").code(), Some(3));
+    assert_eq!(interrupted(folder.path(), &["hunt", "--robots", "6", "--max-walls", "6"]), Some(3));
     assert_eq!(names(folder.path()), [""; 0]);
 }
 
@@ -432,12 +442,7 @@ fn the_counterexample_of_a_clause_of_agents_is_drawn() {
 #[test]
 fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
     let folder = folder();
-    let table = |threads| {
-        let mut command = tautline(folder.path(), &["reproduce", "repair-cost", "--runs", "12"]);
-        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
-        assert_eq!(output.status.code(), Some(0));
-        String::from_utf8(output.stdout).expect("text")
-    };
+    let table = |threads| with_threads(folder.path(), threads, &["reproduce", "repair-cost", "--runs", "12"]);
     assert_eq!(table("1"), table("3"));
     let measured = json(folder.path(), &["reproduce", "repair-cost", "--runs", "3"], 0);
     assert_eq!(measured["densities"].as_array().map(Vec::len), Some(7));
@@ -446,12 +451,7 @@ fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
 #[test]
 fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
     let folder = folder();
-    let table = |threads| {
-        let mut command = tautline(folder.path(), &["reproduce", "optimum", "--max-walls", "2"]);
-        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
-        assert_eq!(output.status.code(), Some(0));
-        String::from_utf8(output.stdout).expect("text")
-    };
+    let table = |threads| with_threads(folder.path(), threads, &["reproduce", "optimum", "--max-walls", "2"]);
     assert_eq!(table("1"), table("3"));
     assert_snapshot!("optimum_of_two_walls", table("2"));
     let measured = json(folder.path(), &["reproduce", "optimum", "--max-walls", "0"], 0);
@@ -468,11 +468,8 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
     let figure = |threads| {
         let arguments =
             ["reproduce", "bricks-fig11", "--runs", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
-        let output = tautline(folder.path(), &arguments).env("RAYON_NUM_THREADS", threads).output();
-        let output = output.expect("the program runs");
-        assert_eq!(output.status.code(), Some(0));
-        let drawn = fs::read_to_string(folder.path().join("fig11.svg")).expect("text");
-        (String::from_utf8(output.stdout).expect("text"), drawn)
+        let told = with_threads(folder.path(), threads, &arguments);
+        (told, fs::read_to_string(folder.path().join("fig11.svg")).expect("text"))
     };
     assert_eq!(figure("1"), figure("3"));
     let short = ["--runs", "1", "--max-steps", "500"];
@@ -486,15 +483,8 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
 fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
     let folder = folder();
     let folder = folder.path();
-    let table = |threads| {
-        let arguments = ["reproduce", "notice-fig5", "--nodes", "300,700", "--runs", "20"];
-        let output = tautline(folder, &[&arguments[..], &["--channel", "shared"]].concat())
-            .env("RAYON_NUM_THREADS", threads)
-            .output()
-            .expect("the program runs");
-        assert_eq!(output.status.code(), Some(0));
-        String::from_utf8(output.stdout).expect("text")
-    };
+    let figure = ["reproduce", "notice-fig5", "--nodes", "300,700", "--runs", "20", "--channel", "shared"];
+    let table = |threads| with_threads(folder, threads, &figure);
     assert_eq!(table("1"), table("3"));
     assert_snapshot!("reach_of_broadcasts", table("2"));
     let asked = ["reproduce", "notice-fig5", "--nodes", "300", "--runs", "3", "--svg-reach", "a.svg"];
@@ -543,11 +533,8 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
     let folder = folder.path();
     let table = |threads| {
         let arguments = ["reproduce", "rescue-fig7", "--nodes", "300,700", "--runs", "12", "--svg", "7.svg"];
-        let output = tautline(folder, &arguments).env("RAYON_NUM_THREADS", threads).output();
-        let output = output.expect("the program runs");
-        assert_eq!(output.status.code(), Some(0));
-        let drawn = fs::read_to_string(folder.join("7.svg")).expect("text");
-        (String::from_utf8(output.stdout).expect("text"), drawn)
+        let told = with_threads(folder, threads, &arguments);
+        (told, fs::read_to_string(folder.join("7.svg")).expect("text"))
     };
     assert_eq!(table("1"), table("3"));
     assert_snapshot!("ways_of_robots", table("2").0);
@@ -578,13 +565,8 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
 fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
     let folder = folder();
     let folder = folder.path();
-    let table = |threads| {
-        let arguments = ["reproduce", "rescue-fig8", "--runs", "20", "--svg", "ways.svg"];
-        let output = tautline(folder, &arguments).env("RAYON_NUM_THREADS", threads).output();
-        let output = output.expect("the program runs");
-        assert_eq!(output.status.code(), Some(0));
-        String::from_utf8(output.stdout).expect("text")
-    };
+    let figure = ["reproduce", "rescue-fig8", "--runs", "20", "--svg", "ways.svg"];
+    let table = |threads| with_threads(folder, threads, &figure);
     assert_eq!(table("1"), table("3"));
     assert_snapshot!("three_robots_for_three_wfrs", table("2"));
     let drawn = fs::read_to_string(folder.join("ways.svg")).expect("a picture");
@@ -990,14 +972,7 @@ fn ctrl_c_ends_minimising_with_nothing_stored() {
     let folder = folder();
     let explore = ["explore", "walls:127x127:0.05", "--seed", "3", "--robots", "64", "--rule", "published"];
     printed(folder.path(), &[&explore[..], &["--max-moves", "200", "--trace", "run.jsonl"]].concat(), 1);
-    let mut minimise = tautline(folder.path(), &["minimise", "run.jsonl"])
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
-    std::thread::sleep(Duration::from_millis(500));
-    let sent = Command::new("kill").args(["-INT", &minimise.id().to_string()]).status().expect("kill runs");
-    assert!(sent.success());
-    assert_eq!(minimise.wait().expect("it ends").code(), Some(3));
+    assert_eq!(interrupted(folder.path(), &["minimise", "run.jsonl"]), Some(3));
     assert_eq!(names(folder.path()), ["run.jsonl"]);
 }
 
@@ -1190,14 +1165,7 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
 #[test]
 fn ctrl_c_ends_rescues_and_nothing_is_claimed() {
     let folder = folder();
-    let mut rescue = tautline(folder.path(), &["rescue", "--seeds", "0..999999"])
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
-    std::thread::sleep(Duration::from_millis(500));
-    let sent = Command::new("kill").args(["-INT", &rescue.id().to_string()]).status().expect("kill runs");
-    assert!(sent.success());
-    assert_eq!(rescue.wait().expect("it ends").code(), Some(3));
+    assert_eq!(interrupted(folder.path(), &["rescue", "--seeds", "0..999999"]), Some(3));
 }
 
 #[test]

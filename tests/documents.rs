@@ -10,6 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::commands::documents;
+use crate::foreign;
 use crate::proved::proved;
 use insta::assert_snapshot;
 use tautline_proofs::ledger;
@@ -20,19 +21,7 @@ fn document(name: &str) -> String {
 
 /// The text that the program prints in the project's folder, if it ends with `code`.
 fn printed(arguments: &[&str], code: i32) -> String {
-    printed_in(Path::new(env!("CARGO_MANIFEST_DIR")), arguments, code)
-}
-
-/// The text that the program prints in a folder, if it ends with `code`.
-fn printed_in(folder: &Path, arguments: &[&str], code: i32) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_tautline"))
-        .current_dir(folder)
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the program runs");
-    assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
+    foreign::ended(Path::new(env!("CARGO_MANIFEST_DIR")), arguments, code).0
 }
 
 #[test]
@@ -302,7 +291,7 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     assert_eq!(quick.len(), 3, "{quick:?}");
     for (command, code) in quick.iter().zip([1, 1, 0]) {
         let arguments: Vec<&str> = command.split_whitespace().collect();
-        assert!(!printed_in(folder.path(), &arguments, code).is_empty(), "{command}");
+        assert!(!foreign::ended(folder.path(), &arguments, code).0.is_empty(), "{command}");
     }
 }
 

@@ -18,6 +18,7 @@ fn tautline(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_tautline"))
         .args(arguments)
         .current_dir(folder)
+        .env("NO_COLOR", "1")
         .output()
         .expect("the program runs")
 }

@@ -1,14 +1,13 @@
 //! Refutations of clauses are stored, and played again from their files; a file that was changed is refused.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
 use tautline_io::atomic_file::Replaceable;
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::ledger;
 use tautline_sim::counterexample::refutation::{self, replay};
 
+use crate::foreign::ended;
 use crate::proved::proved;
 
 /// Copies of a file with one thing changed, each with the words for the change.
@@ -88,11 +87,6 @@ fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_
     assert!(played > 40, "{played}");
 }
 
-fn tautline(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
-    command.current_dir(folder).args(arguments).env("NO_COLOR", "1").output().expect("the program runs")
-}
-
 #[test]
 fn prove_stores_what_it_refutes_and_replay_draws_it_again() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -109,17 +103,14 @@ fn prove_stores_what_it_refutes_and_replay_draws_it_again() {
         let file = format!("refuted/{name}");
         fs::write(folder.path().join(name), &proved().stored[name]).expect("room");
         assert!(told.contains(&format!("replay it with: tautline replay {file}\n")), "{told}");
-        let replayed = tautline(folder.path(), &["replay", name]);
-        assert_eq!(replayed.status.code(), Some(1), "{}", String::from_utf8_lossy(&replayed.stderr));
-        let replayed = String::from_utf8(replayed.stdout).expect("text");
+        let (replayed, _) = ended(folder.path(), &["replay", name], 1);
         let (head, story) = replayed.split_once("\n\n").expect("a head, then a story");
         let clause: Vec<&str> = name.split('-').take(2).collect();
         let judged =
             format!("the judge accepts it as a counterexample to {}", clause.join("-").to_uppercase());
         assert!(head.ends_with(&judged), "{head}");
         assert!(told.contains(story), "{name}: another story:\n{story}");
-        let refused = tautline(folder.path(), &["replay", name, "--svg", "picture.svg"]);
-        assert_eq!(refused.status.code(), Some(2));
+        ended(folder.path(), &["replay", name, "--svg", "picture.svg"], 2);
     }
     assert!(!folder.path().join("picture.svg").exists());
 }

@@ -12,7 +12,7 @@ fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) {
     fs::write(folder.join(name), content).expect("a file");
 }
 
-fn read(folder: &Path, name: &str) -> String {
+pub(crate) fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).expect("text")
 }
 
@@ -457,7 +457,7 @@ fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
 }
 
 #[cfg(unix)]
-fn send(signal: &str, child: &Child) {
+pub(crate) fn send(signal: &str, child: &Child) {
     let sent = Command::new("kill").args([signal, &child.id().to_string()]).output();
     sent.expect("kill runs");
 }

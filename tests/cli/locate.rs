@@ -4,7 +4,7 @@ use std::fs;
 
 use insta::assert_snapshot;
 
-use super::{folder, json, names, printed, refused, tautline};
+use super::{folder, json, names, printed, refused, with_threads};
 
 #[test]
 fn errors_are_those_that_theory_and_an_independent_program_expect() {
@@ -40,12 +40,8 @@ fn errors_are_those_that_theory_and_an_independent_program_expect() {
 #[test]
 fn the_report_is_the_same_on_any_number_of_threads() {
     let folder = folder();
-    let printed = |threads: &str| {
-        let mut command =
-            tautline(folder.path(), &["locate", "--solver", "pso", "--runs", "3000", "--advice"]);
-        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
-        String::from_utf8(output.stdout).expect("text")
-    };
+    let swarm = ["locate", "--solver", "pso", "--runs", "3000", "--advice"];
+    let printed = |threads| with_threads(folder.path(), threads, &swarm);
     let one = printed("1");
     assert!(one == printed("2") && one == printed("7"));
     assert_snapshot!("positions_of_a_swarm", one);

@@ -1,5 +1,6 @@
 //! Work that is dealt out among shards, and put together again.
 
+use super::files::read;
 use super::*;
 
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "3"];
@@ -11,10 +12,6 @@ fn hunt_shard(folder: &Path, plan: &str, shard: u32) {
 
 fn planned(folder: &Path, work: &[&str], shards: &str) {
     printed(folder, &[work, &["--plan", "plan.json", "--shards", shards]].concat(), 0);
-}
-
-fn read(folder: &Path, name: &str) -> String {
-    fs::read_to_string(folder.join(name)).expect("text")
 }
 
 /// The first two lines of a file, with the checksum that belongs to them.
