@@ -182,24 +182,15 @@ impl Replay {
                 }
                 self.run_refutation(page, out)
             }
-            Some(trace::FORMAT) => {
-                self.run_stored(trace::open(&self.file, CATALOGUE)?, RunFiles { page, picture, viewers }, out)
+            format => {
+                let is_run = format == Some(trace::FORMAT);
+                let foreign = |fault: Diagnostic| if is_run { fault } else { fault.with_remedy(REPLAYABLE) };
+                let files = RunFiles { page, picture, viewers };
+                match trace::open(&self.file, CATALOGUE).map_err(foreign)? {
+                    StoredRun::Known(trace) => self.run_team(trace, files, out),
+                    StoredRun::Foreign(run) => self.run_recorded(&run, files, out),
+                }
             }
-            Some(_) | None => {
-                let foreign = |fault: Diagnostic| fault.with_remedy(REPLAYABLE);
-                self.run_stored(
-                    trace::open(&self.file, CATALOGUE).map_err(foreign)?,
-                    RunFiles { page, picture, viewers },
-                    out,
-                )
-            }
-        }
-    }
-
-    fn run_stored(&self, stored: StoredRun, files: RunFiles, out: &mut Output) -> Result<Exit, Halt> {
-        match stored {
-            StoredRun::Known(trace) => self.run_team(trace, files, out),
-            StoredRun::Foreign(run) => self.run_recorded(&run, files, out),
         }
     }
 

@@ -265,8 +265,11 @@ impl Lines {
     }
 }
 
-/// The value that a line holds; else the column from 0 on where it is no such thing, and why.
-pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, (usize, String)> {
+/// The value that a line holds.
+///
+/// # Errors
+/// The column, from 0 on, at which the line holds no such value, and the reason.
+pub fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, (usize, String)> {
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();

@@ -238,17 +238,20 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     if comparisons > MOST_COMPARISONS {
         return Err(TooMuch { comparisons });
     }
-    if tracks.count() < 2 && !matches!(demand, Demand::Visited { .. }) {
+    let silent = tracks.silences().next().map(|silence| Doubt::Silent(silence, tracks.silences().count()));
+    if let Demand::Visited { grid, cells, is_whole } = demand {
+        return visited(tracks, limits, *grid, cells, *is_whole, silent);
+    }
+    if tracks.count() < 2 {
         return Ok(Verdict::Unknown(Doubt::Alone));
     }
     let tolerance = f64::from(limits.tolerance_mm);
     let mut is_started = false;
     let mut parted = None;
-    let left = match demand {
-        Demand::Apart { least_mm } => leaving(tracks, f64::from(*least_mm) + tolerance),
-        Demand::Neighbours { .. } | Demand::Joined { .. } | Demand::Crowd { .. } | Demand::Visited { .. } => {
-            Vec::new()
-        }
+    let left = if let Demand::Apart { least_mm } = demand {
+        leaving(tracks, f64::from(*least_mm) + tolerance)
+    } else {
+        Vec::new()
     };
     let pair = |([one, other], far): ([u32; 2], f64)| Found {
         robots: vec![one, other],
@@ -281,17 +284,13 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         Demand::Visited { .. } => None,
     };
     let mut first: Option<Breach> = None;
-    if !matches!(demand, Demand::Visited { .. }) {
-        for fresh in moments() {
-            let moment = Moment { at_us: fresh[0].0, fresh, tracks };
-            let Some(Found { robots, measured, cell }) = found(&moment) else { continue };
-            let place =
-                fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
-            let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
-            let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
-            first.get_or_insert(Breach { at_us, robots, measured, allowed, cell, place, moments }).moments +=
-                1;
-        }
+    for fresh in moments() {
+        let moment = Moment { at_us: fresh[0].0, fresh, tracks };
+        let Some(Found { robots, measured, cell }) = found(&moment) else { continue };
+        let place = fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
+        let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
+        let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
+        first.get_or_insert(Breach { at_us, robots, measured, allowed, cell, place, moments }).moments += 1;
     }
     if let Some(at_us) = parted {
         return Ok(Verdict::Unknown(Doubt::Parted(at_us)));
@@ -299,15 +298,7 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     if let Some(breach) = first {
         return Ok(Verdict::Broken(breach));
     }
-    let silent = tracks.silences().next().map(|silence| Doubt::Silent(silence, tracks.silences().count()));
-    Ok(match demand {
-        Demand::Visited { grid, cells, is_whole } => {
-            return visited(tracks, limits, *grid, cells, *is_whole, silent);
-        }
-        Demand::Neighbours { .. } | Demand::Joined { .. } | Demand::Apart { .. } | Demand::Crowd { .. } => {
-            silent.map_or(Verdict::Kept, Verdict::Unknown)
-        }
-    })
+    Ok(silent.map_or(Verdict::Kept, Verdict::Unknown))
 }
 
 /// The number that a demand allows.

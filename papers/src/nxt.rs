@@ -65,7 +65,6 @@ impl Body {
 /// The time that a run has taken so far.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Odometer {
-    body: Body,
     /// The way that each robot faces; all face east at first.
     headings: Vec<Side>,
     /// The way that each robot drove.
@@ -80,9 +79,8 @@ pub(crate) struct Odometer {
 
 impl Odometer {
     /// `robots` robots that have not moved, the base counted.
-    pub(crate) fn new(body: Body, robots: usize) -> Self {
+    pub(crate) fn new(robots: usize) -> Self {
         Self {
-            body,
             headings: vec![Side::East; robots],
             ways_mm: vec![0; robots],
             milliseconds: 0,
@@ -98,18 +96,18 @@ impl Odometer {
             let Step::Cross(side) = step else { continue };
             let turned = turns(self.headings[robot], side);
             self.headings[robot] = side;
-            let (mut way, mut quarters) = (self.body.cell_mm, turned);
+            let (mut way, mut quarters) = (Body::NXT.cell_mm, turned);
             if frame.blocked[robot] {
-                let (there, more) = self.body.wall();
+                let (there, more) = Body::NXT.wall();
                 (way, quarters) = (there, quarters + more);
                 self.walls += 1;
             } else if meets(before, frame, robot) {
-                let (there, more) = self.body.passing();
+                let (there, more) = Body::NXT.passing();
                 (way, quarters) = (way + there, quarters + more);
                 self.passed += 1;
             }
             self.ways_mm[robot] += way;
-            last = last.max(self.body.milliseconds((way, quarters)));
+            last = last.max(Body::NXT.milliseconds((way, quarters)));
         }
         self.milliseconds += last;
     }
@@ -121,7 +119,7 @@ impl Odometer {
 
     /// How far off the robot with the longest way can be.
     pub(crate) fn drift_mm(&self) -> u64 {
-        self.longest_mm() * self.body.drift_per_mille / 1000
+        self.longest_mm() * Body::NXT.drift_per_mille / 1000
     }
 }
 
@@ -156,7 +154,7 @@ mod tests {
     #[test]
     fn a_straight_move_takes_13_333_ms_and_a_quarter_turn_500_more() {
         let before = [Cell::new(0, 0), Cell::new(0, 0)];
-        let mut odometer = Odometer::new(Body::NXT, 2);
+        let mut odometer = Odometer::new(2);
         odometer.make(&before, &frame(&[Step::Stay, Step::Cross(Side::East)], &[false; 2], &before));
         assert_eq!(odometer.milliseconds, 13_333);
         odometer.make(&before, &frame(&[Step::Stay, Step::Cross(Side::North)], &[false; 2], &before));
@@ -174,14 +172,14 @@ mod tests {
     fn a_robot_backs_up_from_a_wall_and_goes_round_another_robot() {
         let before = [Cell::new(0, 0), Cell::new(2, 0), Cell::new(3, 0)];
         let [east, west] = [Side::East, Side::West].map(Step::Cross);
-        let mut swap = Odometer::new(Body::NXT, 3);
+        let mut swap = Odometer::new(3);
         swap.make(&before, &frame(&[Step::Stay, east, west], &[false; 3], &before));
         assert_eq!((swap.passed, swap.walls), (1, 0));
         assert_eq!(swap.milliseconds, (4000 + 1400) * 1000 / 300 + 6 * 500);
-        let mut wall = Odometer::new(Body::NXT, 3);
+        let mut wall = Odometer::new(3);
         wall.make(&before, &frame(&[Step::Stay, east, west], &[false, true, false], &before));
         assert_eq!((wall.passed, wall.walls), (1, 1));
-        let mut shared = Odometer::new(Body::NXT, 3);
+        let mut shared = Odometer::new(3);
         shared.make(&before, &frame(&[Step::Stay, Step::Stay, west], &[false; 3], &before));
         assert_eq!(shared.passed, 1);
     }

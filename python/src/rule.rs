@@ -187,7 +187,7 @@ fn stored(
     let setup = Setup::named(written.scheme, written.script.name, layout.clone(), written.starts());
     let setup = Setup { limits, ..setup };
     let aside = AtomicFile::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(aside, &setup, Some(clause)).map_err(Diagnostic::from)?;
+    let mut writer = Writer::new(aside, &setup, Some(clause))?;
     let mut left = written.longest_run;
     let team = setting.in_layout(rule, written.starts(), Vec::new()).wanting(&[Promise(demand)]);
     let report = run(&mut Own::new(team, 0), layout, limits, &mut |made| {

@@ -1,5 +1,6 @@
 //! Who is watched by which clauses: a configuration in TOML, read whole and refused whole.
 
+use clap::ValueEnum;
 use serde::Deserialize;
 use std::fmt;
 use std::time::Duration;
@@ -102,16 +103,7 @@ impl Id {
 
 impl fmt::Display for Id {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Chain2 => "CHAIN-2",
-            Self::Chain3 => "CHAIN-3",
-            Self::Frontier2 => "FRONTIER-2",
-            Self::Kit1 => "KIT-1",
-            Self::Kit2 => "KIT-2",
-            Self::Kit3 => "KIT-3",
-            Self::Kit12 => "KIT-12",
-            Self::Pack2 => "PACK-2",
-        })
+        f.write_str(self.to_possible_value().as_ref().map_or("", |value| value.get_name()))
     }
 }
 

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_io::json_lines::line_of;
+use tautline_io::json_lines::{line_of, parse};
 use tautline_proofs::plural::counted;
 
 /// Longer lines are refused.
@@ -111,14 +111,8 @@ impl Program {
             return Err(self.fault(&text, 0, format_args!("this line has more than {MAX_LINE_BYTES} bytes")));
         }
         let text = text.trim_end().to_owned();
-        let answer = serde_json::from_str(&text).map_err(|error| {
-            let message = error.to_string();
-            let message = message.split(" at line ").next().unwrap_or_default();
-            self.fault(
-                &text,
-                error.column().saturating_sub(1),
-                format_args!("this does not answer {what}: {message}"),
-            )
+        let answer = parse(&text).map_err(|(column, message)| {
+            self.fault(&text, column, format_args!("this does not answer {what}: {message}"))
         })?;
         Ok((answer, text))
     }

@@ -91,7 +91,7 @@ pub(crate) struct Delta {
     pub(crate) say: Vec<(usize, usize, usize, Option<Vec<usize>>)>,
     /// The robots whose link with the next is lost.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(crate) lost: Vec<usize>,
+    pub(crate) lost: Vec<u32>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) failed: Vec<usize>,
     /// The walls that an answer has made or taken away.

@@ -70,6 +70,7 @@ impl Run {
             unseen: team_move.unseen.iter().filter_map(|&cell| number(cell)).collect(),
             walls: walls.into_iter().filter_map(|(edge, is)| Some((side_of(area, edge)?, is))).collect(),
             broken,
+            lost: self.setup.scheme.look.lost(&made.before, &made.frame.cells),
             ..Delta::default()
         };
         for (robot, &from) in made.before.iter().enumerate() {
@@ -78,10 +79,6 @@ impl Run {
             {
                 delta.known.push((at, !made.frame.blocked[robot]));
             }
-        }
-        if let Look::Linked { is_lost } = self.setup.scheme.look {
-            let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
-            delta.lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot).collect();
         }
         let mut scene = Scene::default();
         self.team.show(&made.before, &mut scene);

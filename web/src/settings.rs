@@ -7,6 +7,7 @@ use tautline_grids::chance::Probability;
 use tautline_grids::layout::{Layout, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_sim::draw::page::film;
 use tautline_sim::explore::{Asked, Limits, Rule, Scheme, Setup, Starts, Team};
 use tautline_sim::options::{Extra, Options};
 
@@ -178,22 +179,13 @@ impl Settings {
 
 /// The rows of a layout.
 pub(crate) fn ground(layout: &Layout) -> Vec<String> {
-    let letter = |x: i16, y: i16| {
-        let cell = Cell::new(x, y);
+    let letter = |cell: Cell| {
         let inner = |side: Side| layout.contains(cell.beyond(side)) && layout.has_wall(Edge::new(cell, side));
         let bit = |is: bool, bit: u8| if is { bit } else { 0 };
-        b'a' + bit(!layout.is_free(cell), BLOCKED)
-            + bit(inner(Side::East), EAST)
-            + bit(inner(Side::South), SOUTH)
+        let walls = bit(inner(Side::East), EAST) + bit(inner(Side::South), SOUTH);
+        char::from(b'a' + bit(!layout.is_free(cell), BLOCKED) + walls)
     };
-    let row = |y: i16| {
-        let letters: Vec<u8> = (0..layout.width()).map(|x| letter(x, y)).collect();
-        letters.chunk_by(|one, other| one == other).fold(String::new(), |row, alike| match alike.len() {
-            1 => format!("{row}{}", char::from(alike[0])),
-            many => format!("{row}{many}{}", char::from(alike[0])),
-        })
-    };
-    (0..layout.height()).map(row).collect()
+    film::rows(layout.size().area(), letter)
 }
 
 /// The letters of a row, each from 0 on; `None` if it is damaged.

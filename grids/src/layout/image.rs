@@ -2,40 +2,34 @@
 
 use std::io::Cursor;
 
-use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
+use png::{BitDepth, Decoder, Limits, Transformations};
 use tautline_io::diagnostic::Diagnostic;
 
-use super::{MAX_CELLS, problem};
+use super::{Layout, MAX_CELLS, problem};
 
 /// Red, green, blue, and how opaque it is.
 pub(super) type Pixel = [u8; 4];
 
-/// Decodes the `bytes` of an image: its pixels row by row, and what `begin` makes of its width and height before any of
-/// them is decoded.
+/// Decodes the `bytes` of an image: an open layout of its width and height, which are checked before any pixel is
+/// decoded, and its pixels row by row.
 ///
 /// # Errors
-/// [`Diagnostic`] if it is none, or what `begin` returns.
-pub(super) fn decode<T>(
-    bytes: &[u8],
-    begin: impl FnOnce(u32, u32) -> Result<T, Diagnostic>,
-) -> Result<(T, Vec<Pixel>), Diagnostic> {
+/// [`Diagnostic`] if it is none, or too large for a layout.
+pub(super) fn decode(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     match bytes {
-        [b'P', b'2' | b'3' | b'5' | b'6', ..] => decode_pnm(bytes, begin),
-        [0x89, b'P', b'N', b'G', ..] => decode_png(bytes, begin),
+        [b'P', b'2' | b'3' | b'5' | b'6', ..] => decode_pnm(bytes),
+        [0x89, b'P', b'N', b'G', ..] => decode_png(bytes),
         _ => Err(problem::unread_image("it is neither PGM nor PNG")),
     }
 }
 
-fn decode_png<T>(
-    bytes: &[u8],
-    begin: impl FnOnce(u32, u32) -> Result<T, Diagnostic>,
-) -> Result<(T, Vec<Pixel>), Diagnostic> {
+fn decode_png(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     let undecoded = |error: png::DecodingError| problem::unread_image(error);
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: 16 * MAX_CELLS as usize });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(undecoded)?;
     let (width, height) = reader.info().size();
-    let begun = begin(width, height)?;
+    let layout = Layout::open(width.into(), height.into())?;
     let size = reader.output_buffer_size().ok_or_else(|| problem::unread_image("it is too large"))?;
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(undecoded)?;
@@ -45,13 +39,7 @@ fn decode_png<T>(
             samples.chunks_exact(2).map(|pair| scaled(u16::from_be_bytes([pair[0], pair[1]]), u16::MAX));
         samples = wide.collect();
     }
-    let channels = match frame.color_type {
-        ColorType::Grayscale | ColorType::Indexed => 1,
-        ColorType::GrayscaleAlpha => 2,
-        ColorType::Rgb => 3,
-        ColorType::Rgba => 4,
-    };
-    Ok((begun, samples.chunks_exact(channels).map(pixel).collect()))
+    Ok((layout, samples.chunks_exact(frame.color_type.samples()).map(pixel).collect()))
 }
 
 /// The pixel of grey, or red, green and blue, with or without how opaque it is.
@@ -72,10 +60,7 @@ fn scaled(sample: u16, most: u16) -> u8 {
 }
 
 /// Decodes the formats P2, P3, P5 and P6: grey or coloured, in decimal numbers or bytes.
-fn decode_pnm<T>(
-    bytes: &[u8],
-    begin: impl FnOnce(u32, u32) -> Result<T, Diagnostic>,
-) -> Result<(T, Vec<Pixel>), Diagnostic> {
+fn decode_pnm(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     let wrong = |what: &str| problem::unread_image(what);
     let mut numbers = Numbers(&bytes[2..]);
     let mut positive = |what: &str| numbers.next().filter(|&number| number > 0).ok_or_else(|| wrong(what));
@@ -83,7 +68,7 @@ fn decode_pnm<T>(
         (positive("its width is no number above 0")?, positive("its height is no number above 0")?);
     let most = positive("its largest level is no number from 1 to 65535")?;
     let most = u16::try_from(most).map_err(|_| wrong("its largest level is no number from 1 to 65535"))?;
-    let begun = begin(width, height)?;
+    let layout = Layout::open(width.into(), height.into())?;
     let is_plain = matches!(bytes[1], b'2' | b'3');
     let channels = if matches!(bytes[1], b'2' | b'5') { 1 } else { 3 };
     let count = width as usize * height as usize * channels;
@@ -102,7 +87,7 @@ fn decode_pnm<T>(
     if samples.len() < count {
         return Err(wrong("it ends before its last pixel"));
     }
-    Ok((begun, samples.chunks_exact(channels).map(pixel).collect()))
+    Ok((layout, samples.chunks_exact(channels).map(pixel).collect()))
 }
 
 /// The decimal numbers of a text, with blanks and comments between them. It ends where something else stands.

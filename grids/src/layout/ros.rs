@@ -162,7 +162,7 @@ fn out_of_bounds(at: &Range<usize>, field: &str, allowed: &str) -> Misread {
 /// # Errors
 /// [`Diagnostic`] if it cannot be read, is too large, or shows no free cell.
 pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Diagnostic> {
-    let (mut layout, pixels) = decode(bytes, |width, height| Layout::open(width.into(), height.into()))?;
+    let (mut layout, pixels) = decode(bytes)?;
     let width = layout.width() as usize;
     for (place, &pixel) in pixels.iter().enumerate() {
         if !description.is_free(pixel) {

@@ -85,9 +85,7 @@ impl Space {
                 space.linked[place] |= 1 << BASE;
                 space.linked[BASE] |= bit;
             }
-            for (other, &(whose, that)) in listed.iter().enumerate().filter(|(_, (whose, _))| *whose != robot)
-            {
-                debug_assert_ne!(whose, robot);
+            for (other, &(_, that)) in listed.iter().enumerate().filter(|(_, (whose, _))| *whose != robot) {
                 if circle.covers(candidate.to, that.to) {
                     space.linked[place] |= 1 << other;
                 }

@@ -126,7 +126,7 @@ impl Table for ChainFig4 {
 
     fn measure(&self, _: &Settings, &(place, rule): &Job, _: &dyn Observer) -> Result<Run, Halt> {
         let setup = place.setup(rule)?;
-        let mut odometer = Odometer::new(Body::NXT, ROBOTS.into());
+        let mut odometer = Odometer::new(ROBOTS.into());
         let mut ways = vec![vec![setup.base]; usize::from(ROBOTS) - 1];
         let (mut on_squares, mut places) = (0, 0);
         let report = explore(&setup, &mut |made| {

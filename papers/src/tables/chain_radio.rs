@@ -11,7 +11,7 @@ use tautline_kernel::chain::{Message, Outcome};
 use tautline_kernel::ground::Circle;
 
 use super::prelude::*;
-use crate::nxt::{Body, Odometer};
+use crate::nxt::Odometer;
 use tautline_grids::chance::Dice;
 use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::CHAIN;
@@ -108,7 +108,7 @@ impl Table for ChainRadio {
         let side = u64::from(2 * robots - 1);
         let (layout, base) = based(Layout::open(side, side)?)?;
         let setup = Setup::new(&CHAIN, RuleName::Repaired, robots, layout, base);
-        let mut odometer = Odometer::new(Body::NXT, robots.into());
+        let mut odometer = Odometer::new(robots.into());
         let (mut log, mut cut) = (Vec::new(), 0);
         let report = explore(&setup, &mut |made| {
             odometer.make(made.before, made.frame);

@@ -190,8 +190,7 @@ impl Table for LocateExplore {
     fn measure(&self, settings: &Settings, run: &Self::Job, _: &dyn Observer) -> Result<Vec<Outcome>, Halt> {
         let (blocked, (width, height), robots) = run.at;
         let seed = run.seed(settings.seed);
-        let layout = generated(&format!("cells:{width}x{height}:{}", f64::from(blocked) / 100.0), seed)?;
-        let mut layout = layout;
+        let mut layout = generated(&format!("cells:{width}x{height}:{}", f64::from(blocked) / 100.0), seed)?;
         let base = Setup::choose_base(&mut layout, None)?;
         let starts = FRONTIER.default_starts(RuleId::REPAIRED, &layout, base, robots);
         let starts = starts.unwrap_or_else(|| vec![base]);

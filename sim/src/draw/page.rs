@@ -314,12 +314,7 @@ impl Line {
             made.team.seen().iter().filter_map(|&cell| place_of(self.area, cell)).collect();
         seen.sort_unstable();
         text += &listed("x", &seen);
-        if let Look::Linked { is_lost } = look {
-            let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
-            let lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot as u32);
-            let lost: Vec<u32> = lost.collect();
-            text += &listed("l", &lost);
-        }
+        text += &listed("l", &look.lost(made.before, &made.frame.cells));
         self.is_new = false;
         text + &self.changes(scene)
     }

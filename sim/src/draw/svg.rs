@@ -43,7 +43,7 @@ pub fn check_size(area: Area) -> Result<(), Diagnostic> {
 
 /// A drawing of `layout`, the base marked if it has one.
 pub fn layout(layout: &Layout) -> Panel {
-    let area = whole(layout);
+    let area = layout.size().area();
     let mut body = ground(layout, area);
     if let Some(base) = layout.base() {
         body.push_str(&base_mark(Frame(area), base));
@@ -187,11 +187,6 @@ pub fn environments() -> Vec<Panel> {
 
 fn panel(area: Area, caption: String, body: String) -> Panel {
     Panel::new(caption, (area.width() as i32 * CELL, area.height() as i32 * CELL), body)
-}
-
-fn whole(layout: &Layout) -> Area {
-    let first = Cell::new(0, 0);
-    Area::new(first, Cell::new(layout.width() - 1, layout.height() - 1)).unwrap_or(Area::of(first))
 }
 
 /// Where the cells of an area are in its picture.

@@ -336,6 +336,13 @@ impl Look {
         }
     }
 
+    /// The robots whose link with the next one is lost when all go from the first to the second of these cells.
+    pub fn lost(self, before: &[Cell], after: &[Cell]) -> Vec<u32> {
+        let Self::Linked { is_lost } = self else { return Vec::new() };
+        let pairs = (0..).zip(before.windows(2).zip(after.windows(2)));
+        pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot).collect()
+    }
+
     /// The noun for a robot.
     pub const fn robot(self) -> &'static str {
         match self {

@@ -130,23 +130,27 @@ impl Board {
             let code = u8::from(!layout.is_free(cell)) + wall(Side::East, 2) + wall(Side::South, 4);
             char::from(b'a' + code)
         };
-        let row = |y: i16| {
-            let letters: Vec<char> =
-                (area.first().x..=area.last().x).map(|x| letter(Cell::new(x, y))).collect();
-            letters.chunk_by(|one, other| one == other).fold(String::new(), |row, alike| match alike.len() {
-                1 => format!("{row}{}", alike[0]),
-                many => format!("{row}{many}{}", alike[0]),
-            })
-        };
         Self::Cells {
             columns: area.width(),
             rows: area.height(),
             first: [area.first().x, area.first().y],
-            ground: (area.first().y..=area.last().y).map(row).collect(),
+            ground: rows(area, letter),
             start: start.iter().filter_map(|&cell| place_of(area, cell)).collect(),
             sees,
         }
     }
+}
+
+/// The letters of the cells of an area as a page reads them, row by row: `b` for a cell, `2b` for two in a row.
+pub fn rows(area: Area, letter: impl Fn(Cell) -> char) -> Vec<String> {
+    let row = |y: i16| {
+        let letters: Vec<char> = (area.first().x..=area.last().x).map(|x| letter(Cell::new(x, y))).collect();
+        letters.chunk_by(|one, other| one == other).fold(String::new(), |row, alike| match alike.len() {
+            1 => format!("{row}{}", alike[0]),
+            many => format!("{row}{many}{}", alike[0]),
+        })
+    };
+    (area.first().y..=area.last().y).map(row).collect()
 }
 
 /// A layer as the page reads it.

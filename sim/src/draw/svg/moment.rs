@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 use tautline_io::svg::{Panel, escaped};
 
-use super::{CELL, ground, name, panel, walls, whole};
+use super::{CELL, ground, name, panel, walls};
 use tautline_grids::layout::Layout;
 
 /// Robots in cells from the corner of a layout, each with its name; `broken` are those that break a clause, with a line
 /// between them if they are two.
 pub fn moment(layout: &Layout, caption: &str, robots: &[([f64; 2], String)], broken: &[usize]) -> Panel {
-    let area = whole(layout);
+    let area = layout.size().area();
     let mut body = ground(layout, area) + &walls(layout, area);
     let pixel = |along: f64| (along * f64::from(CELL)).round() as i32;
     let place = |robot: usize| robots.get(robot).map(|(place, _)| place.map(pixel));
