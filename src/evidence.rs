@@ -161,7 +161,7 @@ pub(super) fn page(
     clause: &Clause,
     check: &dyn AnyCheck,
     evidence: &Evidence,
-    sink: &mut impl page::Sink,
+    sink: &mut dyn page::Sink,
 ) -> Result<(), Halt> {
     if let Some(setup) = run(clause, check, evidence)? {
         let report = setup.play(&mut |_| Ok(()))?;

@@ -16,7 +16,6 @@ mod waves;
 
 pub use allowance::Allowance;
 pub use assigned::{Assigned, Assignment};
-pub use chart::Chart;
 pub use radio::cell_at;
 pub use team::Explorers;
 

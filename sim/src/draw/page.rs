@@ -57,9 +57,8 @@ impl Sink for String {
 }
 
 /// A page in the making. One that grows too large is left out.
-#[derive(Debug)]
-struct Page<'a, S> {
-    sink: &'a mut S,
+struct Page<'a> {
+    sink: &'a mut dyn Sink,
     run: &'a dyn Play,
     report: &'a Report,
     moves: RangeInclusive<u32>,
@@ -74,10 +73,15 @@ struct Page<'a, S> {
     clauses: BTreeMap<&'static str, &'static str>,
 }
 
-impl<'a, S: Sink> Page<'a, S> {
+impl<'a> Page<'a> {
     /// The page in `sink` that plays these team moves of a run that came out as `report`. All team moves up to the last
     /// one are to be added.
-    fn new(sink: &'a mut S, run: &'a dyn Play, report: &'a Report, moves: &RangeInclusive<u32>) -> Self {
+    fn new(
+        sink: &'a mut dyn Sink,
+        run: &'a dyn Play,
+        report: &'a Report,
+        moves: &RangeInclusive<u32>,
+    ) -> Self {
         let mut page = Self {
             sink,
             run,
@@ -207,7 +211,7 @@ impl<'a, S: Sink> Page<'a, S> {
 /// # Errors
 /// [`Halt`] if the run cannot be made.
 pub fn write(
-    sink: &mut impl Sink,
+    sink: &mut dyn Sink,
     run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,

@@ -504,11 +504,6 @@ impl Survey {
         }
     }
 
-    /// All marks that cells got after they were explored: from which team move on, row by row and in order.
-    pub fn marks(&self) -> impl Iterator<Item = (Cell, u32, Mark)> {
-        self.marks.iter().map(|(&(cell, step), &mark)| (cell, step, mark))
-    }
-
     /// Notes that a robot is in `cell`; whether that is new.
     fn enter(&mut self, cell: Cell, step: u32) -> bool {
         let Some(place) = self.area.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {

@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell, Side};
 
 /// A repository on the heap.
 #[derive(Clone, Debug)]
-pub struct Chart {
+pub(super) struct Chart {
     area: Area,
     /// By place: row by row, with a rim of obstacles around the area, so that every cell has four neighbours.
     cells: Vec<Status>,
@@ -20,7 +20,7 @@ pub struct Chart {
 
 impl Chart {
     /// Nothing known of `area`.
-    pub fn new(area: Area) -> Self {
+    pub(super) fn new(area: Area) -> Self {
         let cells = vec![Status::Obstacle; (area.width() + 2) * (area.height() + 2)];
         let mut chart = Self { area, cells, learned: Vec::new(), frontier: 0, explored: 0, has_erred: false };
         for place in area.cells().filter_map(|cell| chart.place(cell)).collect::<Vec<_>>() {
@@ -30,18 +30,13 @@ impl Chart {
     }
 
     /// The cells that it has learned since it knew so much.
-    pub fn learned(&self, since: usize) -> &[(Cell, Status)] {
+    pub(super) fn learned(&self, since: usize) -> &[(Cell, Status)] {
         self.learned.get(since..).unwrap_or_default()
     }
 
     /// How much it has learned.
-    pub const fn len(&self) -> usize {
+    pub(super) const fn len(&self) -> usize {
         self.learned.len()
-    }
-
-    /// Whether it has learned nothing.
-    pub const fn is_empty(&self) -> bool {
-        self.learned.is_empty()
     }
 
     /// How many cells are explored.
