@@ -357,7 +357,7 @@ fn example_files(text: &str) -> BTreeSet<String> {
     links.filter_map(|rest| Some(format!("examples/{}", rest.split(')').next()?))).collect()
 }
 
-/// So long a command of a page is awaited. One that takes longer is only read, by a test of `src/documented.rs`.
+/// So long a command of a page is awaited. One that takes longer is only read, by a test of `src/docs_test.rs`.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The exit code of a command, if it ends in time.

@@ -132,6 +132,13 @@ impl ConfigError {
             }
         }
     }
+
+    /// The error for a person who gave options on the command line, and so knows no text with lines.
+    pub fn in_options(&self) -> &str {
+        match self {
+            Self::Toml(why) | Self::Wrong { why, .. } => why.trim_end(),
+        }
+    }
 }
 
 /// The file.

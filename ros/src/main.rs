@@ -57,7 +57,8 @@ impl Arguments {
     fn text(&self, clause: Id) -> String {
         let mut text = String::new();
         let mut set = |name: &str, value: Option<f64>| {
-            let _ = value.map(|value| writeln!(text, "{name} = {value:?}"));
+            // TOML writes NaN in small letters.
+            let _ = value.map(|value| writeln!(text, "{name} = {}", format!("{value:?}").to_lowercase()));
         };
         set("gap_s", self.gap_s);
         set("[[clauses]]\ntolerance_m", self.tolerance_m);
@@ -73,16 +74,12 @@ impl Arguments {
 
     /// The configuration, or the text of what is wrong with it.
     fn config(&self) -> Result<Config, String> {
-        let (name, text) = match (&self.file, self.clause) {
-            (Some(file), _) => {
-                let name = file.display().to_string();
-                let text = std::fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
-                (name, text)
-            }
-            (None, clause) => {
-                ("arguments".to_owned(), clause.map(|clause| self.text(clause)).unwrap_or_default())
-            }
+        let Some(file) = &self.file else {
+            let text = self.clause.map(|clause| self.text(clause)).unwrap_or_default();
+            return Config::parse(&text).map_err(|error| error.in_options().to_owned());
         };
+        let name = file.display().to_string();
+        let text = std::fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
         Config::parse(&text).map_err(|error| error.in_file(&name, &text))
     }
 }

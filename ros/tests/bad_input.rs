@@ -82,6 +82,14 @@ fn wrong_arguments_are_refused() {
         ("--clause CHAIN-3", "--robots"),
         ("--clause CHAIN-3 --robots 3 --tolerance-m 0.1 --gap-s 1", "CHAIN-3 needs its range_m"),
         ("--clause CHAIN-3 --robots 65 --range-m 2 --tolerance-m 0.1 --gap-s 1", "2 to 64 robots"),
+        (
+            "--clause CHAIN-3 --robots 3 --range-m 0 --tolerance-m 0.1 --gap-s 1",
+            "tautline-ros: range_m is from 0.001 to 1000000 metres",
+        ),
+        (
+            "--clause CHAIN-3 --robots 3 --range-m 2 --tolerance-m 0.1 --gap-s nan",
+            "tautline-ros: gap_s is from 0.001 to 3600 seconds",
+        ),
         ("some.toml --domain 232", "231"),
     ] {
         let (code, told) = call(&arguments.split_whitespace().collect::<Vec<_>>());

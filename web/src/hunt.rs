@@ -10,7 +10,7 @@ use tautline_grids::layout::Size;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::plural::counted;
 use tautline_sim::explore::Scheme;
-use tautline_sim::explore::hunt::{Asked, Begun, Far, Finding, Hunt, HuntReport, Hunter, Shown};
+use tautline_sim::explore::hunt::{Asked, Begun, Bound, Far, Finding, Hunt, HuntReport, Hunter, Shown};
 
 use crate::by_hand::{self, Hunted, Order, Search};
 use crate::clauses::sentence;
@@ -293,8 +293,12 @@ impl RowHunt {
 struct Fixed(&'static dyn Hunt);
 
 impl Hunt for Fixed {
-    fn takes(&self) -> &'static [tautline_sim::explore::hunt::Bound] {
+    fn takes(&self) -> &'static [Bound] {
         self.0.takes()
+    }
+
+    fn refusal(&self, bound: Bound) -> (String, String) {
+        self.0.refusal(bound)
     }
 
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {

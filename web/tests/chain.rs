@@ -104,6 +104,14 @@ fn a_step_that_is_refused_names_the_condition() {
 }
 
 #[test]
+fn a_bound_that_a_hunt_does_not_take_is_refused_in_the_words_of_the_hunt() {
+    let settings = settings("published", &OPEN);
+    let hunt = json!({ "do": "hunt", "settings": settings, "quarry": { "robots": 3, "max_misses": 1 } });
+    let refused = Page::default().answer(&hunt.to_string());
+    assert!(refused.contains("the robots of a chain have no floor sensors to miss"), "{refused}");
+}
+
+#[test]
 fn what_is_no_request_or_no_layout_is_said() {
     let mut page = Page::default();
     let mut wrong = |request: Value| {

@@ -171,9 +171,11 @@ fn a_rule_that_is_played_by_hand_is_itself_or_refused() {
     };
     let games = ["published", "repaired", "ahead"].map(|rule| opened("kit", rule));
     assert!(games[0] != games[1] && games[1] != games[2] && games[2] != games[0], "{games:?}");
-    let refused = opened("frontier", "hungarian");
-    assert!(
-        refused.contains("hungarian asks nothing") && refused.contains("take published or "),
-        "{refused}"
-    );
+    for name in ["frontier", "mrc", "notice"] {
+        let refused = opened(name, "hungarian");
+        assert!(
+            refused.contains("hungarian asks nothing") && refused.contains("take published or "),
+            "{refused}"
+        );
+    }
 }

@@ -36,13 +36,11 @@ impl Coarse {
             return Err(Diagnostic::of_field("cell", "a cell has no such side", "give metres above 0"));
         }
         if side < 1.0 || (cell - side).abs() >= ROUNDING {
-            let [below, above] = [cell.floor(), cell.floor() + 1.0].map(|side| side.max(1.0) * resolution_m);
+            let [below, above] = [cell.floor(), cell.floor() + 1.0];
             let what = format!("a cell is no whole number of pixels, which are {resolution_m} m wide");
-            return Err(Diagnostic::of_field(
-                "cell",
-                what,
-                format!("take a `cell` of {below:.3} or {above:.3}"),
-            ));
+            let more = if below < 1.0 { String::new() } else { format!("{:.3} or ", below * resolution_m) };
+            let remedy = format!("take a `cell` of {more}{:.3}", above * resolution_m);
+            return Err(Diagnostic::of_field("cell", what, remedy));
         }
         let (width, height) = (pixels.width(), pixels.height());
         if side > f64::from(width.min(height)) {
@@ -148,7 +146,7 @@ mod tests {
         let refused: Vec<String> = refused.map(said).collect();
         insta::assert_snapshot!(refused.join("\n"), @r"
         a cell is no whole number of pixels, which are 0.05 m wide; take a `cell` of 0.100 or 0.150
-        a cell is no whole number of pixels, which are 0.05 m wide; take a `cell` of 0.050 or 0.050
+        a cell is no whole number of pixels, which are 0.05 m wide; take a `cell` of 0.050
         the map has 8×4 pixels of 0.05 m: no cell fits into it; take a `cell` of at most 0.200
         a cell has no such side; give metres above 0
         a robot has no such radius; give metres from 0 on

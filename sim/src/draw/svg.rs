@@ -1,5 +1,5 @@
 //! Pictures as SVG, for light and dark pages: layouts, the environments of a cell, the order of exploration, team
-//! moves. Every text is escaped by being made of numbers and our own words.
+//! moves. Every text is made of numbers and our own words, or escaped.
 
 mod map;
 mod moment;

@@ -39,7 +39,7 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
     let setting = setting::<ROBOTS>(rule, (layout.width(), layout.height())).ok_or_else(too_large)?;
     let mut given = TinyMap::new(setting.area).ok_or_else(too_large)?;
     layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
-    // What a message is lost by hand is counted, so that the options stay few.
+    // The number of messages lost by hand is bounded, so that the options stay few.
     let max_losses = if is_lossy { 3 } else { 0 };
     let setting = Setting { given: Some(given), max_losses, ..setting };
     let cells = setup.starts();

@@ -2,7 +2,6 @@
 
 use serde_json::{Value as Json, json};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::mrc::{Phase, Rule, Task};
 use tautline_proofs::mrc::space::{Space, Until};
@@ -11,7 +10,7 @@ use tautline_proofs::mrc::{
 };
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, Hunted, Picture, Played, Scene, Shown, number, search};
+use super::{ByHand, Hunted, Picture, Played, Scene, Shown, chosen, number, search};
 use crate::play::Play;
 use crate::schemes::of_world;
 use crate::settings::Settings;
@@ -63,9 +62,8 @@ fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
         let what = format!("{robots} robots are not played by hand");
         return Err(Diagnostic::of_field("robots", what, format_args!("take 1 to {ROBOTS}")));
     }
-    let rule = if settings.rule == "published" { Rule::PUBLISHED } else { Rule::REPAIRED };
     Ok(Setting {
-        rule: settings.on.map_or(rule, |on| rule.with_in_force(on)),
+        rule: chosen(&[("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED)], settings)?,
         served: Served::ByAny,
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),

@@ -5,7 +5,6 @@ use core::num::NonZeroU32;
 use serde_json::{Value as Json, json};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_kernel::notice::{Conditions, Count, Rule, Scheme, Stage};
 use tautline_proofs::engine::world::{Turn, World};
@@ -13,7 +12,7 @@ use tautline_proofs::notice::networks::{Case, SMALL};
 use tautline_proofs::notice::spread::{Demand, Event, Spread};
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, Hunted, Picture, Played, Scene, Shown, number, search, starts};
+use super::{ByHand, Hunted, Picture, Played, Scene, Shown, chosen, number, search, starts};
 use crate::play::Play;
 use crate::schemes::of_world;
 use crate::settings::Settings;
@@ -88,9 +87,9 @@ fn network(settings: &Settings) -> Result<Network, Diagnostic> {
     let pairs = (0..cells.len()).flat_map(|one| (one + 1..cells.len()).map(move |other| (one, other)));
     let pairs: Vec<(usize, usize)> =
         pairs.filter(|&(one, other)| is_linked(cells[one], cells[other])).collect();
-    let own = if settings.rule == "published" { Conditions::PUBLISHED } else { Conditions::REPAIRED };
-    let rule = rule(own, number(settings, "k", 1, Count::MOST)?);
-    let rule = settings.on.map_or(rule, |on| rule.with_in_force(on));
+    let k = number(settings, "k", 1, Count::MOST)?;
+    let rules = [("published", Conditions::PUBLISHED), ("repaired", Conditions::REPAIRED)];
+    let rule = chosen(&rules.map(|(name, conditions)| (name, rule(conditions, k))), settings)?;
     Ok(Network { case: Case::new(pairs.iter().copied(), rule), rule, area, cells, pairs })
 }
 
