@@ -203,6 +203,8 @@ fn ants_and_the_robust_rule_are_not_trapped() {
     ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 151247 states, 212690 team moves
     No agent is trapped in any layout within this bound.
     "#);
+    let all = json(folder, &["hunt", "--scheme", "helpers", "--max-misses", "255", "--size", "2x2"], 0);
+    assert_eq!((&all["complete"], &all["misses_done"]), (&true.into(), &255.into()));
     let short = json(folder, &["hunt", "--scheme", "bricks", "--budget", "1000"], 3);
     assert_eq!((&short["verdict"], &short["complete"]), (&"open".into(), &false.into()));
     assert_eq!(names(folder), [""; 0]);

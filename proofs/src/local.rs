@@ -198,6 +198,14 @@ impl EveryNumber {
     /// Every number of robots; teams of up to four robots, in a hundred thousand steps each.
     pub const DEFAULT: Self = Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000 };
 
+    /// The teams that are looked at.
+    ///
+    /// # Errors
+    /// [`MethodError`] if one does not start as its rule says.
+    fn teams<R: Local>(self, rule: &R) -> Result<Vec<Team<'_, R>>, MethodError> {
+        (R::LEAST..=self.most_robots).map(|robots| Team::new(rule, robots)).collect()
+    }
+
     /// An answer by this invariant; `way` is one that robots may go, if the question is open.
     fn answer<R: Local, S>(
         self,
@@ -232,16 +240,15 @@ impl<R: Local> Method<R> for EveryNumber {
 
     /// The choices are how many robots there are beyond the fewest, and those of the steps.
     fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Decided {
-        let invariant = Invariant::of(rule)?;
+        let (invariant, teams) = (Invariant::of(rule)?, self.teams(rule)?);
         if invariant.holds() {
             return Ok(self.answer::<R, _>(&invariant, None, None));
         }
-        for robots in R::LEAST..=self.most_robots {
-            let team = Team::new(rule, robots)?;
+        for (more, team) in (0..).zip(&teams) {
             let limits = Limits { most_steps: self.most_steps, room: desk.room };
-            let found = states::search(&team, [team.start()], limits);
+            let found = states::search(team, [team.start()], limits);
             if let Some(run) = found.broken.first() {
-                let once = [&[(robots - R::LEAST) as u32], &run.steps[..]].concat();
+                let once = [&[more], &run.steps[..]].concat();
                 let choices = Choices { once, again: Vec::new() };
                 let evidence = Evidence { choices, demand: run.demand, seen: team.story(run) };
                 return Ok(self.answer::<R, _>(&invariant, Some(evidence), None));
@@ -258,9 +265,9 @@ impl<R: Local> Method<R> for EveryNumber {
 
     /// There is one where places of as many robots as the rule speaks of suffice.
     fn certificate(&self, rule: &R) -> Option<Result<String, MethodError>> {
-        match Invariant::of(rule) {
-            Ok(invariant) => invariant.holds().then(|| invariant.certificate(rule)),
-            Err(error) => Some(Err(error)),
+        match (Invariant::of(rule), self.teams(rule)) {
+            (Ok(invariant), Ok(_)) => invariant.holds().then(|| invariant.certificate(rule)),
+            (Err(error), _) | (Ok(_), Err(error)) => Some(Err(error)),
         }
     }
 

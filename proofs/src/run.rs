@@ -2,7 +2,7 @@
 //! all use it.
 
 use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Area, Cell, Edge, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 /// One team move of robots in the order of their numbers; the base of a chain is the first.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -68,6 +68,11 @@ pub enum Ending {
     Over,
     /// By going on for ever: its last team moves lead back to where it was.
     Endless,
+}
+
+/// The name of a side.
+pub const fn name_of(side: Side) -> &'static str {
+    ["east", "south", "west", "north"][side as usize]
 }
 
 /// The walls that `frames` met, each once.

@@ -5,18 +5,22 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
-use tautline_proofs::decide::{Cache, Context, Depiction, Method, Verdict};
+use tautline_proofs::decide::{Cache, Context, Decided, Depiction, Method, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan, Robot, chain, in_a_row};
 
+pub(crate) fn decide<R: Local>(rule: &R) -> Decided {
+    let (memory, watch) = (&mut Cache::default(), &mut unwatched);
+    let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+    EveryNumber::DEFAULT.decide(rule, Until::Exhausted, &mut desk)
+}
+
 /// The answer about a rule, which is played again if it is refuted: the verdict, how many robots refute it in how many
 /// steps, and the drawing.
 pub(crate) fn decided<R: Local>(rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
-    let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut desk = Context { memory, watch, room: MemoryLimit::any() };
-    let answer = EveryNumber::DEFAULT.decide(rule, Until::Exhausted, &mut desk).expect("a local rule");
+    let answer = decide(rule).expect("a local rule");
     let Some(evidence) = answer.counterexample else { return (answer.verdict, None, String::new()) };
     let choices: &Choices = &evidence.choices;
     let again = EveryNumber::DEFAULT.replay(rule, choices).expect("a run");

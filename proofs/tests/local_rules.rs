@@ -7,14 +7,14 @@ use tautline_kernel::ground::{Cell, Step};
 use tautline_kernel::kit::{Condition as KitCondition, Rule as KitRule};
 use tautline_proofs::chain::local::{Contact, Crowd};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
-use tautline_proofs::decide::{Cache, Verdict};
+use tautline_proofs::decide::{Cache, Method, Verdict};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::frontier::local::Alone;
 use tautline_proofs::frontier::world::Rim;
 use tautline_proofs::kit::local::Two;
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples};
 
-use crate::local::decided;
+use crate::local::{decide, decided};
 
 /// A line of the table.
 fn line<R: Local>(name: &str, rule: &R) -> String {
@@ -238,6 +238,18 @@ fn robots_on_a_ring_keep_their_distance_if_they_look_at_cells_and_goals() {
     leash, of goals and cells crosswise    refuted  2 robots, 1 steps
     leash, cells may be shared             refuted  2 robots, 1 steps
     ");
+}
+
+/// Its promise is an invariant all the same: where nobody starts as the rule says, that says nothing.
+#[test]
+fn a_team_that_starts_with_a_broken_promise_is_refused() {
+    let right = leash(|plans| of_goals(plans) && of_cells_and_goals(plans));
+    let wrong = Own { start: |_| Cell::new(0, 0), ..right };
+    let certificate = EveryNumber::DEFAULT.certificate(&wrong).expect("an answer");
+    for error in [decide(&wrong).map(drop), certificate.map(drop)] {
+        let error = error.expect_err("two robots are in one cell").to_string();
+        assert!(error.contains("a team of 2 may not start so"), "{error}");
+    }
 }
 
 fn in_a_row(robot: usize) -> Cell {

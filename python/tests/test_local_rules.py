@@ -106,8 +106,10 @@ def test_a_rule_that_knows_where_it_is_is_refused():
         ({"admits": lambda self, plans: 1 / 0}, RuleRaised),
         ({"keeps": lambda self, robots: True, "may_start": lambda self, robots: 1 / 0}, RuleRaised),
         ({"may_start": lambda self, robots: True}, InputError),
-        ({"admits": lambda self, plans: True, "start": lambda self, robots: 7}, RuleWrongType),
-        ({"admits": lambda self, plans: True, "start": lambda self, robots: []}, InputError),
+        ({"start": lambda self, robots: 7}, RuleWrongType),
+        ({"start": lambda self, robots: []}, InputError),
+        ({"start": lambda self, robots: [((0, 0), None)] * robots}, InputError),
+        ({"start": lambda self, robots: 1 / 0}, RuleRaised),
     ],
 )
 def test_a_rule_that_is_none_is_refused(change, kind):

@@ -58,7 +58,7 @@ pub struct TrapReport {
     /// Team moves between them.
     pub steps: u64,
     /// Numbers of misses, from none on, with which every layout was covered.
-    pub levels: u8,
+    pub levels: u16,
     /// Whether the search came to its end: the smallest trap, or all there is within the bounds.
     pub is_complete: bool,
     /// The smallest trap.
@@ -155,7 +155,7 @@ impl<S: Scheme> Lots for Bounds<S> {
 
     fn cover(&self, report: &mut TrapReport, (misses, area): Stage) {
         if self.stages().last().is_some_and(|&(_, last)| last == area) {
-            report.levels = misses + 1;
+            report.levels = u16::from(misses) + 1;
         }
     }
 }

@@ -12,7 +12,6 @@ use crate::engine::model::Started;
 use crate::engine::smallest::{Class, Most, Searched, smallest};
 use crate::engine::states::{AnySystem, Findings, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
-use crate::ground::name_of;
 use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::counted;
 use crate::run::{self, Ending, Scripted};
@@ -194,7 +193,7 @@ pub fn words(event: &Event, cells: &[Cell]) -> Option<String> {
         Event::Decides(.., 0) => None,
         Event::Decides(robot, _, aim, lost) => Some(format!("R{} claims {aim}{}", robot + 1, missed(lost))),
         Event::Looks(robot, side, sight, lost, _) => {
-            let (name, side) = (robot + 1, name_of(side));
+            let (name, side) = (robot + 1, run::name_of(side));
             Some(match sight {
                 Sight::Open => format!("R{name} goes {side}"),
                 Sight::Obstacle => format!("R{name} finds an obstacle in the {side}{}", missed(lost)),

@@ -6,7 +6,6 @@ use tautline_kernel::kit::{Next, Rule, Sight};
 
 use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
-use crate::ground::name_of;
 use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
 use crate::run::{self, Ending, Scripted};
@@ -204,7 +203,7 @@ pub fn words(event: &Event) -> String {
         Event::Arrives(robot, node) => format!("R{} arrives at {node}", robot + 1),
         Event::Decides(robot, looks, next) => {
             let look = |&(side, sight): &(Side, Sight)| {
-                let side = name_of(side);
+                let side = run::name_of(side);
                 let sight = match sight {
                     Sight::Free => "free",
                     Sight::Obstacle => "blocked",

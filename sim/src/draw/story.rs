@@ -7,10 +7,9 @@ use tautline_io::text_blocks::{Block, beside};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::floor_trace::Course;
-use tautline_proofs::ground::name_of;
 use tautline_proofs::ledger;
 use tautline_proofs::plural::counted;
-use tautline_proofs::run::{Ending, Run};
+use tautline_proofs::run::{Ending, Run, name_of};
 
 use super::{Pose, agents, first_drawn, legend, outcome, team_move};
 use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};

@@ -120,7 +120,7 @@ impl<C: Crew> Each for Traps<C> {
         let size = format!("{max_width}x{max_height}");
         let TrapReport { layouts, states, steps, levels, trap, is_complete } = found.ended(is_complete);
         let found = trap.iter().map(|trap| finding(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-        let done = levels.checked_sub(1);
+        let done = levels.checked_sub(1).map(|misses| misses as u8);
         let bound = match done {
             Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
             Some(misses) => format!("with at most {misses} missed; the hunt was ended before its bound"),
