@@ -5,7 +5,6 @@ use std::error::Error;
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::Verdict::Holds;
 use tautline_proofs::ledger;
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, chain};
 
@@ -66,10 +65,9 @@ const FENCED: Convoy = Convoy { is_fenced: true, ..OURS };
 pub static CLAUSES: [Clause; 1] = [Clause {
     id: "CONVOY-1",
     sentence: "Each robot MUST stay at most two steps behind the next one.",
-    checks: &[&Check::new(
+    checks: &[&Check::holds(
         NamedRule::new("ours", OURS),
         &EveryNumber::DEFAULT,
-        Holds,
         &[NamedRule::new("waits for nobody", HASTY)],
     )],
 }];

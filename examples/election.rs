@@ -4,7 +4,6 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::decide::{Depiction, EveryState, MethodError};
 use tautline_proofs::engine::states::System;
 use tautline_proofs::engine::world::{Turn, World};
@@ -114,7 +113,7 @@ const POLITE: NamedRule<Smaller> = NamedRule::new("passes everything on", Smalle
 static CLAUSES: [Clause; 1] = [Clause {
     id: "ELECT-1",
     sentence: "Exactly one robot MUST lead in the end, and never two.",
-    checks: &[&Check::new(OURS, &ORDERS, Holds, &[POLITE]), &Check::new(POLITE, &ORDERS, Refuted, &[])],
+    checks: &[&Check::holds(OURS, &ORDERS, &[POLITE]), &Check::refuted(POLITE, &ORDERS)],
 }];
 
 fn main() -> Result<(), MethodError> {

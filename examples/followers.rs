@@ -10,7 +10,6 @@ use tautline_io::atomic_file::Replaceable;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::Depiction;
-use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
@@ -84,19 +83,19 @@ pub static CLAUSES: [Clause; 3] = [
         id: "FOLLOW-1",
         sentence: "The robots MUST stay at most two steps apart.",
         checks: &[
-            &Check::new(NamedRule::new("written", WRITTEN), &Keeps(&SETTING, 0), Refuted, &[]),
-            &Check::new(OURS, &Keeps(&SETTING, 0), Holds, &[NamedRule::new("as written", WRITTEN)]),
+            &Check::refuted(NamedRule::new("written", WRITTEN), &Keeps(&SETTING, 0)),
+            &Check::holds(OURS, &Keeps(&SETTING, 0), &[NamedRule::new("as written", WRITTEN)]),
         ],
     },
     Clause {
         id: "FOLLOW-2",
         sentence: "The follower MUST never enter the leader's cell.",
-        checks: &[&Check::new(OURS, &Keeps(&SETTING, 1), Holds, &[EAGER])],
+        checks: &[&Check::holds(OURS, &Keeps(&SETTING, 1), &[EAGER])],
     },
     Clause {
         id: "FOLLOW-3",
         sentence: "Every run MUST end.",
-        checks: &[&Check::new(OURS, &Keeps(&SETTING, 2), Holds, &[ENDLESS])],
+        checks: &[&Check::holds(OURS, &Keeps(&SETTING, 2), &[ENDLESS])],
     },
 ];
 

@@ -174,6 +174,7 @@ impl Judge {
 
     /// Refuses options that have no effect.
     fn check(&self) -> Result<(), Diagnostic> {
+        let has_like = |is_it: fn(&Kind) -> bool| self.clauses.iter().any(|(_, kind)| is_it(kind));
         let has = |kinds: &[Kind]| self.clauses.iter().any(|(_, kind)| kinds.contains(kind));
         if self.range.is_some() && !has(&[Kind::Neighbours, Kind::Pair, Kind::Joined]) {
             return Err(needless("--range", "CHAIN-3, KIT-1 and KIT-12 alone have a range"));
@@ -181,7 +182,9 @@ impl Judge {
         if self.least.is_some() && !has(&[Kind::Apart]) {
             return Err(needless("--least", "KIT-3 alone has a least distance"));
         }
-        Ok(())
+        let has_cells = has_like(|kind| matches!(kind, Kind::Crowd { .. } | Kind::Visited));
+        let has_base = has_like(|kind| matches!(kind, Kind::Crowd { is_base_free: true, .. }));
+        self.map.check((has_cells, has_base), self.range.is_none() && has(&[Kind::Neighbours]))
     }
 
     /// The numbers of the robots.

@@ -153,7 +153,7 @@ fn any_planner_that_is_kept_to_the_relation_keeps_the_promise() {
     };
     let planner = move |robots: &[Robot<u8>]| robots.iter().map(any).collect::<Vec<_>>();
     let kept = Kept { rule: LEASH, planner };
-    let check = Check::new(NamedRule::new("kept", kept), &EveryNumber::DEFAULT, Verdict::Holds, &[]);
+    let check = Check::holds(NamedRule::new("kept", kept), &EveryNumber::DEFAULT, &[]);
     assert_eq!(check.bound(), "every N, every layout; what runs, each plan kept to the relation");
     assert_eq!(decided(&kept).0, Verdict::Holds);
     let is_kept = |team: &[Robot<u8>]| team.windows(2).all(|pair| apart(pair[0].at, pair[1].at) <= 2);

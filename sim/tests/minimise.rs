@@ -186,7 +186,7 @@ fn nothing_of_a_minimal_run_can_go() {
     for robots in 4..=8 {
         let side = 2 * robots - 1;
         for density in ["0.1", "0.2", "0.3"] {
-            for seed in 0..100 {
+            for seed in 0..40 {
                 let layout = generated(&format!("walls:{side}x{side}:{density}"), seed);
                 if let Some(minimal) = minimal(&setup(robots, layout), None) {
                     check(&minimal);
@@ -202,7 +202,7 @@ fn nothing_of_a_minimal_run_can_go() {
 #[test]
 fn nothing_of_a_minimal_run_among_blocked_cells_and_walls_can_go() {
     let mut found = 0;
-    for seed in 0..150 {
+    for seed in 0..60 {
         let mut layout = generated("cells:16x12:0.1", seed);
         let walls = generated("walls:16x12:0.1", seed);
         walls.walls().for_each(|wall| layout.build_wall(wall));

@@ -61,6 +61,30 @@ impl MapArgs {
         self.map.as_ref().map_or_else(Vec::new, |map| layout::inputs(map, self.image.as_deref()))
     }
 
+    /// Refuses options without effect on clauses of which some speak of cells and of a base, and some of a range in cells.
+    pub(super) fn check(
+        &self,
+        (has_cells, has_base): (bool, bool),
+        is_range_in_cells: bool,
+    ) -> Result<(), Diagnostic> {
+        let lies = has_cells || self.map.is_some();
+        for (is_given, has_effect, option, why) in [
+            (self.base.is_some(), has_base, "--base", "CHAIN-2 alone has a base"),
+            (self.origin.is_some(), lies, "--origin", "none of these clauses speaks of cells"),
+            (
+                self.cell.is_some(),
+                lies || is_range_in_cells,
+                "--cell",
+                "none of these clauses speaks of cells",
+            ),
+        ] {
+            if is_given && !has_effect {
+                return Err(needless(option, why));
+            }
+        }
+        Ok(())
+    }
+
     pub(super) fn load(&self, is_map_needed: bool) -> Result<Given, Diagnostic> {
         let mut corner = [0.0, 0.0];
         let mut cell_m = self.cell.unwrap_or(1.0);

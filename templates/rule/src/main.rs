@@ -5,7 +5,6 @@ use std::process::ExitCode;
 
 use my_rule::{East, STARTS};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::Verdict::Holds;
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::team::{Demand, Ground, Keeps, Places, Senses, Setting, Which};
 
@@ -29,12 +28,12 @@ static CLAUSES: [Clause; 2] = [
     Clause {
         id: "EAST-1",
         sentence: "The robots MUST never share a cell.",
-        checks: &[&Check::new(OURS, &Keeps(&SETTING, 0), Holds, &[BLIND])],
+        checks: &[&Check::holds(OURS, &Keeps(&SETTING, 0), &[BLIND])],
     },
     Clause {
         id: "EAST-2",
         sentence: "Every run MUST end.",
-        checks: &[&Check::new(OURS, &Keeps(&SETTING, 1), Holds, &[])],
+        checks: &[&Check::holds(OURS, &Keeps(&SETTING, 1), &[])],
     },
 ];
 
