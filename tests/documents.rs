@@ -351,6 +351,33 @@ fn the_code_of_the_tutorial_is_that_of_the_example() {
     }
 }
 
+/// The part of a text from `start`, which is there once, to the end of its block of code.
+fn block_from<'a>(text: &'a str, start: &str) -> &'a str {
+    let at = text.find(start).expect("a block that begins so");
+    text[at..].split("```").next().expect("an end")
+}
+
+#[cfg(unix)]
+#[test]
+fn the_templates_find_the_crates_where_they_are_copied_as_the_page_says() {
+    let tutorial = document("docs/own-rule.md");
+    let copying = block_from(&tutorial, "cp -r tautline/templates/rule");
+    // The sources are compiled where they stand.
+    let tree = format!("'{}' tree --offline --manifest-path", env!("CARGO"));
+    let copying = copying.replace("cargo test --manifest-path", &tree);
+    assert!(copying.contains(&tree), "{copying}");
+    let folder = tempfile::tempdir().expect("a folder");
+    std::os::unix::fs::symlink(env!("CARGO_MANIFEST_DIR"), folder.path().join("tautline")).expect("a link");
+    for name in ["rule", "page"] {
+        let lines = copying.replace("rule", name);
+        let output = Command::new("sh").args(["-ec", &lines]).current_dir(&folder).output().expect("a shell");
+        assert!(output.status.success(), "{lines}\n{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let copied = fs::read_to_string(folder.path().join("rule/Cargo.toml")).expect("a file");
+    let needed = block_from(&tutorial, "tautline-kernel = {");
+    assert!(copied.contains(needed), "{copied}");
+}
+
 /// The examples that a text links to.
 fn example_files(text: &str) -> BTreeSet<String> {
     let links = text.split("](../examples/").skip(1);
