@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -28,12 +29,15 @@ pub(crate) fn has(program: &str, argument: &str) -> bool {
     works
 }
 
+/// A name that a shell would take apart.
+const PLAN: &str = "my plan.json";
+
 /// A folder with a plan of four shards, and what one process prints.
 fn planned() -> (tempfile::TempDir, Vec<u8>) {
     let folder = tempfile::tempdir().expect("a folder");
     let one = tempfile::tempdir().expect("a folder");
     let whole = ran(one.path(), TAUTLINE, &HUNT).stdout;
-    let plan = [&HUNT[..], &["--plan", "plan.json", "--shards", "4"]].concat();
+    let plan = [&HUNT[..], &["--plan", PLAN, "--shards", "4"]].concat();
     assert_eq!(ran(folder.path(), TAUTLINE, &plan).status.code(), Some(0));
     (folder, whole)
 }
@@ -44,10 +48,29 @@ fn gnu_parallel_runs_all_shards() {
         return;
     }
     let (folder, whole) = planned();
-    let output = ran(folder.path(), recipe("docs/recipes/parallel.sh"), &["hunt", "plan.json", "4"]);
+    let output = ran(folder.path(), recipe("docs/recipes/parallel.sh"), &["hunt", PLAN, "4"]);
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.ends_with(&*String::from_utf8_lossy(&whole)), "{said}");
+}
+
+/// `hq` stands in: it runs what it is given for each task of the array.
+#[test]
+fn hyperqueue_runs_all_shards() {
+    let (folder, whole) = planned();
+    let hq = folder.path().join("hq");
+    let tasks = r#"while [ "$1" != -- ]; do shift; done
+shift
+for task in 1 2 3 4; do HQ_TASK_ID=$task "$@" > /dev/null; done
+"#;
+    fs::write(&hq, format!("#!/bin/sh\n{tasks}")).expect("a file");
+    fs::set_permissions(&hq, fs::Permissions::from_mode(0o755)).expect("a file of ours");
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap_or_default());
+    let mut command = Command::new(recipe("docs/recipes/hyperqueue.sh"));
+    command.current_dir(&folder).args(["hunt", PLAN, "4"]).env("TAUTLINE", TAUTLINE).env("PATH", path);
+    let output = command.output().expect("it runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), output.stdout), (Some(1), whole), "{said}");
 }
 
 /// Where a Slurm answers, which is rare on a machine of one's own.
@@ -59,9 +82,9 @@ fn an_array_of_slurm_runs_all_shards() {
     let (folder, whole) = planned();
     let script = recipe("docs/recipes/slurm.sh");
     let script = script.to_str().expect("text");
-    let array = ["--wait", "--array=1-4", script, "hunt", "plan.json"];
+    let array = ["--wait", "--array=1-4", script, "hunt", PLAN];
     assert!(ran(folder.path(), "sbatch", &array).status.success());
-    let merged = ran(folder.path(), TAUTLINE, &["merge", "plan.json"]);
+    let merged = ran(folder.path(), TAUTLINE, &["merge", PLAN]);
     assert_eq!((merged.status.code(), merged.stdout), (Some(1), whole));
 }
 

@@ -8,5 +8,5 @@ command=$1 plan=$2 shards=$3
 tautline=${TAUTLINE:-tautline}
 export RAYON_NUM_THREADS=1
 hq submit --wait --array "1-$shards" --cpus 1 --crash-limit 5 --env RAYON_NUM_THREADS=1 \
-    -- bash -c "exec $tautline $command --plan $plan --shard \$HQ_TASK_ID"
+    -- bash -c 'exec "$0" "$@" --shard "$HQ_TASK_ID"' "$tautline" "$command" --plan "$plan"
 "$tautline" merge "$plan"

@@ -10,5 +10,5 @@ tautline=${TAUTLINE:-tautline}
 
 # One thread for each shard: parallel runs as many shards as there are cores.
 export RAYON_NUM_THREADS=1
-seq "$shards" | parallel --will-cite --retries 3 "$tautline" "$command" --plan "$plan" --shard {}
+seq "$shards" | parallel --will-cite --quote --retries 3 "$tautline" "$command" --plan "$plan" --shard {}
 "$tautline" merge "$plan"
