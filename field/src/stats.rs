@@ -124,6 +124,14 @@ impl Moments {
         }
     }
 
+    /// Whether at most so many values, each less than 2³² without its sign, can have these sums.
+    pub fn is_of_at_most(self, most: u32) -> bool {
+        let (count, sum) = (u128::from(self.count), self.sum.unsigned_abs());
+        let (most_sum, most_squares) = (count << 32, count << 64);
+        let is_small = self.count <= most && sum <= most_sum && self.squares <= most_squares;
+        is_small && sum * sum <= count * self.squares
+    }
+
     /// How many values.
     pub const fn count(self) -> u32 {
         self.count

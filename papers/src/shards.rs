@@ -55,13 +55,19 @@ pub fn deal_table(id: &str, asked: &dyn Experiment) -> Result<(Work, Box<RawValu
 /// The table that a plan deals out.
 ///
 /// # Errors
-/// A [`Diagnostic`] if it is none of a table.
-pub fn restored(plan: &Plan) -> Result<Box<dyn Experiment>, Diagnostic> {
+/// [`Halt`] if it is none of a table, or has other jobs than its settings give.
+pub fn restored(plan: &Plan) -> Result<Box<dyn Experiment>, Halt> {
     let none =
         || Diagnostic::usage("this plan is none of a table", "run it with the command that planned it");
-    let Work::Table { id } = &plan.of else { return Err(none()) };
+    let Work::Table { id } = &plan.of else { return Err(none().into()) };
     let deal: Deal = decode(&plan.deal, AS_WRITTEN)?;
-    find(id).ok_or_else(none)?.restored(deal.settings.get())
+    let asked = find(id).ok_or_else(none)?.restored(deal.settings.get())?;
+    let jobs = asked.jobs()?.len();
+    if jobs != deal.jobs {
+        let what = format!("{} are dealt out, and its settings give {jobs}", counted(deal.jobs, "job"));
+        return Err(Diagnostic::in_file(plan.path(), what, AS_WRITTEN).into());
+    }
+    Ok(asked)
 }
 
 /// A shard of a table, where it was.

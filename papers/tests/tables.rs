@@ -170,6 +170,31 @@ fn results_of_other_jobs_are_refused() {
 }
 
 #[test]
+fn sums_that_no_layouts_have_are_refused() {
+    let asked = small(find("repair-cost").expect("it is in the catalogue"));
+    let jobs = asked.jobs().expect("jobs");
+    let right: Vec<String> = jobs.iter().map(|job| asked.measure(job).expect("a result")).collect();
+    let one: Value = serde_json::from_str(&right[0]).expect("JSON");
+    for (place, wrong) in [
+        ("/moves/difference/count", 16_777_217_u64),
+        ("/explored/published/count", 0),
+        ("/moves/repaired/squares", 1),
+        ("/moves/repaired/sum", u64::MAX),
+        ("/milestones/0/difference/count", 1000),
+        ("/violations/0/0", 1000),
+    ] {
+        let (mut results, mut one) = (right.clone(), one.clone());
+        *one.pointer_mut(place).expect("a number") = wrong.into();
+        results[0] = one.to_string();
+        let said = asked.merge(&results).err().map(|halt| format!("{halt:?}"));
+        assert!(
+            said.is_some_and(|said| said.contains("the result of job 0 is none of its layouts")),
+            "{place}"
+        );
+    }
+}
+
+#[test]
 fn every_table_has_a_name_of_its_own() {
     let ids: BTreeSet<&str> = TABLES.iter().map(|table| table.about().id).collect();
     assert_eq!(ids.len(), TABLES.len());

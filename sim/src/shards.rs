@@ -62,7 +62,7 @@ pub fn hunt_part(
     far: Option<&RawValue>,
 ) -> Result<Box<dyn Part>, Diagnostic> {
     plan.check_shard(shard)?;
-    deals(asked)?.part(asked, &plan.deal, shard as usize - 1, far)
+    deals(asked)?.part(asked, &plan.deal, (shard as usize - 1, plan.shards as usize), far)
 }
 
 /// The report of what all shards of the hunt that is `asked` for have found.

@@ -184,6 +184,35 @@ fn a_shard_that_did_less_than_it_was_dealt_is_refused() {
     assert_snapshot!(said.join("\n"));
 }
 
+/// Plans with a right checksum.
+#[test]
+fn a_plan_with_numbers_that_contradict_each_other_is_refused_and_how_many_shards_there_are_stands_once() {
+    let folder = folder();
+    let folder = folder.path();
+    let layouts = ["hunt", "--scheme", "helpers", "--max-misses", "1", "--size", "3x2"];
+    let table = ["reproduce", "repair-cost", "--runs", "2"];
+    let changed = |work: &[&str], from: &str, to: &str| {
+        planned(folder, work, "2");
+        let plan = read(folder, "plan.json");
+        assert!(plan.contains(from), "{plan}");
+        fs::write(folder.join("plan.json"), sealed(&plan.replace(from, to))).expect("room");
+    };
+    for (work, from, to, words) in [
+        (&layouts[..], "\"how\":null", "\"how\":2147483648", "plan anew"),
+        (&table, "\"layouts\":2", "\"layouts\":1000000", "14 jobs are dealt out, and its settings give 7000"),
+        (&table, "\"jobs\":14", "\"jobs\":15", "15 jobs are dealt out, and its settings give 14"),
+    ] {
+        changed(work, from, to);
+        let said = refused(folder, &[work[0], "--plan", "plan.json", "--shard", "1"]);
+        assert!(said.contains(words), "{to}: {said}");
+        fs::remove_file(folder.join("plan.json")).expect("a file");
+    }
+    let whole = printed(folder, &layouts, 0);
+    changed(&layouts, "\"shards\":2", "\"shards\":1");
+    hunt_shard(folder, "plan.json", 1);
+    assert_eq!(printed(folder, &["merge", "plan.json"], 0), whole);
+}
+
 #[test]
 fn the_shards_of_a_table_give_what_one_process_gives() {
     let (one, many) = (folder(), folder());

@@ -171,6 +171,10 @@ impl Table for RepairCost {
     }
 
     fn merge(&self, settings: &Settings, results: Vec<(Job, Sums)>) -> Result<Summary, Halt> {
+        if let Some(job) = results.iter().position(|(job, sums)| !sums.is_of_at_most(job.layouts)) {
+            let what = format_args!("the result of job {job} is none of its layouts");
+            return Err(Diagnostic::usage(what, "run its shard again").into());
+        }
         let line = |density: usize| {
             let batches = results.iter().filter(|(job, _)| job.density == density);
             let sums = batches.fold(Sums::default(), |sums, &(_, batch)| sums.and(batch));
@@ -260,6 +264,14 @@ impl Sums {
                 std::array::from_fn(|breach| self.violations[rule][breach] + other.violations[rule][breach])
             }),
         }
+    }
+
+    /// Whether at most so many layouts can have these sums.
+    fn is_of_at_most(&self, layouts: u32) -> bool {
+        let pairs = self.milestones.iter().chain([&self.moves, &self.explored]);
+        let mut moments = pairs.flat_map(|pair| [pair.published, pair.repaired, pair.difference]);
+        moments.all(|moments| moments.is_of_at_most(layouts))
+            && self.violations.iter().flatten().all(|&runs| runs <= layouts)
     }
 
     fn line(&self, density: &'static str, layouts: u32) -> Line {

@@ -77,19 +77,19 @@ const AGAIN: &str = "run the shard again";
 impl<E: Each> Deals for E {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
-        Ok(Dealt { deal: Deal::write(asked, shards)?, left, of: "layout", moves: 0 })
+        Ok(Dealt { deal: Deal::write(asked, ())?, left, of: "layout", moves: 0 })
     }
 
     fn part<'a>(
         &'a self,
         asked: &Asked<'_>,
         deal: &RawValue,
-        shard: usize,
+        shard: (usize, usize),
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
-        let (asked, shards) = Deal::<usize>::read(deal, asked)?;
+        let (asked, ()) = Deal::read(deal, asked)?;
         let looks = far.map(|far| decode(far, AGAIN)).transpose()?.unwrap_or_default();
-        let shard = Shard::new(self.layouts(&asked)?, (shard, shards), looks, asked.budget);
+        let shard = Shard::new(self.layouts(&asked)?, shard, looks, asked.budget);
         let shard = shard.map_err(Into::into)?;
         if !shard.is_in_order() {
             let what = "this shard has not done what the plan dealt it before it went on";
@@ -104,7 +104,7 @@ impl<E: Each> Deals for E {
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
-        let (asked, _) = Deal::<usize>::read(deal, asked)?;
+        let (asked, ()) = Deal::read(deal, asked)?;
         let looks = shards.iter().map(|far| decode(far, AGAIN)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
         self.told(&asked, found, is_complete)

@@ -97,8 +97,8 @@ pub trait Deals {
     /// A [`Diagnostic`] if it cannot be searched so.
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
 
-    /// One shard of a deal, the first being 0, where it was. The scheme, the rule and the budget are `asked`, all else
-    /// the deal has.
+    /// One shard of a deal, the first being 0, of so many, where it was. The scheme, the rule and the budget are
+    /// `asked`, all else the deal has.
     ///
     /// # Errors
     /// A [`Diagnostic`] if there is no such deal, or the shard was never there.
@@ -106,7 +106,7 @@ pub trait Deals {
         &'a self,
         asked: &Asked<'_>,
         deal: &RawValue,
-        shard: usize,
+        shard: (usize, usize),
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic>;
 

@@ -106,7 +106,7 @@ impl Deals for Walls {
         &'a self,
         asked: &Asked<'_>,
         deal: &RawValue,
-        shard: usize,
+        (shard, _): (usize, usize),
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
         let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
