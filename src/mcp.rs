@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::process::Stdio;
 use std::sync::Arc;
+use std::thread;
 use std::time::Duration;
 
 use clap::Args;
@@ -22,10 +23,10 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use tokio::io::{AsyncRead, AsyncReadExt};
 use tokio::process::Command;
-use tokio::time::timeout;
+use tokio::time::{sleep, timeout};
 
-use super::Exit;
 use super::output::Output;
+use super::{Exit, interrupt};
 use tautline_grids::layout::is_ros;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::plural::counted;
@@ -38,12 +39,16 @@ Examples:
 const MOST_SECONDS: u32 = 600;
 const SECONDS: u32 = 60;
 
-/// The most mebibytes of a call, and those of one that does not say.
+/// The least and the most mebibytes of a call, and those of one that does not say.
+const LEAST_MEMORY: u32 = 256;
 const MOST_MEMORY: u32 = 16 * 1024;
 const MEMORY: u32 = 2048;
 
 /// Bytes of an answer.
 const MAX_ANSWER: u64 = 4 << 20;
+
+/// The server looks so often whether a signal has asked for its end.
+const PULSE: Duration = Duration::from_millis(50);
 
 /// Serve prove, hunt, explore, minimise and replay to an assistant, by the Model Context Protocol on stdin and stdout.
 ///
@@ -178,6 +183,9 @@ impl Line<'_> {
     /// Refuses a path that leaves the folder.
     fn check(&self, path: &str) -> Result<(), String> {
         let refused = |why| Err(format!("{path:?} {why}: name a file within the folder"));
+        if path.is_empty() || path.split('/').any(|part| part == ".") {
+            return refused("is empty or has a part `.`");
+        }
         let mut at = self.folder.to_owned();
         for part in Path::new(path).components() {
             let Component::Normal(name) = part else { return refused("leaves the folder") };
@@ -280,14 +288,18 @@ impl Entry {
         Self { tool: Tool::new(T::NAME, about.unwrap_or_default(), Arc::new(schema)), line }
     }
 
+    /// Whether it has an argument of this name.
+    fn takes(&self, name: &str) -> bool {
+        let known = self.tool.input_schema.get("properties").and_then(Value::as_object);
+        known.is_some_and(|known| known.contains_key(name))
+    }
+
     /// The line of a call with these arguments in `folder`.
     ///
     /// # Errors
     /// The words for an argument that is unknown or refused.
     fn line<'a>(&self, arguments: Map<String, Value>, folder: &'a Path) -> Result<Line<'a>, String> {
-        let known = self.tool.input_schema.get("properties").and_then(Value::as_object);
-        let is_known = |key: &str| known.is_some_and(|known| known.contains_key(key));
-        if let Some(unknown) = arguments.keys().find(|key| !is_known(key)) {
+        if let Some(unknown) = arguments.keys().find(|key| !self.takes(key)) {
             return Err(format!("there is no argument {unknown:?}"));
         }
         let arguments = Value::from(arguments);
@@ -349,7 +361,7 @@ impl ServerHandler for Server {
         let line = line.map_err(|what| ErrorData::invalid_params(what, None))?;
         // What is dropped here is killed.
         let answer = tokio::select! {
-            answer = answer(&line) => answer,
+            answer = answer(entry, &line) => answer,
             () = context.ct.cancelled() => Err("the call was cancelled".to_owned()),
         };
         Ok(match answer {
@@ -360,20 +372,26 @@ impl ServerHandler for Server {
     }
 }
 
-/// The JSON that a command prints.
-async fn answer(line: &Line<'_>) -> Result<Value, String> {
+/// The JSON that the command of a tool prints.
+async fn answer(entry: &Entry, line: &Line<'_>) -> Result<Value, String> {
     let Bounds { seconds, memory_mib } = line.bounds;
     let (seconds, memory) = (seconds.unwrap_or(SECONDS), memory_mib.unwrap_or(MEMORY));
-    if !(1..=MOST_SECONDS).contains(&seconds) || !(64..=MOST_MEMORY).contains(&memory) {
-        return Err(format!("a call takes 1 to {MOST_SECONDS} seconds and 64 to {MOST_MEMORY} MiB"));
+    if !(1..=MOST_SECONDS).contains(&seconds) || !(LEAST_MEMORY..=MOST_MEMORY).contains(&memory) {
+        return Err(format!(
+            "a call takes 1 to {MOST_SECONDS} seconds and {LEAST_MEMORY} to {MOST_MEMORY} MiB"
+        ));
     }
     let program = std::env::current_exe().map_err(|error| format!("this program is not found: {error}"))?;
     let mut command = if cfg!(target_os = "linux") {
         let mut shell = Command::new("sh");
-        shell
-            .arg("-c")
-            .arg(format!("ulimit -v {} && exec \"$0\" \"$@\"", u64::from(memory) * 1024))
-            .arg(program);
+        // A server that is killed ends no call: then its processor time does, which no call uses up within its seconds.
+        let cores = thread::available_parallelism().map_or(1, usize::from) as u64;
+        let processor_seconds = u64::from(seconds) * (cores + 1);
+        let limits =
+            format!("ulimit -t {processor_seconds} 2> /dev/null; ulimit -v {}", u64::from(memory) * 1024);
+        shell.arg("-c").arg(limits + " && exec \"$0\" \"$@\"").arg(program);
+        // Each arena of glibc would take 64 MiB of the address space, used or not.
+        shell.env("MALLOC_ARENA_MAX", "1");
         shell
     } else {
         Command::new(program)
@@ -397,12 +415,38 @@ async fn answer(line: &Line<'_>) -> Result<Value, String> {
     let code = status.ok().and_then(|status| status.code()).ok_or_else(|| {
         format!("the call was ended, as where {memory} MiB are too few: ask for less, or give it more")
     })?;
-    let reason = || String::from_utf8_lossy(&said).trim().to_owned();
+    let reason = || with_arguments(&String::from_utf8_lossy(&said), |name| entry.takes(name));
     // One that could not store a file has printed its result, and says on stderr what would be right.
     if [Exit::Diagnostic, Exit::Bug].iter().any(|exit| i32::from(exit.code()) == code) {
         return Err(reason());
     }
     serde_json::from_slice(&told).map_err(|_| reason())
+}
+
+/// The words of a command with arguments instead of options: `max_walls` for `--max-walls`. An alternative is left out
+/// if it names an option that the tool does not take: `is_taken` tells which it does.
+fn with_arguments(words: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let mut told = String::new();
+    for line in words.trim().lines().take_while(|line| !line.starts_with("For more information")) {
+        let parts = line.replace("; ", "\0; ").replace(", or ", "\0, or ");
+        for (number, part) in parts.split('\0').enumerate() {
+            let mut pieces = part.split("--");
+            let mut part = pieces.next().unwrap_or_default().to_owned();
+            let mut is_open = true;
+            for piece in pieces {
+                let end = piece.find(|sign: char| !sign.is_ascii_lowercase() && sign != '-');
+                let (name, rest) = piece.split_at(end.unwrap_or(piece.len()));
+                let name = name.replace('-', "_");
+                is_open &= is_taken(&name);
+                part += &(name + rest);
+            }
+            if is_open || number == 0 {
+                told += &part;
+            }
+        }
+        told.push('\n');
+    }
+    told.trim_end().to_owned()
 }
 
 /// As much as an answer can have, and one byte more.
@@ -431,15 +475,29 @@ impl Mcp {
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|error| unable(&error))?;
-        let served = runtime.block_on(async {
+        let serve = async {
             let service = Server { folder, entries: entries() }
                 .serve(stdio_pipes())
                 .await
                 .map_err(|error| unable(&error))?;
-            service.waiting().await.map_err(|error| unable(&error))
+            service.waiting().await.map_err(|error| unable(&error))?;
+            Ok(Exit::Expected)
+        };
+        // A signal that ended the process at once would leave its calls behind.
+        interrupt::defer();
+        let interrupted = async {
+            while !interrupt::is_requested() {
+                sleep(PULSE).await;
+            }
+        };
+        let served = runtime.block_on(async {
+            tokio::select! {
+                served = serve => served,
+                () = interrupted => Err(Halt::Interrupted),
+            }
         });
+        // Calls that go on are dropped here, and killed thereby.
         runtime.shutdown_background();
-        served?;
-        Ok(Exit::Expected)
+        served
     }
 }

@@ -20,8 +20,13 @@ struct Client {
 
 impl Client {
     fn new(folder: &Path) -> Self {
+        Self::with(folder, &[])
+    }
+
+    /// The client of a server that has these variables in its environment.
+    fn with(folder: &Path, environment: &[(&str, &str)]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
-        command.args(["mcp", "--folder", "runs"]).current_dir(folder);
+        command.args(["mcp", "--folder", "runs"]).current_dir(folder).envs(environment.iter().copied());
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut child = command.spawn().expect("the program runs");
         let input = child.stdin.take().expect("a pipe");
@@ -116,6 +121,7 @@ fn a_call_that_could_not_store_its_file_has_failed() {
     let mut client = Client::new(folder.path());
     let said = client.refused("hunt", &json!({"rule": "published", "robots": 3, "max_walls": 2}));
     assert!(said.contains("tautline did not write this file"), "{said}");
+    assert!(said.ends_with("Help: store it elsewhere"), "{said}");
     assert_eq!(fs::read_to_string(foreign).expect("a file"), "mine");
 }
 
@@ -128,13 +134,20 @@ fn no_call_leaves_the_folder() {
     fs::write(folder.path().join("runs/map.yaml"), "image: ../map.png").expect("a file");
     let mut client = Client::new(folder.path());
     let outside = outside.to_str().expect("text");
-    for file in
-        ["../outside.jsonl", outside, "link.jsonl", "up/outside.jsonl", "./../outside.jsonl", "--help", ""]
-    {
+    for file in [
+        "../outside.jsonl",
+        outside,
+        "link.jsonl",
+        "up/outside.jsonl",
+        "./../outside.jsonl",
+        "a/./b",
+        "--help",
+        "",
+    ] {
         let said = client.refused("replay", &json!({"file": file}));
         assert!(said.contains("within the folder") || said.contains("no such word"), "{file}: {said}");
     }
-    for out in ["..", "up", "a/../..", "/tmp", "."] {
+    for out in ["..", "up", "a/../..", "/tmp", ".", "a/./b", ""] {
         let said =
             client.refused("hunt", &json!({"rule": "published", "robots": 3, "max_walls": 2, "out": out}));
         assert!(said.contains("within the folder"), "{out}: {said}");
@@ -164,13 +177,20 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
         ("explore", json!({"layout": "open:5x5", "robots": "many"}), "many"),
         ("explore", json!({"layout": "open:5x5", "colour": 1}), "colour"),
         ("explore", json!({"layout": "open:5x5", "seconds": 601}), "1 to 600 seconds"),
-        ("explore", json!({"layout": "open:5x5", "memory_mib": 1}), "64 to 16384 MiB"),
+        ("explore", json!({"layout": "open:5x5", "memory_mib": 1}), "256 to 16384 MiB"),
         #[cfg(target_os = "linux")]
         (
             "explore",
-            json!({"layout": "open:4000x4000", "scheme": "ants", "memory_mib": 64}),
-            "64 MiB are too few",
+            json!({"layout": "open:4000x4000", "scheme": "ants", "memory_mib": 256}),
+            "256 MiB are too few",
         ),
+        ("hunt", json!({"robots": 3, "max_walls": 99}), "give max_walls a number up to"),
+        (
+            "hunt",
+            json!({"size": "5x"}),
+            "for 'size <WxH>': write columns and rows as WIDTHxHEIGHT, for example 7x7",
+        ),
+        ("explore", json!({"layout": "open:5x5", "seed": 3}), "seed has no effect"),
         ("prove", json!({"clauses": []}), "name a clause"),
         ("prove", json!({"clauses": ["CHAIN-99"]}), "there is no clause"),
         ("replay", json!({"file": "nothing.jsonl"}), "there is no such file"),
@@ -178,6 +198,7 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
     ] {
         let said = client.refused(tool, &arguments);
         assert!(said.contains(word), "{tool} {arguments}: {said}");
+        assert!(!said.contains("--") && !said.contains("drawn"), "{tool} {arguments}: {said}");
     }
     let id = client.begins("tools/call", &json!({"name": "hunt", "arguments": long(600)}));
     client
@@ -187,4 +208,68 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
     drop(client.input);
     assert!(client.child.wait().expect("it ends").success());
     assert!(start.elapsed() < Duration::from_secs(5), "the hunt went on: {:?}", start.elapsed());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_search_stops_at_half_of_little_memory() {
+    let folder = folder();
+    // So many arenas of glibc, one for each thread, would take all of it.
+    let mut client = Client::with(folder.path(), &[("RAYON_NUM_THREADS", "8")]);
+    let told = client.told("prove", &json!({"clauses": ["KIT-5"], "memory_mib": 256}));
+    assert_eq!(told["clauses"][0]["id"], "KIT-5");
+}
+
+/// The processes whose parent is `parent`.
+#[cfg(target_os = "linux")]
+fn children(parent: u32) -> Vec<String> {
+    let all = fs::read_dir("/proc").expect("processes").filter_map(Result::ok);
+    let names = all.filter_map(|entry| entry.file_name().into_string().ok());
+    let is_child = |id: &String| {
+        let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+        status.lines().any(|line| line == format!("PPid:\t{parent}"))
+    };
+    names.filter(|name| name.bytes().all(|byte| byte.is_ascii_digit())).filter(is_child).collect()
+}
+
+/// Whether it comes true in so many seconds.
+#[cfg(target_os = "linux")]
+fn comes_true(seconds: u64, is_so: impl Fn() -> bool) -> bool {
+    let start = Instant::now();
+    while !is_so() && start.elapsed() < Duration::from_secs(seconds) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    is_so()
+}
+
+/// As clients end a server: its input ends, then it gets a signal.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_call_outlives_the_server() {
+    for (signal, code, seconds) in
+        [("TERM", Some(3), 600), ("INT", Some(3), 600), ("HUP", Some(3), 600), ("KILL", None, 1)]
+    {
+        let folder = folder();
+        let Client { mut child, mut input, .. } = Client::new(folder.path());
+        let hunt = json!({"robots": 6, "max_walls": 7, "seconds": seconds});
+        let call = json!({"name": "hunt", "arguments": hunt});
+        writeln!(input, "{}", json!({"jsonrpc": "2.0", "id": 2, "method": "tools/call", "params": call}))
+            .expect("a server that reads");
+        assert!(comes_true(20, || !children(child.id()).is_empty()), "{signal}: no call");
+        let calls = children(child.id());
+        drop(input);
+        let start = Instant::now();
+        let kill = format!("kill -{signal} {}", child.id());
+        assert!(Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+        assert_eq!(child.wait().expect("it ends").code(), code, "{signal}");
+        assert!(start.elapsed() < Duration::from_secs(4), "{signal}: {:?}", start.elapsed());
+        let is_over = || {
+            calls.iter().all(|id| {
+                let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+                status.is_empty() || status.contains("State:\tZ")
+            })
+        };
+        let patience = if code.is_some() { 5 } else { 60 };
+        assert!(comes_true(patience, is_over), "{signal}: a call goes on");
+    }
 }
