@@ -7,9 +7,13 @@ class Error(Exception):
     """Something is wrong: ``what`` it is, and what to do, the ``remedy``."""
 
     def __init__(self, what: str, remedy: str) -> None:
-        super().__init__(f"{what}; {remedy}")
+        # Both are `args`, by which an exception is pickled.
+        super().__init__(what, remedy)
         self.what = what
         self.remedy = remedy
+
+    def __str__(self) -> str:
+        return f"{self.what}; {self.remedy}"
 
 
 class InputError(Error, ValueError):

@@ -42,16 +42,30 @@ pub(crate) fn error(py: Python<'_>, kind: Kind, what: impl Display, remedy: impl
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
+/// Fields and commands of the program that have other names here, in the words of faults.
+const NAMES: [(&str, &str); 6] = [
+    ("`range`", "message_range"),
+    ("`tautline prove `out``", "StateRun.store"),
+    ("that `trace` or `tautline hunt` wrote", "that Run.store or `tautline hunt` wrote"),
+    ("that `trace` wrote", "that Run.store wrote"),
+    ("with `tautline explore `trace`` or", "with Run.store or"),
+    (
+        "name a counterexample of `tautline hunt`, or a trace of a run that ended `tautline explore` with exit code 1",
+        "take a run of hunt, or one that has violations",
+    ),
+];
+
+/// What is wrong, or what would be right, in Python's words: fields are its keywords.
+fn keywords(words: &str) -> String {
+    let words = NAMES.iter().fold(words.to_owned(), |words, (name, own)| words.replace(name, own));
+    let named = words.split('`').enumerate();
+    named.map(|(place, part)| if place % 2 == 1 { part.replace('-', "_") } else { part.to_owned() }).collect()
+}
+
 /// The exception of a fault. Its remedy names fields, which are written as Python's keywords.
 pub(crate) fn raised(py: Python<'_>, fault: &Diagnostic) -> PyErr {
-    let keyword = |words: &str| {
-        let named = words.split('`').enumerate();
-        named
-            .map(|(place, part)| if place % 2 == 1 { part.replace('-', "_") } else { part.to_owned() })
-            .collect::<String>()
-    };
     let place = fault.place().to_string();
-    error(py, Kind::Input, format_args!("{place}{}", keyword(fault.what())), keyword(fault.remedy()))
+    error(py, Kind::Input, format_args!("{place}{}", keywords(fault.what())), keywords(fault.remedy()))
 }
 
 /// The exception of what ended a piece of work.
@@ -65,7 +79,7 @@ pub(crate) fn halted(py: Python<'_>, halt: &Halt) -> PyErr {
 /// The exception of a run that cannot be made minimal.
 pub(crate) fn failed(py: Python<'_>, failure: &Failure) -> PyErr {
     match failure {
-        Failure::Refused(refused) => error(py, Kind::Input, refused, refused.remedy()),
+        Failure::Refused(refused) => error(py, Kind::Input, refused, keywords(&refused.remedy())),
         Failure::Halted(halt) => halted(py, halt),
     }
 }

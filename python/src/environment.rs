@@ -6,16 +6,18 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use pyo3::buffer::PyBuffer;
+use pyo3::buffer::{Element, PyBuffer};
 use pyo3::prelude::*;
 use tautline_grids::layout::generate::Generator;
 use tautline_grids::layout::{self as layouts, Layout as Ground};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain;
 use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_proofs::plural::counted;
 
 use crate::arrays::filled;
 use crate::diagnostic::{Kind, error, raised};
+use crate::given::Int;
 use crate::layout::Layout;
 
 /// The most bytes of all environments. One counts as [`OWN_BYTES`] and what its part of an observation has.
@@ -39,7 +41,7 @@ type Stepped<'py> = (Observation<'py>, [Bound<'py, PyAny>; 5]);
 type Fresh = BTreeMap<usize, u64>;
 
 /// Many environments of the same size.
-#[pyclass(module = "pytautline")]
+#[pyclass(module = "pytautline._native")]
 pub(crate) struct Environments {
     name: String,
     /// The maker of each episode's layout. That of a file does not change.
@@ -79,15 +81,11 @@ impl Environments {
     fn new(
         py: Python<'_>,
         layout: PathBuf,
-        environments: i64,
-        robots: i64,
-        max_cycles: i64,
+        environments: Int,
+        robots: Int,
+        max_cycles: Int,
     ) -> PyResult<Self> {
-        let number = |name: &str, value: i64| {
-            let remedy = format_args!("give {name} a number from 1");
-            let number = u64::try_from(value).ok().filter(|&number| number > 0);
-            number.ok_or_else(|| error(py, Kind::Input, format_args!("{name} is {value}"), remedy))
-        };
+        let number = |name: &str, given: Int| given.within(py, name, 1..=u64::MAX);
         let max_cycles = number("max_cycles", max_cycles)?;
         let [environments, robots] = [number("num_envs", environments)?, number("robots", robots)?];
         let Layout { ground, name } = Layout::load(py, layout, 0, None)?;
@@ -95,11 +93,14 @@ impl Environments {
         let each = OWN_BYTES + 2 * cells as u128 + 12 * u128::from(robots);
         if u128::from(environments).saturating_mul(each) > MAX_BYTES {
             let size = ground.size();
-            let what =
-                format!("{environments} environments of {size} cells and {robots} robots are too many");
+            let environments = counted(environments, "environment");
+            let what = format!("{environments} of {size} cells and {robots} robots have too many bytes");
+            let fewer = match MAX_BYTES / each {
+                0 => "fewer robots, or a smaller layout".to_owned(),
+                most => format!("at most {most} of them"),
+            };
             let remedy = format!(
-                "give at most {} of them: {MAX_BYTES} bytes, of which one has {OWN_BYTES}, 2 a cell and 12 a robot",
-                MAX_BYTES / each
+                "give {fewer}: {MAX_BYTES} bytes, of which one has {OWN_BYTES}, 2 a cell and 12 a robot"
             );
             return Err(error(py, Kind::Input, what, remedy));
         }
@@ -117,35 +118,33 @@ impl Environments {
     }
 
     /// The layout of an environment's episode.
-    fn layout(&self, py: Python<'_>, environment: usize) -> PyResult<Layout> {
-        self.check(py, environment)?;
-        Ok(Layout { ground: self.layouts[environment].clone(), name: self.name.clone() })
+    fn layout(slf: &Bound<'_, Self>, environment: Int) -> PyResult<Layout> {
+        let this = held(slf)?;
+        let place = this.place(slf.py(), environment)?;
+        Ok(Layout { ground: this.layouts[place].clone(), name: this.name.clone() })
     }
 
     /// Begins an episode in each of these environments.
-    fn reset<'py>(&mut self, py: Python<'py>, fresh: Fresh) -> PyResult<Observation<'py>> {
-        self.begin(py, &fresh)?;
-        self.observation(py)
+    fn reset<'py>(slf: &Bound<'py, Self>, fresh: Fresh) -> PyResult<Observation<'py>> {
+        let (py, this) = (slf.py(), &mut *held(slf)?);
+        this.begin(py, &fresh)?;
+        this.observation(py)
     }
 
     /// Begins an episode in each of these environments, and steps the others. Nothing changes where an error is raised.
-    fn step<'py>(
-        &mut self,
-        py: Python<'py>,
-        actions: Bound<'py, PyAny>,
-        fresh: Fresh,
-    ) -> PyResult<Stepped<'py>> {
+    fn step<'py>(slf: &Bound<'py, Self>, actions: Bound<'py, PyAny>, fresh: Fresh) -> PyResult<Stepped<'py>> {
+        let (py, this) = (slf.py(), &mut *held(slf)?);
         let is_over = |(place, episode): &(usize, &Episode)| !episode.is_on && !fresh.contains_key(place);
-        if let Some((place, _)) = self.episodes.iter().enumerate().find(is_over) {
+        if let Some((place, _)) = this.episodes.iter().enumerate().find(is_over) {
             let what = format!("the episode of environment {place} is over, or has not begun");
             return Err(error(py, Kind::Input, what, "call reset before the next step"));
         }
-        let actions = self.actions(py, &actions)?;
-        self.begin(py, &fresh)?;
+        let actions = this.actions(py, &actions)?;
+        this.begin(py, &fresh)?;
         let outcomes = py.detach(|| {
-            let stepped = actions.chunks_exact(self.robots).enumerate();
+            let stepped = actions.chunks_exact(this.robots).enumerate();
             let outcome = |(place, actions)| {
-                if fresh.contains_key(&place) { Outcome::default() } else { self.advance(place, actions) }
+                if fresh.contains_key(&place) { Outcome::default() } else { this.advance(place, actions) }
             };
             stepped.map(outcome).collect::<Vec<_>>()
         });
@@ -157,19 +156,14 @@ impl Environments {
             filled(py, "q", &shape, each().map(|outcome| i64::from(outcome.explored).to_ne_bytes()))?,
             filled(py, "?", &shape, each().map(|outcome| [u8::from(outcome.in_contact)]))?,
         ];
-        Ok((self.observation(py)?, of))
+        Ok((this.observation(py)?, of))
     }
 }
 
 impl Environments {
-    /// Checks that there is such an environment.
-    fn check(&self, py: Python<'_>, place: usize) -> PyResult<()> {
-        let count = self.episodes.len();
-        if place < count {
-            return Ok(());
-        }
-        let what = format!("there is no environment {place}");
-        Err(error(py, Kind::Input, what, format_args!("they are counted from 0 to {}", count - 1)))
+    /// The place of the environment with this number.
+    fn place(&self, py: Python<'_>, number: Int) -> PyResult<usize> {
+        number.within(py, "environment", 0..=self.episodes.len() - 1)
     }
 
     /// The actions, robot by robot, each at most 4.
@@ -183,25 +177,25 @@ impl Environments {
             );
             error(py, Kind::Input, what, remedy)
         };
-        let buffer = PyBuffer::<i64>::get(given).map_err(|_| {
+        let (shape, actions) = entries::<i64>(given).or_else(|_| entries::<u64>(given)).map_err(|_| {
             let dtype =
                 given.getattr("dtype").map_or_else(|_| "no array".to_owned(), |dtype| dtype.to_string());
             wrong(format!("the actions are {dtype}"))
         })?;
-        if buffer.shape() != wanted {
-            return Err(wrong(format!("the actions have the shape {:?}", buffer.shape())));
+        if shape != wanted {
+            return Err(wrong(format!("the actions have the shape {shape:?}")));
         }
-        let known = |(at, &action): (usize, &i64)| match usize::try_from(action) {
+        let known = |(at, action): (usize, i128)| match usize::try_from(action) {
             Ok(known) if known <= SIDES.len() => Ok(known),
             _ => Err(wrong(format!("actions[{}, {}] is {action}", at / self.robots, at % self.robots))),
         };
-        buffer.to_vec(py)?.iter().enumerate().map(known).collect()
+        actions.into_iter().enumerate().map(known).collect()
     }
 
     /// Begins episodes: all of them, or none where a layout cannot be made.
     fn begin(&mut self, py: Python<'_>, fresh: &Fresh) -> PyResult<()> {
         if let Some((&place, _)) = fresh.last_key_value() {
-            self.check(py, place)?;
+            self.place(py, Int(place as i128))?;
         }
         py.detach(|| {
             let made = fresh.iter().map(|(&place, &seed)| {
@@ -280,6 +274,21 @@ impl Environments {
             filled(py, "h", &area, explored)?,
         ])
     }
+}
+
+/// The environments, which one thread at a time has.
+fn held<'py>(environments: &Bound<'py, Environments>) -> PyResult<PyRefMut<'py, Environments>> {
+    environments.try_borrow_mut().map_err(|_| {
+        let remedy = "let one thread at a time step them, or give each thread environments of its own";
+        error(environments.py(), Kind::Input, "another thread steps these environments", remedy)
+    })
+}
+
+/// The shape and the entries of an array of these numbers.
+fn entries<T: Element + Copy + Into<i128>>(array: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<i128>)> {
+    let buffer = PyBuffer::<T>::get(array)?;
+    let entries = buffer.to_vec(array.py())?;
+    Ok((buffer.shape().to_vec(), entries.into_iter().map(Into::into).collect()))
 }
 
 /// The place of a cell in the rows of its layout.

@@ -6,12 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
-use tautline_grids::layout::Size;
+use tautline_grids::layout::{MAX_SIDE_CELLS, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Far, Finding, Hunter, Shown};
 
 use crate::diagnostic::raised;
-use crate::explore::{rule, scheme};
+use crate::explore::{robots, rule, scheme};
+use crate::given::Int;
 use crate::layout::Layout;
 use crate::run::Run;
 use crate::wait::wait_for;
@@ -81,43 +82,44 @@ impl Hunter for StopHunter<'_> {
 /// Searches all layouts with few walls for runs that break a clause: see `tautline hunt --help`.
 #[pyfunction]
 #[pyo3(signature = (
-    scheme="chain", *, rule="repaired", robots=None, size=None, max_walls=None, max_cells=None, max_misses=None,
+    scheme="chain", *, rule=None, robots=None, size=None, max_walls=None, max_cells=None, max_misses=None,
     max_losses=None, error=None, message_range=None, budget=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn hunt(
     py: Python<'_>,
     scheme: &str,
-    rule: &str,
-    robots: Option<u64>,
-    size: Option<(u64, u64)>,
-    max_walls: Option<u32>,
-    max_cells: Option<u32>,
-    max_misses: Option<u8>,
-    max_losses: Option<u8>,
+    rule: Option<&str>,
+    robots: Option<Int>,
+    size: Option<(Int, Int)>,
+    max_walls: Option<Int>,
+    max_cells: Option<Int>,
+    max_misses: Option<Int>,
+    max_losses: Option<Int>,
     error: Option<f64>,
-    message_range: Option<u16>,
-    budget: Option<u64>,
+    message_range: Option<Int>,
+    budget: Option<Int>,
 ) -> PyResult<HuntReport> {
     let scheme = self::scheme(py, scheme)?;
     let rule = self::rule(py, scheme, rule)?;
     let hunt = scheme.hunt(rule).map_err(|fault| raised(py, &fault))?;
-    let size = size.map(|(width, height)| Size::new(width, height).map_err(|problem| raised(py, &problem)));
-    let size = size.transpose()?;
-    let (error_cells, range_cells, resume) = (error, message_range, None);
+    let cells = |cells: Int| cells.within(py, "size", 1..=MAX_SIDE_CELLS);
+    let size = size.map(|(width, height)| {
+        Size::new(cells(width)?, cells(height)?).map_err(|problem| raised(py, &problem))
+    });
     let asked = Asked {
         scheme,
         rule,
-        robots,
-        size,
-        budget,
-        max_walls,
-        max_cells,
-        max_misses,
-        max_losses,
-        error_cells,
-        range_cells,
-        resume,
+        robots: self::robots(py, robots)?,
+        size: size.transpose()?,
+        budget: Int::optional(budget, py, "budget", 0..=u64::MAX)?,
+        max_walls: Int::optional(max_walls, py, "max_walls", 0..=u32::MAX)?,
+        max_cells: Int::optional(max_cells, py, "max_cells", 0..=u32::MAX)?,
+        max_misses: Int::optional(max_misses, py, "max_misses", 0..=u8::MAX)?,
+        max_losses: Int::optional(max_losses, py, "max_losses", 0..=u8::MAX)?,
+        error_cells: error,
+        range_cells: Int::optional(message_range, py, "message_range", 0..=u16::MAX)?,
+        resume: None,
     };
     let found = wait_for(py, |is_stopped| {
         asked.check(hunt)?;

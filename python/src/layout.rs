@@ -3,17 +3,23 @@
 use std::hash::{Hash, Hasher};
 use std::num::NonZeroU16;
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
+use pyo3::PyTypeInfo;
 use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyType};
 use tautline_grids::layout::{self as layouts, Layout as Ground};
-use tautline_io::diagnostic::Diagnostic;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::svg::Panel;
+use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_sim::draw::svg;
 use tautline_sim::trace;
 
 use crate::arrays::{Rows, rows, view};
-use crate::diagnostic::{Kind, error, raised};
+use crate::diagnostic::{Kind, error, halted, raised};
+use crate::given::{At, Int, whole};
+use crate::wait::wait_or_leave;
 
 /// A column and a row.
 pub(crate) type Pair = (i16, i16);
@@ -52,12 +58,22 @@ pub(crate) enum LayoutArgument<'py> {
 }
 
 impl LayoutArgument<'_> {
-    /// The layout and its name.
-    pub(crate) fn load(&self, py: Python<'_>, seed: u64) -> PyResult<Layout> {
-        match self {
-            Self::Made(layout) => Ok(layout.get().clone()),
-            Self::Named(name) => Layout::load(py, name.clone(), seed, None),
-        }
+    /// The outcome of `then` for the layout, and the layout's name.
+    pub(crate) fn load<T: Send + 'static>(
+        self,
+        py: Python<'_>,
+        seed: u64,
+        then: impl FnOnce(Ground, &AtomicBool) -> Result<T, Halt> + Send + 'static,
+    ) -> PyResult<(T, String)> {
+        let (name, made) = match self {
+            Self::Made(layout) => (layout.get().name.clone(), Some(layout.get().ground.clone())),
+            Self::Named(path) => (path.display().to_string(), None),
+        };
+        let description = name.clone();
+        let made = wait_or_leave(py, move |is_stopped| {
+            then(made.map_or_else(|| layouts::load(&description, seed, None), Ok)?, is_stopped)
+        })?;
+        Ok((made.map_err(|halt| halted(py, &halt))?, name))
     }
 }
 
@@ -69,23 +85,26 @@ impl Layout {
     pub(crate) fn load(
         py: Python<'_>,
         description: PathBuf,
-        seed: u64,
+        #[pyo3(from_py_with = whole)] seed: i128,
         image: Option<PathBuf>,
     ) -> PyResult<Self> {
-        let name = description.display().to_string();
-        let ground = py.detach(|| layouts::load(&name, seed, image.as_deref()));
-        Ok(Self { ground: ground.map_err(|fault| raised(py, &fault))?, name })
+        let (name, seed) = (description.display().to_string(), Int(seed).within(py, "seed", 0..=u64::MAX)?);
+        let load = move |_: &AtomicBool| {
+            layouts::load(&name, seed, image.as_deref()).map(|ground| Self { ground, name })
+        };
+        wait_or_leave(py, load)?.map_err(|fault| raised(py, &fault))
     }
 
-    /// A drawing of ours.
+    /// A drawing of ours, which is called so.
     #[staticmethod]
-    fn parse(py: Python<'_>, drawing: &str) -> PyResult<Self> {
+    #[pyo3(signature = (drawing, *, name="drawing"))]
+    fn parse(py: Python<'_>, drawing: &str, name: &str) -> PyResult<Self> {
         let read = drawing.parse::<Ground>();
         let fault = |misread: layouts::Misread| {
             let layouts::Misread { at, problem } = misread;
-            raised(py, &Diagnostic::at("drawing", drawing, at, problem.what(), problem.remedy()))
+            raised(py, &Diagnostic::at(name, drawing, at, problem.what(), problem.remedy()))
         };
-        Ok(Self { ground: read.map_err(fault)?, name: "drawing".to_owned() })
+        Ok(Self { ground: read.map_err(fault)?, name: name.to_owned() })
     }
 
     /// Of arrays, rows by columns: which cells are blocked, and where a wall stands on the eastern and on the southern
@@ -97,8 +116,8 @@ impl Layout {
         blocked: Bound<'_, PyAny>,
         east: Option<Bound<'_, PyAny>>,
         south: Option<Bound<'_, PyAny>>,
-        base: Option<Pair>,
-        robots: Option<NonZeroU16>,
+        base: Option<At>,
+        robots: Option<Int>,
     ) -> PyResult<Self> {
         let Rows { height, width, values } = rows("blocked", &blocked)?;
         let fault = |problem: Diagnostic| raised(py, &problem);
@@ -120,10 +139,11 @@ impl Layout {
                 ground.build_wall(Edge::new(cell, side));
             }
         }
-        if let Some((x, y)) = base {
-            ground.place_base(Cell::new(x, y)).map_err(fault)?;
+        if let Some(At(base)) = base {
+            ground.place_base(base).map_err(fault)?;
         }
-        if let Some(robots) = robots {
+        let robots = Int::optional(robots, py, "robots", 1..=MAX_ROBOTS as u16)?;
+        if let Some(robots) = robots.and_then(NonZeroU16::new) {
             ground.set_robots(robots).map_err(fault)?;
         }
         Ok(Self { ground, name: "arrays".to_owned() })
@@ -178,7 +198,7 @@ impl Layout {
     }
 
     /// The cell where a robot is that tries this side, one of E, S, W and N; none if it meets a wall or a blocked cell.
-    fn beyond(&self, py: Python<'_>, cell: Pair, letter: char) -> PyResult<Option<Pair>> {
+    fn beyond(&self, py: Python<'_>, cell: At, letter: char) -> PyResult<Option<Pair>> {
         let Some(Step::Cross(side)) = trace::step(letter) else {
             return Err(error(
                 py,
@@ -187,9 +207,9 @@ impl Layout {
                 "give one of E, S, W and N",
             ));
         };
-        let edge = Edge::new(Cell::new(cell.0, cell.1), side);
-        let next = Cell::new(cell.0, cell.1).beyond(side);
-        Ok(self.ground.is_open(edge).then_some((next.x, next.y)))
+        let At(cell) = cell;
+        let next = cell.beyond(side);
+        Ok(self.ground.is_open(Edge::new(cell, side)).then_some((next.x, next.y)))
     }
 
     /// A picture.
@@ -205,9 +225,23 @@ impl Layout {
         self.ground.to_string()
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Rebuilt<'py>> {
+        rebuilt::<Self>(py, &self.ground.to_string(), &self.name)
+    }
+
     fn __repr__(&self) -> String {
         format!("<pytautline.Layout {} of {}x{} cells>", self.name, self.width(), self.height())
     }
+}
+
+/// How a copy is made, as `__reduce__` tells it: what is called, and with what.
+pub(crate) type Rebuilt<'py> = (Bound<'py, PyAny>, (Bound<'py, PyType>,));
+
+/// A copy by `parse` of its class, of a text and a name.
+pub(crate) fn rebuilt<'py, T: PyTypeInfo>(py: Python<'py>, text: &str, name: &str) -> PyResult<Rebuilt<'py>> {
+    let caller = py.import("operator")?.getattr("methodcaller")?;
+    let parse = caller.call(("parse", text), Some(&[("name", name)].into_py_dict(py)?))?;
+    Ok((parse, (T::type_object(py),)))
 }
 
 impl Layout {

@@ -6,6 +6,7 @@ mod diagnostic;
 mod environment;
 mod estimate;
 mod explore;
+mod given;
 mod hunt;
 mod layout;
 mod local;

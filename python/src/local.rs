@@ -15,13 +15,18 @@ use tautline_proofs::local::{Act, EveryNumber, Far, Local, Plan, Robot, all_tupl
 use tautline_sim::trace::step;
 
 use crate::diagnostic::{Kind, error};
+use crate::given::{At, List};
 use crate::hunt::verdict;
-use crate::layout::Pair;
-use crate::run::cell;
-use crate::script::{Script, attribute, kept, shown, word};
+use crate::script::{Script, attribute, kept, number, shown, word};
 
 /// The most states of a robot, whose words are kept as long as the process.
 const MAX_STATES: usize = 256;
+
+/// The farthest that a promise looks: farther on there are more places than the engine takes.
+const MAX_REACH: i16 = 1_000;
+
+/// An act as a rule returns it: its letter, and all that may come of it.
+type ActAnswer<'py> = (char, List<(bool, Bound<'py, PyAny>)>);
 
 /// A state of a robot by its number, with the words that Python has for it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,16 +73,11 @@ impl LocalScript {
         let py = rule.py();
         let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
         let is_far_fine: bool = attribute(rule, "far_is_fine", "far_is_fine, True or False")?;
-        let listed: Vec<Bound<'_, PyAny>> =
+        let List(listed): List<Bound<'_, PyAny>> =
             attribute(rule, "states", "states, a list of all that a robot may be in")?;
         if !(1..=MAX_STATES).contains(&listed.len()) {
             let remedy = format!("give the rule 1 to {MAX_STATES} states, or one, such as None");
             return Err(error(py, Kind::Input, format_args!("{} states", listed.len()), remedy));
-        }
-        let reach: i16 = attribute(rule, "reach", "a reach, a number of cells")?;
-        if reach < 0 {
-            let remedy = "give the rule a reach of 0 cells or more";
-            return Err(error(py, Kind::Input, format_args!("a reach of {reach}"), remedy));
         }
         let of_module = |name: &str| Ok::<_, PyErr>(py.import("pytautline._local")?.getattr(name)?.unbind());
         let of_rule = |name: &str| attribute::<Bound<'_, PyAny>>(rule, name, name).map(Bound::unbind);
@@ -90,7 +90,7 @@ impl LocalScript {
             plan: of_module("LocalPlan")?,
             states: Vec::new(),
             acts: OnceLock::new(),
-            reach,
+            reach: number(rule, "reach", 0..=MAX_REACH)?,
             far: if is_far_fine { Far::Fine } else { Far::Broken },
             is_in_a_row: attribute(rule, "in_a_row", "in_a_row, True or False")?,
         };
@@ -123,8 +123,8 @@ impl LocalScript {
             let answer = self.script.called(py, "acts", |rule| rule.call_method1("acts", (state,)))?;
             let wrong =
                 || error(py, Kind::WrongType, format_args!("acts returned {}", shown(&answer)), remedy);
-            let told: Vec<(char, Vec<(bool, Bound<'_, PyAny>)>)> = answer.extract().map_err(|_| wrong())?;
-            let act = |(letter, ends): (char, Vec<(bool, Bound<'_, PyAny>)>)| {
+            let List(told): List<ActAnswer<'_>> = answer.extract().map_err(|_| wrong())?;
+            let act = |(letter, List(ends)): ActAnswer<'_>| {
                 let step = step(letter).filter(|_| !ends.is_empty()).ok_or_else(wrong)?;
                 let end = |(goes, next): (bool, Bound<'_, PyAny>)| {
                     Ok((goes && step != Step::Stay, self.named(py, "acts", &next)?))
@@ -177,11 +177,11 @@ impl LocalScript {
 
     fn start(&self, py: Python<'_>, robots: usize) -> PyResult<Vec<Robot<State>>> {
         let answer = self.script.called(py, "start", |rule| rule.call_method1("start", (robots,)))?;
-        let told: Vec<(Pair, Bound<'_, PyAny>)> = answer.extract().map_err(|_| {
+        let List(told): List<(At, Bound<'_, PyAny>)> = answer.extract().map_err(|_| {
             let what = format_args!("start returned {}", shown(&answer)).to_string();
             error(py, Kind::WrongType, what, "return a list with the cell and the state of each robot")
         })?;
-        told.iter().map(|(at, state)| Ok(Robot::new(cell(*at), self.named(py, "start", state)?))).collect()
+        told.iter().map(|(At(at), state)| Ok(Robot::new(*at, self.named(py, "start", state)?))).collect()
     }
 }
 
@@ -271,16 +271,15 @@ pub(crate) fn decide_every_number(
     patience_s: f64,
 ) -> PyResult<EveryNumberReport> {
     let written = LocalScript::read(&rule)?;
-    let robots: usize = attribute(&rule, "robots", "robots, 2 or 3")?;
+    let is_of_three = number(&rule, "robots", 2..=3)? == 3;
     let may_fail: bool = attribute(&rule, "may_fail", "may_fail, True or False")?;
     written.script.work(py, patience_s, |py| {
         written.begin(py)?;
-        match (robots, may_fail) {
-            (2, false) => decided(py, &Posed::<2, false>(&written), certificate),
-            (2, true) => decided(py, &Posed::<2, true>(&written), certificate),
-            (3, false) => decided(py, &Posed::<3, false>(&written), certificate),
-            (3, true) => decided(py, &Posed::<3, true>(&written), certificate),
-            _ => Err(error(py, Kind::Input, format_args!("{robots} robots"), "give the rule robots, 2 or 3")),
+        match (is_of_three, may_fail) {
+            (false, false) => decided(py, &Posed::<2, false>(&written), certificate),
+            (false, true) => decided(py, &Posed::<2, true>(&written), certificate),
+            (true, false) => decided(py, &Posed::<3, false>(&written), certificate),
+            (true, true) => decided(py, &Posed::<3, true>(&written), certificate),
         }
     })
 }

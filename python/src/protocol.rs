@@ -21,6 +21,7 @@ use tautline_sim::counterexample::refutation::{self, Meant};
 pub(crate) use self::run::StateRun;
 use self::script::{Posed, StateScript, Wanted, Words};
 use crate::diagnostic::{Kind, error, raised};
+use crate::given::{Int, whole};
 use crate::hunt::verdict;
 use crate::script::held;
 
@@ -85,9 +86,10 @@ impl Decision {
 pub(crate) fn decide_protocol(
     py: Python<'_>,
     rule: Bound<'_, PyAny>,
-    budget: Option<u64>,
+    budget: Option<Int>,
     patience_s: f64,
 ) -> PyResult<ProtocolReport> {
+    let budget = Int::optional(budget, py, "budget", 0..=u64::MAX)?;
     let script = Arc::new(StateScript::read(&rule)?);
     let decisions = script.script.work(py, patience_s, |py| {
         script.begin(py)?;
@@ -111,13 +113,17 @@ pub(crate) fn decide_protocol(
 pub(crate) fn hunt_protocol(
     py: Python<'_>,
     rule: Bound<'_, PyAny>,
-    runs: u64,
-    seed: u64,
-    max_moves: u32,
+    runs: Int,
+    #[pyo3(from_py_with = whole)] seed: i128,
+    #[pyo3(from_py_with = whole)] max_moves: i128,
     patience_s: f64,
 ) -> PyResult<BTreeMap<&'static str, Option<StateRun>>> {
     let script = Arc::new(StateScript::read(&rule)?);
-    let runs = RandomRuns { runs, seed, most_moves: max_moves };
+    let runs = RandomRuns {
+        runs: runs.within(py, "runs", 0..=u64::MAX)?,
+        seed: Int(seed).within(py, "seed", 0..=u64::MAX)?,
+        most_moves: Int(max_moves).within(py, "max_moves", 0..=u32::MAX)?,
+    };
     script.script.work(py, patience_s, |py| {
         script.begin(py)?;
         if script.starts().is_empty() {

@@ -25,6 +25,7 @@ use tautline_sim::trace::{self, StoredRun, Writer};
 use self::game::{PythonRule, Questions, setting};
 use self::written::{Demand, RuleScript};
 use crate::diagnostic::{Kind, error, halted};
+use crate::given::Int;
 use crate::hunt::verdict;
 use crate::run::{Run, RunSource};
 
@@ -104,9 +105,10 @@ struct Outcome {
 pub(crate) fn hunt_rule(
     py: Python<'_>,
     rule: Bound<'_, PyAny>,
-    budget: Option<u64>,
+    budget: Option<Int>,
     patience_s: f64,
 ) -> PyResult<OwnHuntReport> {
+    let budget = Int::optional(budget, py, "budget", 0..=u64::MAX)?;
     let written = Arc::new(RuleScript::read(&rule)?);
     let worker = Arc::clone(&written);
     let Outcome { found, counterexamples } =

@@ -15,6 +15,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::svg::Panel;
 use tautline_kernel::ground::Cell;
 use tautline_papers::rivals::CATALOGUE;
+use tautline_proofs::plural::counted;
 use tautline_sim::counterexample::minimise::minimise;
 use tautline_sim::draw::{page, story, svg};
 use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove};
@@ -22,7 +23,8 @@ use tautline_sim::trace::{self, ForeignRun, StoredRun, Summary, Writer};
 
 use crate::arrays::view;
 use crate::diagnostic::{Kind, error, failed, halted, raised};
-use crate::layout::{Layout, Pair};
+use crate::given::Int;
+use crate::layout::{Layout, Rebuilt, rebuilt};
 use crate::wait::wait_for;
 
 /// The version of the JSON of a run: that of the program.
@@ -83,8 +85,18 @@ impl Run {
 
     /// The run in a file, checked.
     pub(crate) fn read(py: Python<'_>, path: &Path) -> PyResult<Self> {
-        let name = path.display().to_string();
         let stored = trace::open(path, CATALOGUE).map_err(|fault| raised(py, &fault))?;
+        let text = match stored {
+            StoredRun::Known(_) => String::new(),
+            StoredRun::Foreign(_) => fs::read_to_string(path).map_err(|_| {
+                raised(py, &Diagnostic::in_file(path, "it was there, and is gone", "store it again"))
+            })?,
+        };
+        Self::again(py, stored, text, path.display().to_string())
+    }
+
+    /// The run that is stored so, made again. One of a rule that the catalogue does not have keeps its `text`.
+    fn again(py: Python<'_>, stored: StoredRun, text: String, name: String) -> PyResult<Self> {
         let (made, report, clause) = match stored {
             StoredRun::Known(stored) => {
                 let (setup, clause) = (stored.setup.clone(), stored.clause);
@@ -92,9 +104,6 @@ impl Run {
                 (RunSource::Known(Box::new(setup)), report.map_err(|halt| halted(py, &halt))?, clause)
             }
             StoredRun::Foreign(run) => {
-                let unread =
-                    |_| raised(py, &Diagnostic::in_file(path, "it was there, and is gone", "store it again"));
-                let text = fs::read_to_string(path).map_err(unread)?;
                 let report = run.play(&mut |_| Ok(())).map_err(|halt| halted(py, &halt))?;
                 let clause = run.clause;
                 (RunSource::Recorded(Box::new(run), text), report, clause)
@@ -352,10 +361,24 @@ impl Run {
 
     /// A picture: the order of exploration, or these team moves; of a counterexample the last one.
     #[pyo3(signature = (moves=None))]
-    fn svg(&self, py: Python<'_>, moves: Option<(u32, u32)>) -> PyResult<String> {
+    fn svg(&self, py: Python<'_>, moves: Option<(Int, Int)>) -> PyResult<String> {
         svg::check_size(self.report.chart.area()).map_err(|fault| raised(py, &fault))?;
         match (moves, self.clause) {
-            (Some((first, last)), _) => self.panels(py, &(first..=last.min(self.report.steps))),
+            (Some((first, last)), _) => {
+                let (Int(first), Int(last), steps) = (first, last, self.report.steps);
+                let moves = first..=last.min(steps.into());
+                if first < 1 || moves.is_empty() {
+                    let what =
+                        format!("moves are {first} to {last} of a run of {}", counted(steps, "team move"));
+                    return Err(error(
+                        py,
+                        Kind::Input,
+                        what,
+                        "give the first and the last of some, counted from 1",
+                    ));
+                }
+                self.panels(py, &(*moves.start() as u32..=*moves.end() as u32))
+            }
             (None, Some(_)) if self.report.steps > 0 => {
                 self.panels(py, &(self.report.steps..=self.report.steps))
             }
@@ -394,6 +417,18 @@ impl Run {
         Self::of(py, minimal.setup, self.name.clone(), Some(minimal.clause))
     }
 
+    /// The run of the text of a trace, checked, in a layout that is called so.
+    #[staticmethod]
+    #[pyo3(signature = (trace, *, name="trace"))]
+    fn parse(py: Python<'_>, trace: String, name: &str) -> PyResult<Self> {
+        let stored = trace::open_text(name, trace.clone(), CATALOGUE).map_err(|fault| raised(py, &fault))?;
+        Self::again(py, stored, trace, name.to_owned())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Rebuilt<'py>> {
+        rebuilt::<Self>(py, &self.trace(py)?, &self.name)
+    }
+
     fn _repr_svg_(&self, py: Python<'_>) -> PyResult<String> {
         self.svg(py, None)
     }
@@ -421,9 +456,4 @@ impl Run {
         }
         text + ">"
     }
-}
-
-/// The cell of a pair.
-pub(crate) const fn cell((x, y): Pair) -> Cell {
-    Cell::new(x, y)
 }

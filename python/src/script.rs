@@ -2,17 +2,20 @@
 //! the states that they have answered.
 
 use std::collections::BTreeSet;
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use pyo3::PyTypeInfo;
-use pyo3::exceptions::PyException;
+use pyo3::exceptions::{PyAttributeError, PyException, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use rayon::ThreadPoolBuilder;
 
 use crate::diagnostic::{Kind, error};
+use crate::given::Int;
 use crate::wait::wait;
 
 /// Letters of a name.
@@ -53,10 +56,43 @@ pub(crate) fn attribute<'py, T: for<'a> FromPyObject<'a, 'py>>(
     name: &str,
     wanted: &str,
 ) -> PyResult<T> {
-    let py = rule.py();
+    attribute_of("the rule", rule, name, wanted)
+}
+
+/// An attribute of a rule, or of a part of it that is called so, of this type.
+pub(crate) fn attribute_of<'py, T: for<'a> FromPyObject<'a, 'py>>(
+    owner: &str,
+    part: &Bound<'py, PyAny>,
+    name: &str,
+    wanted: &str,
+) -> PyResult<T> {
+    let py = part.py();
     let wrong = |what: String| error(py, Kind::WrongType, what, format_args!("give the rule {wanted}"));
-    let value = rule.getattr(name).map_err(|_| wrong(format!("the rule has no {name}")))?;
-    value.extract().map_err(|_| wrong(format!("the rule's {name} is {}", shown(&value))))
+    let value = part.getattr(name).map_err(|raised| {
+        if raised.is_instance_of::<PyAttributeError>(py) {
+            return wrong(format!("{owner} {} has no {name}", shown(part)));
+        }
+        self::raised(py, &format!("{name} of {owner}"), raised)
+    })?;
+    value.extract().map_err(|_| wrong(format!("{name} of {owner} is {}", shown(&value))))
+}
+
+/// A whole number among the attributes of a rule, within these bounds.
+pub(crate) fn number<T>(rule: &Bound<'_, PyAny>, name: &str, bounds: RangeInclusive<T>) -> PyResult<T>
+where
+    T: TryFrom<i128> + PartialOrd + Display,
+{
+    let wanted = format!("{name}, a whole number from {} to {}", bounds.start(), bounds.end());
+    attribute::<Int>(rule, name, &wanted)?.within(rule.py(), name, bounds)
+}
+
+/// The exception for one that Python code of a rule has raised.
+fn raised(py: Python<'_>, what: &str, raised: PyErr) -> PyErr {
+    let said = format!("{what} raised {raised}");
+    let told =
+        error(py, Kind::Raised, said, "let it return for all that it is asked; the cause has the place");
+    told.set_cause(py, Some(raised));
+    told
 }
 
 /// A value as a person sees it, not too long.
@@ -156,20 +192,27 @@ impl Script {
         if !raised.is_instance(py, &PyException::type_object(py)) {
             return raised;
         }
-        let said = format!("{what} of the rule {} raised {raised}", self.name);
-        let told =
-            error(py, Kind::Raised, said, "let it return for all that it is asked; the cause has the place");
-        told.set_cause(py, Some(raised));
-        told
+        self::raised(py, &format!("{what} of the rule {}", self.name), raised)
     }
 
     /// The number of a state, which is its own as long as equal states are equal.
     pub(crate) fn number(&self, py: Python<'_>, what: &str, state: &Bound<'_, PyAny>) -> PyResult<u32> {
         let numbers = held(&self.states).numbers.clone_ref(py);
         let numbers = numbers.bind(py);
-        let unhashable = |_: PyErr| {
-            let said = format!("{what} returned the state {}, which cannot be hashed", shown(state));
-            error(py, Kind::WrongType, said, "make it a tuple, a string, a number or a frozen dataclass")
+        let unhashable = |raised: PyErr| {
+            if !raised.is_instance_of::<PyTypeError>(py) {
+                return self.refused(
+                    py,
+                    &format!("hashing or comparing a state that {what} returned"),
+                    raised,
+                );
+            }
+            let said =
+                format!("{what} returned the state {}, which cannot be hashed and compared", shown(state));
+            let told =
+                error(py, Kind::WrongType, said, "make it a tuple, a string, a number or a frozen dataclass");
+            told.set_cause(py, Some(raised));
+            told
         };
         if let Some(number) = numbers.get_item(state).map_err(unhashable)? {
             return number.extract();
@@ -178,7 +221,7 @@ impl Script {
         let number = states.values.len() as u32;
         states.values.push(state.clone().unbind());
         drop(states);
-        numbers.set_item(state, number)?;
+        numbers.set_item(state, number).map_err(unhashable)?;
         Ok(number)
     }
 

@@ -1,7 +1,6 @@
 //! Many runs at once, as a table that pandas, polars, DuckDB and pyarrow read by Arrow's C stream interface.
 
 use std::collections::BTreeMap;
-use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -19,8 +18,9 @@ use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, S
 
 use crate::diagnostic::halted;
 use crate::explore::{limits, rule, scheme};
+use crate::given::{Int, List, MAX_ENTRIES, too_many};
 use crate::run::stopped;
-use crate::wait::wait_for;
+use crate::wait::wait_or_leave;
 
 /// A job: one run with its options.
 struct Job<'a> {
@@ -39,36 +39,49 @@ pub(crate) struct Sweep {
 /// Explores each layout by each rule with each number of robots and each seed, on all processors. The rows do not
 /// depend on how many there are.
 #[pyfunction]
-#[pyo3(signature = (layouts, scheme="chain", *, rules=vec!["repaired".to_owned()], robots=None, seeds=vec![0], max_moves=None, until=None))]
+#[pyo3(signature = (
+    layouts, scheme="chain", *, rules=None, robots=None, seeds=List(vec![Int(0)]), max_moves=None, until=None
+))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn sweep(
     py: Python<'_>,
-    layouts: Vec<String>,
+    layouts: List<String>,
     scheme: &str,
-    rules: Vec<String>,
-    robots: Option<Vec<u64>>,
-    seeds: Vec<u64>,
-    max_moves: Option<NonZeroU32>,
-    until: Option<u32>,
+    rules: Option<List<String>>,
+    robots: Option<List<Int>>,
+    seeds: List<Int>,
+    max_moves: Option<Int>,
+    until: Option<Int>,
 ) -> PyResult<Sweep> {
     let scheme = self::scheme(py, scheme)?;
-    let rules = rules.iter().map(|name| rule(py, scheme, name)).collect::<PyResult<Vec<RuleId>>>()?;
+    let rules = rules.map_or_else(|| vec![None], |List(rules)| rules.into_iter().map(Some).collect());
+    let rules = rules.iter().map(|name| rule(py, scheme, name.as_deref()));
+    let rules = rules.collect::<PyResult<Vec<RuleId>>>()?;
     let limits = limits(py, until, max_moves)?;
-    let robots = robots.map_or_else(|| vec![None], |robots| robots.into_iter().map(Some).collect());
-    let mut jobs = Vec::new();
-    for layout in &layouts {
-        for &rule in &rules {
-            for &robots in &robots {
-                jobs.extend(seeds.iter().map(|&seed| Job { layout, rule, robots, seed }));
+    let robots = robots.map_or_else(|| vec![None], |List(robots)| robots.into_iter().map(Some).collect());
+    let robots = robots.into_iter().map(|robots| crate::explore::robots(py, robots));
+    let robots = robots.collect::<PyResult<Vec<_>>>()?;
+    let List(layouts) = layouts;
+    let seeds = seeds.0.into_iter().map(|seed| seed.within(py, "a seed", 0..=u64::MAX));
+    let seeds = seeds.collect::<PyResult<Vec<_>>>()?;
+    let mut lengths = [layouts.len(), rules.len(), robots.len(), seeds.len()].into_iter();
+    if lengths.try_fold(1, usize::checked_mul).is_none_or(|runs| runs > MAX_ENTRIES) {
+        return Err(too_many(py, "a sweep", "runs"));
+    }
+    let batch = wait_or_leave(py, move |is_stopped| {
+        let mut jobs = Vec::new();
+        for layout in &layouts {
+            for &rule in &rules {
+                for &robots in &robots {
+                    jobs.extend(seeds.iter().map(|&seed| Job { layout, rule, robots, seed }));
+                }
             }
         }
-    }
-    let reports = wait_for(py, |is_stopped| {
         let one = |job: &Job<'_>| made(scheme, job, limits, &|| stopped(is_stopped));
-        jobs.par_iter().map(one).collect::<Result<Vec<(u16, Report)>, Halt>>()
+        let reports = jobs.par_iter().map(one).collect::<Result<Vec<(u16, Report)>, Halt>>()?;
+        Ok(table(&scheme, &jobs, &reports))
     })?;
-    let reports = reports.map_err(|halt| halted(py, &halt))?;
-    let batch = table(&scheme, &jobs, &reports).map_err(broken)?;
+    let batch = batch.map_err(|halt| halted(py, &halt))?.map_err(broken)?;
     Ok(Sweep { batch })
 }
 

@@ -1,8 +1,9 @@
 //! Work that Python waits for: it goes on without Python's lock, and Ctrl-C ends it.
 
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -25,8 +26,7 @@ pub(crate) fn wait<T: Send>(
         let told = Mutex::new(told);
         let mut ended = Ok(());
         loop {
-            let hear = || told.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(ASKED_EVERY);
-            match py.detach(hear) {
+            match heard(py, &told) {
                 Ok(done) => return ended.map(|()| done),
                 // A panic of the work comes out where the scope ends.
                 Err(RecvTimeoutError::Disconnected) => break,
@@ -47,6 +47,31 @@ pub(crate) fn wait<T: Send>(
             Err(pyo3::exceptions::PyRuntimeError::new_err("a bug of tautline: the work broke down"))
         })
     })
+}
+
+/// As [`wait_for`], of work that may be long in hearing that it is to stop: Ctrl-C leaves it to end on its thread.
+pub(crate) fn wait_or_leave<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
+) -> PyResult<T> {
+    let (tell, told) = channel::<()>();
+    let told = Mutex::new(told);
+    let is_stopped = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&is_stopped);
+    let worker = thread::spawn(move || {
+        // Dropped when the work ends, whether it returns or panics.
+        let _tell = tell;
+        work(&asked)
+    });
+    while heard(py, &told) == Err(RecvTimeoutError::Timeout) {
+        py.check_signals().inspect_err(|_| is_stopped.store(true, Ordering::Relaxed))?;
+    }
+    Ok(worker.join().unwrap_or_else(|panic| resume_unwind(panic)))
+}
+
+/// The message of another thread, if it comes before Python is asked again.
+fn heard<T: Send>(py: Python<'_>, told: &Mutex<Receiver<T>>) -> Result<T, RecvTimeoutError> {
+    py.detach(|| told.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(ASKED_EVERY))
 }
 
 /// As [`wait`], where nothing else is to be looked at.

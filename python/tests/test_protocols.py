@@ -102,7 +102,7 @@ def test_a_run_that_was_stored_is_replayed_by_its_rule_alone(tmp_path):
         found.store(path / "no" / "folder")
     text = path.read_text()
     path.write_text(text.replace('"taken":0', '"taken":1', 1))
-    with pytest.raises(tautline.InputError):
+    with pytest.raises(tautline.InputError, match="store it again with StateRun.store"):
         tautline.replay_protocol(Ring(4, 2), path)
 
 

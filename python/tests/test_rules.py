@@ -133,6 +133,34 @@ def test_a_rule_that_raises_is_refused_with_the_cause():
         tautline.hunt_rule(Demanding())
 
 
+class Unlike:
+    """A state that cannot be compared."""
+
+    def __hash__(self):
+        return 0
+
+    def __eq__(self, other):
+        return 1 / 0
+
+
+@pytest.mark.parametrize(
+    ("change", "kind", "said", "cause"),
+    [
+        ({"step": lambda *_: (Unlike(), "E"), "start": lambda _: (Unlike(), [(0, 0)])}, RuleRaised, "comparing", ZeroDivisionError),
+        ({"start": lambda _: ([], [(0, 0)])}, RuleWrongType, "cannot be hashed", TypeError),
+        ({"robots": property(lambda _: 1 / 0)}, RuleRaised, "robots of the rule raised", ZeroDivisionError),
+        ({"demands": [1]}, RuleWrongType, "the demand 1 has no id", None),
+        ({"size": (100000, 1)}, tautline.InputError, "100000; .* from 1 to 16", None),
+        ({"size": 7}, RuleWrongType, "1 to 16 columns", None),
+        ({"robots": -1}, tautline.InputError, "robots is -1; give robots a whole number from 1 to 8", None),
+    ],
+)
+def test_a_rule_is_refused_with_its_cause_and_its_bound(change, kind, said, cause):
+    with pytest.raises(kind, match=said) as refused:
+        tautline.hunt_rule(type("Wrong", (Walker,), change)())
+    assert type(refused.value.__cause__) is (cause or type(None))
+
+
 @pytest.mark.parametrize(
     "answer", [7, "E", (0,), (0, 1), (0, "EE"), (0, "X"), (0, "E", 1), ([], "E"), object()]
 )
@@ -174,6 +202,10 @@ def test_a_demand_that_says_neither_yes_nor_no_is_refused():
         {"robots": 0},
         {"max_walls": 99},
         {"max_walls": -1},
+        {"robots": -1},
+        {"robots": 2**80},
+        {"size": (100000, 1)},
+        {"demands": range(10**14)},
         {"scheme": "chain"},
         {"scheme": "<b>"},
         {"demands": [7]},

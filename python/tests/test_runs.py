@@ -54,6 +54,12 @@ def test_every_scheme_and_every_rule_runs():
             assert [move["step"] for move in run.moves()] == list(range(1, run.steps + 1))
 
 
+def test_the_rule_is_the_repaired_one_or_the_only_one():
+    assert tautline.explore("open:4x4").rule == "repaired"
+    assert tautline.explore("open:4x4", "mdfs").rule == tautline.hunt("mdfs", size=(2, 1)).rule == "published"
+    assert tautline.sweep(["open:4x4"], "mdfs").to_dict()["rule"] == ["published"]
+
+
 def test_a_counterexample_is_hunted_drawn_made_minimal_and_stored(tmp_path):
     found = tautline.hunt(rule="published", robots=4, max_walls=2)
     assert (found.verdict, found.complete) == ("refuted", True)
@@ -107,6 +113,16 @@ def test_what_does_not_fit_is_refused_with_what_to_do(tmp_path):
         (lambda: tautline.explore("open:5x5", robots=3).minimise(), "break"),
         (lambda: tautline.estimate_share(3, 2), "no more hits"),
         (lambda: tautline.estimate([]), "at least one"),
+        (lambda: tautline.estimate_ratio([(1, -1)]), "the second values of 1 pairs sum up to -1; "),
+        (lambda: tautline.estimate_ratio([(1, float("nan"))]), "sum up to more than 0"),
+        (lambda: tautline.estimate([float("nan")]), "not finite"),
+        (lambda: tautline.estimate([1e308, 1e308]), "not finite"),
+        (lambda: tautline.explore("open:5x5", message_range=0), "message_range says nothing"),
+        (lambda: tautline.explore("open:5x5", "kit", message_range=0), "give message_range 2 to 5"),
+        (lambda: tautline.hunt("kit", error=0.5), "max_walls, message_range"),
+        (lambda: tautline.replay(tmp_path / "nothing.jsonl"), "name a file that Run.store or"),
+        (lambda: tautline.Run.parse("{}"), "Run.store"),
+        (lambda: tautline.explore("open:5x5", robots=3).minimise(), "take a run of hunt, or one that has violations"),
     ]
     for call, said in cases:
         with pytest.raises(InputError) as refused:

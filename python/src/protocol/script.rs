@@ -12,7 +12,8 @@ use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
 use crate::diagnostic::{Kind, error};
-use crate::script::{Script, attribute, held, kept, shown, word};
+use crate::given::{List, entries};
+use crate::script::{Script, attribute, attribute_of, held, kept, shown, word};
 
 /// Different words of moves that a rule may have, which are kept as long as the process.
 const MAX_WORDS: usize = 256;
@@ -48,7 +49,7 @@ impl StateScript {
         let py = rule.py();
         let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
         let bound: String = attribute(rule, "bound", "a bound, in words, such as \"3 nodes\"")?;
-        let demands: Vec<Bound<'_, PyAny>> =
+        let List(demands): List<Bound<'_, PyAny>> =
             attribute(rule, "demands", "demands, a list of pytautline.Demand")?;
         if demands.is_empty() {
             let remedy = "give the rule demands, made by pytautline.always and others";
@@ -58,7 +59,7 @@ impl StateScript {
             script: Script::new(rule, word(py, "name", &name)?),
             bound: kept(&bound),
             demands: demands.iter().map(wanted).collect::<PyResult<_>>()?,
-            covers: attribute(rule, "covers", "covers, a list of the words of moves")?,
+            covers: attribute::<List<_>>(rule, "covers", "covers, a list of the words of moves")?.0,
             starts: OnceLock::new(),
             met: Mutex::default(),
         })
@@ -94,7 +95,7 @@ impl StateScript {
             let answer = call(rule)?;
             // A function that yields its answers is asked for them here.
             match answer.try_iter() {
-                Ok(all) => Ok(Ok(all.collect::<PyResult<Vec<_>>>()?)),
+                Ok(all) => Ok(Ok(entries(&all)?)),
                 Err(_) => Ok(Err(answer)),
             }
         })?;
@@ -122,7 +123,7 @@ impl StateScript {
 
     fn made(&self, py: Python<'_>, made: &Bound<'_, PyAny>) -> PyResult<Move<u32>> {
         let wrong = || error(py, Kind::WrongType, format_args!("moves returned {}", shown(made)), MOVES);
-        let (actors, words, to): (Vec<u32>, String, Bound<'_, PyAny>) =
+        let (List(actors), words, to): (List<u32>, String, Bound<'_, PyAny>) =
             made.extract().map_err(|_| wrong())?;
         if actors.iter().any(|&actor| actor >= Bits::BITS) {
             return Err(wrong());
@@ -159,14 +160,13 @@ impl StateScript {
 fn wanted(demand: &Bound<'_, PyAny>) -> PyResult<Wanted> {
     let py = demand.py();
     let made_by = "demands made by pytautline.always, at_the_end, eventually and again_and_again";
-    let (id, words): (String, String) =
-        (attribute(demand, "id", made_by)?, attribute(demand, "words", made_by)?);
-    let when: String = attribute(demand, "when", made_by)?;
+    let text = |name: &str| attribute_of::<String>("the demand", demand, name, made_by);
+    let (id, words, when) = (text("id")?, text("words")?, text("when")?);
     let kind = KINDS.iter().position(|&kind| kind == when).ok_or_else(|| {
         let what = format!("a demand on states is looked at {when:?}");
         error(py, Kind::WrongType, what, format_args!("give the rule {made_by}"))
     })?;
-    let asked = attribute(demand, "kept", made_by)?;
+    let asked = attribute_of("the demand", demand, "kept", made_by)?;
     Ok(Wanted { clause: word(py, "the id", &id)?, words: kept(&words), kind, asked })
 }
 

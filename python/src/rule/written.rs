@@ -12,12 +12,15 @@ use tautline_sim::trace::{self, letter};
 
 use super::moved::TeamMove;
 use crate::diagnostic::{Kind, error};
-use crate::layout::Pair;
-use crate::run::cell;
-use crate::script::{Script, attribute, held, kept, shown, word};
+use crate::given::{At, Int, List};
+use crate::script::{Script, attribute, attribute_of, held, kept, number, shown, word};
 
 /// The most robots of a rule written in Python.
 pub(super) const MAX_ROBOTS: usize = 8;
+
+/// The most columns, and rows, of its layouts.
+const MAX_SIDE: i16 = 16;
+const SIZE: &str = "a size of 1 to 16 columns and 1 to 16 rows";
 
 /// A hint at what `step` is to return.
 const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the next state and a \
@@ -79,25 +82,22 @@ impl RuleScript {
             return Err(error(py, Kind::Input, what, "give the rule's scheme another name"));
         }
         let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
-        let robots: usize = attribute(rule, "robots", "robots, a number from 1 to 8")?;
-        if !(1..=MAX_ROBOTS).contains(&robots) {
-            let remedy = format!("give the rule robots, a number from 1 to {MAX_ROBOTS}");
-            return Err(error(py, Kind::Input, format_args!("{robots} robots"), remedy));
-        }
-        let demands: Vec<Bound<'_, PyAny>> =
+        let List(demands): List<Bound<'_, PyAny>> =
             attribute(rule, "demands", "demands, a list of pytautline.Demand")?;
-        let covers: Vec<(String, Py<PyAny>)> =
+        let List(covers): List<(String, Py<PyAny>)> =
             attribute(rule, "covers", "covers, a list of names and functions of a move")?;
         let demands = demands.iter().map(demand).collect::<PyResult<Vec<Demand>>>()?;
         if covers.len() > 64 {
             return Err(error(py, Kind::Input, format_args!("{} covers", covers.len()), "give at most 64"));
         }
+        let (width, height): (Int, Int) = attribute(rule, "size", SIZE)?;
+        let side = |cells: Int| cells.within(py, "a side of size", 1..=MAX_SIDE);
         let written = Self {
             scheme: word(py, "scheme", &scheme)?,
-            robots,
-            size: attribute(rule, "size", "a size, its columns and rows")?,
-            max_walls: attribute(rule, "max_walls", "max_walls, a number")?,
-            longest_run: attribute(rule, "longest_run", "a longest_run, a number of team moves")?,
+            robots: number(rule, "robots", 1..=MAX_ROBOTS)?,
+            size: (side(width)?, side(height)?),
+            max_walls: number(rule, "max_walls", 0..=u32::MAX)?,
+            longest_run: number(rule, "longest_run", 0..=u32::MAX)?,
             demands,
             covers: covers.into_iter().map(|(name, is_one)| (kept(&name), is_one)).collect(),
             script: Script::new(rule, word(py, "name", &name)?),
@@ -112,11 +112,10 @@ impl RuleScript {
     /// The cells that all its layouts have.
     pub(super) fn area(&self, py: Python<'_>) -> PyResult<Area> {
         let (width, height) = self.size;
-        let area = Some((width, height)).filter(|&(width, height)| width > 0 && height > 0);
-        let area = area.and_then(|_| Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1)));
+        let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1));
         area.filter(|&area| SmallGrid::new(area).is_some()).ok_or_else(|| {
-            let remedy = "give the rule a size of 1 to 16 columns and 1 to 16 rows";
-            error(py, Kind::Input, format_args!("{width}x{height} cells cannot be searched"), remedy)
+            let what = format_args!("{width}x{height} cells cannot be searched");
+            error(py, Kind::Input, what, format_args!("give the rule {SIZE}"))
         })
     }
 
@@ -125,15 +124,15 @@ impl RuleScript {
         let answer = self.script.called(py, "start", |rule| rule.call_method0("start"))?;
         let remedy = "return the state at the start and a list of the robots' cells, each a column and a row";
         let wrong = |what: String| error(py, Kind::WrongType, what, remedy);
-        let told: PyResult<(Bound<'_, PyAny>, Vec<Pair>)> = answer.extract().map_err(PyErr::from);
-        let (state, cells) = told.map_err(|_| wrong(format!("start returned {}", shown(&answer))))?;
+        let told: PyResult<(Bound<'_, PyAny>, List<At>)> = answer.extract();
+        let (state, List(cells)) = told.map_err(|_| wrong(format!("start returned {}", shown(&answer))))?;
         if cells.len() != self.robots {
             return Err(wrong(format!("start returned {} cells of {} robots", cells.len(), self.robots)));
         }
         let area = self.area(py)?;
         let mut all = [Cell::new(0, 0); MAX_ROBOTS];
-        for (place, &start) in all.iter_mut().zip(&cells) {
-            *place = cell(start);
+        for (place, &At(start)) in all.iter_mut().zip(&cells) {
+            *place = start;
             if !area.contains(*place) {
                 return Err(wrong(format!("start returned the cell {place}, which is outside of the area")));
             }
@@ -254,10 +253,9 @@ impl RuleScript {
 fn demand(demand: &Bound<'_, PyAny>) -> PyResult<Demand> {
     let py = demand.py();
     let wanted = "demands made by pytautline.always, pytautline.at_the_end and pytautline.never_endless";
-    let (id, words): (String, String) =
-        (attribute(demand, "id", wanted)?, attribute(demand, "words", wanted)?);
-    let when: String = attribute(demand, "when", wanted)?;
-    let kept_by: Py<PyAny> = attribute(demand, "kept", wanted)?;
+    let text = |name: &str| attribute_of::<String>("the demand", demand, name, wanted);
+    let (id, words, when) = (text("id")?, text("words")?, text("when")?);
+    let kept_by: Py<PyAny> = attribute_of("the demand", demand, "kept", wanted)?;
     let when = match when.as_str() {
         "always" => When::Always(kept_by),
         "at-the-end" => When::AtTheEnd(kept_by),
