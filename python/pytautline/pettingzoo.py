@@ -5,6 +5,7 @@ cells that were entered for the first time, less one for each pair of neighbours
 episode ends when every cell in reach is explored, and is cut short after ``max_cycles``.
 """
 
+import operator
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from gymnasium.utils import seeding
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
+from ._errors import InputError
 from ._native import Environments
 from .vector import ACTIONS, SEEDS, Observation, integers, observed, team_space
 
@@ -33,6 +35,8 @@ class parallel_env(ParallelEnv[str, Observation, int]):
         max_cycles: int = 200,
         render_mode: str | None = None,
     ) -> None:
+        if render_mode not in (None, "ansi"):
+            raise InputError(f"render_mode is {render_mode!r}", 'give render_mode None or "ansi"')
         self._team = Environments(layout, 1, robots, max_cycles)
         self.render_mode = render_mode
         self.possible_agents = [f"robot_{number}" for number in range(1, robots + 1)]
@@ -54,7 +58,7 @@ class parallel_env(ParallelEnv[str, Observation, int]):
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
         if seed is not None:
-            self._random, _ = seeding.np_random(seed)
+            self._random, _ = seeding.np_random(operator.index(seed))
         self._seen = observed(self._team.reset({0: int(self._random.integers(SEEDS))}))
         self.layout = self._team.layout(0)
         self.agents = list(self.possible_agents)
@@ -72,7 +76,9 @@ class parallel_env(ParallelEnv[str, Observation, int]):
         if self._seen and not self.agents:
             return {}, {}, {}, {}, {}
         agents = self.agents
-        tried = integers([[actions[agent] for agent in agents]])
+        # NumPy makes reals of integers that are signed and integers that are not.
+        own = (actions[agent] for agent in agents)
+        tried = integers([[int(action) if isinstance(action, np.integer) else action for action in own]])
         planes, ((reward,), (is_done,), (is_cut,), (explored,), (contact,)) = self._team.step(tried, {})
         self._seen = observed(planes)
         result = (

@@ -4,6 +4,7 @@ Needs ``gymnasium`` and ``numpy``. Environment ``k`` is bit for bit the single o
 Python's lock. An observation owns its arrays: a later step does not change it, and ``__dlpack__`` hands it over without a copy.
 """
 
+import operator
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -46,14 +47,15 @@ def observed(planes: Iterable[memoryview]) -> Observation:
 def integers(actions: Any) -> NDArray[Any]:
     """Integers of any width as the native half takes them; what are none, it refuses."""
     array = np.asarray(actions)
-    return array.astype(np.int64, copy=False) if array.dtype.kind in "iu" else array
+    wide = {"i": np.int64, "u": np.uint64}.get(array.dtype.kind)
+    return array if wide is None else array.astype(wide, copy=False)
 
 
 class VectorEnv(GymnasiumVectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
     """Teams that explore a layout each; a reward is that of a whole team.
 
     A team whose episode has ended begins the next one at the next step, whatever its action (``AutoresetMode.NEXT_STEP``). Seed
-    ``s`` seeds environment ``k`` by ``s + k``; before any seed is given, ``s`` is 0.
+    ``s`` seeds environment ``k`` by ``s + k``; before any seed is given, ``s`` is 0. One thread at a time may step or reset it.
     """
 
     metadata = {"name": "tautline_v0", "autoreset_mode": AutoresetMode.NEXT_STEP}
@@ -81,15 +83,21 @@ class VectorEnv(GymnasiumVectorEnv[Observation, NDArray[np.int64], NDArray[Any]]
         """Begins an episode in every environment."""
         if options and "reset_mask" in options:
             raise InputError("reset_mask is for environments that do not reset themselves", "reset all of them")
-        seeds = range(seed, seed + self.num_envs) if isinstance(seed, int) else seed or [None] * self.num_envs
+        given: Any = seed
+        if given is None:
+            seeds: Sequence[int | None] = [None] * self.num_envs
+        elif np.ndim(given):
+            seeds = [None if own is None else operator.index(own) for own in given]
+        else:
+            seeds = range(operator.index(given), operator.index(given) + self.num_envs)
         if len(seeds) != self.num_envs:
             raise InputError(f"there are {len(seeds)} seeds", f"give one, or {self.num_envs}")
-        for number, own in enumerate(seeds):
-            if own is not None:
-                self._randoms[number], _ = seeding.np_random(own)
-        self._drawn = {}
-        planes = self._teams.reset(self._draw(range(self.num_envs)))
-        self._drawn, self._is_over = {}, np.zeros(self.num_envs, np.bool_)
+        # All are made before one is taken: a reset that is refused leaves the others as they were.
+        pairs = zip(self._randoms, seeds, strict=True)
+        randoms = [random if own is None else seeding.np_random(own)[0] for random, own in pairs]
+        drawn = {number: int(random.integers(SEEDS)) for number, random in enumerate(randoms)}
+        planes = self._teams.reset(drawn)
+        self._randoms, self._drawn, self._is_over = randoms, {}, np.zeros(self.num_envs, np.bool_)
         return observed(planes), {}
 
     def step(

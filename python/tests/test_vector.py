@@ -181,6 +181,7 @@ def test_a_refused_step_changes_nothing():
         (None, "are object"),
         ([[0] * 4, [0, 0, 5, 0], [0] * 4], r"actions\[1, 2\] is 5"),
         ([[0] * 4, [0] * 4, [-1, 0, 0, 0]], r"actions\[2, 0\] is -1"),
+        (np.full((3, 4), 2**63, np.uint64), r"actions\[0, 0\] is 9223372036854775808"),
     ],
 )
 def test_actions_that_are_none_are_refused_with_their_place(actions, said):
@@ -198,7 +199,8 @@ def test_actions_that_are_none_are_refused_with_their_place(actions, said):
         ({"robots": -1}, "robots is -1"),
         ({"max_cycles": 0}, "max_cycles is 0"),
         ({"num_envs": 10**7}, "10000000 environments of 8x8 cells.*at most 223696 of them"),
-        ({"robots": 2**63 - 1, "num_envs": 2**63 - 1}, "at most 0 of them"),
+        ({"robots": 2**62}, "1 environment of 8x8 cells.*fewer robots, or a smaller layout"),
+        ({"robots": 2**64}, "robots is 18446744073709551616"),
         ({"layout": "walls:8x8"}, "walls"),
     ],
 )
@@ -222,3 +224,45 @@ def test_a_step_needs_a_reset_before_it():
         VectorEnv(num_envs=3).reset(seed=[1, 2])
     with pytest.raises(InputError, match="reset_mask"):
         VectorEnv().reset(options={"reset_mask": np.ones(1, bool)})
+
+
+def test_a_refused_reset_changes_nothing_and_seeds_are_whole_numbers_of_any_kind():
+    def planes(refused: Any, *seeds: Any) -> list[bytes]:
+        vector = VectorEnv("walls:6x6:0.2", num_envs=3, robots=2)
+        vector.reset(seed=1)
+        if refused is not None:
+            with pytest.raises((gymnasium.error.Error, InputError, TypeError)):
+                vector.reset(seed=refused)
+        return [vector.reset(seed=seed)[0]["walls"].tobytes() for seed in seeds]
+
+    for refused in ([7, 8, -1], [], [1, 2], 1.5, [1, 2.5, 3]):
+        assert planes(refused, None) == planes(None, None)
+    of_numpy = planes(None, np.int64(3), np.array([1, 2, 3]), [1, np.uint8(2), None])
+    assert of_numpy == planes(None, 3, [1, 2, 3], [1, 2, None])
+    one, other = parallel_env(), parallel_env()
+    assert_same(one.reset(np.int64(3))[0]["robot_1"]["walls"], other.reset(3)[0]["robot_1"]["walls"])
+
+
+def test_whoever_steps_environments_that_another_one_steps_is_told_so():
+    vector = VectorEnv()
+    vector.reset()
+
+    class Meddler:
+        @property
+        def dtype(self):
+            with pytest.raises(InputError, match="one thread at a time"):
+                vector.layout(0)
+            return "meddled with"
+
+    with pytest.raises(InputError, match="are meddled with"):
+        vector._teams.step(Meddler(), {})
+
+
+def test_actions_of_the_single_environment_are_integers_of_any_kind():
+    env = parallel_env(robots=2)
+    env.reset()
+    env.step({"robot_1": np.int8(1), "robot_2": np.uint64(2)})
+    with pytest.raises(InputError, match="are float64"):
+        env.step({"robot_1": 0.5, "robot_2": 1})
+    with pytest.raises(InputError, match="render_mode is 'nope'"):
+        parallel_env(render_mode="nope")
