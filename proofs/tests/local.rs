@@ -11,23 +11,27 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan, Robot, chain, in_a_row};
 
-pub(crate) fn decide<R: Local>(rule: &R) -> Decided {
+pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> Decided {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
     let mut desk = Context { memory, watch, room: MemoryLimit::any() };
-    EveryNumber::DEFAULT.decide(rule, Until::Exhausted, &mut desk)
+    method.decide(rule, Until::Exhausted, &mut desk)
 }
 
 /// The answer about a rule, which is played again if it is refuted: the verdict, how many robots refute it in how many
 /// steps, and the drawing.
 pub(crate) fn decided<R: Local>(rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
-    let answer = decide(rule).expect("a local rule");
+    decided_by(EveryNumber::DEFAULT, rule)
+}
+
+pub(crate) fn decided_by<R: Local>(method: EveryNumber, rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
+    let answer = decide(method, rule).expect("a local rule");
     let Some(evidence) = answer.counterexample else { return (answer.verdict, None, String::new()) };
     let choices: &Choices = &evidence.choices;
-    let again = EveryNumber::DEFAULT.replay(rule, choices).expect("a run");
+    let again = method.replay(rule, choices).expect("a run");
     assert_eq!(again.evidence, evidence);
     for place in 0..choices.once.len() {
         let cut = Choices { once: choices.once[..place].to_vec(), again: Vec::new() };
-        assert!(EveryNumber::DEFAULT.replay(rule, &cut).is_err(), "cut at {place}");
+        assert!(method.replay(rule, &cut).is_err(), "cut at {place}");
     }
     let Depiction::Story(story) = &evidence.seen else { panic!("a drawing") };
     let size = (choices.once[0] + R::LEAST as u32, choices.once.len() - 1);
@@ -134,6 +138,7 @@ fn what_is_no_local_rule_is_refused_with_the_reason() {
         @"no robots may start: the promise would be about nothing"
     );
     insta::assert_snapshot!(refusal(Leash { reach: 2_000, ..LEASH }), @"16008001 relative places are more than 4000000: let the rule look less far, or give it fewer states");
+    insta::assert_snapshot!(refusal(Leash { reach: i16::MAX, ..LEASH }), @"4294836225 relative places are more than 4000000: let the rule look less far, or give it fewer states");
 }
 
 /// A planner that picks any acts, and a generator of its own.

@@ -14,11 +14,15 @@ use tautline_proofs::frontier::world::Rim;
 use tautline_proofs::kit::local::Two;
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples};
 
-use crate::local::{decide, decided};
+use crate::local::{decide, decided, decided_by};
 
 /// A line of the table.
 fn line<R: Local>(name: &str, rule: &R) -> String {
-    let (verdict, run, story) = decided(rule);
+    line_by(EveryNumber::DEFAULT, name, rule)
+}
+
+fn line_by<R: Local>(method: EveryNumber, name: &str, rule: &R) -> String {
+    let (verdict, run, story) = decided_by(method, rule);
     let invariant = Invariant::of(rule).expect("a local rule");
     let (places, safe) = invariant.places;
     let (kept, cases, verdict) = (invariant.kept.len(), invariant.cases, verdict.word());
@@ -73,15 +77,15 @@ fn the_conditions_of_the_chain_for_every_n() {
 
 #[test]
 fn the_conditions_of_robots_that_keep_in_touch_for_every_n() {
-    let mut table = String::new();
-    let touch = |rule, of_nodes| Two { of_nodes, ..Two::in_contact(rule) };
-    table += &line("contact", &touch(KitRule::REPAIRED, false));
-    table += &line("contact, promised of nodes", &touch(KitRule::REPAIRED, true));
+    let touch = |name: &str, rule, of_nodes| {
+        let two = EveryNumber { most_robots: 2, ..EveryNumber::DEFAULT };
+        line_by(two, name, &Two { of_nodes, ..Two::in_contact(rule) })
+    };
+    let mut table = touch("contact", KitRule::REPAIRED, false);
+    table += &touch("contact, promised of nodes", KitRule::REPAIRED, true);
     for condition in [KitCondition::FromInReach, KitCondition::NextInReach] {
-        table += &line(
-            &format!("contact without {condition:?}"),
-            &touch(KitRule::REPAIRED.without(condition), false),
-        );
+        table +=
+            &touch(&format!("contact without {condition:?}"), KitRule::REPAIRED.without(condition), false);
     }
     let apart = |rule, of_nodes| Two { of_nodes, ..Two::apart(rule) };
     table += &line("apart", &apart(KitRule::REPAIRED, false));
@@ -246,7 +250,7 @@ fn a_team_that_starts_with_a_broken_promise_is_refused() {
     let right = leash(|plans| of_goals(plans) && of_cells_and_goals(plans));
     let wrong = Own { start: |_| Cell::new(0, 0), ..right };
     let certificate = EveryNumber::DEFAULT.certificate(&wrong).expect("an answer");
-    for error in [decide(&wrong).map(drop), certificate.map(drop)] {
+    for error in [decide(EveryNumber::DEFAULT, &wrong).map(drop), certificate.map(drop)] {
         let error = error.expect_err("two robots are in one cell").to_string();
         assert!(error.contains("a team of 2 may not start so"), "{error}");
     }

@@ -412,7 +412,7 @@ Definition rule_ : rule := {|
  Leaf 0x1ffffe0f0783c1e0fffff%N;
  Leaf 0x1ffffe0f0783c1e0fffff%N;
  Leaf 0x1ffffe0f0783c1e0fffff%N;
- Leaf 0x1ffffe0f27abc9e0fffff%N]] |}.
+ Leaf 0x1fffffffffeffffffffff%N]] |}.
 
 Definition certificate_ : certificate := {| window := 2; kept :=
  Node [Node [Leaf 0x1fdef7f%N;

@@ -143,7 +143,13 @@ impl Local for Two {
     }
 
     fn may_start(&self, robots: &[Robot<Step>]) -> bool {
-        are_in_a_row(robots, &Step::Stay)
+        match self.promise {
+            Promise::Contact | Promise::AtNodes => are_in_a_row(robots, &Step::Stay),
+            // Of three robots two are not beside each other.
+            Promise::Apart => {
+                robots[0].at != robots[1].at && robots.iter().all(|robot| robot.state == Step::Stay)
+            }
+        }
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<Step>> {

@@ -47,8 +47,8 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
     /// may start with a broken promise, or may not start.
     pub fn of<R: Local<State = S>>(rule: &R) -> Result<Self, MethodError> {
         let (reach, far) = rule.reach();
-        let widest = if far == Far::Fine { reach + WIDER } else { reach };
         let mut found = Self::within(rule, reach)?;
+        let widest = if far == Far::Fine { reach + WIDER } else { reach };
         for window in reach + 1..=widest {
             if found.holds() || places(rule, window + AFAR).is_none_or(|count| count > MOST_WIDER_PLACES) {
                 break;
