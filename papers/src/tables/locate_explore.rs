@@ -212,7 +212,7 @@ impl Table for LocateExplore {
         let line = |(blocked, size, robots): Point, number: usize| {
             let here = at(&results, (blocked, size, robots));
             let of = |rule: usize, noise: usize| -> Vec<&Outcome> {
-                here.iter().map(|outcomes| &outcomes[rule * noises + noise]).collect()
+                here.iter().filter_map(|outcomes| outcomes.get(rule * noises + noise)).collect()
             };
             let plain = settings.noise_db.iter().position(|&noise_db| noise_db == 0.0);
             let plain = plain.map(|noise| of(REPAIRED, noise));
