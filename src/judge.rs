@@ -113,7 +113,7 @@ impl Judge {
             [Some(self.log.clone()), self.names.clone()].into_iter().flatten().chain(self.map.inputs());
         let [svg, html] = self.force.files([&self.svg, &self.html], inputs)?;
         self.check()?;
-        let given = self.map.load(self.clauses.iter().any(|(_, kind)| matches!(kind, Kind::Visited)))?;
+        let given = self.map.load(self.has(|kind| matches!(kind, Kind::Visited)))?;
         if given.layout().is_some() {
             given.check_cells("--map", &self.limits())?;
         }
@@ -172,19 +172,24 @@ impl Judge {
         Limits { tolerance_mm: milli(self.tolerance), gap_us: micros(self.gap), jump_us: micros(self.jump) }
     }
 
+    /// Whether one of the clauses is of such a kind.
+    fn has(&self, is_it: fn(&Kind) -> bool) -> bool {
+        self.clauses.iter().any(|(_, kind)| is_it(kind))
+    }
+
     /// Refuses options that have no effect.
     fn check(&self) -> Result<(), Diagnostic> {
-        let has_like = |is_it: fn(&Kind) -> bool| self.clauses.iter().any(|(_, kind)| is_it(kind));
-        let has = |kinds: &[Kind]| self.clauses.iter().any(|(_, kind)| kinds.contains(kind));
-        if self.range.is_some() && !has(&[Kind::Neighbours, Kind::Pair, Kind::Joined]) {
+        let has_range = self.has(|kind| matches!(kind, Kind::Neighbours | Kind::Pair | Kind::Joined));
+        if self.range.is_some() && !has_range {
             return Err(needless("--range", "CHAIN-3, KIT-1 and KIT-12 alone have a range"));
         }
-        if self.least.is_some() && !has(&[Kind::Apart]) {
+        if self.least.is_some() && !self.has(|kind| matches!(kind, Kind::Apart)) {
             return Err(needless("--least", "KIT-3 alone has a least distance"));
         }
-        let has_cells = has_like(|kind| matches!(kind, Kind::Crowd { .. } | Kind::Visited));
-        let has_base = has_like(|kind| matches!(kind, Kind::Crowd { is_base_free: true, .. }));
-        self.map.check((has_cells, has_base), self.range.is_none() && has(&[Kind::Neighbours]))
+        let has_cells = self.has(|kind| matches!(kind, Kind::Crowd { .. } | Kind::Visited));
+        let has_base = self.has(|kind| matches!(kind, Kind::Crowd { is_base_free: true, .. }));
+        let is_range_in_cells = self.range.is_none() && self.has(|kind| matches!(kind, Kind::Neighbours));
+        self.map.check((has_cells, has_base), is_range_in_cells)
     }
 
     /// The numbers of the robots.
