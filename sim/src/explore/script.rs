@@ -3,6 +3,7 @@
 use std::mem;
 
 use tautline_proofs::engine::states::{Bits, System, steps};
+use tautline_proofs::engine::world::World;
 
 /// A world of a search, and the choices by which it makes a run again.
 pub(super) struct Script<S: System> {
@@ -21,15 +22,19 @@ impl<S: System> Script<S> {
     }
 
     /// Makes the next choice, if what happens then `is_wanted`.
-    pub(super) fn choose(&mut self, is_wanted: impl FnOnce(&S::Event) -> bool) -> Option<S::Event> {
+    pub(super) fn choose<T>(&mut self, is_wanted: impl FnOnce(&T) -> bool) -> Option<T>
+    where
+        S: World<Plan = Vec<T>, Event = usize>,
+    {
         let number = *self.choices.get(self.past.len())?;
         let step = steps(&self.system, &self.state).nth(number as usize)?;
-        if !is_wanted(&step.event) {
+        let turned = self.system.plan(&mut self.state.clone(), &[])?.swap_remove(step.event);
+        if !is_wanted(&turned) {
             return None;
         }
         self.past.push((mem::replace(&mut self.state, step.state), step.acting));
         self.broken.extend(step.breaks);
-        Some(step.event)
+        Some(turned)
     }
 
     /// Whether nothing can happen any more.

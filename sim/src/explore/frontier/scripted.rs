@@ -9,7 +9,7 @@ use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::frontier::areas::setting;
-use tautline_proofs::frontier::world::{Demand, Event, Setting};
+use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
 use tautline_proofs::run::Frame;
 
 use super::{COVERS, KNOWS};
@@ -58,21 +58,14 @@ struct Scripted<const ROBOTS: usize> {
 }
 
 impl<const ROBOTS: usize> Scripted<ROBOTS> {
-    /// Makes the next choice, if what happens then `is_wanted`.
-    fn choose(&mut self, is_wanted: fn(&Event) -> bool) -> Option<Event> {
-        let turns = self.script.system.turns(&self.script.state);
-        let number = self.script.choose(|&number| is_wanted(&turns[number].event))?;
-        Some(turns[number].event)
-    }
-
     /// Makes the choices up to the next look.
     fn go_on(&mut self) {
-        while self.choose(|event| !is_look(event)).is_some() {}
+        while self.script.choose(|turned| !is_look(turned)).is_some() {}
     }
 }
 
-const fn is_look(event: &Event) -> bool {
-    matches!(event, Event::Looks(..))
+fn is_look<const ROBOTS: usize>(turned: &Successor<ROBOTS>) -> bool {
+    matches!(turned.event, Event::Looks(..))
 }
 
 impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
@@ -83,9 +76,8 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         self.script.broken.clear();
         self.go_on();
-        let Some(Event::Looks(robot, side, sight, ..)) = self.choose(is_look) else {
-            return Err(End::Exhausted);
-        };
+        let look = self.script.choose(is_look).map(|turned| turned.event);
+        let Some(Event::Looks(robot, side, sight, ..)) = look else { return Err(End::Exhausted) };
         self.go_on();
         let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
         match sight {

@@ -49,20 +49,10 @@ pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn AnyCase>> 
 fn written_down<const ROBOTS: usize>(setup: &Setup, rule: Kit, clause: ClauseId) -> Option<Box<dyn AnyCase>> {
     let mut script = script::<ROBOTS>(setup, rule).ok()?;
     let (setting, start) = (script.system, script.state);
-    let steps = std::iter::from_fn(|| choose(&mut script, |_| true)).collect();
+    let steps: Vec<Successor<ROBOTS>> = std::iter::from_fn(|| script.choose(|_| true)).collect();
     let round = if clause == ENDS { script.round()?.len() } else { 0 };
     let walls: Vec<Edge> = setup.layout.walls().collect();
     counterexample::case(clause.as_str(), (&setting, &walls), &start, steps, round)
-}
-
-/// Makes the next choice, if the first event then `is_wanted`.
-fn choose<const ROBOTS: usize>(
-    script: &mut Script<Setting<ROBOTS>>,
-    is_wanted: fn(&Event) -> bool,
-) -> Option<Successor<ROBOTS>> {
-    let mut turns = script.system.turns(&script.state);
-    let number = script.choose(|&number| turns[number].events.first().is_some_and(is_wanted))?;
-    Some(turns.swap_remove(number))
 }
 
 /// The world of `setup`, and its choices.
@@ -115,13 +105,13 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
 
     fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         self.script.broken.clear();
-        let decision = choose(&mut self.script, |event| matches!(event, Event::Decides(..)));
-        let Some(Event::Decides(robot, looks, next)) =
-            decision.and_then(|turned| turned.events.into_iter().next())
-        else {
+        let decides = |turned: &Successor<ROBOTS>| matches!(turned.events.first(), Some(Event::Decides(..)));
+        let decision = self.script.choose(decides).and_then(|turned| turned.events.into_iter().next());
+        let Some(Event::Decides(robot, looks, next)) = decision else {
             return Err(if self.script.goes_round() { End::Endless } else { End::Exhausted });
         };
-        while choose(&mut self.script, |event| matches!(event, Event::Arrives(..))).is_some() {}
+        let arrives = |turned: &Successor<ROBOTS>| matches!(turned.events.first(), Some(Event::Arrives(..)));
+        while self.script.choose(arrives).is_some() {}
         let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
         match (next, looks.last()) {
             (Next::Drives(to), Some(&(side, _))) => {
