@@ -1,11 +1,11 @@
 //! Tables dealt out.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_io::checkpoint::{Facts, Part, decode, encode};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::{Plan, ShardFile, Work};
+use tautline_proofs::engine::threads;
 use tautline_proofs::plural::counted;
 
 use crate::tables::{Experiment, find};
@@ -122,9 +122,8 @@ impl Part for Jobs<'_> {
     fn step(&mut self) -> Result<bool, Halt> {
         let at_once = JOBS_AT_ONCE * rayon::current_num_threads();
         let next = self.all.iter().skip(self.results.len()).take(at_once);
-        let next: Vec<&String> = next.collect();
-        let measure = |job: &&String| Ok(raw(self.asked.measure(job)?)?);
-        let measured = next.par_iter().map(measure).collect::<Result<Vec<_>, Halt>>()?;
+        let measure = |job: &String| -> Result<_, Halt> { Ok(raw(self.asked.measure(job)?)?) };
+        let measured = threads::try_each(next, measure)?;
         self.results.extend(measured);
         Ok(!self.is_done())
     }

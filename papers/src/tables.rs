@@ -35,10 +35,10 @@ pub mod sentences;
 
 use std::fmt;
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use tautline_proofs::engine::threads;
 use tautline_proofs::engine::tree::Progress;
 
 pub use self::entry::{Entry, Experiment, Report};
@@ -265,11 +265,11 @@ pub fn measure<T: Table>(
         observer.done(table.parts(&job))?;
         Ok((job, measured))
     };
-    let results: Result<Vec<_>, Halt> = match table.threads() {
-        Threads::OneEach => jobs.into_par_iter().map(measure).collect(),
-        Threads::AllForEach => jobs.into_iter().map(measure).collect(),
+    let results = match table.threads() {
+        Threads::OneEach => threads::try_each(jobs, measure)?,
+        Threads::AllForEach => jobs.into_iter().map(measure).collect::<Result<_, Halt>>()?,
     };
-    table.merge(settings, results?)
+    table.merge(settings, results)
 }
 
 /// The table of this name.

@@ -1,6 +1,5 @@
 //! Trials: a robot at random places measures its distances to anchors, and how far its position is from where it is.
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
@@ -8,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
     Area, Fix, Point, Range, Refusal, Residual, Signal, closed_form, linear, locate,
 };
-use tautline_proofs::engine::SeededOracle;
+use tautline_proofs::engine::{SeededOracle, threads};
 
 use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
@@ -237,16 +236,12 @@ impl Setting {
         if self.solver == Solver::ClosedForm {
             closed_form(&self.exact()).map_err(super::refused)?;
         }
-        let parts: Vec<u32> = (0..self.trials).step_by(PART as usize).collect();
-        let tried: Result<Vec<Vec<_>>, Halt> = parts
-            .into_par_iter()
-            .map(|first| {
-                let trials =
-                    (first..self.trials.min(first + PART)).map(|number| self.trial(number.into())).collect();
-                watch()?;
-                Ok(trials)
-            })
-            .collect();
+        let parts = (0..self.trials).step_by(PART as usize);
+        let tried = threads::try_each(parts, |first| {
+            let numbers = first..self.trials.min(first + PART);
+            let trials: Vec<_> = numbers.map(|number| self.trial(number.into())).collect();
+            watch().map(|()| trials)
+        });
         self.report(tried?.into_iter().flatten().collect())
     }
 

@@ -4,11 +4,10 @@
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
-use tautline_proofs::engine::SeededOracle;
+use tautline_proofs::engine::{SeededOracle, threads};
 use tautline_proofs::mrc::Demand;
 
 use super::{Event, Fate, LogEntry, Ordinal, Report, Setting, Violation, rescue};
@@ -151,10 +150,9 @@ impl Summary {
         let one = |seed: u64| {
             let report = rescue(setting, seed).map_err(Diagnostic::from)?;
             watch()?;
-            Ok(RescueSample::of(seed, setting.nodes, &report))
+            Ok::<_, Halt>(RescueSample::of(seed, setting.nodes, &report))
         };
-        let kept: Vec<RescueSample> = seeds.into_par_iter().map(one).collect::<Result<_, Halt>>()?;
-        Ok(Self::over(&kept))
+        Ok(Self::over(&threads::try_each(seeds, one)?))
     }
 
     /// That of one rescue alone.

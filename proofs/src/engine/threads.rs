@@ -2,6 +2,7 @@
 //! meanwhile and works on none.
 
 use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
@@ -11,8 +12,38 @@ use super::watchdog::Task;
 
 /// The answers about all of these, in their order, by the threads of the pool.
 pub fn each<T: Send, A: Send>(all: impl IntoIterator<Item = T>, answer: impl Fn(T) -> A + Sync) -> Vec<A> {
+    shared_out(all, answer, in_pool)
+}
+
+/// The answers of [`each`], or an error: after the first one no other answer is begun.
+///
+/// # Errors
+/// The error of an answer.
+pub fn try_each<T: Send, A: Send, E: Send>(
+    all: impl IntoIterator<Item = T>,
+    answer: impl Fn(T) -> Result<A, E> + Sync,
+) -> Result<Vec<A>, E> {
+    let has_failed = AtomicBool::new(false);
+    let answers = each(all, |one| {
+        let is_due = !has_failed.load(Ordering::Relaxed);
+        is_due.then(|| answer(one).inspect_err(|_| has_failed.store(true, Ordering::Relaxed)))
+    });
+    answers.into_iter().flatten().collect()
+}
+
+/// The results of all of these, in their order, each in a thread of its own.
+pub fn each_in_its_own<A: Send>(all: impl IntoIterator<Item = impl FnOnce() -> A + Send>) -> Vec<A> {
+    shared_out(all, |work| work(), in_threads)
+}
+
+/// The answers about all of these, in their order. What shares them out knows no types of theirs, and is compiled once.
+fn shared_out<T: Send, A: Send>(
+    all: impl IntoIterator<Item = T>,
+    answer: impl Fn(T) -> A + Sync,
+    share_out: fn(usize, &(dyn Fn(usize) + Sync)),
+) -> Vec<A> {
     let all: Vec<_> = all.into_iter().map(|one| Mutex::new((Some(one), None))).collect();
-    in_pool(all.len(), &|place| {
+    share_out(all.len(), &|place| {
         let held = || all[place].lock().unwrap_or_else(PoisonError::into_inner);
         let asked = held().0.take();
         let answered = asked.map(&answer);
@@ -21,7 +52,6 @@ pub fn each<T: Send, A: Send>(all: impl IntoIterator<Item = T>, answer: impl Fn(
     all.into_iter().filter_map(|one| one.into_inner().unwrap_or_else(PoisonError::into_inner).1).collect()
 }
 
-/// Apart from the types of those who share work out, so that it is compiled once.
 fn in_pool(count: usize, work: &(dyn Fn(usize) + Sync)) {
     let task = Task::current();
     let _waiting = Task::NONE.enter();
@@ -31,24 +61,24 @@ fn in_pool(count: usize, work: &(dyn Fn(usize) + Sync)) {
     });
 }
 
-/// The results of all of these, in their order, each in a thread of its own.
-pub fn each_in_its_own<A: Send>(all: impl IntoIterator<Item = impl FnOnce() -> A + Send>) -> Vec<A> {
+fn in_threads(count: usize, work: &(dyn Fn(usize) + Sync)) {
     let task = Task::current();
     thread::scope(|scope| {
-        let begun = all.into_iter().map(|work| {
+        let begun = (0..count).map(|place| {
             scope.spawn(move || {
                 let _working = task.enter();
-                work()
+                work(place);
             })
         });
         let running: Vec<_> = begun.collect();
         let _waiting = Task::NONE.enter();
-        running.into_iter().map(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
-    })
+        running.into_iter().for_each(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic)));
+    });
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicUsize;
     use std::time::{Duration, Instant};
 
     use super::*;
@@ -64,6 +94,22 @@ mod tests {
             assert_eq!(each_in_its_own(all.iter().map(|number| move || both(number))), wanted);
             assert_eq!(Task::current(), task);
         }
+    }
+
+    #[test]
+    fn nothing_is_begun_after_an_error() {
+        let begun = AtomicUsize::new(0);
+        let until = |last: usize| {
+            let answer = move |number| if number < last { Ok(number) } else { Err(number) };
+            try_each(0..100_000, |number| {
+                begun.fetch_add(1, Ordering::Relaxed);
+                answer(number)
+            })
+        };
+        assert_eq!(until(100_000), Ok((0..100_000).collect()));
+        assert_eq!(begun.swap(0, Ordering::Relaxed), 100_000);
+        assert!(until(0).is_err());
+        assert!(begun.into_inner() < 50_000);
     }
 
     #[test]

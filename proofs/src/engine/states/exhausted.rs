@@ -70,7 +70,7 @@ where
         // All states are gone through in any order.
         let mut search = Search::new(system, Limits { room: limits.room.in_memory(), ..limits });
         let unwatched = &mut |_| ControlFlow::Continue(());
-        let found = search.run_from(starts.iter().cloned(), limits.most_steps, unwatched);
+        let found = search.run_from(&mut starts.iter().cloned(), limits.most_steps, unwatched);
         if found.broken.iter().any(|run| (self.is_asked)(system, run.demand)) {
             return Err(NoCertificate::Broken);
         }

@@ -48,13 +48,13 @@ impl Graph {
     /// throughout; and such a round.
     pub(super) fn first_round(
         &self,
-        mut awake: impl FnMut(usize) -> Bits,
+        awake: &mut dyn FnMut(usize) -> Bits,
         taken: &mut MemoryShare<'_>,
     ) -> Result<Option<Round>, TooLarge> {
         let all = (0..self.len()).fold(0, |all, node| all | self.owed.at(node));
         let mut first: Option<Round> = None;
         for owed in (0..Bits::BITS).map(|bit| 1 << bit).filter(|owed| all & owed != 0) {
-            if let Some(round) = self.round(owed, &mut awake, taken)?
+            if let Some(round) = self.round(owed, awake, taken)?
                 && first.as_ref().is_none_or(|first| round.0 < first.0)
             {
                 first = Some(round);
@@ -68,7 +68,7 @@ impl Graph {
     fn round(
         &self,
         owed: Bits,
-        awake: &mut impl FnMut(usize) -> Bits,
+        awake: &mut dyn FnMut(usize) -> Bits,
         taken: &mut MemoryShare<'_>,
     ) -> Result<Option<Round>, TooLarge> {
         let part = self.components(owed, taken)?;
@@ -99,7 +99,7 @@ impl Graph {
         &self,
         part: &[u32],
         (home, due): (usize, Bits),
-        awake: &mut impl FnMut(usize) -> Bits,
+        awake: &mut dyn FnMut(usize) -> Bits,
     ) -> Vec<u32> {
         let (mut steps, mut node, mut left, mut idle) = (Vec::new(), home, due, awake(home));
         loop {

@@ -30,7 +30,7 @@ pub fn watched<S: System>(
     limits: Limits<'_>,
     watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Findings<S::Demand> {
-    Search::new(system, limits).run_from(starts, limits.most_steps, watch)
+    Search::new(system, limits).run_from(&mut starts.into_iter(), limits.most_steps, watch)
 }
 
 /// Why a search stops although there are states ahead.
@@ -113,11 +113,11 @@ impl<'a, S: System> Search<'a, S> {
     /// Searches from these starts.
     pub(super) fn run_from(
         &mut self,
-        starts: impl IntoIterator<Item = S::State>,
+        starts: &mut dyn Iterator<Item = S::State>,
         most_steps: u64,
         watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Findings<S::Demand> {
-        let mut starts = starts.into_iter().peekable();
+        let mut starts = starts.peekable();
         if let Some(first) = starts.peek() {
             self.take_up(first);
         }
@@ -509,11 +509,11 @@ impl<'a, S: System> Search<'a, S> {
         let bytes = self.bytes();
         let Self { system, known, graph, shown, taken, .. } = self;
         taken.hold(bytes);
-        let awake = |node: usize| -> Bits {
+        let mut awake = |node: usize| -> Bits {
             let Some(state) = shown else { return 0 };
             if known.show(*system, node, state) { system.awake(state) } else { 0 }
         };
-        graph.first_round(awake, taken)
+        graph.first_round(&mut awake, taken)
     }
 }
 

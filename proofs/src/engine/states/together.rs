@@ -48,7 +48,7 @@ where
 {
     let mut search = Search::new(system, limits);
     search.share_out = (workers > 1).then_some((workers, share_out::<S>));
-    search.run_from(starts, limits.most_steps, &mut |_| ControlFlow::Continue(()))
+    search.run_from(&mut starts.into_iter(), limits.most_steps, &mut |_| ControlFlow::Continue(()))
 }
 
 /// The steps from all these nodes, by so many workers.
