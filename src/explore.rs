@@ -205,7 +205,7 @@ impl Explore {
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
-        let writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
+        let writer = trace.map(|file| trace::Writer::new(file, &setup, None));
         let mut writer = writer.transpose()?;
         let (bar, start) = (progress::spinner("exploring"), Instant::now());
         let report = explore(&setup, &mut |made| {

@@ -240,7 +240,7 @@ pub(super) fn tell(
     format: Format,
     out: &mut Output,
 ) -> Result<Exit, Halt> {
-    let store = |quarry: &Finding| stored(quarry, folder, replaceable, out);
+    let store = |finding: &Finding| stored(finding, folder, replaceable, out);
     let files = hunted.found.iter().map(store).collect::<Result<_, _>>()?;
     let (verdict, exit) = match (hunted.found.is_empty(), hunted.is_complete) {
         (false, true) => (Verdict::Refuted, Exit::Violation),
@@ -260,13 +260,13 @@ pub(super) fn tell(
 
 /// Stores a counterexample in `folder`, if it is one that a file tells; where it stands then.
 fn stored(
-    quarry: &Finding,
+    finding: &Finding,
     folder: &Path,
     replaceable: &Replaceable,
     out: &mut Output,
 ) -> Result<Option<String>, Halt> {
-    let (Shown::Run(clause) | Shown::Story(clause, _)) = quarry.shown else { return Ok(None) };
-    let (file, _) = store(folder, &quarry.setup, clause, replaceable)?;
+    let (Shown::Run(clause) | Shown::Story(clause, _)) = finding.shown else { return Ok(None) };
+    let (file, _) = store(folder, &finding.setup, clause, replaceable)?;
     Ok(keep(file, out))
 }
 
@@ -282,8 +282,8 @@ impl Answer<'_> {
     /// The outcome for a program.
     fn printed(&self) -> HuntJson<'_> {
         let Self { asked, hunted, verdict, files } = self;
-        let stored = |(quarry, file)| {
-            let &Finding { clause, facts: size, .. } = quarry;
+        let stored = |(finding, file)| {
+            let &Finding { clause, facts: size, .. } = finding;
             CounterexampleJson { clause, size, file }
         };
         HuntJson {
@@ -310,14 +310,14 @@ impl Answer<'_> {
     fn findings(&self) -> Result<Vec<Case>, Halt> {
         let Asked { scheme, rule, .. } = self.asked;
         let class = scheme.name.to_owned();
-        let broken = self.hunted.found.iter().zip(&self.files).map(|(quarry, file)| {
-            let mut story = picture(quarry)?;
+        let broken = self.hunted.found.iter().zip(&self.files).map(|(finding, file)| {
+            let mut story = picture(finding)?;
             if let Some(file) = file {
                 // Writing to a string cannot fail.
                 let _ = writeln!(story, "replay it with: tautline replay {file}");
             }
-            let name = format!("{} by {} ({rule})", quarry.clause, scheme.name);
-            let outcome = Outcome::Broken(quarry.title.clone(), story);
+            let name = format!("{} by {} ({rule})", finding.clause, scheme.name);
+            let outcome = Outcome::Broken(finding.title.clone(), story);
             Ok(Case { class: class.clone(), name, outcome, seconds: None })
         });
         let mut findings = broken.collect::<Result<Vec<_>, Halt>>()?;
@@ -336,11 +336,11 @@ impl Answer<'_> {
     /// The outcome for a person.
     fn text(&self) -> Result<String, Halt> {
         let mut text = self.headline();
-        for (quarry, file) in self.hunted.found.iter().zip(&self.files) {
+        for (finding, file) in self.hunted.found.iter().zip(&self.files) {
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "\n{}, {}\n\n{}", quarry.clause, quarry.title, picture(quarry)?);
+            let _ = writeln!(text, "\n{}, {}\n\n{}", finding.clause, finding.title, picture(finding)?);
             if let Some(file) = file {
-                text += &again(file, &quarry.setup);
+                text += &again(file, &finding.setup);
             }
         }
         if let Some(path) = self.asked.resume {
@@ -360,9 +360,9 @@ pub(super) fn again(file: &str, setup: &Setup) -> String {
 }
 
 /// A counterexample as a person sees it.
-fn picture(quarry: &Finding) -> Result<String, Halt> {
-    let setup = &quarry.setup;
-    match (&quarry.shown, setup.scheme.senses) {
+fn picture(finding: &Finding) -> Result<String, Halt> {
+    let setup = &finding.setup;
+    match (&finding.shown, setup.scheme.senses) {
         (Shown::Run(_), Senses::Bumps) => story::last_move(setup),
         (Shown::Run(_), Senses::Floor) => story::of_trap(setup),
         (Shown::Endless, _) => Ok(format!("A run without end in this layout:\n\n{}", setup.layout)),

@@ -29,7 +29,7 @@ pub(super) fn frame(path: &Path, layout: &LayoutArgs, setup: &Setup) -> Result<F
     }
     if setup.layout.walls().next().is_some() {
         let what = "the layout has walls between cells, and a map of ROS has room for blocked cells alone";
-        return Err(Diagnostic::of_field("map", what, "leave `map` out; a recording has walls, with `mcap`"));
+        return Err(Diagnostic::of_field("map", what, "leave --map out; a recording has walls, with --mcap"));
     }
     layout.frame(&setup.layout)
 }

@@ -1,7 +1,7 @@
 //! Journeys of robots over random radio fields: who arrives, by how long a way, and what they never do.
 
 use proptest::prelude::*;
-use tautline_field::radio::{Area, Channel, Faults, Field, Model, Network, Obstacle, Point, Radio};
+use tautline_field::radio::{Area, Field, Model, Network, Obstacle, Point, Radio};
 use tautline_field::tan::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
@@ -38,8 +38,7 @@ impl World {
     fn tree(&mut self) -> Tree {
         let rule = Rule::new(Scheme::Farthest { k: Some(Count::ONE) }, self.radio.range_um(), 100_000_000);
         let robot = NodeId(self.field.nodes().len() as u32 - 1);
-        Tree::grow(&self.network, rule, Channel::Ideal, &Faults::NONE, (self.wfr, robot), &mut self.chance)
-            .expect("a tree")
+        Tree::grow(&self.network, rule, (self.wfr, robot), &mut self.chance).expect("a tree")
     }
 
     /// The journeys by TAN, Verma, Reich and Sheu.

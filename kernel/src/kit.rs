@@ -1,5 +1,5 @@
 //! KIT, Keep In Touch (Peiris, Al-Jumaily and Jiang): robots on a lattice of nodes 3 m apart, which drive every path between two nodes and keep
-//! radio contact of 10 m. Clauses: KIT-1 … KIT-13.
+//! radio contact of 10 m. Clauses: KIT-1 … KIT-14.
 //!
 //! [`Kit`] is a team as a plain value: what each robot has recorded, and where each is. [`Kit::decide`] begins a decision
 //! and says at which side the robot looks; [`Kit::looked`] takes what it sees, until it drives, stays, or is done;

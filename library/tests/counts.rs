@@ -10,6 +10,7 @@ use std::{env, fs, io, process};
 use stateright::{Checker, Model};
 use tautline_library::{RULES, alpha, dijkstra, gathering, ricart};
 use tautline_proofs::decide::{Answer, Cache, Context, Portion, Verdict};
+use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::{Limits, MemoryLimit};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::protocol::{Bound, Keeps, Protocol};
@@ -78,11 +79,11 @@ fn a_check_in_portions_has_the_verdict_the_counts_and_the_counterexample_of_the_
     let mut refuted = 0;
     for check in checks {
         let watch = &mut |_: &Progress<'_>| ControlFlow::Continue(());
-        let mut desk = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
-        let whole = check.decide_own(&mut desk).expect("it is decided");
+        let mut context = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
+        let whole = check.decide_rule(None, Until::Exhausted, &mut context).expect("it is decided");
         refuted += usize::from(whole.verdict == Verdict::Refuted);
         let portion =
-            |number| check.decide_portion(None, Portion { number, of: 3 }, &mut desk).expect("a portion");
+            |number| check.decide_portion(None, Portion { number, of: 3 }, &mut context).expect("a portion");
         let mut parts: Vec<_> = (0..3).map(portion).collect();
         parts.reverse();
         assert_eq!(Answer::merged(parts), whole, "{check:?}");

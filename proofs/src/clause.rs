@@ -149,8 +149,9 @@ impl<R> Check<R> {
         Self::new(about, method, Verdict::Refuted, &[])
     }
 
-    /// The rule of the variant with this number: of a mutant, or of a reading.
-    fn variant(&self, number: usize) -> Option<&R> {
+    /// Its own rule, or that of the variant with this number: of a mutant, or of a reading.
+    fn rule_of(&self, variant: Option<usize>) -> Option<&R> {
+        let Some(number) = variant else { return Some(&self.about.rule) };
         let readings = self.readings.iter().map(|reading| &reading.rule);
         self.mutants.iter().chain(readings).nth(number).map(|variant| &variant.rule)
     }
@@ -279,24 +280,15 @@ pub trait AnyCheck: Sync {
     /// The ambiguities that these readings are about, if they stand as data.
     fn paper(&self) -> Option<&'static Paper>;
 
-    /// A name for what it shares with the checks of the same name: see [`Method::family`].
-    fn family(&self) -> Option<String>;
+    /// A name for what it shares with the checks of the same name, about its own rule or about the variant with this
+    /// number: see [`Method::family`].
+    fn family(&self, variant: Option<usize>) -> Option<String>;
 
-    /// As [`AnyCheck::family`], for the variant with this number.
-    fn variant_family(&self, number: usize) -> Option<String>;
-
-    /// The answer about its own rule.
+    /// The answer about its own rule, or about the variant with this number; open if there is none.
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Decided;
-
-    /// The answer about the variant with this number; open if there is none. One violation is enough, unless the
-    /// decision is to tell of more.
-    ///
-    /// # Errors
-    /// [`MethodError`] if its method cannot begin.
-    fn decide_variant(&self, number: usize, until: Until, desk: &mut Context<'_, '_>) -> Decided;
+    fn decide_rule(&self, variant: Option<usize>, until: Until, context: &mut Context<'_, '_>) -> Decided;
 
     /// Into how many parts it can be divided: see [`Method::portions`].
     fn portions(&self) -> usize;
@@ -306,8 +298,12 @@ pub trait AnyCheck: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_portion(&self, variant: Option<usize>, portion: Portion, desk: &mut Context<'_, '_>)
-    -> Decided;
+    fn decide_portion(
+        &self,
+        variant: Option<usize>,
+        portion: Portion,
+        context: &mut Context<'_, '_>,
+    ) -> Decided;
 
     /// Decides it, and its variants, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
@@ -315,10 +311,10 @@ pub trait AnyCheck: Sync {
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
     fn decide(&self, memory: &mut Cache, watch: Watch<'_>) -> Result<Decision, MethodError> {
-        let mut desk = Context { memory, watch, room: MemoryLimit::any() };
-        let mut decision = Decision::of(self.decide_own(&mut desk)?);
+        let mut context = Context { memory, watch, room: MemoryLimit::any() };
+        let mut decision = Decision::of(self.decide_rule(None, Until::Exhausted, &mut context)?);
         for (number, variant) in self.variants().into_iter().enumerate() {
-            decision.add(variant, self.decide_variant(number, Until::Violation, &mut desk)?);
+            decision.add(variant, self.decide_rule(Some(number), Until::Violation, &mut context)?);
         }
         Ok(decision)
     }
@@ -405,21 +401,13 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.paper
     }
 
-    fn family(&self) -> Option<String> {
-        self.method.family(&self.about.rule)
+    fn family(&self, variant: Option<usize>) -> Option<String> {
+        self.method.family(self.rule_of(variant)?)
     }
 
-    fn variant_family(&self, number: usize) -> Option<String> {
-        self.method.family(self.variant(number)?)
-    }
-
-    fn decide_own(&self, desk: &mut Context<'_, '_>) -> Decided {
-        self.method.decide(&self.about.rule, Until::Exhausted, desk)
-    }
-
-    fn decide_variant(&self, number: usize, until: Until, desk: &mut Context<'_, '_>) -> Decided {
-        let Some(rule) = self.variant(number) else { return Ok(Answer::open()) };
-        self.method.decide(rule, until, desk)
+    fn decide_rule(&self, variant: Option<usize>, until: Until, context: &mut Context<'_, '_>) -> Decided {
+        let Some(rule) = self.rule_of(variant) else { return Ok(Answer::open()) };
+        self.method.decide(rule, until, context)
     }
 
     fn portions(&self) -> usize {
@@ -430,14 +418,11 @@ impl<R: Sync> AnyCheck for Check<R> {
         &self,
         variant: Option<usize>,
         portion: Portion,
-        desk: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
     ) -> Decided {
-        let (rule, until) = match variant {
-            None => (Some(&self.about.rule), Until::Exhausted),
-            Some(number) => (self.variant(number), Until::Violation),
-        };
-        let Some(rule) = rule else { return Ok(Answer::open()) };
-        self.method.decide_portion(rule, portion, until, desk)
+        let Some(rule) = self.rule_of(variant) else { return Ok(Answer::open()) };
+        let until = if variant.is_some() { Until::Violation } else { Until::Exhausted };
+        self.method.decide_portion(rule, portion, until, context)
     }
 
     fn replay(&self, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

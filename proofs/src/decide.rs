@@ -152,9 +152,7 @@ impl MethodError {
     pub fn new(reason: impl fmt::Display) -> Self {
         Self(reason.to_string())
     }
-}
 
-impl MethodError {
     /// Nothing if this is so.
     ///
     /// # Errors
@@ -202,7 +200,7 @@ impl Cache {
 
 impl fmt::Debug for Cache {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Memory of {} answers", self.0.len())
+        write!(f, "Cache of {} answers", self.0.len())
     }
 }
 
@@ -253,7 +251,7 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Decided;
+    fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided;
 
     /// Into how many parts it can be divided, of which each is looked at by itself.
     fn portions(&self) -> usize {
@@ -265,8 +263,8 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn decide_portion(&self, rule: &R, _: Portion, until: Until, desk: &mut Context<'_, '_>) -> Decided {
-        self.decide(rule, until, desk)
+    fn decide_portion(&self, rule: &R, _: Portion, until: Until, context: &mut Context<'_, '_>) -> Decided {
+        self.decide(rule, until, context)
     }
 
     /// Makes the choices of a counterexample to `rule` again.
@@ -485,9 +483,9 @@ where
     }
 
     /// The choices are the number of the start, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> Decided {
         let system = (self.system)(rule);
-        let limits = Limits { most_steps: self.most_steps.into(), room: desk.room };
+        let limits = Limits { most_steps: self.most_steps.into(), room: context.room };
         let found = states::search(&system, (self.starts)(&system), limits);
         let evidence = found.broken.first().map(|run| Evidence {
             choices: run.choices(),
@@ -531,10 +529,10 @@ mod tests {
     #[test]
     fn what_never_ends_leaves_an_exhaustive_check_open_and_is_counted() {
         let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-        let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+        let mut context = Context { memory, watch, room: MemoryLimit::any() };
         let method = EveryAnswer { body: ends, range, covers: &["an end"] };
         let mut found = |rule| {
-            let answer = method.decide(&rule, Until::Exhausted, &mut desk).expect("a body can be decided");
+            let answer = method.decide(&rule, Until::Exhausted, &mut context).expect("a body can be decided");
             (answer.verdict, answer.cases, answer.given_up)
         };
         assert_eq!(found(true), (Verdict::Holds, 2, 0));

@@ -239,13 +239,13 @@ impl<R: Local> Method<R> for EveryNumber {
     }
 
     /// The choices are how many robots there are beyond the fewest, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> Decided {
         let (invariant, teams) = (Invariant::of(rule)?, self.teams(rule)?);
         if invariant.holds() {
             return Ok(self.answer::<R, _>(&invariant, None, None));
         }
         for (more, team) in (0..).zip(&teams) {
-            let limits = Limits { most_steps: self.most_steps, room: desk.room };
+            let limits = Limits { most_steps: self.most_steps, room: context.room };
             let found = states::search(team, [team.start()], limits);
             if let Some(run) = found.broken.first() {
                 let once = [&[more], &run.steps[..]].concat();

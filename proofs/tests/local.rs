@@ -13,8 +13,8 @@ use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan
 
 pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> Decided {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut desk = Context { memory, watch, room: MemoryLimit::any() };
-    method.decide(rule, Until::Exhausted, &mut desk)
+    let mut context = Context { memory, watch, room: MemoryLimit::any() };
+    method.decide(rule, Until::Exhausted, &mut context)
 }
 
 /// The answer about a rule, which is played again if it is refuted: the verdict, how many robots refute it in how many
@@ -230,9 +230,9 @@ impl Local for Coloured {
 #[test]
 fn a_team_that_starts_in_cells_without_a_colour_is_refused() {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+    let mut context = Context { memory, watch, room: MemoryLimit::any() };
     assert_eq!(decided(&Coloured(1)).0, Verdict::Refuted);
-    let refusal = EveryNumber::DEFAULT.decide(&Coloured(2), Until::Exhausted, &mut desk);
+    let refusal = EveryNumber::DEFAULT.decide(&Coloured(2), Until::Exhausted, &mut context);
     insta::assert_snapshot!(
         refusal.expect_err("there is no such colour"),
         @"a team of 2 starts in cells that have no colour below 2, or two"

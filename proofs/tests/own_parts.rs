@@ -21,9 +21,10 @@ fn decided<R: Rule + PartialEq + 'static>(
     setting: &'static Setting<'static, R>,
     demand: usize,
 ) -> Answer {
-    let mut desk = Context { memory: &mut Known::default(), watch: &mut unwatched, room: MemoryLimit::any() };
+    let mut context =
+        Context { memory: &mut Known::default(), watch: &mut unwatched, room: MemoryLimit::any() };
     let keeps = Keeps(setting, demand);
-    let answer = keeps.decide(rule, Until::Exhausted, &mut desk).expect("it can be decided");
+    let answer = keeps.decide(rule, Until::Exhausted, &mut context).expect("it can be decided");
     certify(&keeps, rule, answer.verdict);
     if let Some(found) = &answer.counterexample {
         let played = keeps.replay(rule, &found.choices).expect("it can be played again");

@@ -80,8 +80,8 @@ type Question = (&'static Setting<'static, Walk>, usize);
 
 fn decided(rule: Walk, (layouts, demand): Question) -> Result<Answer, MethodError> {
     let memory = &mut Cache::default();
-    let mut desk = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
-    let answer = Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut desk)?;
+    let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let answer = Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut context)?;
     certify(&Keeps(layouts, demand), &rule, answer.verdict);
     Ok(answer)
 }

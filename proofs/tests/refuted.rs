@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use rayon::prelude::*;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Cache, Context, Evidence, Verdict};
+use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::ledger::{ROOMS, Room};
@@ -21,12 +22,12 @@ static REFUTED: LazyLock<Vec<Refuted>> = LazyLock::new(|| ROOMS.par_iter().flat_
 /// Checks of a room are decided one after the other: what one has found, the next one need not search again.
 fn in_room(room: &Room) -> Vec<Refuted> {
     let memory = &mut Cache::default();
-    let mut desk = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
     let checks =
         room.clauses.iter().flat_map(|clause| clause.checks.iter().map(move |&check| (clause, check)));
     let refuted = checks.filter(|(_, check)| check.expected() == Verdict::Refuted);
     let decide = |(clause, check): (&'static Clause, &'static dyn AnyCheck)| {
-        let answer = check.decide_own(&mut desk).expect("registered checks fit");
+        let answer = check.decide_rule(None, Until::Exhausted, &mut context).expect("registered checks fit");
         Refuted { clause, check, found: answer.counterexample.expect("what is refuted has a counterexample") }
     };
     refuted.map(decide).collect()

@@ -82,10 +82,10 @@ fn a_mutant_is_decided_by_the_search_that_tells_as_much_about_it() {
     let [crowding, contact] = ["CHAIN-2", "CHAIN-3"].map(|id| clause(id).checks);
     let published = |check: &&dyn AnyCheck| {
         let number = check.variants().iter().position(|variant| variant.name() == "as published")?;
-        check.variant_family(number).filter(|_| check.engine() == "search")
+        check.family(Some(number)).filter(|_| check.engine() == "search")
     };
     let family = crowding.iter().copied().find_map(|check| published(&check)).expect("a mutant");
-    let its_own = contact.iter().filter(|check| check.family().as_ref() == Some(&family));
+    let its_own = contact.iter().filter(|check| check.family(None).as_ref() == Some(&family));
     assert!(its_own.map(|check| check.rule()).eq(["published"]));
 }
 

@@ -295,8 +295,8 @@ fn decided<const ROBOTS: usize, const FAULTS: bool>(
         error(py, Kind::Input, why, remedy)
     };
     let memory = &mut Cache::default();
-    let mut desk = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
-    let answer = method.decide(rule, Until::Violation, &mut desk);
+    let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let answer = method.decide(rule, Until::Violation, &mut context);
     script.checked(py)?;
     let answer = answer.map_err(refused)?;
     let certificate = with_certificate.then(|| method.certificate(rule)).flatten();

@@ -133,8 +133,8 @@ impl Part for Shard<'_> {
         let (clause, number) = self.dealt.checks[place];
         let (check, start) = (clause.checks[number], Instant::now());
         let watch = &mut |_: &Progress<'_>| std::ops::ControlFlow::Continue(());
-        let mut desk = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
-        let answer = check.decide_portion(variant, portion, &mut desk);
+        let mut context = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
+        let answer = check.decide_portion(variant, portion, &mut context);
         let answer = answer
             .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
         self.answers.push(JobAnswer::of(answer, start.elapsed().as_secs_f64()));

@@ -83,7 +83,7 @@ fn fixed(fix: Fix) -> Result<Solution, Refusal> {
 }
 
 /// The constants of the paper's swarm, with the updates in the printed order or in the corrected one.
-pub(super) const fn parameters(rule: RuleName) -> Parameters {
+const fn parameters(rule: RuleName) -> Parameters {
     let order = match rule {
         RuleName::Published => Order::Published,
         RuleName::Repaired => Order::Corrected,

@@ -44,7 +44,7 @@ pub(crate) fn checked_deviation(deviation_db: f64) -> Result<f64, Problem> {
 pub(super) const MAX_SIDE_M: f64 = 1e6;
 
 /// The largest standard deviation of a shadow.
-pub(super) const MAX_DEVIATION_DB: f64 = 20.0;
+const MAX_DEVIATION_DB: f64 = 20.0;
 
 impl Problem {
     /// A hint at the right input.

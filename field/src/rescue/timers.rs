@@ -25,11 +25,11 @@ const MOST_DOUBLINGS: u32 = 3;
 #[expect(clippy::struct_field_names, reason = "units are last in names")]
 pub(super) struct Timers {
     /// A message of a robot, or one to it, takes at most so long.
-    pub(super) way_ns: u64,
+    way_ns: u64,
     /// The window of the first call: a NOTICE takes at most so long to the robots, and a MOVE back.
-    pub(super) first_window_ns: u64,
+    first_window_ns: u64,
     /// A robot takes at most so long for each hop of its way.
-    pub(super) leg_ns: u64,
+    leg_ns: u64,
 }
 
 impl Timers {
@@ -42,7 +42,7 @@ impl Timers {
     }
 
     /// The window of a call.
-    pub(super) fn window_ns(self, epoch: Epoch) -> u64 {
+    fn window_ns(self, epoch: Epoch) -> u64 {
         self.first_window_ns << (epoch.0.saturating_sub(Epoch::FIRST.0)).min(MOST_DOUBLINGS)
     }
 
@@ -57,7 +57,7 @@ impl Timers {
     }
 
     /// A lease of a robot that is so many hops off.
-    pub(super) fn lease_ns(self, hops: u16) -> u64 {
+    fn lease_ns(self, hops: u16) -> u64 {
         (u64::from(hops) + 1) * self.leg_ns
     }
 

@@ -18,21 +18,19 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Broadcasts a call from `wfr`. Node `robot` of the network is a robot: it hears, and sends nothing.
+    /// Broadcasts a call from `wfr`, and nothing goes wrong. Node `robot` of the network is a robot: it hears, and sends nothing.
     ///
     /// # Errors
     /// [`Problem::NoNode`] if there is no such WFR.
     pub fn grow(
         network: &Network,
         rule: Rule,
-        channel: Channel,
-        faults: &Faults,
         (wfr, robot): (NodeId, NodeId),
         chance: &mut dyn Oracle,
     ) -> Result<Self, Problem> {
         let broadcast = Broadcast::new(network, rule, wfr);
         let mut listening = Listener { broadcast, robot, least: None };
-        run(network, channel, faults, &mut listening, &[(wfr, 0)], chance)?;
+        run(network, Channel::Ideal, &Faults::NONE, &mut listening, &[(wfr, 0)], chance)?;
         let nodes = (0..).map(NodeId).zip(listening.broadcast.nodes());
         let nav = |(id, node): (NodeId, &tautline_kernel::notice::Node)| {
             let hops = node.hops().filter(|_| node.stage() == Stage::Forwarded)?;
@@ -125,8 +123,7 @@ mod tests {
         let network = Network::new(&field, radio, &mut Tape(&[])).expect("a network");
         let rule = Rule::new(Scheme::Farthest { k: Count::new(k) }, radio.range_um(), 100_000_000);
         let ends = (NodeId(0), NodeId(places.len() as u32 - 1));
-        let tree =
-            Tree::grow(&network, rule, Channel::Ideal, &Faults::NONE, ends, &mut Tape(&[])).expect("a tree");
+        let tree = Tree::grow(&network, rule, ends, &mut Tape(&[])).expect("a tree");
         (tree, network)
     }
 

@@ -45,7 +45,7 @@ impl Gait {
         (length_m * 1e12 / f64::from(self.speed_mm_s.max(1))) as u64
     }
 
-    pub(super) fn step_m(self) -> f64 {
+    fn step_m(self) -> f64 {
         f64::from(self.step_mm) / 1_000.0
     }
 }

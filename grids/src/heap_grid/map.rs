@@ -150,6 +150,6 @@ pub(super) const fn beyond(place: usize, side: Side, width: usize) -> usize {
 }
 
 /// All marks of edges on this `side`.
-pub(super) const fn edge_sides(side: Side) -> Marks {
+const fn edge_sides(side: Side) -> Marks {
     edge_mark(EdgeMark::Wall, side) | edge_mark(EdgeMark::Open, side) | edge_mark(EdgeMark::Virtual, side)
 }

@@ -27,17 +27,13 @@ impl Rule {
         let mut behind = Move::stay(team[0]);
         (1..team.len()).all(|robot| {
             let (from, step) = (team[robot], steps[robot]);
-            let (mut is_wall, mut known_open) = (false, false);
-            if let Step::Cross(side) = step {
-                let edge = Edge::new(from, side);
-                is_wall = grid.edge_has(EdgeMark::Wall, edge);
-                known_open = grid.edge_has(EdgeMark::Open, edge);
-            }
-            let own = Move { from, step, known_open };
+            let crosses =
+                |mark| matches!(step, Step::Cross(side) if grid.edge_has(mark, Edge::new(from, side)));
+            let own = Move { from, step, known_open: crosses(EdgeMark::Open) };
             // The leader may always fall back on the null move.
             let is_null = robot + 1 == team.len() && step == Step::Stay;
             let is_covered = is_null || self.admits_behind(own.to(), behind.from);
-            let admits = !is_wall && is_covered && self.admits_ahead(behind, own);
+            let admits = !crosses(EdgeMark::Wall) && is_covered && self.admits_ahead(behind, own);
             behind = own;
             admits
         })

@@ -11,7 +11,7 @@
 //! B and C are **tasks**: a task is begun only if a rehearsal on the known map, in which no wall is met, ends with an
 //! unexplored cell explored, and it is kept until then, or until something else is gained: a cell explored or a wall
 //! found. So the number of its team moves is known, and falls. From the base C always finds a walk to whatever is
-//! within reach. Clauses CHAIN-16 to CHAIN-18.
+//! within reach. Clauses CHAIN-16 to CHAIN-18, CHAIN-23 to CHAIN-25.
 
 use super::habit::{Habit, Habits};
 use super::rule::Rule;
@@ -41,7 +41,7 @@ pub(super) struct Reel<const ROBOTS: usize> {
     /// Team moves left of the task.
     pub(super) left: u32,
     /// How often the history was taken back since the last gain.
-    pub(super) doublings: u8,
+    doublings: u8,
     walk: Walk<ROBOTS>,
 }
 

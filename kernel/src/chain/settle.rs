@@ -58,13 +58,10 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             let outcome = match (plan.kind, step, self.world) {
                 (Kind::Advance, Step::Stay, _) => Outcome::Arrived,
                 (Kind::Backtrack, Step::Stay, _) | (Kind::Backtrack, _, World::Lasting) => Outcome::TookBack,
-                (Kind::Advance, Step::Cross(side), _) => self.try_edge(Edge::new(cell, side), &mut is_open),
-                (Kind::Backtrack, Step::Cross(side), World::Changing) => {
-                    match self.try_edge(Edge::new(cell, side), &mut is_open) {
-                        Outcome::Blocked => Outcome::Blocked,
-                        Outcome::Arrived | Outcome::TookBack => Outcome::TookBack,
-                    }
-                }
+                (kind, Step::Cross(side), _) => match self.try_edge(Edge::new(cell, side), &mut is_open) {
+                    Outcome::Arrived if kind == Kind::Backtrack => Outcome::TookBack,
+                    outcome @ (Outcome::Arrived | Outcome::Blocked | Outcome::TookBack) => outcome,
+                },
             };
             meets_wall_going_back |= plan.kind == Kind::Backtrack && outcome == Outcome::Blocked;
             let message = Message { step, outcome };

@@ -79,7 +79,8 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
 
     /// The steps of the robot behind `robot` that agree with its `step`.
     fn agreeing(&self, robot: usize, step: Step) -> Steps {
-        let (own, at) = (self.as_move(robot, step), self.team[robot - 1]);
+        let own = Move { from: self.team[robot], step, known_open: false };
+        let at = self.team[robot - 1];
         let steps = self.left[robot - 1].and(self.rule.steps_ahead(at, own));
         let to = own.to();
         if self.rule.has(Condition::Distinct) && to != self.team[0] {
@@ -87,10 +88,6 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         } else {
             steps
         }
-    }
-
-    const fn as_move(&self, robot: usize, step: Step) -> Move {
-        Move { from: self.team[robot], step, known_open: false }
     }
 
     /// The cost of `step` of the robot behind `robot`, and of all behind it, if `robot` does its `own`.

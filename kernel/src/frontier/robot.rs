@@ -143,7 +143,7 @@ impl<M: Map> Robot<M> {
         }
     }
 
-    /// Whether the robot stands, moves or has stopped.
+    /// Whether it stands, looks beyond a side of its cell, or enters the next one.
     pub const fn stance(&self) -> Stance {
         self.stance
     }

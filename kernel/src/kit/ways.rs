@@ -1,4 +1,4 @@
-//! Which part a robot has in the way of the team to the next uncovered side (clauses KIT-6 to KIT-8, KIT-11, KIT-13). It is the
+//! Which part a robot has in the way of the team to the next uncovered side (clauses KIT-6 to KIT-8, KIT-11, KIT-13, KIT-14). It is the
 //! condition *Regroup*, which is ours.
 //!
 //! A *joint way* of two robots is made of single drives over paths driven before, after each of which both stand in reach of

@@ -23,7 +23,7 @@ pub trait Past {
     /// Notes the step of each robot.
     fn push(&mut self, steps: &[Step]);
 
-    /// Takes the last team move out; no if there is none.
+    /// Takes the last team move out, and returns whether there was one.
     fn pop(&mut self, steps: &mut [Step]) -> bool;
 
     /// Forgets all of it.

@@ -129,7 +129,7 @@ pub struct Swarm<'a> {
 const DRAWS: u32 = 1 << 31;
 
 /// A number from 0 to below 1.
-fn draw<O: Oracle + ?Sized>(oracle: &mut O) -> f64 {
+fn draw(oracle: &mut (impl Oracle + ?Sized)) -> f64 {
     f64::from(oracle.pick(DRAWS)) / f64::from(DRAWS)
 }
 
@@ -146,12 +146,12 @@ impl<'a> Swarm<'a> {
     ///
     /// # Errors
     /// [`Refusal`] if the ranges cannot give a position, or if there is no particle.
-    pub fn start<O: Oracle + ?Sized>(
+    pub fn start(
         ranges: &'a [Range],
         around: Point,
         parameters: Parameters,
         particles: &'a mut [Particle],
-        oracle: &mut O,
+        oracle: &mut (impl Oracle + ?Sized),
     ) -> Result<Self, Refusal> {
         check(ranges)?;
         if particles.is_empty() {
@@ -186,7 +186,7 @@ impl<'a> Swarm<'a> {
     }
 
     /// One iteration: equations (9) and (10) for every particle, then the best positions.
-    pub fn step<O: Oracle + ?Sized>(&mut self, oracle: &mut O) {
+    pub fn step(&mut self, oracle: &mut (impl Oracle + ?Sized)) {
         let Parameters { own, team, most_speed_m, order, draws, .. } = self.parameters;
         let (inertia, best) = (self.parameters.inertia(self.iteration), self.best);
         for particle in &mut *self.particles {
@@ -216,7 +216,7 @@ impl<'a> Swarm<'a> {
     }
 
     /// Every iteration that is left, and the best position then.
-    pub fn run<O: Oracle + ?Sized>(mut self, oracle: &mut O) -> Point {
+    pub fn run(mut self, oracle: &mut (impl Oracle + ?Sized)) -> Point {
         while self.iteration < self.parameters.iterations {
             self.step(oracle);
         }

@@ -113,7 +113,7 @@ const READINGS: [Team; 2] = [
 ];
 
 /// The sensors that the paper's agents miss, of all.
-pub const MISS: Probability = Probability::new(0.0556).expect("a probability");
+const MISS: Probability = Probability::new(0.0556).expect("a probability");
 
 /// The paper's area, and its team where it varies the area.
 const SIDE: u16 = 30;

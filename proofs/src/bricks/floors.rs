@@ -22,9 +22,9 @@ const fn patient(area: Area, agents: u32, max_misses: u8) -> Series {
 /// How far sensors count crossings where an agent is to go on for ever: an agent reads which of two counts is less.
 const FEW: Option<u32> = Some(3);
 
-/// Some sensors missed, and no more than a few crossings counted.
-const fn counting(area: Area, agents: u32, max_misses: u8) -> Series {
-    Series { most_crossings: FEW, ..Series::missing(area, agents, max_misses) }
+/// One agent, some sensors missed, and no more than a few crossings counted.
+const fn counting(area: Area, max_misses: u8) -> Series {
+    Series { most_crossings: FEW, ..Series::missing(area, 1, max_misses) }
 }
 
 /// Nothing missed: one agent alone, two and three in every order; patient ones last, since what is wrong with a rule
@@ -120,19 +120,16 @@ pub(super) const TREES_HALF_BLIND: [Series; 5] = [
 ];
 
 /// Sensors missed on rings of cells, and crossings counted so far that runs that go on for ever come round.
-pub(super) const ROUND: [Series; 1] = [counting(Area::blocked(3, 3), 1, 2)];
+pub(super) const ROUND: [Series; 1] = [counting(Area::blocked(3, 3), 2)];
 
 /// As many missed as three scans in a row bear on each layout of this area: six, where two scans bear four.
-pub(super) const AS_SHIPPED: [Series; 1] = [counting(Area::blocked(3, 2), 1, 6)];
+pub(super) const AS_SHIPPED: [Series; 1] = [counting(Area::blocked(3, 2), 6)];
 /// One missed more than in [`AS_SHIPPED`].
-pub(super) const SEVEN_MISSED: [Series; 1] = [counting(Area::blocked(3, 2), 1, 7)];
+pub(super) const SEVEN_MISSED: [Series; 1] = [counting(Area::blocked(3, 2), 7)];
 
 /// One missed more than in [`ROUND`], the smallest areas first.
-pub(super) const THRICE_MISSED: [Series; 3] = [
-    counting(Area::blocked(3, 1), 1, 3),
-    counting(Area::blocked(2, 2), 1, 3),
-    counting(Area::blocked(3, 2), 1, 3),
-];
+pub(super) const THRICE_MISSED: [Series; 3] =
+    [counting(Area::blocked(3, 1), 3), counting(Area::blocked(2, 2), 3), counting(Area::blocked(3, 2), 3)];
 
 /// Moves of one agent are counted.
 pub(super) const ONE_COUNTED: [Series; 3] = [

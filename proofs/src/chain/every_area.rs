@@ -88,8 +88,8 @@ impl Method<Subject> for EveryArea {
         format!("{areas}, N = {fewest} to {most}, at most {barriers} walls")
     }
 
-    fn decide(&self, observed: &Subject, _: Until, desk: &mut Context<'_, '_>) -> Decided {
-        let made = self.look(observed, desk.watch)?;
+    fn decide(&self, observed: &Subject, _: Until, context: &mut Context<'_, '_>) -> Decided {
+        let made = self.look(observed, context.watch)?;
         let evidence = made.smallest.as_ref().map(|smallest| Self::evidence(&smallest.found));
         let cases = made.exhausted.iter().map(|(_, cases)| cases).sum();
         Ok(Answer::new(evidence, made.is_whole, Verdict::Holds, cases))

@@ -49,6 +49,17 @@ const NO_NEARER: NamedRule<Subject> = NamedRule::new(
 const TAKES_BACK_ONE: NamedRule<Subject> =
     NamedRule::new("take-backs always of one", Subject::without_habits(&[Habit::Doubles]));
 
+/// The repaired rule, pursued as a reel.
+const AS_REPAIRED: NamedRule<Subject> = NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED));
+
+/// The contact of a reel of any number of robots, and what breaks it.
+const CONTACT: NamedRule<Contact<true>> = NamedRule::new("reel", Contact(Rule::REEL));
+const LOST_CONTACT: [NamedRule<Contact<true>>; 3] = [
+    NamedRule::new("without hold", Contact(Rule::REPAIRED)),
+    NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
+    NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
+];
+
 const BARRIER: Check<Reading> = Check::holds(
     NamedRule::new("reel", Reading::True),
     &EveryAnswer {
@@ -208,11 +219,7 @@ pub static CLAUSES: [Clause; 10] = [
             &Check::refuted(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS, AREAS))
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS),
-                &[NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
-            ),
+            &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
             &Check::new(
                 REEL,
                 &RandomAnswers {
@@ -224,15 +231,7 @@ pub static CLAUSES: [Clause; 10] = [
                 Verdict::Unrefuted,
                 &[NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule))],
             ),
-            &Check::holds(
-                NamedRule::new("reel", Contact::<true>(Rule::REEL)),
-                &EveryNumber::DEFAULT,
-                &[
-                    NamedRule::new("without hold", Contact(Rule::REPAIRED)),
-                    NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
-                    NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
-                ],
-            ),
+            &Check::holds(CONTACT, &EveryNumber::DEFAULT, &LOST_CONTACT),
         ],
     },
     Clause {
@@ -251,19 +250,7 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-22",
         sentence: "When walls appear where robots have crossed, the reel MUST keep to CHAIN-1 and CHAIN-2, take no robot to be \
                    through a wall, and end its run.",
-        checks: &[
-            &SHUT,
-            &SHUT_AT_RANDOM,
-            &Check::holds(
-                NamedRule::new("reel", Contact::<true>(Rule::REEL)),
-                &local::ITS_CONTACT,
-                &[
-                    NamedRule::new("without hold", Contact(Rule::REPAIRED)),
-                    NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
-                    NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
-                ],
-            ),
-        ],
+        checks: &[&SHUT, &SHUT_AT_RANDOM, &Check::holds(CONTACT, &local::ITS_CONTACT, &LOST_CONTACT)],
     },
     Clause {
         id: "CHAIN-23",
@@ -279,11 +266,7 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, and N² more for each wall that it meets.",
         checks: &[
             &Check::holds(UNHELD, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[]),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
-                &[NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
-            ),
+            &Check::holds(REEL, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
             &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[]),
         ],
     },
@@ -294,7 +277,7 @@ pub static CLAUSES: [Clause; 10] = [
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Chosen, FOUR_TWO_WALLS),
-                &[UNREHEARSED, FICKLE, NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED))],
+                &[UNREHEARSED, FICKLE, AS_REPAIRED],
             ),
             &Check::holds(REEL, &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS), &[]),
         ],

@@ -217,14 +217,14 @@ impl Method<Subject> for EveryLayout {
         &self,
         observed: &Subject,
         until: Until,
-        desk: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
     ) -> Result<Answer, decide::MethodError> {
         let all = self.bounds(observed);
         let bounds = match until {
             Until::Exhausted => all,
             Until::Violation => Bounds { invariants: vec![self.0], until, ..all },
         };
-        let Context { memory, watch, .. } = desk;
+        let Context { memory, watch, .. } = context;
         let found = memory.recall(bounds.clone(), |bounds| search(bounds, *watch));
         let found = found.map_err(decide::MethodError::new)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == self.0);

@@ -248,15 +248,15 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
 
     /// Looks at the demands of several clauses on the same floors in one pass. Where something is broken there, each
     /// clause looks for its own first violation.
-    fn decide(&self, subject: &Subject<S>, until: Until, desk: &mut Context<'_, '_>) -> Decided {
-        let limits = Limits { room: desk.room, ..Limits::NONE };
+    fn decide(&self, subject: &Subject<S>, until: Until, context: &mut Context<'_, '_>) -> Decided {
+        let limits = Limits { room: context.room, ..Limits::NONE };
         let shown = Method::<Subject<S>>::shows(self);
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
             return Ok(self.explore(subject, (limits, until)).answer(shown));
         };
         let key = (together, *subject);
         let report: Result<&Report, MethodError> =
-            desk.memory.recall(key, |(floors, subject)| Ok(floors.explore(subject, (limits, until))));
+            context.memory.recall(key, |(floors, subject)| Ok(floors.explore(subject, (limits, until))));
         let report = report?.clone();
         let is_kept = report.tally.violation.is_none();
         Ok(if is_kept { report } else { self.explore(subject, (limits, until)) }.answer(shown))

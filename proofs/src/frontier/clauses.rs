@@ -81,6 +81,11 @@ const fn repaired(condition: Condition) -> NamedRule<Rule> {
     without(Rule::REPAIRED, condition)
 }
 
+/// Any number of robots that follow this rule.
+const fn alone(rule: NamedRule<Rule>) -> NamedRule<Alone> {
+    NamedRule::new(rule.name, Alone::of(rule.rule))
+}
+
 /// The areas in which counterexamples are looked for.
 const SMALLEST: [Size; 5] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)];
 /// The areas of one robot.
@@ -227,16 +232,8 @@ pub static CLAUSES: [Clause; 12] = [
             &Check::holds(REPAIRED, &lossy(two_repaired(Demand::Alone)), &[]),
             &Check::holds(REPAIRED, &lossy(three(Demand::Alone)), &[]),
             &Check::holds(REPAIRED_SMALL, &small(two_repaired(Demand::Alone)), &[repaired(Look)]),
-            &Check::holds(
-                NamedRule::new("plain", Alone::of(Rule::PLAIN)),
-                &EveryNumber::DEFAULT,
-                &[NamedRule::new(plain(Look).name, Alone::of(plain(Look).rule))],
-            ),
-            &Check::holds(
-                NamedRule::new("repaired", Alone::of(Rule::REPAIRED)),
-                &EveryNumber::DEFAULT,
-                &[NamedRule::new(repaired(Look).name, Alone::of(repaired(Look).rule))],
-            ),
+            &Check::holds(alone(PLAIN), &EveryNumber::DEFAULT, &[alone(plain(Look))]),
+            &Check::holds(alone(REPAIRED), &EveryNumber::DEFAULT, &[alone(repaired(Look))]),
         ],
     },
     Clause {

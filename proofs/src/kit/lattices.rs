@@ -148,12 +148,12 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     }
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, desk: &mut Context<'_, '_>) -> Decided {
-        let limits = Limits { room: desk.room, ..Limits::NONE };
+    fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> Decided {
+        let limits = Limits { room: context.room, ..Limits::NONE };
         if self.pass == Pass::Together && until == Until::Exhausted {
             let key = (self.family(rule), *rule);
             let kept: Result<&(Findings<Demand>, Broken<ROBOTS>), MethodError> =
-                desk.memory.recall(key, |_| Ok(self.look(rule, None, (until, limits))));
+                context.memory.recall(key, |_| Ok(self.look(rule, None, (until, limits))));
             if let (looked, None) = kept? {
                 return Ok(self.answer(looked, None));
             }
@@ -212,8 +212,8 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     fn shortest(&self, rule: &Rule, class: Class) -> Searched<String> {
         let ((width, height), walls) = (class.size(), class.barriers as u8);
         let mut looked = Findings::NONE;
-        let desk = (Limits::NONE, &mut looked);
-        let found = self.search(rule, (width, height, walls), Some(self.demand), desk);
+        let context = (Limits::NONE, &mut looked);
+        let found = self.search(rule, (width, height, walls), Some(self.demand), context);
         let shortest = found.map(|found| (found.run.length(), found.story()));
         Searched { cases: looked.states, is_whole: looked.is_whole, shortest }
     }

@@ -175,8 +175,8 @@ impl SharedState {
             let watch = &mut |progress: &Progress<'_>| (self.hear)(News::Search(progress));
             for &question in &job.questions {
                 let words = question.words(&self.checks);
-                let mut desk = Context { memory, watch, room: self.limits.room.asked(&words) };
-                match job.answer(question, &self.checks, &mut desk) {
+                let mut context = Context { memory, watch, room: self.limits.room.asked(&words) };
+                match job.answer(question, &self.checks, &mut context) {
                     Ok(answer) => {
                         let (variant, seconds) = (question.variant(&self.checks), task.spent().as_secs_f64());
                         let done = Completion { question, variant, seconds, answer, undecided: None };
@@ -354,7 +354,7 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     };
     let mut families: Vec<(Option<String>, Vec<Question>)> = Vec::new();
     for place in 0..checks.len() {
-        let (family, question) = (of(place).family(), Question { place, variant: None });
+        let (family, question) = (of(place).family(None), Question { place, variant: None });
         match joined(&mut families, family.as_deref()) {
             Some(questions) => questions.push(question),
             None => families.push((family, vec![question])),
@@ -364,8 +364,8 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     let mut others = Vec::new();
     for place in 0..checks.len() {
         for number in 0..of(place).variants().len() {
-            let (family, question) =
-                (of(place).variant_family(number), Question { place, variant: Some(number) });
+            let variant = Some(number);
+            let (family, question) = (of(place).family(variant), Question { place, variant });
             match joined(&mut families, family.as_deref()) {
                 Some(questions) => questions.push(question),
                 None => others.push(Job { questions: vec![question], until: Until::Violation }),
@@ -396,13 +396,9 @@ impl Job {
         &self,
         question: Question,
         checks: &[(&'static Clause, usize)],
-        desk: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
     ) -> Decided {
         let (clause, number) = checks[question.place];
-        let check = clause.checks[number];
-        match question.variant {
-            Some(variant) => check.decide_variant(variant, self.until, desk),
-            None => check.decide_own(desk),
-        }
+        clause.checks[number].decide_rule(question.variant, self.until, context)
     }
 }

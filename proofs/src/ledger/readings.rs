@@ -60,7 +60,7 @@ impl Row {
     }
 
     /// The most charitable reading that is refuted, of equals the first, with its counterexample.
-    pub fn most_charitable(&self) -> Option<(&'static str, &Evidence)> {
+    fn most_charitable(&self) -> Option<(&'static str, &Evidence)> {
         let paper = self.check.paper()?;
         let others = self.others().zip(&self.decision.readings);
         let others = others.filter_map(|(name, answer)| Some((name, answer.counterexample.as_ref()?)));

@@ -47,14 +47,14 @@ impl Method<Subject> for Within {
         Some(format!("{:?}", self.setting(observed)))
     }
 
-    fn decide(&self, observed: &Subject, until: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, observed: &Subject, until: Until, context: &mut Context<'_, '_>) -> Decided {
         let (demand, setting) = (self.0, self.setting(observed));
         let until = match until {
             Until::Exhausted => space::Until::Exhausted,
             Until::Violation => space::Until::Broken(demand),
         };
-        let limits = Limits { most_steps: MOST_STEPS, room: desk.room };
-        let found: Result<&space::Findings, MethodError> = desk
+        let limits = Limits { most_steps: MOST_STEPS, room: context.room };
+        let found: Result<&space::Findings, MethodError> = context
             .memory
             .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, limits)));
         let found = found?;

@@ -315,12 +315,12 @@ impl Method<Subject> for Networks {
 
     /// Demands of several clauses on the same networks are looked at in one pass. Each clause looks for its own
     /// violations.
-    fn decide(&self, observed: &Subject, until: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, observed: &Subject, until: Until, context: &mut Context<'_, '_>) -> Decided {
         let kept = match until {
             Until::Violation => None,
             Until::Exhausted => {
                 let shown: Result<&Vec<Findings>, MethodError> =
-                    desk.memory.recall(*observed, |observed| Ok(show(observed)));
+                    context.memory.recall(*observed, |observed| Ok(show(observed)));
                 self.kept(observed, shown?)
             }
         };

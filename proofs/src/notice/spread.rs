@@ -178,7 +178,7 @@ impl<const NODES: usize> Spread<NODES> {
     }
 
     /// Leaves out what is under way to a node that is done and does not change by it, which then never will.
-    pub(super) fn drop_idle(&mut self, rule: &Rule) {
+    fn drop_idle(&mut self, rule: &Rule) {
         for from in 0..NODES {
             for to in ones(self.under_way[from]) {
                 let is_done = matches!(self.nodes[to].stage(), Stage::Silent | Stage::Forwarded);
@@ -190,7 +190,7 @@ impl<const NODES: usize> Spread<NODES> {
     }
 
     /// The parent of every node that knows of the event, and its hop count, are those that the observer expects.
-    pub(super) fn has_nearest_parents(&self) -> Result<(), Stop> {
+    fn has_nearest_parents(&self) -> Result<(), Stop> {
         for (node, &nearest) in self.nodes.iter().zip(&self.nearest).skip(1) {
             let parent = nearest.map(|(sender, _)| NodeId(sender as u32));
             require(
@@ -204,7 +204,7 @@ impl<const NODES: usize> Spread<NODES> {
     }
 
     /// Parent by parent every node that knows of the event comes to the source, each one hop farther than the next.
-    pub(super) fn is_tree(&self) -> Result<(), Stop> {
+    fn is_tree(&self) -> Result<(), Stop> {
         for node in self.nodes.iter().filter(|node| node.event().is_some()) {
             let mut ancestor = node;
             for _ in 0..NODES {

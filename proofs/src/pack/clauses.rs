@@ -219,10 +219,10 @@ mod tests {
     #[test]
     fn under_every_reading_of_the_gain_robots_keep_apart_go_step_by_step_and_end() {
         let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-        let mut desk = Context { memory, watch, room: MemoryLimit::any() };
+        let mut context = Context { memory, watch, room: MemoryLimit::any() };
         for (name, subject) in READINGS {
             for asked in [Demand::Single, Demand::Free, Demand::Ends] {
-                let found = demand(OF_FEW, asked).decide(&subject, Until::Exhausted, &mut desk);
+                let found = demand(OF_FEW, asked).decide(&subject, Until::Exhausted, &mut context);
                 let found = found.expect("it can be decided");
                 assert_eq!((found.verdict, found.cases), (Verdict::Holds, 8834), "{name}: {asked:?}");
             }

@@ -270,11 +270,11 @@ impl Method<Subject> for Floors {
     }
 
     /// The choices are the numbers of the size, of the set of obstacles, and of the starts.
-    fn decide(&self, subject: &Subject, until: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, subject: &Subject, until: Until, context: &mut Context<'_, '_>) -> Decided {
         let once;
         let found = match until {
             Until::Exhausted => {
-                desk.memory.recall((self.bounds, *subject), |_| self.bounds.search(subject, None))?
+                context.memory.recall((self.bounds, *subject), |_| self.bounds.search(subject, None))?
             }
             Until::Violation => {
                 once = self.bounds.search(subject, Some(self.demand))?;

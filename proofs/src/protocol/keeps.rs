@@ -67,8 +67,8 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         self.0.to_string()
     }
 
-    fn decide(&self, rule: &P, until: Until, desk: &mut Context<'_, '_>) -> Decided {
-        self.decide_portion(rule, Portion::WHOLE, until, desk)
+    fn decide(&self, rule: &P, until: Until, context: &mut Context<'_, '_>) -> Decided {
+        self.decide_portion(rule, Portion::WHOLE, until, context)
     }
 
     /// The surroundings, one by one. A move that must occur may occur in any of them: such a check is not divided.
@@ -82,10 +82,10 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         rule: &P,
         portion: Portion,
         until: Until,
-        desk: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
     ) -> Decided {
         let all = self.playing(rule)?;
-        let limits = Limits { room: desk.room, ..Limits::NONE };
+        let limits = Limits { room: context.room, ..Limits::NONE };
         let found = searched(&all, portion, until, limits, rayon::current_num_threads())?;
         let evidence = found.broken.first().and_then(|run| evidence(&all, run));
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));

@@ -104,14 +104,14 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         &self,
         rule: &R,
         until: Until,
-        desk: &'d mut Context<'_, '_>,
+        context: &'d mut Context<'_, '_>,
     ) -> Result<&'d Findings, MethodError> {
         // A search that goes on for each demand answers for all of them.
         let wanted = match until {
             Until::Exhausted => Vec::new(),
             Until::Violation => vec![Promise(self.1)],
         };
-        let Context { memory, watch, .. } = desk;
+        let Context { memory, watch, .. } = context;
         let key = (std::ptr::from_ref(self.0).addr(), rule.clone(), until, wanted);
         memory.recall(key, |(_, rule, until, wanted)| {
             let mut tree = self.0.search(rule, *until, wanted)?;
@@ -120,11 +120,11 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         })
     }
 
-    fn in_tree(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn in_tree(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided {
         let playing = self.0.playing(rule, &[])?;
         let start = playing.start.clone();
         states::repeats(&playing, [start.clone()]).map_err(MethodError::new)?;
-        let found = self.found(rule, until, desk)?;
+        let found = self.found(rule, until, context)?;
         let broken = found.counterexamples.iter().find(|found| found.broken.0 == self.1);
         let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
         let evidence = broken.map(|found| self.0.evidence(&start, found));
@@ -133,14 +133,14 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
-    fn in_states(&self, rule: &R, desk: &Context<'_, '_>) -> Decided {
+    fn in_states(&self, rule: &R, context: &Context<'_, '_>) -> Decided {
         let starts = self.0.starts(rule)?;
         let Some(start) = starts.first().cloned() else {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
         };
         let playing = TeamWorld { setting: self.0, rule: rule.clone(), wanted: vec![Promise(self.1)], start };
         states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
-        let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
+        let limits = states::Limits { room: context.room, ..states::Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
         let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
         let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
@@ -185,10 +185,10 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
     }
 
     /// The choices are the answers of the world in a tree; among states, the number of the start and those of the steps.
-    fn decide(&self, rule: &R, until: Until, desk: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided {
         match self.0.strategy() {
-            Strategy::Tree => self.in_tree(rule, until, desk),
-            Strategy::States => self.in_states(rule, desk),
+            Strategy::Tree => self.in_tree(rule, until, context),
+            Strategy::States => self.in_states(rule, context),
         }
     }
 

@@ -10,7 +10,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{Asked, Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, Hunter};
+use super::hunt::{Asked, Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, Hunter, RUN_AGAIN};
 
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
@@ -71,9 +71,6 @@ impl<E: Each> Hunt for E {
     }
 }
 
-/// The remedy for a shard that was never there.
-const AGAIN: &str = "run the shard again";
-
 impl<E: Each> Deals for E {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
@@ -88,12 +85,12 @@ impl<E: Each> Deals for E {
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
         let (asked, ()) = Deal::read(deal, asked)?;
-        let looks = far.map(|far| decode(far, AGAIN)).transpose()?.unwrap_or_default();
+        let looks = far.map(|far| decode(far, RUN_AGAIN)).transpose()?.unwrap_or_default();
         let shard = Shard::new(self.layouts(&asked)?, shard, looks, asked.budget);
         let shard = shard.map_err(Into::into)?;
         if !shard.is_in_order() {
             let what = "this shard has not done what the plan dealt it before it went on";
-            return Err(Diagnostic::usage(what, AGAIN));
+            return Err(Diagnostic::usage(what, RUN_AGAIN));
         }
         Ok(Box::new(Looks(shard)))
     }
@@ -105,7 +102,7 @@ impl<E: Each> Deals for E {
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
         let (asked, ()) = Deal::read(deal, asked)?;
-        let looks = shards.iter().map(|far| decode(far, AGAIN)).collect::<Result<Vec<_>, _>>()?;
+        let looks = shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
         self.told(&asked, found, is_complete)
     }

@@ -135,6 +135,9 @@ pub struct Dealt {
     pub moves: u64,
 }
 
+/// The remedy for a shard that was never there.
+pub(super) const RUN_AGAIN: &str = "run the shard again";
+
 /// A hunt that is dealt out, and how it is, as a plan has it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -121,8 +121,8 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
                 is_ended |= hunter.hears(Far::Tree(progress)).is_break();
                 if is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let desk = &mut Context { memory: &mut memory, watch: &mut watch, room: MemoryLimit::any() };
-            let answer = Keeps(self.setting, number).decide(&self.rule, Until::Exhausted, desk);
+            let context = &mut Context { memory: &mut memory, watch: &mut watch, room: MemoryLimit::any() };
+            let answer = Keeps(self.setting, number).decide(&self.rule, Until::Exhausted, context);
             let answer = answer.map_err(|why| Diagnostic::usage(why, "change the setting of the rule"))?;
             cases = cases.max(answer.cases);
             is_complete &= answer.verdict != Verdict::Open;

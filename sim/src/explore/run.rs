@@ -200,7 +200,7 @@ pub enum OnViolation {
 
 impl OnViolation {
     /// Whether a run goes no farther when it breaks `clause`.
-    pub fn is_final(self, clause: ClauseId) -> bool {
+    fn is_final(self, clause: ClauseId) -> bool {
         match self {
             Self::GoOn => false,
             Self::Stop => true,
@@ -303,7 +303,7 @@ impl Stopped {
 /// A clause that was broken, and when.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Violation {
-    /// The clauses that were broken.
+    /// The clause.
     pub clause: ClauseId,
     /// The team move, counted from 1.
     pub step: u32,

@@ -307,7 +307,7 @@ impl Scheme {
     }
 
     /// The fault of sensors that are missed where there are none; `what` says what is to be left out.
-    pub(super) fn no_sensors(self, field: &'static str, what: &str) -> Diagnostic {
+    fn no_sensors(self, field: &'static str, what: &str) -> Diagnostic {
         let wrong = format!("the {}s of a {} have no floor sensors to miss", self.look.robot(), self.team);
         let remedy = format!("take {}, or leave out {what}", self.sensing(Senses::Floor));
         Diagnostic::of_field(field, wrong, remedy)

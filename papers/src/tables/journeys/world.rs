@@ -8,7 +8,7 @@ use tautline_proofs::engine::SeededOracle;
 use super::super::prelude::*;
 use super::{Settings, Way};
 use tautline_field::radio::{
-    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Lake, Model, Network, Obstacle, Point, Problem, Radio,
+    Area, Field, LONGEST_WAIT_NS, Lake, Model, Network, Obstacle, Point, Problem, Radio,
 };
 use tautline_field::rescue::seconds;
 use tautline_field::tan::{End, Equipment, Journey, ROBOT_REACH, Site, Tree, hops, shortest_m};
@@ -89,7 +89,7 @@ impl World {
 
     pub(super) fn tree(&self) -> Result<Tree, Problem> {
         let ends = (self.wfr, self.robot);
-        Tree::grow(&self.network, self.rule, Channel::Ideal, &Faults::NONE, ends, &mut self.chance())
+        Tree::grow(&self.network, self.rule, ends, &mut self.chance())
     }
 
     pub(super) fn journey(&self, tree: &Tree, way: Way) -> Journey {

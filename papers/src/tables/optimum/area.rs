@@ -13,7 +13,7 @@ use tautline_sim::explore::{RuleName, Setup};
 /// The rule of a team that knows the layout. Every edge is known to it and every robot arrives, so that *UnsureAhead*
 /// is met and, by *Distinct*, no two robots share a cell outside the base, which leaves *FullForFollower* and
 /// *FullForLeader* nothing to forbid: both rules admit the same.
-pub(super) const KNOWING: Rule = Rule::REPAIRED;
+const KNOWING: Rule = Rule::REPAIRED;
 
 /// States that the solver may meet in one layout.
 pub(super) const MOST_STATES: usize = 10_000_000;

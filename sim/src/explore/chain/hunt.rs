@@ -13,8 +13,8 @@ use tautline_proofs::plural::counted;
 
 use super::areas;
 use crate::explore::hunt::{
-    Asked, Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize,
-    Shown, outcome, setup,
+    Asked, Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RUN_AGAIN,
+    RunSize, Shown, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
 use tautline_grids::layout::Size;
@@ -133,9 +133,6 @@ impl Deals for Walls {
         told(&asked, &bounds, &merged.found())
     }
 }
-
-/// The remedy for a shard that was never there.
-const RUN_AGAIN: &str = "run the shard again";
 
 /// A search that can be left after each of its waves.
 #[derive(Debug)]

@@ -188,12 +188,12 @@ fn searched<const ROBOTS: usize>(
         count.covers(area, &areas);
     }
     found.sort_by_key(|(demand, _)| demand.clause());
-    let quarries = found.iter().map(|(demand, found)| quarry(asked, *demand, found));
-    Ok((count, quarries.collect::<Result<_, _>>()?))
+    let findings = found.iter().map(|(demand, found)| finding(asked, *demand, found));
+    Ok((count, findings.collect::<Result<_, _>>()?))
 }
 
 /// A counterexample of a search as one that can be stored, unless its run goes on for ever.
-fn quarry<const ROBOTS: usize>(
+fn finding<const ROBOTS: usize>(
     asked: &Asked<'_>,
     demand: Demand,
     found: &Counterexample<ROBOTS>,

@@ -201,11 +201,11 @@ fn searched<const ROBOTS: usize>(
         count.covers(lattice, &lattices);
     }
     all.sort_by_key(|broken| broken.clause);
-    all.iter().map(|broken| quarry(asked, broken)).collect()
+    all.iter().map(|broken| finding(asked, broken)).collect()
 }
 
 /// A counterexample of a search as one that can be stored.
-fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Finding, Diagnostic> {
+fn finding<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Finding, Diagnostic> {
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
