@@ -4,7 +4,7 @@ use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
 };
-use tautline_kernel::chain::{Budget, High, Rule};
+use tautline_kernel::chain::{Budget, Habit, High, Rule};
 use tautline_kernel::ground::Circle;
 
 use super::breach::Breach;
@@ -91,6 +91,9 @@ const FOUR_ROBOTS: (usize, u32) = (4, 4);
 /// The bound of the planner's clauses: four robots, too, but one wall fewer.
 pub(super) const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
 
+/// Five robots, which may meet as many walls as are soon looked at.
+pub(super) const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
+
 /// The bound of the clause about chains of three.
 const THREE_ROBOTS: (usize, u32) = (3, 5);
 
@@ -99,6 +102,16 @@ const ENDLESS: [NamedRule<Subject>; 2] = [
     NamedRule::new("epochs need no gain", Subject::without(EpochMustGain)),
     NamedRule::new("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
 ];
+
+/// Reels that do not end, or gain nothing where they said so.
+pub(super) const UNREHEARSED: NamedRule<Subject> =
+    NamedRule::new("tasks are not rehearsed", Subject::without_habits(&[Habit::Rehearses]));
+pub(super) const FICKLE: NamedRule<Subject> =
+    NamedRule::new("stages go back", Subject::without_habits(&[Habit::KeepsTask]));
+
+/// A reel that claims to hold contact whoever stays.
+pub(super) const NOT_HELD: NamedRule<Subject> =
+    NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule));
 
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
@@ -202,8 +215,19 @@ pub static CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
                 &[NamedRule::new("as published", Subject::PUBLISHED)],
             ),
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS), &[]),
-            &Check::holds(REEL, &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                UNHELD,
+                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
+                &[NamedRule::new(
+                    "without distinctness",
+                    Subject { rule: UNHELD.rule.rule.without(Distinct), ..UNHELD.rule },
+                )],
+            ),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
+                &[NamedRule::new("without distinctness", Subject::reeling(Rule::REEL.without(Distinct)))],
+            ),
             &Check::holds(
                 NamedRule::new("repaired", Crowd::of(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
@@ -269,6 +293,7 @@ pub static CLAUSES: [Clause; 15] = [
                 ],
             ),
             &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FIVE_TWO_WALLS), &[NOT_HELD]),
         ],
     },
     Clause {
@@ -287,11 +312,21 @@ pub static CLAUSES: [Clause; 15] = [
     Clause {
         id: "CHAIN-6",
         sentence: "The base MUST never plan to move, and never move.",
-        checks: &[&Check::holds(
-            REPAIRED,
-            &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
-            &[NamedRule::new("the base follows R_2", Subject::deceiving(Deception::BaseFollows))],
-        )],
+        checks: &[
+            &Check::holds(
+                REPAIRED,
+                &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
+                &[NamedRule::new("the base follows R_2", Subject::deceiving(Deception::BaseFollows))],
+            ),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
+                &[NamedRule::new(
+                    "the base follows R_2",
+                    Subject { deception: Deception::BaseFollows, ..REEL.rule },
+                )],
+            ),
+        ],
     },
     Clause {
         id: "CHAIN-7",
@@ -300,7 +335,7 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(REPAIRED, &EveryLayout(Invariant::Progress, FOUR_FEWER_WALLS), &ENDLESS),
             &Check::holds(PUBLISHED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &[]),
             &Check::holds(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &ENDLESS),
-            &Check::holds(REEL, &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS), &[UNREHEARSED, FICKLE]),
         ],
     },
     Clause {

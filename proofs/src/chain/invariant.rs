@@ -236,10 +236,10 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
                     "a follower plans to be in E_S of the planned position ahead",
                 )?;
                 let sure = self.steps[robot + 1] == Step::Stay || known(robot + 1, EdgeMark::Open);
+                let doubts = demanded(Condition::Hold) || !sure && demanded(Condition::UnsureAhead);
                 require(
-                    sure || !demanded(Condition::UnsureAhead)
-                        || in_covered(present[robot + 1], planned[robot]),
-                    "behind an unsure neighbour a follower plans to be in E_C of its present position",
+                    !doubts || in_covered(present[robot + 1], planned[robot]),
+                    "behind a neighbour that may stay a follower plans to be in E_C of its present position",
                 )?;
             }
             if robot > 0 {

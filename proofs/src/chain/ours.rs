@@ -5,7 +5,9 @@ use tautline_kernel::chain::Condition::{CoveredBehind, SafeAhead};
 use tautline_kernel::chain::{Habit, Rule, World};
 
 use super::barrier::{self, Reading};
-use super::clauses::{AREAS, FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
+use super::clauses::{
+    AREAS, FICKLE, FIVE_TWO_WALLS, FOUR_FEWER_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD, UNREHEARSED,
+};
 use super::death::{self, Aftermath, DeathCase};
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
@@ -30,18 +32,10 @@ step_checks! { Subject;
         };
 }
 
-/// Five robots, which may meet as many walls as are soon looked at.
-const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
-
 /// The bounds of the clause that is looked at by a slow procedure.
 const FOUR_TWO_WALLS: (usize, u32) = (4, 2);
 const THREE_FOUR_WALLS: (usize, u32) = (3, 4);
 
-/// Reels that do not end, or gain nothing where they said so.
-const UNREHEARSED: NamedRule<Subject> =
-    NamedRule::new("tasks are not rehearsed", Subject::without_habits(&[Habit::Rehearses]));
-const FICKLE: NamedRule<Subject> =
-    NamedRule::new("stages go back", Subject::without_habits(&[Habit::KeepsTask]));
 const NO_NEARER: NamedRule<Subject> = NamedRule::new(
     "an approach gets no nearer",
     Subject::without_habits(&[Habit::Rehearses, Habit::ComesNearer]),
@@ -220,6 +214,7 @@ pub static CLAUSES: [Clause; 10] = [
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
             &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
+            &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FIVE_TWO_WALLS), &[NOT_HELD]),
             &Check::new(
                 REEL,
                 &RandomAnswers {
@@ -229,7 +224,7 @@ pub static CLAUSES: [Clause; 10] = [
                     covers: &["a whole run"],
                 },
                 Verdict::Unrefuted,
-                &[NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule))],
+                &[NOT_HELD],
             ),
             &Check::holds(CONTACT, &EveryNumber::DEFAULT, &LOST_CONTACT),
         ],

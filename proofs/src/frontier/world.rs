@@ -190,15 +190,16 @@ impl Rim {
 }
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
-    /// Every start: the robots in different cells. Robots differ by their numbers alone, so those of a start are in the
-    /// order of their cells.
+    /// Every start: the robots in different cells. They take their turns in the order of their numbers, round and round,
+    /// so that the first may be the one in the first of the cells.
     pub fn starts(&self) -> Vec<World<ROBOTS>> {
         let cells: Vec<Cell> = self.area.cells().filter(|&cell| !self.is_given(cell)).collect();
         let of = cells.len();
         let all = (0..of.pow(ROBOTS as u32)).filter_map(|start| {
             let places: [usize; ROBOTS] = std::array::from_fn(|robot| start / of.pow(robot as u32) % of);
-            let is_sorted = places.windows(2).all(|pair| pair[0] < pair[1]);
-            is_sorted.then(|| self.start(places.map(|place| cells[place]))).flatten()
+            let are_apart = (1..ROBOTS).all(|robot| !places[..robot].contains(&places[robot]));
+            let is_first = places.iter().all(|&place| places[0] <= place);
+            (are_apart && is_first).then(|| self.start(places.map(|place| cells[place]))).flatten()
         });
         all.collect()
     }

@@ -2,6 +2,8 @@
 //! audit of `proofs/rocq` prints, and from the list of rules beside it. `docs/machine-checked.md` says what each
 //! theorem assumes.
 
+use crate::local::EveryNumber;
+
 /// What the audit of `proofs/rocq` prints: each theorem with its statement, and whether any of them rests on assumptions.
 const AUDIT: &str = include_str!("../../rocq/audit.expected");
 
@@ -28,6 +30,9 @@ pub struct Theorem {
 
 /// The module of the theorems that are certificates.
 const CERTIFIED: &str = "Certified.";
+
+/// How the bound of a check begins that is about every number of robots.
+const EVERY_N: &str = EveryNumber::DEFAULT.teams;
 
 /// The engine whose checks have certificates.
 const LOCAL: &str = "local";
@@ -84,7 +89,9 @@ pub(super) fn words(clause: &str, rule: &str, engine: &str, bound: &str) -> Opti
         .filter(|theorem| theorem.is_about(clause, rule, bound))
         .partition(|theorem| theorem.is_certificate);
     let (what, found) = match engine {
-        LOCAL if !certificates.is_empty() => ("every N", certificates),
+        LOCAL if certificates.is_empty() => ("composition", others),
+        LOCAL if bound.starts_with(EVERY_N) => (EVERY_N, certificates),
+        LOCAL => ("every layout", certificates),
         _ => ("composition", others),
     };
     if found.iter().any(|theorem| theorem.part.is_none()) {
@@ -144,11 +151,19 @@ mod tests {
 
     #[test]
     fn a_certificate_counts_for_the_engine_of_local_rules_alone() {
-        assert_eq!(words("KIT-2", "repaired", LOCAL, "").as_deref(), Some("every N: machine-checked"));
+        let of_any = "every N, every layout; the relation";
+        assert_eq!(words("KIT-3", "repaired", LOCAL, of_any).as_deref(), Some("every N: machine-checked"));
         assert_eq!(words("KIT-2", "repaired", "states", ""), None);
-        let contact = words("CHAIN-22", "reel", LOCAL, "");
+        let contact = words("CHAIN-22", "reel", LOCAL, of_any);
         assert_eq!(contact.as_deref(), Some("every N: machine-checked in part (contact)"));
         assert_eq!(words("CHAIN-2", "reel", LOCAL, "").as_deref(), Some("composition: machine-checked"));
+    }
+
+    #[test]
+    fn a_certificate_about_two_robots_says_nothing_of_every_number() {
+        let of_two = "two robots, every layout; the relation";
+        let words = words("KIT-2", "repaired", LOCAL, of_two);
+        assert_eq!(words.as_deref(), Some("every layout: machine-checked"));
     }
 
     #[test]
