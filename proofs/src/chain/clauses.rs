@@ -225,8 +225,14 @@ pub static CLAUSES: [Clause; 15] = [
             ),
             &Check::holds(
                 REEL,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
-                &[NamedRule::new("without distinctness", Subject::reeling(Rule::REEL.without(Distinct)))],
+                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
+                &[
+                    NamedRule::new("without distinctness", Subject::reeling(Rule::REEL.without(Distinct))),
+                    NamedRule::new(
+                        "without full cells",
+                        Subject::reeling(Rule::REEL.without(FullForFollower).without(FullForLeader)),
+                    ),
+                ],
             ),
             &Check::holds(
                 NamedRule::new("repaired", Crowd::of(Rule::REPAIRED)),

@@ -79,7 +79,11 @@ const fn dying(observed: Subject, then: Aftermath) -> DeathCase {
     DeathCase { observed, then }
 }
 
-const DEATHS: [&str; 2] = ["the chain goes on after some moves taken back", "the chain goes on at once"];
+const DEATHS: [&str; 3] = [
+    "the chain comes home before it goes on",
+    "the chain goes on after some moves taken back",
+    "the chain goes on at once",
+];
 
 const DEATH: Check<DeathCase> = Check::holds(
     NamedRule::new("reel", dying(Subject::REEL, Aftermath::Reform)),
@@ -110,12 +114,7 @@ const MEETING: Check<DeathCase> = Check::holds(
 
 const DEATH_AT_RANDOM: Check<DeathCase> = Check::new(
     DEATH.about,
-    &RandomAnswers {
-        body: death::at_random,
-        runs: 200,
-        range: death::random_layouts,
-        covers: &[DEATHS[0], DEATHS[1], "the chain comes home before it goes on"],
-    },
+    &RandomAnswers { body: death::at_random, runs: 200, range: death::random_layouts, covers: &DEATHS },
     Verdict::Unrefuted,
     &[
         NamedRule::new("without hold", dying(Subject::UNHELD, Aftermath::Reform)),

@@ -185,13 +185,21 @@ pub(super) fn wire(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     replay.matches().then(|| Box::new(wire) as Box<dyn AnyCase>)
 }
 
+/// Fields that are spoilt, and by how much: the first so many also in a message that tells of a node and its sides, of
+/// which the others make another message.
+const TOLD: usize = 5;
+const SPOILT: [(usize, i16); 11] =
+    [(0, -2000), (3, 2), (4, -2), (5, 7), (6, 2), (1, 1), (2, -1), (3, 1), (4, 1), (5, 1), (6, 1)];
+
 /// KIT-9: what is sent is what is read.
 pub(super) fn read_back(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     let (message, number, situation) = drawn(oracle);
     let fields = message.encode(number, rule);
     require(Message::decode(fields, rule) == Ok((message, number)), "what is sent is what is read")?;
     let mut spoilt = fields;
-    let (place, by) = one_of(oracle, &[(0, -2000), (3, 2), (4, -2), (5, 7), (6, 2)]);
+    let is_empty = matches!(message, Message::Acknowledged | Message::ResponseAcknowledged);
+    let ways = if is_empty { SPOILT.len() } else { TOLD };
+    let (place, by) = SPOILT[oracle.pick(ways as u32) as usize];
     spoilt[place] += by;
     require(Message::decode(spoilt, rule).is_err(), "fields that are no message are refused")?;
     Ok(situation)
