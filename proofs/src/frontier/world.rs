@@ -280,12 +280,19 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             && world.moving() & (world.old | 1 << owner) == 0
     }
 
-    /// Whether `robot` may decide now.
-    fn may_decide(&self, world: &World<ROBOTS>, robot: usize) -> bool {
+    /// Each side and cell for which `robot` may decide now; none unless it can go somewhere.
+    fn ways(&self, world: &World<ROBOTS>, robot: usize) -> impl Iterator<Item = (Side, Cell)> {
         let is_own = usize::from(world.slot) == robot && !world.has_tried;
         let slot = if is_own { Slot::Own } else { Slot::Others };
-        world.robots[robot].stance() == Stance::Stands
-            && matches!(self.next(world, robot, slot, &mut Tape(&[])), Next::Tries { .. })
+        outcomes(move |oracle| match self.next(world, robot, slot, oracle) {
+            Next::Tries { side, aim } => Some((side, aim)),
+            Next::Waits | Next::Stops | Next::Done => None,
+        })
+    }
+
+    /// Whether `robot` may decide now.
+    fn may_decide(&self, world: &World<ROBOTS>, robot: usize) -> bool {
+        world.robots[robot].stance() == Stance::Stands && self.ways(world, robot).next().is_some()
     }
 
     /// Every step from `world`.
@@ -293,10 +300,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let mut turns: Vec<Successor<ROBOTS>> = Vec::new();
         for robot in 0..ROBOTS {
             match world.robots[robot].stance() {
-                Stance::Stands if self.may_decide(world, robot) => {
-                    turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)));
+                Stance::Stands => {
+                    for way in self.ways(world, robot) {
+                        turns.extend(outcomes(|oracle| Some(self.decide(world, robot, way, oracle))));
+                    }
                 }
-                Stance::Stands => {}
                 Stance::Tries(side) => {
                     turns.extend(outcomes(|oracle| Some(self.look(world, (robot, side), oracle))));
                 }
@@ -317,9 +325,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         &self,
         world: &World<ROBOTS>,
         robot: usize,
+        (side, aim): (Side, Cell),
         oracle: &mut dyn Oracle,
-    ) -> Option<Successor<ROBOTS>> {
-        let Next::Tries { side, aim } = self.next(world, robot, Slot::Own, oracle) else { return None };
+    ) -> Successor<ROBOTS> {
         let mut after = *world;
         let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
         after.robots[robot].decided(&self.rule, &others);
@@ -329,7 +337,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         } else {
             0
         };
-        Some(Successor { world: after, event: Event::Decides(robot, side, aim, missed), breaks: Vec::new() })
+        Successor { world: after, event: Event::Decides(robot, side, aim, missed), breaks: Vec::new() }
     }
 
     fn look(
