@@ -11,7 +11,7 @@ use tautline_kernel::kit::{Answers as Answering, Filter, Rule};
 use super::lattices::{Lattices, Pass, Size};
 use super::local::{self, AtEqualSpeeds, Two};
 use super::pairs::{self, Certainty};
-use super::talks::{self, Talks};
+use super::talks::{self, Hearing, Talks};
 use super::world::{Answers, Demand, Speeds, Starts};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
@@ -210,10 +210,25 @@ const fn repaired_at_equal_speeds(demand: Demand) -> Lattices<2> {
 
 /// Two robots that talk, none of whose messages is lost or comes twice.
 const fn talks(rule: &Rule, demand: talks::Demand) -> Talks {
-    Talks { rule: *rule, demand, max_lost: 0, max_doubled: 0 }
+    Talks { rule: *rule, forgets: false, demand, max_lost: 0, max_doubled: 0 }
 }
 
-const fn every_talk(range: fn() -> String, system: fn(&Rule) -> Talks) -> EveryState<Rule, Talks> {
+/// Two such robots, each of which must know where the other one goes or stands when it decides.
+const fn knowing(hearing: &Hearing) -> Talks {
+    Talks { forgets: hearing.forgets, ..talks(&hearing.rule, talks::Demand::Fresh) }
+}
+
+/// Robots that keep what they are told.
+const fn keeping(name: &'static str, rule: Rule) -> NamedRule<Hearing> {
+    NamedRule::new(name, Hearing { rule, forgets: false })
+}
+
+/// Robots that do not.
+const fn forgetting(rule: Rule) -> NamedRule<Hearing> {
+    NamedRule::new("what is told is forgotten", Hearing { rule, forgets: true })
+}
+
+const fn every_talk<R>(range: fn() -> String, system: fn(&R) -> Talks) -> EveryState<R, Talks> {
     EveryState {
         range,
         system,
@@ -228,11 +243,11 @@ const ANSWERED: EveryState<Rule, Talks> =
     every_talk(|| words(0, 0), |rule| talks(rule, talks::Demand::Answered));
 const ANSWERED_THOUGH_LOST: EveryState<Rule, Talks> =
     every_talk(|| words(1, 0), |rule| Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) });
-const FRESH: EveryState<Rule, Talks> = every_talk(|| words(0, 0), |rule| talks(rule, talks::Demand::Fresh));
-const FRESH_THOUGH_LOST: EveryState<Rule, Talks> =
-    every_talk(|| words(1, 0), |rule| Talks { max_lost: 1, ..talks(rule, talks::Demand::Fresh) });
-const FRESH_THOUGH_DOUBLED: EveryState<Rule, Talks> =
-    every_talk(|| words(0, 1), |rule| Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) });
+const FRESH: EveryState<Hearing, Talks> = every_talk(|| words(0, 0), knowing);
+const FRESH_THOUGH_LOST: EveryState<Hearing, Talks> =
+    every_talk(|| words(1, 0), |hearing| Talks { max_lost: 1, ..knowing(hearing) });
+const FRESH_THOUGH_DOUBLED: EveryState<Hearing, Talks> =
+    every_talk(|| words(0, 1), |hearing| Talks { max_doubled: 1, ..knowing(hearing) });
 
 /// The bound when so many messages are lost, and so many come twice, in words.
 fn words(lost: u8, doubled: u8) -> String {
@@ -331,30 +346,37 @@ pub static CLAUSES: [Clause; 14] = [
         sentence: "A robot that decides MUST know where the other one goes or stands.",
         checks: &[
             &Check::holds(
-                PUBLISHED,
+                keeping(PUBLISHED.name, PUBLISHED.rule),
                 &FRESH,
                 &[
-                    NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
-                    NamedRule::new(
+                    keeping("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
+                    keeping(
                         "the first goes first",
                         Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED },
                     ),
+                    forgetting(Rule::PUBLISHED),
                 ],
             ),
             &Check::holds(
-                REPAIRED,
+                keeping(REPAIRED.name, REPAIRED.rule),
                 &FRESH,
-                &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
+                &[
+                    keeping("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED }),
+                    forgetting(Rule::REPAIRED),
+                ],
             ),
-            &Check::refuted(REPAIRED, &FRESH_THOUGH_DOUBLED)
+            &Check::refuted(keeping(REPAIRED.name, REPAIRED.rule), &FRESH_THOUGH_DOUBLED)
                 .because("a message comes twice; the rule robust knows it")
-                .judged(|rule, choices| {
-                    talks::case(&Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) }, choices)
+                .judged(|hearing, choices| {
+                    talks::case(&Talks { max_doubled: 1, ..knowing(hearing) }, choices)
                 }),
             &Check::holds(
-                ROBUST,
+                keeping(ROBUST.name, ROBUST.rule),
                 &FRESH_THOUGH_LOST,
-                &[NamedRule::new("answers always", Rule { answers: Answering::Always, ..Rule::ROBUST })],
+                &[
+                    keeping("answers always", Rule { answers: Answering::Always, ..Rule::ROBUST }),
+                    forgetting(Rule::ROBUST),
+                ],
             ),
         ],
     },

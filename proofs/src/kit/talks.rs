@@ -21,10 +21,20 @@ pub(super) enum Demand {
     Fresh,
 }
 
+/// A rule by which robots talk.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Hearing {
+    pub(super) rule: Rule,
+    /// Whether a robot forgets at once what it is told: a mutant's.
+    pub(super) forgets: bool,
+}
+
 /// Talks under way.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Talks {
     pub(super) rule: Rule,
+    /// See [`Hearing`].
+    pub(super) forgets: bool,
     pub(super) demand: Demand,
     /// Messages that are lost in one run at most.
     pub(super) max_lost: u8,
@@ -81,6 +91,11 @@ const NODES: i16 = 2;
 const WAITS: &str = "a robot that waits is answered";
 const STALE: &str = "a robot that decides knows where the other one goes";
 
+/// Where a robot starts. Both know it of each other.
+const fn start(robot: usize) -> Cell {
+    Cell::new(0, robot as i16)
+}
+
 fn nothing(_: Cell) -> Steps {
     Steps::NONE
 }
@@ -111,9 +126,8 @@ impl Talks {
 
     /// The start: the first robot decides, the second one has asked.
     pub(super) fn start(&self) -> State {
-        let at = |robot: i16| Cell::new(0, robot);
-        let (second, sent) = Talk::second(self.rule, at(1), Steps::NONE);
-        let robots = [Talk::first(self.rule, at(0)), second];
+        let (second, sent) = Talk::second(self.rule, start(1), Steps::NONE);
+        let robots = [Talk::first(self.rule, start(0)), second];
         let mut state = State { robots, letters: Vec::new(), lost: 0, doubled: 0, last: Event::Start };
         self.send(&mut state, 1, sent);
         state
@@ -165,7 +179,8 @@ impl Talks {
                     acts.push(Successor::by(bit, "an arrival", after));
                 }
                 Phase::Decides if Self::may_act(state, robot) => {
-                    let is_stale = talk.told().is_some_and(|told| told != state.robots[1 - robot].next());
+                    let told = talk.told().filter(|_| !self.forgets).unwrap_or_else(|| start(1 - robot));
+                    let is_stale = told != state.robots[1 - robot].next();
                     let breaks = (is_stale && self.demand == Demand::Fresh).then_some(STALE);
                     let mut after = State { last: Event::Drives(robot), ..state.clone() };
                     let to = Cell::new((talk.next().x + 1) % NODES, talk.next().y);
@@ -397,7 +412,7 @@ mod tests {
     #[ignore = "516,348 states: cargo test --release -p tautline-proofs -- --ignored --nocapture comes_twice"]
     fn robust_robots_survive_a_message_that_comes_twice() {
         for demand in [Demand::Answered, Demand::Fresh] {
-            let talks = Talks { rule: Rule::ROBUST, demand, max_lost: 0, max_doubled: 1 };
+            let talks = Talks { rule: Rule::ROBUST, forgets: false, demand, max_lost: 0, max_doubled: 1 };
             let found = search(&talks, [talks.start()], Limits::NONE);
             println!("{demand:?}: {} states", found.states);
             assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
@@ -408,7 +423,7 @@ mod tests {
     #[ignore = "1,605,518 states, 22 s: cargo test --release -p tautline-proofs -- --ignored --nocapture lost_and_one"]
     fn robust_robots_survive_one_message_lost_and_one_that_comes_twice() {
         for demand in [Demand::Answered, Demand::Fresh] {
-            let talks = Talks { rule: Rule::ROBUST, demand, max_lost: 1, max_doubled: 1 };
+            let talks = Talks { rule: Rule::ROBUST, forgets: false, demand, max_lost: 1, max_doubled: 1 };
             let found = search(&talks, [talks.start()], Limits::NONE);
             println!("{demand:?}: {} states", found.states);
             assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);

@@ -82,7 +82,8 @@ struct Robot {
     phase: Phase,
     /// The node where it goes or stands: each robot drives to and fro between two nodes.
     node: usize,
-    told: Option<usize>,
+    /// Where it was told last that the other one goes or stands; at first, where that one starts.
+    told: usize,
     has_turn: bool,
     owes: bool,
 }
@@ -108,7 +109,7 @@ impl Case for Talk {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let first = Robot { phase: Phase::Decides, node: 0, told: None, has_turn: true, owes: false };
+        let first = Robot { phase: Phase::Decides, node: 0, told: 0, has_turn: true, owes: false };
         let second = Robot { phase: Phase::Asks, has_turn: false, ..first };
         let mut court = Court { has_turns: self.has_turns, robots: [first, second], letters: Vec::new() };
         court.send(0, Word::Request);
@@ -176,8 +177,7 @@ impl Court {
         let own = self.robots[robot];
         let phase = if act.said == Said::Arrives { Phase::Drives } else { Phase::Decides };
         must(own.phase == phase, "a robot does what it cannot do now")?;
-        let is_stale =
-            act.said != Said::Arrives && own.told.is_some_and(|told| told != self.robots[1 - robot].node);
+        let is_stale = act.said != Said::Arrives && own.told != self.robots[1 - robot].node;
         match act.said {
             Said::Arrives if self.has_turns && own.has_turn => self.robots[robot].phase = Phase::Decides,
             Said::Arrives => self.ask(robot),
@@ -206,7 +206,7 @@ impl Court {
             }
             Word::Acknowledged if own.phase == Phase::Asks => self.robots[robot].phase = Phase::Waits,
             Word::Response(node) if matches!(own.phase, Phase::Asks | Phase::Waits) => {
-                self.robots[robot] = Robot { phase: Phase::Decides, told: Some(node), has_turn: true, ..own };
+                self.robots[robot] = Robot { phase: Phase::Decides, told: node, has_turn: true, ..own };
             }
             Word::Acknowledged | Word::Response(_) => {}
         }
