@@ -15,10 +15,11 @@ use super::floors::{
 };
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
-use super::tree::{Going, Own, To, labels};
+use super::tree::{Going, Own, To, children, labels};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
+use crate::decide::EveryAnswer;
 use crate::floor::series::Given::Dark;
 use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
@@ -125,6 +126,11 @@ const BELIEVING: NamedRule<Subject<TreeRule>> = named("what is seen is believed"
 /// Helpers that go where `to` says.
 const fn going(name: &'static str, to: To) -> NamedRule<Subject<Going>> {
     named(name, Going { rule: TreeRule::HELPERS, to })
+}
+
+/// Agents of brick-tree that go where `to` says.
+const fn choosing(name: &'static str, to: To) -> NamedRule<Going> {
+    NamedRule::new(name, Going { rule: TreeRule::TREE, to })
 }
 
 /// The words for a rule without [`LowerOnly`].
@@ -356,11 +362,18 @@ pub static CLAUSES: [Clause; 15] = [
         id: "BRICKS-13",
         sentence: "An agent that goes to a child MUST go to one that was entered least.",
         checks: &[
-            &holds(TREE, &Floors::shared(&TREES, own(Own::LeastEntered)), &[]),
+            &Check::holds(
+                choosing("tree", To::Ruled),
+                &EveryAnswer { body: children::next, range: children::views, covers: &children::COVERS },
+                &[
+                    choosing("the first child", To::FirstChild),
+                    choosing("the child entered most", To::MostEntered),
+                ],
+            ),
             &holds(
                 going("helpers", To::Ruled),
                 &Floors::new(&THREE, own(Own::LeastEntered)),
-                &[going("the first child", To::FirstChild)],
+                &[going("the first child", To::FirstChild), going("the child entered most", To::MostEntered)],
             ),
         ],
     },

@@ -1,6 +1,7 @@
 //! Agents that search in trees on small floors (BRICKS-2 to BRICKS-14): brick-tree, helpers and MDFS, as schemes whose
 //! states are all looked at.
 
+pub(super) mod children;
 mod demands;
 pub(super) mod labels;
 pub mod mdfs;

@@ -101,8 +101,8 @@ pub(crate) trait Demands: Scheme {
     /// Forgets what the agent with this id, which acts no more, has no use for.
     fn forget(_: &mut Self::Memory, _: u8) {}
 
-    /// The demands on this scheme alone that belong to [`Demand::All`], where so many sensors may be missed.
-    fn of_all(_: u8) -> &'static [Self::Own] {
+    /// The demands on this scheme alone that belong to [`Demand::All`].
+    fn of_all() -> &'static [Self::Own] {
         &[]
     }
 
@@ -203,7 +203,7 @@ impl<S: Demands> Team<S> {
     fn own(&self) -> &[S::Own] {
         match &self.demand {
             Demand::Own(own) => slice::from_ref(own),
-            Demand::All => S::of_all(self.series.max_misses),
+            Demand::All => S::of_all(),
             Demand::Connected | Demand::Knowing | Demand::Explores | Demand::Ends => &[],
         }
     }

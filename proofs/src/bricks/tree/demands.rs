@@ -9,6 +9,9 @@ use crate::floor::plans::{Edges, FloorPlan};
 use crate::floor::small::{Sensors, StateOf};
 use crate::floor::team::Demands;
 
+/// BRICKS-13 in words.
+pub(super) const LEAST_ENTERED: &str = "an agent that goes to a child goes to one that was entered least";
+
 /// A demand on agents that search in trees.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Own {
@@ -31,12 +34,8 @@ impl<T: TreeRule> Demands for T {
         mark != Mark::Visited
     }
 
-    fn of_all(max_misses: u8) -> &'static [Own] {
-        if max_misses == 0 {
-            &[Own::Whole, Own::Rising, Own::LeastEntered]
-        } else {
-            &[Own::Whole, Own::Rising]
-        }
+    fn of_all() -> &'static [Own] {
+        &[Own::Whole, Own::Rising]
     }
 
     fn is_over(own: Own, state: &StateOf<T>) -> bool {
@@ -49,7 +48,7 @@ impl<T: TreeRule> Demands for T {
 
     fn broken_by_act(own: Own, view: &View, act: &Act) -> Option<&'static str> {
         let is_broken = own == Own::LeastEntered && !goes_to_least_entered(view, act.next);
-        is_broken.then_some("an agent that goes to a child goes to one that was entered least")
+        is_broken.then_some(LEAST_ENTERED)
     }
 
     fn broken_in(own: Own, plan: &FloorPlan, state: &StateOf<T>, agent: usize) -> Option<&'static str> {
@@ -104,14 +103,14 @@ fn do_labels_rise(sensors: &Sensors<Note>, plan: &FloorPlan) -> bool {
 
 /// How many times the child of the cell beyond `side` was entered, as far as the agent has seen it; `None` if there is
 /// none.
-fn entered(view: &View, side: Side) -> Option<u16> {
+pub(super) fn entered(view: &View, side: Side) -> Option<u16> {
     let (_, note) = COMPASS.into_iter().zip(view.beside).find(|&(other, _)| other == side)?;
     let is_child = note.state == State::Open && note.side == Some(side.opposite());
     is_child.then_some(note.crossings)
 }
 
 /// Whether no child was entered less often than the one that the agent goes to, if it goes to one (BRICKS-13).
-fn goes_to_least_entered(view: &View, next: Next) -> bool {
+pub(super) fn goes_to_least_entered(view: &View, next: Next) -> bool {
     let Next::Goes(side) = next else { return true };
     let least = COMPASS.into_iter().filter_map(|side| entered(view, side)).min();
     entered(view, side).is_none_or(|often| Some(often) == least)
@@ -131,6 +130,8 @@ pub(in crate::bricks) enum To {
     Ruled,
     /// If to a child, to the first in the order of the compass: a mutant's.
     FirstChild,
+    /// If to a child, to one that was entered most: a mutant's.
+    MostEntered,
     /// From a visited cell to the first open one beside it: a mutant's.
     OpenBeside,
 }
@@ -148,8 +149,9 @@ impl TreeRule for Going {
         let is_child = |side: &Side| entered(view, *side).is_some();
         let first = match self.to {
             To::FirstChild if is_child(&side) => COMPASS.into_iter().find(is_child),
+            To::MostEntered if is_child(&side) => COMPASS.into_iter().max_by_key(|&side| entered(view, side)),
             To::OpenBeside if view.here.state == State::Visited => view.trees().next().map(|(side, _)| side),
-            To::Ruled | To::FirstChild | To::OpenBeside => None,
+            To::Ruled | To::FirstChild | To::MostEntered | To::OpenBeside => None,
         };
         act.next = Next::Goes(first.unwrap_or(side));
         act
