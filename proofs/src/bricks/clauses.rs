@@ -208,6 +208,14 @@ pub static CLAUSES: [Clause; 15] = [
                     named("no lap gives way to another", laps(Precedence::Nobody)),
                 ],
             ),
+            &holds(
+                ROBUST,
+                &Floors::shared(&TWICE, Connected),
+                &[named(
+                    "no lap gives way to another",
+                    Rule { precedence: Precedence::Nobody, ..Rule::ROBUST },
+                )],
+            ),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Connected), &[TRUSTING, ONCE_OVER]),
             &holds(TREE, &Floors::shared(&TREES, Connected), &[PARENTS_MARKED, WRAPPING]),
             &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[]),
@@ -278,7 +286,11 @@ pub static CLAUSES: [Clause; 15] = [
                     named("walks no laps", Rule::REPAIRED.without(Laps)),
                 ],
             ),
-            &holds(ROBUST, &Floors::new(&TWICE, Ends), &[named("walks no laps", Rule::ROBUST.without(Laps))]),
+            &holds(
+                ROBUST,
+                &Floors::shared(&TWICE, Ends),
+                &[named("walks no laps", Rule::ROBUST.without(Laps))],
+            ),
             &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Ends), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Ends), &[PARENTS_MARKED]),

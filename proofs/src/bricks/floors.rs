@@ -81,9 +81,10 @@ pub(super) const FAILING: [Series; 3] = [
 ];
 
 /// Nothing missed, and all gone over twice.
-pub(super) const TWICE: [Series; 5] = [
+pub(super) const TWICE: [Series; 6] = [
     Series::new(Area::blocked(4, 3), 1),
     Series::new(Area::walled(3, 3), 1),
+    Series::new(Area::walled(3, 2), 2),
     Series::new(Area::blocked(4, 2), 2),
     patient(Area::blocked(4, 3), 1, 0),
     patient(Area::blocked(3, 2), 2, 0),
