@@ -28,6 +28,8 @@ const NO_LEAD: NamedRule<Subject> = without("nobody leads", Lead);
 const NO_BACK: NamedRule<Subject> = without("no move is taken back", Back);
 const NO_DOUBLE: NamedRule<Subject> = without("always one move is taken back", Double);
 const NO_ANEW: NamedRule<Subject> = without("ways are kept when a move is taken back", Anew);
+const HEEDS_NO_WAY: NamedRule<Subject> =
+    NamedRule::new("the way does not count", Subject { heeds_no_way: true, ..Subject::of(Rule::REPAIRED) });
 
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
@@ -198,11 +200,11 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-8",
         sentence: "A robot of a pack that goes its own way MUST choose a frontier cell whose metric gain no other cell that it may go to exceeds.",
         checks: &[
-            &Check::holds(REPAIRED, &demand(OF_GAINS, Demand::Best), &[NO_CORNERS]),
+            &Check::holds(REPAIRED, &demand(OF_GAINS, Demand::Best), &[NO_CORNERS, HEEDS_NO_WAY]),
             &Check::holds(
                 REPAIRED,
                 &demand(Bounds { sight_cells: 2, ..OF_GAINS }, Demand::Best),
-                &[NO_CORNERS],
+                &[NO_CORNERS, HEEDS_NO_WAY],
             ),
         ],
     },

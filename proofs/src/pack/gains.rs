@@ -57,6 +57,47 @@ pub(super) fn are_best<W: AsRef<[[u64; 2]]>>(
     }
 }
 
+/// The aims that robots choose, one after the other, which go where they would see most, however far it is.
+pub(super) fn most_seen<W: AsRef<[[u64; 2]]>>(
+    rule: &Rule,
+    chart: &Chart<W>,
+    cells: &[Cell],
+    kept: &[Option<Cell>],
+) -> Vec<Option<Cell>> {
+    let mut aims = kept.to_vec();
+    for (robot, &from) in cells.iter().enumerate().filter(|&(robot, _)| kept[robot].is_none()) {
+        let others: Vec<Cell> = aims.iter().flatten().copied().collect();
+        let nearby = in_horizon(rule, choices(rule, chart, from, &others));
+        let seen = |&cell: &Cell| gain(chart, rule.sight().radius_cells(), cell, &others);
+        aims[robot] = nearby.into_keys().max_by_key(|cell| (seen(cell), *cell));
+    }
+    aims
+}
+
+/// The steps to each frontier cell that a robot in `from` may go to which has heard where the others go.
+fn choices<W: AsRef<[[u64; 2]]>>(
+    rule: &Rule,
+    chart: &Chart<W>,
+    from: Cell,
+    others: &[Cell],
+) -> FxHashMap<Cell, u32> {
+    let range_cells = u64::from(rule.range_cells());
+    let circle = Circle::new(4 * range_cells.pow(2));
+    let mut far = distances(chart, from);
+    far.retain(|&cell, _| {
+        chart.is_frontier(cell)
+            && (others.is_empty() || others.iter().any(|&other| circle.covers(other, cell)))
+    });
+    far
+}
+
+/// Those of them that are not too far beyond the nearest.
+fn in_horizon(rule: &Rule, mut far: FxHashMap<Cell, u32>) -> FxHashMap<Cell, u32> {
+    let nearest = far.values().min().copied().unwrap_or_default();
+    far.retain(|_, &mut steps| steps <= nearest + HORIZONS * u32::from(rule.range_cells()));
+    far
+}
+
 /// Whether no frontier cell has a greater metric gain than `aim`, for a robot in `from` that has heard where the others
 /// go.
 fn is_best<W: AsRef<[[u64; 2]]>>(
@@ -66,18 +107,10 @@ fn is_best<W: AsRef<[[u64; 2]]>>(
     others: &[Cell],
     aim: Option<Cell>,
 ) -> bool {
-    let range_cells = u64::from(rule.range_cells());
-    let circle = Circle::new(4 * range_cells.pow(2));
-    let mut far = distances(chart, from);
-    far.retain(|&cell, _| {
-        chart.is_frontier(cell)
-            && (others.is_empty() || others.iter().any(|&other| circle.covers(other, cell)))
-    });
-    let (Some(aim), Some(&nearest)) = (aim, far.values().min()) else {
-        return aim.is_none() && far.is_empty();
-    };
+    let far = choices(rule, chart, from, others);
+    let Some(aim) = aim else { return far.is_empty() };
     let Some(&own) = far.get(&aim) else { return false };
-    far.retain(|_, &mut steps| steps <= nearest + HORIZONS * u32::from(rule.range_cells()));
+    let far = in_horizon(rule, far);
     let seen = |cell: Cell| gain(chart, rule.sight().radius_cells(), cell, others);
     let own_gain = seen(aim);
     let is_over = |(&cell, &steps): (&Cell, &u32)| match (own_gain, seen(cell)) {

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Team};
 
-use super::gains::{Gains, are_best};
+use super::gains::{self, Gains, are_best};
 use super::readings::Subject;
 use crate::judge::Place;
 use crate::judge::pack::Metric;
@@ -224,7 +224,11 @@ pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<R
             let has_spread = played.moves.last().is_none_or(|&(last, _)| last == MoveKind::Spread);
             let is_kept = |&aim: &Cell| has_spread && chart.is_frontier(aim);
             let kept: Vec<Option<Cell>> = aims.into_iter().map(|aim| aim.filter(is_kept)).collect();
-            let chosen: Vec<Option<Cell>> = team.aims().collect();
+            let chosen: Vec<Option<Cell>> = if subject.heeds_no_way {
+                gains::most_seen(rule, &chart, &before, &kept)
+            } else {
+                team.aims().collect()
+            };
             played.judge(Demand::Best, !are_best(rule, &chart, &before, &kept, &chosen));
         }
         let situation = SITUATIONS[match made {

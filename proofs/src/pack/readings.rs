@@ -16,11 +16,14 @@ pub(super) struct Subject {
     pub(super) rule: Rule,
     /// What its robots compare: another one than the published one is followed by the published rule alone.
     pub(super) metric: Metric,
+    /// Whether robots choose by what they would see alone, however far it is: a mutant's. It chooses beside the rule, where
+    /// gains are compared, and its team moves are the rule's.
+    pub(super) heeds_no_way: bool,
 }
 
 impl Subject {
     pub(super) const fn of(rule: Rule) -> Self {
-        Self { rule, metric: Metric::CellsBySteps }
+        Self { rule, metric: Metric::CellsBySteps, heeds_no_way: false }
     }
 
     /// A run on `floor`, written down for the judge; no team moves yet.
@@ -46,7 +49,7 @@ pub(super) fn place(cell: Cell) -> Place {
 
 /// The published pack that compares this.
 const fn read(metric: Metric) -> Subject {
-    Subject { rule: Rule::PUBLISHED, metric }
+    Subject { metric, ..Subject::of(Rule::PUBLISHED) }
 }
 
 /// The readings but for the published one.
