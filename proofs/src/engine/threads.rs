@@ -72,7 +72,9 @@ fn in_threads(count: usize, work: &(dyn Fn(usize) + Sync)) {
         });
         let running: Vec<_> = begun.collect();
         let _waiting = Task::NONE.enter();
-        running.into_iter().for_each(|one| one.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        for one in running {
+            one.join().unwrap_or_else(|panic| resume_unwind(panic));
+        }
     });
 }
 
