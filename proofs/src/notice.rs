@@ -18,13 +18,24 @@ pub enum Counted {
     Packets,
 }
 
+/// How nodes take k, as a mutant does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Miscount {
+    /// ∞ for 1.
+    EndlessForOne,
+    /// A number for one less, 1 for itself.
+    OneFewer,
+    /// A number for one more.
+    OneMore,
+}
+
 /// The nodes of a network that is observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject {
     /// The conditions that they follow.
     pub conditions: Conditions,
-    /// Whether k = ∞ is taken for k = 1, as a mutant does.
-    pub takes_endless_for_one: bool,
+    /// How they take k, if not for what it is.
+    pub miscount: Option<Miscount>,
     /// What k counts.
     pub counted: Counted,
 }
@@ -32,7 +43,7 @@ pub struct Subject {
 impl Subject {
     /// As published.
     pub const PUBLISHED: Self =
-        Self { conditions: Conditions::PUBLISHED, takes_endless_for_one: false, counted: Counted::Senders };
+        Self { conditions: Conditions::PUBLISHED, miscount: None, counted: Counted::Senders };
 
     /// Repaired.
     pub const REPAIRED: Self = Self { conditions: Conditions::REPAIRED, ..Self::PUBLISHED };
@@ -47,9 +58,19 @@ impl Subject {
         Rule { conditions: self.conditions, ..Rule::new(scheme, spread::RANGE, 0) }
     }
 
+    /// Nodes that follow the repaired rule and take k for another one.
+    const fn miscounting(miscount: Miscount) -> Self {
+        Self { miscount: Some(miscount), ..Self::REPAIRED }
+    }
+
     /// k-FNF.
     fn farthest(&self, k: Option<Count>) -> Rule {
-        let k = if self.takes_endless_for_one { k.or(Some(Count::ONE)) } else { k };
+        let k = match self.miscount {
+            Some(Miscount::EndlessForOne) => k.or(Some(Count::ONE)),
+            Some(Miscount::OneFewer) => k.and_then(|k| Count::new(k.get().max(2) - 1)),
+            Some(Miscount::OneMore) => k.and_then(|k| Count::new(k.get() + 1)),
+            None => k,
+        };
         self.rule(Scheme::Farthest { k })
     }
 }

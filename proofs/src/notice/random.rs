@@ -4,7 +4,7 @@ use core::ops::RangeInclusive;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Notice};
-use tautline_kernel::notice::{Count, Node, Reaction};
+use tautline_kernel::notice::{Count, Node, Reaction, Rule};
 
 use super::Subject;
 use super::shapes::SMALL;
@@ -82,47 +82,62 @@ const FATES: [&str; 4] =
 /// Later events, their senders and their hop counts.
 const LATER: [u32; 3] = [2, 3, 3];
 
+/// The greatest k.
+const MOST_COUNTED: u32 = 3;
+
 /// The bound of [`second_event`], in words.
 pub(super) fn later_events() -> String {
     let [events, senders, hops] = LATER;
     format!(
-        "{} fates of an event, {events} later ones by {senders} senders with {hops} hop counts",
+        "{} fates of an event, {events} later ones by {senders} senders with {hops} hop counts, k = 1 … {MOST_COUNTED}",
         FATES.len()
     )
 }
 
-/// NOTICE-4: whatever a node has made of one event, the next one is new to it.
+/// NOTICE-4: whatever a node has made of one event, the next one is new to it, and k other senders of that silence it.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn second_event(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    let (fate, news) = drawn(oracle);
-    let (node, reaction) = heard(observed, fate, news);
+    let (k, fate, news) = drawn(oracle);
+    let (mut node, reaction) = heard(observed, k, fate, news);
     require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
     require(node.parent() == Some(news.sender), "its sender is the parent")?;
     require(node.hops() == Some(news.hops + 1), "the node is one hop farther than its sender")?;
+    for other in 1..=k {
+        let sender = NodeId(news.sender.0 + u32::from(other));
+        let reaction = hear(&mut node, &rule(observed, k), Notice { sender, ..news });
+        let due = if other < k { Reaction::Noted } else { Reaction::Silenced };
+        require(reaction == due, "it is silent when k other senders are heard, and not before")?;
+    }
     Ok(FATES[fate])
 }
 
-/// The fate of the first event, and a NOTICE of a later one.
-fn drawn(oracle: &mut dyn Oracle) -> (usize, Notice) {
+/// k, the fate of the first event, and a NOTICE of a later one.
+fn drawn(oracle: &mut dyn Oracle) -> (u8, usize, Notice) {
+    let k = 1 + oracle.pick(MOST_COUNTED) as u8;
     let fate = oracle.pick(FATES.len() as u32) as usize;
     let [events, senders, most_hops] = LATER;
     let (event, sender) = (2 + oracle.pick(events), 2 + oracle.pick(senders));
     let hops = oracle.pick(most_hops) as u16;
-    (fate, Notice { call: call(event), hops, ..notice(sender as usize) })
+    (k, fate, Notice { call: call(event), hops, ..notice(sender as usize) })
 }
 
-/// The NOTICEs of the first event that a node has heard with this fate.
-fn before(fate: usize) -> impl Iterator<Item = Notice> {
-    [2, 3].map(notice).into_iter().take([0, 1, 2, 1][fate])
+fn rule(observed: &Subject, k: u8) -> Rule {
+    observed.farthest(Count::new(k))
+}
+
+/// The NOTICEs of the first event that a node has heard with this fate: k leave it waiting, and one more silences it.
+fn before(k: u8, fate: usize) -> impl Iterator<Item = Notice> {
+    let heard = [0, k, k + 1, k][fate];
+    (2..2 + usize::from(heard)).map(notice)
 }
 
 /// A node with this fate that hears a NOTICE of a later event, and what it makes of that.
-fn heard(observed: &Subject, fate: usize, news: Notice) -> (Node, Reaction) {
-    let rule = observed.farthest(Some(Count::ONE));
+fn heard(observed: &Subject, k: u8, fate: usize, news: Notice) -> (Node, Reaction) {
+    let rule = rule(observed, k);
     let mut node = Node::new(NodeId(1), NodeId(0));
-    for notice in before(fate) {
+    for notice in before(k, fate) {
         hear(&mut node, &rule, notice);
     }
     if FATES[fate] == "through with the first" {
@@ -136,15 +151,15 @@ fn heard(observed: &Subject, fate: usize, news: Notice) -> (Node, Reaction) {
 pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);
-    let (fate, news) = drawn(&mut replay);
-    let (node, reaction) = heard(observed, fate, news);
+    let (k, fate, news) = drawn(&mut replay);
+    let (node, reaction) = heard(observed, k, fate, news);
     let written = |notice: Notice| {
         let [event, sender] = [notice.call.epoch.0, notice.sender.0].map(|number| number as i32);
         Heard { event, sender, hops: notice.hops.into() }
     };
     let begins = matches!(reaction, Reaction::Armed { .. });
     let is_first = begins && node.parent() == Some(news.sender);
-    let before = before(fate).map(written).collect();
+    let before = before(k, fate).map(written).collect();
     let later = Later { clause: "NOTICE-4", before, news: written(news), is_first };
     replay.matches().then(|| Box::new(later) as Box<dyn AnyCase>)
 }
