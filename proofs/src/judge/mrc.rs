@@ -322,8 +322,7 @@ impl Court<'_> {
             }
             "MRC-2" => {
                 let counted: Vec<usize> = wfrs().map(|(_, _, robot)| robot).collect();
-                (0..counted.len())
-                    .any(|one| self.robots[counted[one]].lives && counted[..one].contains(&counted[one]))
+                (0..counted.len()).any(|one| counted[..one].contains(&counted[one]))
             }
             "MRC-3" => wfrs().any(|(_, wfr, robot)| wfr.best.is_none_or(|(_, best)| best != robot)),
             "MRC-4" => wfrs().any(|(number, wfr, robot)| self.robots[robot].taken[number] != Some(wfr.epoch)),

@@ -27,9 +27,7 @@ impl State {
             leases(robot).is_some_and(|call| (0..robot).any(|other| leases(other) == Some(call)))
         };
         let is_counted_on_again = |wfr: usize| {
-            counts_on(wfr).is_some_and(|robot| {
-                !self.failed[usize::from(robot.0)] && (0..wfr).any(|other| counts_on(other) == Some(robot))
-            })
+            counts_on(wfr).is_some_and(|robot| (0..wfr).any(|other| counts_on(other) == Some(robot)))
         };
         let has_not_the_best = |wfr: usize| match self.wfrs[wfr].phase() {
             Phase::Offered { choice, .. } | Phase::Leased { choice } => {
