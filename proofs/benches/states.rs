@@ -137,6 +137,7 @@ impl Model for Ants {
 /// The largest of the settings that the tests count with stateright.
 const SETTING: Setting = Setting {
     rule: Rule::REPAIRED,
+    misread: None,
     robots: 2,
     wfrs: 2,
     events: 2,

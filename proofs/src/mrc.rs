@@ -11,13 +11,17 @@ use tautline_kernel::mrc::Rule;
 
 pub use state::{Action, Actor, Demand, Faults, Leases, LossKind, Message, ROBOTS, Setting, State, WFRS};
 
-/// How a message is misread where it arrives.
+/// How a message is misread where it arrives, as a mutant does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Misreading {
     /// A path node takes all robots for one.
     OneRobot,
     /// A path node takes all calls of a WFR for one.
     OneCall,
+    /// A WFR that calls anew takes who has asked under the call before for who asks under this one.
+    Askers,
+    /// A robot on its way takes another WFR's choice for that of the one to which it goes.
+    Offers,
 }
 
 /// Whose service the SBit of a call stands for.
@@ -34,7 +38,7 @@ pub enum Served {
 pub struct Subject {
     /// The rule that they follow.
     pub rule: Rule,
-    /// How they misread what they hear, as a mutant does.
+    /// How they misread what they hear.
     pub misread: Option<Misreading>,
     /// How robots understand the SBit.
     pub served: Served,

@@ -13,6 +13,7 @@ const NO_FAULT: Faults = Faults::any(0);
 /// One robot, one WFR, one event, all one hop away.
 const LEAST: Setting = Setting {
     rule: Rule::PUBLISHED,
+    misread: None,
     served: Served::ByAny,
     robots: 1,
     wfrs: 1,

@@ -149,10 +149,13 @@ const REDECIDE: NamedRule<Subject> = lacking("redecide on a late MOVE", ChoiceSt
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
 const NO_EPOCH: NamedRule<Subject> = lacking("no epoch", Epochs);
 const NO_CONSENT: NamedRule<Subject> = lacking("no consent", Consent);
+const ACCEPTS: NamedRule<Subject> =
+    NamedRule::new("on its way elsewhere it accepts", Subject::misreading(Misreading::Offers));
 
 /// The settings of a rescue.
 const TWO: Setting = Setting {
     rule: Rule::REPAIRED,
+    misread: None,
     served: Served::ByAny,
     robots: 2,
     wfrs: 2,
@@ -169,6 +172,8 @@ const TWO_AND_ONE: Setting = Setting { wfrs: 1, ..TWO };
 const ALONE: Setting = Setting { robots: 1, max_hops: 1, ..TWO_AND_ONE };
 const ONE_AND_TWO: Setting = Setting { robots: 1, events: 3, ..TWO };
 const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
+/// A robot that asks once more when its timer goes off bids for two calls at a time only if it goes off early twice.
+const TWO_FAULTS: Setting = Setting { robots: 1, faults: Faults::any(2), ..TWO };
 
 /// The clauses.
 pub static CLAUSES: [Clause; 14] = [
@@ -194,6 +199,7 @@ pub static CLAUSES: [Clause; 14] = [
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO), &[NO_CONSENT]),
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), &[]),
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_FAULTS), &[ACCEPTS]),
         ],
     },
     Clause {
@@ -232,6 +238,7 @@ pub static CLAUSES: [Clause; 14] = [
             &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO), &[NO_CONSENT]),
             &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), &[]),
             &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO_FAULTS), &[ACCEPTS]),
         ],
     },
     Clause {
@@ -332,7 +339,13 @@ pub static CLAUSES: [Clause; 14] = [
             &Check::holds(
                 REPAIRED,
                 &Within(Demand::TellsWhoAsked, TWO),
-                &[lacking("late MOVEs unanswered", AnswersAgain)],
+                &[
+                    lacking("late MOVEs unanswered", AnswersAgain),
+                    NamedRule::new(
+                        "a new call keeps who has asked under the one before",
+                        Subject::misreading(Misreading::Askers),
+                    ),
+                ],
             ),
             &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), &[]),
             &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, THREE_AND_TWO), &[]),

@@ -320,6 +320,6 @@ fn read(observed: &Subject, message: Upward) -> Upward {
     match observed.misread {
         Some(Misreading::OneRobot) => Upward { robot: ROBOT, ..message },
         Some(Misreading::OneCall) => Upward { call: Call { epoch: Epoch::FIRST, ..message.call }, ..message },
-        None => message,
+        Some(Misreading::Askers | Misreading::Offers) | None => message,
     }
 }

@@ -25,7 +25,7 @@ const MOST_STEPS: u64 = 20_000_000;
 
 impl Within {
     fn setting(&self, observed: &Subject) -> Setting {
-        Setting { rule: observed.rule, served: observed.served, ..self.1 }
+        Setting { rule: observed.rule, misread: observed.misread, served: observed.served, ..self.1 }
     }
 
     fn evidence(setting: &Setting, broken: &Refutation) -> Evidence {

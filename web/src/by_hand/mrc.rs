@@ -64,6 +64,7 @@ fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
     }
     Ok(Setting {
         rule: chosen(&[("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED)], settings)?,
+        misread: None,
         served: Served::ByAny,
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),

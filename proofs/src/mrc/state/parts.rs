@@ -272,15 +272,10 @@ fn renamed_robot<const CALLS: usize>(robot: &Robot<CALLS>, rename: impl Fn(Call)
 }
 
 /// The WFR with its call under another epoch and without what plays no part any more: in which order robots have asked,
-/// which ones if none of them is told again, and by whom it was rescued. If `rename` keeps the order of epochs, the WFR
-/// goes on as before.
+/// and by whom it was rescued. If `rename` keeps the order of epochs, the WFR goes on as before. Who has asked it keeps:
+/// that a new call forgets them is to be shown.
 fn renamed_wfr<const ROBOTS: usize>(wfr: &Wfr<ROBOTS>, rename: impl Fn(Call) -> Call) -> Wfr<ROBOTS> {
-    let tells_again = match wfr.phase() {
-        Phase::Idle | Phase::Collecting { .. } => true,
-        Phase::Offered { .. } | Phase::Leased { .. } => !wfr.rule().has(Condition::ChoiceStands),
-        Phase::Rescued { .. } => false,
-    };
-    let mut heard = wfr.asked().filter(|_| tells_again);
+    let mut heard = wfr.asked();
     let mut asked: [Option<RobotId>; ROBOTS] = array::from_fn(|_| heard.next());
     asked.sort_unstable_by_key(|robot| (robot.is_none(), *robot));
     let phase = match wfr.phase() {
@@ -323,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn who_has_asked_is_kept_in_order_as_long_as_somebody_is_told_again() {
+    fn who_has_asked_is_kept_in_order_and_by_whom_a_wfr_was_rescued_is_not() {
         let same = |wfr: Wfr<2>| renamed_wfr(&wfr, |call| call);
         let asked = |wfr: Wfr<2>| -> [Option<RobotId>; 2] {
             let renamed = same(wfr);
@@ -332,8 +327,7 @@ mod tests {
         };
         let up = |robot, word| Upward { call: call(7, 1), robot: RobotId(robot), word, parent: NodeId(7) };
         let both = [Some(RobotId(1)), Some(RobotId(2))];
-        let stands = (Rule::REPAIRED, [None, None]);
-        for (rule, told) in [stands, (Rule::REPAIRED.without(Condition::ChoiceStands), both)] {
+        for rule in [Rule::REPAIRED, Rule::REPAIRED.without(Condition::ChoiceStands)] {
             let raised = Wfr::<2>::new(rule, NodeId(7)).raise().0;
             let bids = [2, 1].map(|robot| up(robot, Word::Move { hops: 3 }));
             let collecting = bids.into_iter().fold(raised, |wfr, bid| wfr.receive(bid).0);
@@ -342,9 +336,9 @@ mod tests {
             let leased = offered.receive(up(1, Word::Accept)).0;
             let phases = (offered.phase(), leased.phase());
             assert!(matches!(phases, (Phase::Offered { .. }, Phase::Leased { .. })));
-            assert_eq!((asked(offered), asked(leased)), (told, told));
+            assert_eq!((asked(offered), asked(leased)), (both, both));
             let rescued = [RobotId(1), RobotId(2)].map(|by| same(leased.reach(by)));
-            assert_eq!((asked(rescued[0]), rescued[0]), ([None, None], rescued[1]));
+            assert_eq!((asked(rescued[0]), rescued[0]), (both, rescued[1]));
             assert!(matches!(rescued[0].phase(), Phase::Rescued { .. }));
         }
     }

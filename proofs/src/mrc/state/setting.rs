@@ -2,7 +2,7 @@
 
 use tautline_kernel::mrc::Rule;
 
-use crate::mrc::Served;
+use crate::mrc::{Misreading, Served};
 
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;
@@ -86,6 +86,8 @@ pub enum Leases {
 pub struct Setting {
     /// The rule of robots and WFRs.
     pub rule: Rule,
+    /// How they misread what they hear.
+    pub misread: Option<Misreading>,
     /// How robots understand the SBit.
     pub served: Served,
     /// Robots, at most [`ROBOTS`].
@@ -107,7 +109,7 @@ pub struct Setting {
 impl Setting {
     /// The bound, in words.
     pub fn bound(&self) -> String {
-        let Self { rule: _, served: _, robots, wfrs, events, max_hops, faults, lossy, leases } = *self;
+        let Self { robots, wfrs, events, max_hops, faults, lossy, leases, .. } = *self;
         let count =
             |number: usize, one: &str| format!("{number} {one}{}", if number == 1 { "" } else { "s" });
         let hops = match max_hops {

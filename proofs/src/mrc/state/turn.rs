@@ -12,7 +12,7 @@ use super::demand::Demand;
 use super::parts::{FIRST_WFR, REST, of_network};
 use super::setting::{Faults, ROBOTS, Setting, WFRS};
 use super::{State, node, place, robot_id};
-use crate::mrc::Served;
+use crate::mrc::{Misreading, Served};
 
 /// A robot that hears that another one is chosen, and keeps the SBit of the call clear: it executes step 2 with the
 /// records that it had.
@@ -24,6 +24,18 @@ fn pass_over(robot: Robot<WFRS>, resb: Resb) -> (Robot<WFRS>, Option<Upward>) {
             Robot::kept(*robot.rule(), robot.id(), requests, Task::Leased { call }).arrive()
         }
         Task::Asking { .. } | Task::Leased { .. } | Task::Free => (robot, None),
+    }
+}
+
+/// A robot that is told of a choice. One on its way that takes it for the choice of the WFR to which it goes says that it
+/// comes, and goes on.
+fn heed(robot: Robot<WFRS>, resb: Resb, misread: Option<Misreading>) -> (Robot<WFRS>, Option<Upward>) {
+    let (next, sent) = robot.receive(Downward::Resb(resb));
+    match (misread, robot.task()) {
+        (Some(Misreading::Offers), Task::Leased { .. }) => {
+            (next, sent.map(|sent| Upward { word: Word::Accept, ..sent }))
+        }
+        _ => (next, sent),
     }
 }
 
@@ -144,7 +156,7 @@ impl State {
                     (usize::from(resb.robot.0), self.robots[usize::from(resb.robot.0)].task());
                 self.turn_robot(robot, |robot| match setting.served {
                     Served::ByItself if resb.chosen != Some(resb.robot) => pass_over(robot, resb),
-                    Served::ByAny | Served::ByItself => robot.receive(Downward::Resb(resb)),
+                    Served::ByAny | Served::ByItself => heed(robot, resb, setting.misread),
                 });
                 let task = self.robots[robot].task();
                 let asked = |task: Task| match task {
@@ -230,7 +242,11 @@ impl State {
         turn: impl FnOnce(Wfr<ROBOTS>) -> (Wfr<ROBOTS>, Mail<ROBOTS>),
     ) {
         let before = self.wfrs[wfr];
-        let (next, sent) = turn(before);
+        let (mut next, sent) = turn(before);
+        if setting.misread == Some(Misreading::Askers) && next.call() != before.call() {
+            let mut asked = before.asked();
+            next = Wfr::kept(*next.rule(), next.call(), next.phase(), array::from_fn(|_| asked.next()));
+        }
         self.wfrs[wfr] = next;
         self.touch(FIRST_WFR + wfr);
         let sent: [Option<Message>; ROBOTS] = match sent {
