@@ -131,10 +131,11 @@ const scheme = () => schemeOf(settings.scheme);
 const rule = () => scheme().rules.find(rule => rule.name === settings.rule);
 
 function blank(width, height) {
-  columns = width;
-  rows = height;
+  // What is too large is thrown here, and the ground stays.
   blocked = new Uint8Array(width * height);
   walls = new Uint8Array(2 * width * height);
+  columns = width;
+  rows = height;
 }
 
 /** The rows of the ground: a letter for so many cells, one letter more if they are blocked, two and four for a wall in the east and south. */
@@ -867,7 +868,7 @@ function resize(width, height) {
 // ---- Find
 
 const BOUNDS = { "max-walls": ["Walls at most", "max_walls", 2], "max-misses": ["Missed sensors at most", "max_misses", 1], "max-losses": ["Lost messages at most", "max_losses", ""], error: ["Wrong fixes, in cells", "error", ""] };
-let hunter = null, command = null, isOnBoard = false;
+let hunter = null, command = null, isOnBoard = false, sought = "";
 
 function quarry() {
   const bounds = rule().hunt;
@@ -898,7 +899,7 @@ function quarry() {
   find("quarry").replaceChildren(
     number(`${capital(scheme().robot)}s`, "robots", "", { min: 1, placeholder: "its own" }),
     make("label", {}, "Size, as 3x2 ", size),
-    ...bounds.filter(bound => BOUNDS[bound] && bound !== "max-cells").map(bound => number(...BOUNDS[bound], bound === "error" ? { step: 1 / 16 } : {})));
+    ...bounds.filter(bound => BOUNDS[bound] && bound !== "max-cells").map(bound => number(...BOUNDS[bound], bound === "error" ? { step: "any" } : { max: 255 })));
   for (const input of find("quarry").querySelectorAll("[data-quarry]")) input.value = typed[input.dataset.quarry] ?? input.value;
 }
 
@@ -906,6 +907,7 @@ function readQuarry() {
   const all = {};
   for (const input of find("quarry").querySelectorAll("[data-quarry]")) {
     const key = input.dataset.quarry, text = input.value.trim();
+    if (!input.checkValidity()) return { error: `“${labelOf(input)}”: ${range(input)}`, remedy: "type another, or none" };
     if (!text) continue;
     if (key === "size") {
       const parts = /^(\d+)\s*[x×]\s*(\d+)$/.exec(text);
@@ -919,6 +921,7 @@ function readQuarry() {
 function seek() {
   const asked = readQuarry();
   if (asked.error) return ended(asked);
+  sought = JSON.stringify(full());
   hunter?.terminate();
   const source = `"use strict";${engineOf};(${worker})(engineOf);`;
   const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
@@ -990,12 +993,12 @@ function ended(why = {}) {
   } else if (why.words) find("far").textContent = why.words;
 }
 
-/** The findings, each a button that puts it on the board; the first one is put there at once. */
+/** The findings, each a button that puts it on the board; the first one is put there at once, if nothing was drawn or chosen since. */
 function show(found, isDone, isStopped = false) {
   if (found.error) return ended(found);
   if (isDone) find("far").textContent = [isStopped ? "Stopped." : "", found.title ? `${capital(found.title)}.` : "", found.outcome ?? ""].filter(part => part).join(" ");
   find("found").replaceChildren(...found.found.map(one => make("li", {}, make("button", { onclick: () => put(one) }, make("b", { textContent: one.clause }), ` ${one.title}. ${one.sentence ?? ""}`))));
-  if (found.found.length && !isOnBoard) { isOnBoard = true; put(found.found[0]); }
+  if (found.found.length && !isOnBoard) { isOnBoard = true; if (JSON.stringify(full()) === sought) put(found.found[0]); }
 }
 
 /** Puts a counterexample on the board, at its last step. */
@@ -1035,27 +1038,29 @@ function readLink(hash) {
   if (version !== String(VERSION)) return /^\d+$/.test(version) ? { error: `this link is of version ${version}, and this page reads version ${VERSION}`, remedy: "open it with the page that made it" } : { error: "this is no link of this page", remedy: "copy the whole link again" };
   if (!text || checksum(text) !== sum) return { error: "this link is cut or changed", remedy: "copy the whole link again" };
   try {
-    return JSON.parse(new TextDecoder().decode(Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), sign => sign.charCodeAt(0))));
-  } catch {
-    return { error: "this link is damaged", remedy: "copy the whole link again" };
-  }
+    const all = JSON.parse(new TextDecoder().decode(Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), sign => sign.charCodeAt(0))));
+    if (all?.settings?.ground?.length) return all;
+  } catch { /* It is said below. */ }
+  return { error: "this link is damaged", remedy: "copy the whole link again" };
 }
 
-/** Makes the page what a link, a file or a finding holds. */
+/** Makes the page what a link, a file or a finding holds; it is false if the page does not know the scheme or the rule. */
 function restore({ settings: all, answers: given = [], steps = 0, hand = false }) {
-  const { ground, ...rest } = all;
-  if (!schemeOf(rest.scheme)) return complain({ error: `this page does not know the scheme ${rest.scheme}`, remedy: "open it with a newer page" });
+  const { ground, ...rest } = all, remedy = "open it with the page that made it, or a newer one";
+  if (!schemeOf(rest.scheme)) return complain({ error: `this page does not know the scheme ${rest.scheme}`, remedy });
+  if (!schemeOf(rest.scheme).rules.some(({ name }) => name === rest.rule)) return complain({ error: `this page does not know the rule ${rest.rule} of ${rest.scheme}`, remedy });
   readGround(ground);
   settings = { on: null, robots: 1, seed: 0, base: null, starts: [], options: {}, ...rest };
-  if (!rule()) settings.rule = scheme().rules[0].name;
   isByHand = find("hand").checked = hand;
   form();
   open(steps, given);
+  return true;
 }
 
 function complain({ error, remedy }) {
   find("kept").className = "fault";
   find("kept").textContent = `${capital(error)}. ${remedy ? `${capital(remedy)}.` : ""}`;
+  return false;
 }
 
 function keep(words) {
@@ -1105,18 +1110,40 @@ async function dropped(file) {
 
 // ---- Everything together
 
+const labelOf = input => input.ariaLabel ?? input.labels[0].textContent.trim();
+const range = ({ min, max, step }) => `a ${step === "any" ? "" : "whole "}number ${max ? `from ${min} to ${max}` : `of at least ${min}`} is needed`;
+
+/** The number of a field. One that cannot be is said to, and the field shows the old one again. */
+function read(id, old) {
+  const input = find(id);
+  if (input.value && input.checkValidity()) return +input.value;
+  input.value = old;
+  complain({ error: `“${labelOf(input)}”: ${range(input)}`, remedy: `${old} stays` });
+  return null;
+}
+
 function listen() {
   find("scheme").onchange = event => choose(event.target.value);
   find("rule").onchange = event => { settings.rule = event.target.value; settings.on = null; form(); open(); };
-  find("robots").onchange = event => {
-    settings.robots = Math.round(+event.target.value) || scheme().robots[0];
+  find("robots").onchange = () => {
+    const robots = read("robots", settings.robots);
+    if (robots === null) return;
+    settings.robots = robots;
     if (settings.starts?.length > 1) settings.starts = settings.starts.slice(0, settings.robots);
     quarry();
     open();
   };
-  find("seed").onchange = event => { settings.seed = Math.max(0, Math.round(+event.target.value)) || 0; open(); };
+  find("seed").onchange = () => {
+    const seed = read("seed", settings.seed ?? 0);
+    if (seed !== null) { settings.seed = seed; open(); }
+  };
   find("miss").onchange = event => { settings.miss = +event.target.value || 0; open(); };
-  for (const id of ["columns", "rows"]) find(id).onchange = () => { resize(Math.min(256, Math.max(1, +find("columns").value || 1)), Math.min(256, Math.max(1, +find("rows").value || 1))); open(); };
+  for (const [id, old] of [["columns", () => columns], ["rows", () => rows]]) find(id).onchange = () => {
+    const size = read(id, old());
+    if (size === null) return;
+    resize(id === "columns" ? size : columns, id === "rows" ? size : rows);
+    open();
+  };
   find("at").oninput = event => { pause(); go(+event.target.value); };
   find("first").onclick = () => { pause(); go(0); };
   find("back").onclick = () => { pause(); question = null; go(at - 1); };
@@ -1154,7 +1181,9 @@ function listen() {
   find("picture").onclick = () => save(`tautline-${settings.scheme}.svg`, "image/svg+xml", picture());
   find("drawing").onclick = () => {
     const drawn = asked({ do: "draw", settings: full() });
-    if (drawn.error) complain(drawn); else save("layout.txt", "text/plain", drawn.text);
+    if (drawn.error) return complain(drawn);
+    save("layout.txt", "text/plain", drawn.text);
+    if (settings.starts?.length > 1) keep(`layout.txt is saved. A drawing holds no starts: ${settings.starts.map(cell => `--start ${cell}`).join(" ")} gives them in a terminal.`);
   };
   find("store").onclick = () => {
     // Walls that were decided by hand are in the ground; other answers are not.
@@ -1178,8 +1207,15 @@ function listen() {
 function fromLink() {
   if (location.hash.length < 2) return false;
   const all = readLink(location.hash);
-  if (all.error) { complain(all); return false; }
-  restore(all);
+  if (all.error) return complain(all);
+  try {
+    // The engine knows what settings can be: what it does not take is not put on the page.
+    const tried = schemeOf(all.settings.scheme) ? asked({ do: "open", settings: all.settings, answers: all.answers ?? [] }) : {};
+    if (tried.error) return complain({ error: `this link cannot be played: ${tried.error}`, remedy: "copy the whole link again" });
+    if (!restore(all)) return false;
+  } catch {
+    return complain({ error: "this link is damaged", remedy: "copy the whole link again" });
+  }
   keep("");
   return true;
 }

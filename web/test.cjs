@@ -259,6 +259,54 @@ const tests = {
       await open(page, bad);
       assert.match(await page.textContent("#kept"), words, bad);
     }
+    const odd = { "null": /damaged/, "{}": /damaged/, '{"settings":{"ground":[]}}': /damaged/, '{"settings":{"ground":["7a"],"scheme":"none"}}': /does not know the scheme none/ };
+    for (const [key, value] of Object.entries({ rule: "none", starts: "xy", ground: ["99999999999a"], robots: "many" })) {
+      odd[await page.evaluate(([key, value]) => JSON.stringify({ settings: { ...full(), [key]: value } }), [key, value])] = key === "rule" ? /has no rule "none"/ : /cannot be played/;
+    }
+    for (const [text, words] of Object.entries(odd)) {
+      const hash = await page.evaluate(text => linkOf(JSON.parse(text)), text);
+      await page.goto("about:blank");
+      await open(page, hash);
+      assert.match(await page.textContent("#kept"), words, text);
+      await page.click("#step");
+      assert.match(await page.textContent("#say"), /Team move 1/);
+    }
+  },
+
+  async "a number that cannot be is said to, and neither it nor an empty field changes the drawing"(page) {
+    await clickSide(page, 5, 5, "e");
+    const before = await page.evaluate(() => JSON.stringify(full()));
+    for (const [id, value, words] of [["columns", "", /Columns.*from 1 to 256/], ["rows", "1000", /Rows.*from 1 to 256.*7 stays/], ["columns", "2.5", /whole number/], ["robots", "-3", /Robots.*from 2/]]) {
+      await page.fill(`#${id}`, value);
+      await page.keyboard.press("Tab");
+      assert.match(await page.textContent("#kept"), words, id);
+    }
+    assert.equal(await page.evaluate(() => JSON.stringify(full())), before);
+    await page.selectOption("#scheme", "ants");
+    await page.fill("#seed", "9007199254740993");
+    await page.keyboard.press("Tab");
+    assert.match(await page.textContent("#kept"), /Seed.*from 0 to 9007199254740991/);
+    await page.fill("[data-quarry=robots]", "-1");
+    await page.click("#find");
+    assert.match(await page.textContent("#far"), /Agents.*at least 1/);
+  },
+
+  async "what is drawn while a hunt goes on stays, and its finding is a button"(page) {
+    await page.selectOption("#rule", "published");
+    await page.click("#find");
+    await page.evaluate(() => { setWall(0, 1); edited(); });
+    await page.waitForSelector("#found button");
+    await page.waitForSelector("#find:not([hidden])");
+    assert.equal(await page.evaluate(() => walls[0] + columns), 8);
+    await page.click("#found button");
+    assert.match(await page.textContent("#why"), /is broken/);
+  },
+
+  async "a hunt says which option it does not look at"(page) {
+    await page.evaluate(() => { settings.options = { loss: "0.5" }; open(); });
+    await page.click("#find");
+    await page.waitForSelector("#far.fault");
+    assert.match(await page.textContent("#far"), /No hunt looks at the option `loss`/);
   },
 
   async "a dropped file is a layout, a map or a run; any other is refused in words"(page) {

@@ -12,6 +12,9 @@ use crate::settings::{Settings, ground};
 /// The most bytes of a file that a page reads.
 const MOST_BYTES: usize = 16 << 20;
 
+/// The largest seed of a page, whose numbers are those of a script.
+const MOST_SEED: u64 = (1 << 53) - 1;
+
 /// The content of a file: a layout or a run.
 pub(crate) fn read(name: &str, content: String) -> Result<Value, Diagnostic> {
     let wrong = |what: &str, remedy: &str| Err(Diagnostic::in_file(name, what, remedy));
@@ -50,6 +53,13 @@ fn run(name: &str, content: String) -> Result<Value, Diagnostic> {
                 Halt::Interrupted => Diagnostic::usage("interrupted", "drop the file again"),
             })?;
             let settings = Settings::of(&setup, None);
+            if settings.seed > MOST_SEED {
+                return Err(Diagnostic::in_file(
+                    name,
+                    format!("its seed is larger than {MOST_SEED}, the largest that a page holds exactly"),
+                    "draw it with `tautline replay` in a terminal",
+                ));
+            }
             Ok(json!({ "run": {
                 "settings": written(&settings),
                 "steps": report.steps,

@@ -187,13 +187,25 @@ impl RowHunt {
         Ok((hunting, json!({ "command": command })))
     }
 
-    /// The request, without a budget.
+    /// The request, without a budget. The only option that a hunt takes is how far robots hear each other.
     fn asked(&self) -> Result<Asked<'static>, Diagnostic> {
         let Quarry { robots, size, max_walls, max_misses, max_losses, error } = self.quarry;
         let size = size.map(|[columns, rows]| Size::new(columns, rows)).transpose()?;
         let rule = self.settings.rule()?.name;
-        let asked = Asked::new(self.scheme, rule);
+        let asked = Asked { range_cells: self.range_cells()?, ..Asked::new(self.scheme, rule) };
         Ok(Asked { robots, size, max_walls, max_misses, max_losses, error_cells: error, ..asked })
+    }
+
+    fn range_cells(&self) -> Result<Option<u16>, Diagnostic> {
+        let mut others = self.settings.options.keys().filter(|&field| field != Bound::Range.field());
+        if let Some(field) = others.next() {
+            let what = format!("no hunt looks at the option `{field}`");
+            return Err(Diagnostic::usage(
+                what,
+                "take it back under More options, or run single layouts with it",
+            ));
+        }
+        Ok(self.settings.options()?.range_cells)
     }
 
     /// How one hunts so in a terminal; a rule whose conditions are switched only a page hunts.
@@ -216,6 +228,7 @@ impl RowHunt {
         tell("max-misses", max_misses.map(|misses| misses.to_string()));
         tell("max-losses", max_losses.map(|losses| losses.to_string()));
         tell("error", error.map(|error| error.to_string()));
+        tell("range", self.settings.options.get(Bound::Range.field()).cloned());
         Some(command)
     }
 

@@ -110,7 +110,11 @@ impl Page {
             Request::Found => self.hunting.as_ref().ok_or_else(no_hunt)?.found(),
             Request::Read { name, text } => files::read(&name, text),
             Request::Store { settings } => files::store(&settings),
-            Request::Draw { settings } => Ok(json!({ "text": settings.layout()?.to_string() })),
+            Request::Draw { settings } => {
+                let mut layout = settings.layout()?;
+                settings.base.map_or(Ok(()), |base| layout.place_base(base))?;
+                Ok(json!({ "text": layout.to_string() }))
+            }
         }
     }
 }

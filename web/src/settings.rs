@@ -132,8 +132,8 @@ impl Settings {
         Ok(layout)
     }
 
-    /// The run, before its start.
-    pub(crate) fn setup(&self) -> Result<Setup, Diagnostic> {
+    /// The options that are told.
+    pub(crate) fn options(&self) -> Result<Options, Diagnostic> {
         let mut options = Options::default();
         for (field, text) in &self.options {
             let wrong = |what: String| Diagnostic::usage(what, "give it another value, or leave it out");
@@ -141,6 +141,11 @@ impl Settings {
             let extra = extra.ok_or_else(|| wrong(format!("there is no option `{field}`")))?;
             (extra.read)(text, &mut options).map_err(|what| wrong(format!("`{field}`: {what}")))?;
         }
+        Ok(options)
+    }
+
+    /// The run, before its start.
+    pub(crate) fn setup(&self) -> Result<Setup, Diagnostic> {
         let probability = || Diagnostic::of_field("miss", "a probability is from 0 to 1", "give one");
         let miss = Probability::new(self.miss).ok_or_else(probability)?;
         let scheme = self.scheme()?;
@@ -151,7 +156,7 @@ impl Settings {
             base: self.base,
             starts,
             miss: Some(miss).filter(|miss| !miss.is_never()),
-            options,
+            options: self.options()?,
             limits: match &self.stop {
                 Some(clause) => Limits::stopping_at(Some(own::catalogue().clause(clause)?)),
                 None => Limits::default(),

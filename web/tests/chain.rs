@@ -112,6 +112,40 @@ fn a_bound_that_a_hunt_does_not_take_is_refused_in_the_words_of_the_hunt() {
 }
 
 #[test]
+fn a_hunt_takes_the_range_that_is_chosen_and_refuses_what_it_does_not_look_at() {
+    let mut settings = settings("published", &OPEN);
+    settings["options"] = json!({ "loss": "0.5" });
+    let hunt = |settings: &Value| json!({ "do": "hunt", "settings": settings, "quarry": { "max_walls": 2 } });
+    let refused = Page::default().answer(&hunt(&settings).to_string());
+    assert!(refused.contains("no hunt looks at the option `loss`"), "{refused}");
+    settings["options"] = json!({ "range": "2" });
+    let refused = Page::default().answer(&hunt(&settings).to_string());
+    assert!(refused.contains("the robots of a chain hear each other as far as their rule says"), "{refused}");
+    (settings["scheme"], settings["rule"]) = (json!("kit"), json!("published"));
+    let mut page = Page::default();
+    let begun = ask(&mut page, &hunt(&settings));
+    assert_eq!(begun["command"], "tautline hunt --scheme kit --rule published --max-walls 2 --range 2");
+    while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
+    let found = ask(&mut page, &json!({ "do": "found" }));
+    assert!(found["title"].as_str().expect("words").contains("a range of 2 cells"), "{found}");
+    assert_eq!(found["found"][0]["settings"]["options"]["range"], "2");
+}
+
+#[test]
+fn a_stored_run_whose_seed_a_page_cannot_hold_exactly_is_refused() {
+    let mut settings = settings("repaired", &OPEN);
+    settings["scheme"] = json!("ants");
+    let mut page = Page::default();
+    for (seed, is_held) in [((1_u64 << 53) - 1, true), ((1 << 53) + 1, false)] {
+        settings["seed"] = json!(seed);
+        let stored = ask(&mut page, &json!({ "do": "store", "settings": settings }));
+        let read =
+            page.answer(&json!({ "do": "read", "name": "a.jsonl", "text": stored["text"] }).to_string());
+        assert_eq!(!read.contains("its seed is larger"), is_held, "{read}");
+    }
+}
+
+#[test]
 fn what_is_no_request_or_no_layout_is_said() {
     let mut page = Page::default();
     let mut wrong = |request: Value| {
@@ -146,4 +180,5 @@ fn a_stored_run_is_read_and_written() {
     let drawn = ask(&mut page, &json!({ "do": "draw", "settings": settings }));
     let read = ask(&mut page, &json!({ "do": "read", "name": "a.txt", "text": drawn["text"] }));
     assert_eq!(read["layout"]["ground"], settings["ground"]);
+    assert_eq!(read["layout"]["base"], settings["base"]);
 }
