@@ -247,6 +247,15 @@ impl ClauseTable {
         }
         let length_mm = length.ok_or_else(|| wrong(at, format!("{id} needs its {}", id.length())))?;
         let tolerance_mm = millimetres(&self.tolerance_m, "tolerance_m", 0)?;
+        let (below, of) = match id.length() {
+            "cell_m" => (length_mm.div_ceil(2), "half its cell_m"),
+            "least_m" => (length_mm, "its least_m"),
+            _ => (u32::MAX, "any"),
+        };
+        if tolerance_mm >= below {
+            let why = format!("with this tolerance nothing breaks {id}: give a tolerance_m below {of}");
+            return Err(wrong(self.tolerance_m.span().start, why));
+        }
         if let Some(base) = self.base.as_ref().filter(|_| id != Id::Chain2) {
             return Err(wrong(base.span().start, format!("{id} has no base: CHAIN-2 alone has one")));
         }

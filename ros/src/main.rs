@@ -1,7 +1,6 @@
 //! The program: arguments, signals, and exit codes, which are those of `tautline`.
 
-use clap::builder::TypedValueParser;
-use clap::{Parser, value_parser};
+use clap::Parser;
 use log::{Level, LevelFilter, Log, Metadata, Record};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::fmt::Write;
@@ -43,13 +42,14 @@ struct Arguments {
     #[arg(long, value_name = "SECONDS", requires = "clause")]
     gap_s: Option<f64>,
     /// The domain of ROS.
-    #[arg(long, env = "ROS_DOMAIN_ID", default_value_t = 0, value_parser = domains())]
+    #[arg(long, env = "ROS_DOMAIN_ID", default_value_t = 0, value_parser = domain)]
     domain: u16,
 }
 
-/// The domains that there are.
-fn domains() -> impl TypedValueParser<Value = u16> {
-    value_parser!(u16).range(..=i64::from(LAST_DOMAIN))
+/// A domain; an empty variable is one that is not set, as it is for ROS.
+fn domain(text: &str) -> Result<u16, String> {
+    let number = if text.is_empty() { Some(0) } else { text.parse().ok() };
+    number.filter(|domain| *domain <= LAST_DOMAIN).ok_or(format!("domains are from 0 to {LAST_DOMAIN}"))
 }
 
 impl Arguments {

@@ -134,7 +134,7 @@ impl Watch {
         }
         let axes = (millimetres(position.x), millimetres(position.y));
         let (Some(x_mm), Some(y_mm)) = axes else { return Err("its position is no number".to_owned()) };
-        let frame = self.frame.get_or_insert_with(|| header.frame_id.clone());
+        let frame = self.frame.as_ref().unwrap_or(&header.frame_id);
         if *frame != header.frame_id {
             return Err(format!(
                 "its frame is {:?}, and positions are compared in {frame:?}",
@@ -154,6 +154,7 @@ impl Watch {
             };
             watched.moment = header.stamp.clone();
         }
+        self.frame.get_or_insert_with(|| header.frame_id.clone());
         Ok(())
     }
 

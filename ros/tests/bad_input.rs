@@ -39,6 +39,12 @@ fn a_clause_that_cannot_be_watched_is_refused_with_its_line_and_what_would_be_ri
         ("clause = 'CHAIN-3'\ncell_m = 1", ":6:", "CHAIN-3 has no cell_m: give its range_m"),
         ("clause = 'CHAIN-3'\nrange_m = nan", ":6:", "range_m is from 0.001 to 1000000 metres"),
         ("clause = 'PACK-2'\ncell_m = 1\nbase = [0, 0]", ":7:", "PACK-2 has no base"),
+        (
+            "clause = 'KIT-3'\nleast_m = 0.1",
+            ":4:",
+            "nothing breaks KIT-3: give a tolerance_m below its least_m",
+        ),
+        ("clause = 'CHAIN-2'\ncell_m = 0.2", ":4:", "give a tolerance_m below half its cell_m"),
     ] {
         let said = refused(&format!("{head}{clause}"));
         assert!(said.contains(line) && said.contains(right), "{clause}\n{said}");

@@ -138,6 +138,17 @@ fn a_message_that_cannot_be_used_changes_nothing_and_is_named_once_its_robot_is_
 }
 
 #[test]
+fn a_message_that_cannot_be_used_does_not_choose_the_frame() {
+    let mut watch = watch(2, "clause = 'CHAIN-3', range_m = 2, tolerance_m = 0");
+    let (now, garbage) = (Instant::now(), Header { frame_id: "garbage".to_owned(), ..header() });
+    watch.hear(0, &garbage, &at(1e300).position, now);
+    for robot in [0, 1] {
+        watch.hear(robot, &header(), &at(0.0).position, now);
+    }
+    assert_eq!(status(&watch).level, DiagnosticStatus::OK);
+}
+
+#[test]
 fn the_sample_and_the_configuration_of_the_page_are_taken() {
     let page = include_str!("../../docs/ros.md");
     let shown =
