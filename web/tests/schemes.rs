@@ -179,3 +179,21 @@ fn a_rule_that_is_played_by_hand_is_itself_or_refused() {
         );
     }
 }
+
+/// Agent 1 of two is done before agent 2 enters the last cell in the same team move.
+#[test]
+fn an_agent_that_is_done_too_early_is_not_said_to_leave_no_cell() {
+    let settings =
+        json!({ "scheme": "mdfs", "rule": "published", "robots": 2, "ground": ["5a"], "base": [0, 0] });
+    let mut page = Page::default();
+    let quarry = json!({ "robots": 2, "max_misses": 0 });
+    ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": quarry }));
+    while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
+    let found = ask(&mut page, &json!({ "do": "found" }));
+    let found = found["found"].as_array().expect("a list");
+    let early = found.iter().find(|one| one["clause"] == "BRICKS-4").expect("a finding");
+    let opened =
+        ask(&mut page, &json!({ "do": "open", "settings": early["settings"], "steps": 1000 })).to_string();
+    assert!(opened.contains("is done before others explore the last cells"), "{opened}");
+    assert!(!opened.contains("with 0 cells"), "{opened}");
+}
