@@ -27,6 +27,7 @@ use self::team::Team;
 use self::wider::Wider;
 use crate::decide::{Answer, Context, Decided, Evidence, Method, MethodError, RefutationPlay};
 use crate::engine::states::{self, Limits};
+use crate::engine::watchdog;
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::protocol::arrangements;
 
@@ -48,7 +49,8 @@ pub struct Act<S, A> {
     pub act: A,
     /// Where it leads.
     pub step: Step,
-    /// The possible outcomes, at least one: whether the robot goes, and its next state.
+    /// The possible outcomes, at least one: whether the robot goes, and its next state. An act that crosses a side
+    /// needs one in which the robot stays, as there may be a wall: see [`Local::is_sure`].
     pub ends: Vec<(bool, S)>,
     /// Whether it is possible only over an edge that is known to be open.
     pub needs_open: bool,
@@ -140,10 +142,11 @@ pub trait Local: Sync {
     /// by robots that are far apart, none start so.
     fn may_start(&self, robots: &[Robot<Self::State>]) -> bool;
 
-    /// A team of so many robots at its start: each tuple of which the rule speaks must be one that may start.
+    /// A team of so many robots at its start: each tuple of which the rule speaks must be one that may start. It is
+    /// asked of teams of up to [`EveryNumber::most_starts`] robots.
     fn start(&self, robots: usize) -> Vec<Robot<Self::State>>;
 
-    /// Of which tuples of so many robots the rule speaks: of all, unless it says otherwise.
+    /// Of which tuples of so many robots the rule speaks, at least one: of all, unless it says otherwise.
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
         all_tuples(robots, Self::ROBOTS)
     }
@@ -152,6 +155,13 @@ pub trait Local: Sync {
     /// were; but no run with it is called real, and no planner that is kept to the rule may do it.
     fn is_always_possible(&self, _: Self::Act) -> bool {
         true
+    }
+
+    /// Whether nothing stops a robot that does this, neither a wall nor a fault: it has met what is there before. An
+    /// act that crosses a side and is not sure is refused unless a robot may stay by it; over an edge that is known to
+    /// be open faults alone may stop it.
+    fn is_sure(&self, _: Self::Act) -> bool {
+        false
     }
 
     /// Whether a robot never leaves its cell: a base.
@@ -192,18 +202,30 @@ pub struct EveryNumber {
     pub most_robots: usize,
     /// Steps of each of these searches.
     pub most_steps: u64,
+    /// The largest team that is asked how it starts: of larger ones the start is believed. A verdict about small teams
+    /// alone has a smaller number.
+    pub most_starts: usize,
 }
 
 impl EveryNumber {
-    /// Every number of robots; teams of up to four robots, in a hundred thousand steps each.
-    pub const DEFAULT: Self = Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000 };
+    /// Every number of robots; teams of up to four robots, in a hundred thousand steps each, and starts of up to 16.
+    pub const DEFAULT: Self =
+        Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000, most_starts: 16 };
 
     /// The teams that are looked at.
     ///
     /// # Errors
-    /// [`MethodError`] if one does not start as its rule says.
+    /// [`MethodError`] if one does not start as its rule says, or a larger one whose start alone is looked at.
     fn teams<R: Local>(self, rule: &R) -> Result<Vec<Team<'_, R>>, MethodError> {
-        (R::LEAST..=self.most_robots).map(|robots| Team::new(rule, robots)).collect()
+        let most = self.most_robots.max(self.most_starts).max(R::LEAST);
+        let making = watchdog::Steps::begin();
+        let team = |robots| {
+            making.next();
+            Team::new(rule, robots)
+        };
+        let mut teams: Vec<_> = (R::LEAST..=most).map(team).collect::<Result<_, _>>()?;
+        teams.truncate((self.most_robots + 1).saturating_sub(R::LEAST));
+        Ok(teams)
     }
 
     /// An answer by this invariant; `way` is one that robots may go, if the question is open.

@@ -51,10 +51,30 @@ struct Leash {
     /// The rule has a state that it does not name.
     grows: bool,
     reach: i16,
+    slip: Slip,
 }
 
-const LEASH: Leash =
-    Leash { looks_at_present: true, is_here_alone: false, starts_apart: false, grows: false, reach: 2 };
+/// A slip of the pen in a rule.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Slip {
+    None,
+    NoState,
+    NoOutcome,
+    NoWall,
+    NoTuple,
+    OneRobotTwice,
+    StartsInNoState,
+    FifthStartsFarAway,
+}
+
+const LEASH: Leash = Leash {
+    looks_at_present: true,
+    is_here_alone: false,
+    starts_apart: false,
+    grows: false,
+    reach: 2,
+    slip: Slip::None,
+};
 
 fn apart(one: Cell, other: Cell) -> i16 {
     (one.x - other.x).abs() + (one.y - other.y).abs()
@@ -65,12 +85,17 @@ impl Local for Leash {
     type Act = Step;
 
     fn states(&self) -> Vec<u8> {
-        vec![0]
+        if self.slip == Slip::NoState { Vec::new() } else { vec![0] }
     }
 
     fn acts(&self, state: u8) -> Vec<Act<u8, Step>> {
         let next = state + u8::from(self.grows);
-        let act = |step| Act { act: step, step, ends: vec![(true, next), (false, state)], needs_open: false };
+        let ends = match self.slip {
+            Slip::NoOutcome => Vec::new(),
+            Slip::NoWall => vec![(true, next)],
+            _ => vec![(true, next), (false, state)],
+        };
+        let act = |step| Act { act: step, step, ends: ends.clone(), needs_open: false };
         Step::ALL.into_iter().map(act).collect()
     }
 
@@ -97,11 +122,19 @@ impl Local for Leash {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<u8>> {
-        in_a_row(robots, 0)
+        let mut team = in_a_row(robots, u8::from(self.slip == Slip::StartsInNoState));
+        if let (Slip::FifthStartsFarAway, Some(fifth)) = (self.slip, team.get_mut(4)) {
+            fifth.at = Cell::new(9, 9);
+        }
+        team
     }
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        chain(robots)
+        match self.slip {
+            Slip::NoTuple => Vec::new(),
+            Slip::OneRobotTwice => vec![vec![1, 1]],
+            _ => chain(robots),
+        }
     }
 }
 
@@ -139,6 +172,29 @@ fn what_is_no_local_rule_is_refused_with_the_reason() {
     );
     insta::assert_snapshot!(refusal(Leash { reach: 2_000, ..LEASH }), @"16008001 relative places are more than 4000000: let the rule look less far, or give it fewer states");
     insta::assert_snapshot!(refusal(Leash { reach: i16::MAX, ..LEASH }), @"4294836225 relative places are more than 4000000: let the rule look less far, or give it fewer states");
+}
+
+/// Each was a promise of every number of robots once that speaks of nothing, or of robots that meet no wall.
+#[test]
+fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
+    let refusal = |slip| {
+        let rule = Leash { slip, ..LEASH };
+        let refusal = decide(EveryNumber::DEFAULT, &rule).expect_err("it is refused").to_string();
+        let certificate = EveryNumber::DEFAULT.certificate(&rule).expect("an answer");
+        assert_eq!(certificate.expect_err("no certificate either").to_string(), refusal);
+        refusal
+    };
+    insta::assert_snapshot!(refusal(Slip::NoState), @"the rule names no state: the promise would be about nothing");
+    insta::assert_snapshot!(refusal(Slip::NoOutcome), @"Cross(East) in state 0 has no outcome: name at least one, or leave the act out");
+    insta::assert_snapshot!(refusal(Slip::NoWall), @"Cross(East) in state 0 crosses a side that may be a wall: name an outcome in which the robot stays, or say that the act is_sure");
+    insta::assert_snapshot!(refusal(Slip::NoTuple), @"tuples names none of 2 robots: the promise would be about nothing");
+    insta::assert_snapshot!(refusal(Slip::OneRobotTwice), @"tuples names [1, 1], which are not 2 of 2 robots");
+    insta::assert_snapshot!(refusal(Slip::StartsInNoState), @"a team of 2 starts in 1, which is none of the states of the rule");
+    insta::assert_snapshot!(refusal(Slip::FifthStartsFarAway), @"a team of 5 may not start so: [Robot { at: (0,0), state: 0, on: 0 }, Robot { at: (6,9), state: 0, on: 0 }]");
+    let reach = Invariant::of(&Leash { reach: -1, ..LEASH }).expect_err("it is refused").to_string();
+    insta::assert_snapshot!(reach, @"the promise looks -1 cells far: give 0 or more");
+    let fewer = EveryNumber { teams: "up to four robots", most_starts: 4, ..EveryNumber::DEFAULT };
+    assert_eq!(decided_by(fewer, &Leash { slip: Slip::FifthStartsFarAway, ..LEASH }).0, Verdict::Holds);
 }
 
 /// A planner that picks any acts, and a generator of its own.

@@ -14,7 +14,7 @@ use tautline_proofs::frontier::world::Rim;
 use tautline_proofs::kit::local::Two;
 use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples};
 
-use crate::local::{decide, decided, decided_by};
+use crate::local::{decide, decided_by};
 
 /// A line of the table.
 fn line<R: Local>(name: &str, rule: &R) -> String {
@@ -78,7 +78,7 @@ fn the_conditions_of_the_chain_for_every_n() {
 #[test]
 fn the_conditions_of_robots_that_keep_in_touch_for_every_n() {
     let touch = |name: &str, rule, of_nodes| {
-        let two = EveryNumber { most_robots: 2, ..EveryNumber::DEFAULT };
+        let two = EveryNumber { most_robots: 2, most_starts: 2, ..EveryNumber::DEFAULT };
         line_by(two, name, &Two { of_nodes, ..Two::in_contact(rule) })
     };
     let mut table = touch("contact", KitRule::REPAIRED, false);
@@ -142,7 +142,8 @@ struct Own<const COLOURS: u8> {
     reach: (i16, Far),
     /// Whether a robot may meet a wall.
     meets_walls: bool,
-    start: fn(usize) -> Cell,
+    /// The cell of a robot of so many.
+    start: fn(usize, usize) -> Cell,
     tuples: fn(usize) -> Vec<Vec<usize>>,
 }
 
@@ -181,7 +182,11 @@ impl<const COLOURS: u8> Local for Own<COLOURS> {
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<()>> {
-        (0..robots).map(|robot| Robot::new((self.start)(robot), ())).collect()
+        (0..robots).map(|robot| Robot::new((self.start)(robot, robots), ())).collect()
+    }
+
+    fn is_sure(&self, _: Step) -> bool {
+        !self.meets_walls
     }
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
@@ -206,7 +211,11 @@ fn leash(admits: fn(Plans<'_>) -> bool) -> Own<1> {
         keeps: |robots| is_on_leash(robots[0].at, robots[1].at),
         reach: (2, Far::Broken),
         meets_walls: true,
-        start: |robot| [(0, 0), (1, 0), (1, 1), (0, 1)].map(Cell::from)[robot % 4],
+        // In four cells, no two neighbours on the ring in one.
+        start: |robot, robots| {
+            let place = if robot + 1 == robots { robot.min(3) } else { robot % 3 };
+            [(0, 0), (1, 0), (1, 1), (0, 1)].map(Cell::from)[place]
+        },
         tuples: ring,
     }
 }
@@ -248,7 +257,7 @@ fn robots_on_a_ring_keep_their_distance_if_they_look_at_cells_and_goals() {
 #[test]
 fn a_team_that_starts_with_a_broken_promise_is_refused() {
     let right = leash(|plans| of_goals(plans) && of_cells_and_goals(plans));
-    let wrong = Own { start: |_| Cell::new(0, 0), ..right };
+    let wrong = Own { start: |_, _| Cell::new(0, 0), ..right };
     let certificate = EveryNumber::DEFAULT.certificate(&wrong).expect("an answer");
     for error in [decide(EveryNumber::DEFAULT, &wrong).map(drop), certificate.map(drop)] {
         let error = error.expect_err("two robots are in one cell").to_string();
@@ -256,7 +265,7 @@ fn a_team_that_starts_with_a_broken_promise_is_refused() {
     }
 }
 
-fn in_a_row(robot: usize) -> Cell {
+fn in_a_row(robot: usize, _: usize) -> Cell {
     Cell::new(robot as i16, 0)
 }
 
@@ -359,9 +368,11 @@ impl<const LEAST: usize> Local for Flags<LEAST> {
 
 #[test]
 fn where_two_robots_are_too_coarse_three_are_looked_at_and_else_the_question_is_open() {
-    static OPEN: Check<Flags<2>> =
-        Check::new(NamedRule::new("flags", Flags::<2>), &EveryNumber::DEFAULT, Verdict::Open, &[]);
-    assert_eq!(decided(&Flags::<3>).0, Verdict::Holds);
+    // No five robots are each within a cell of all others.
+    const FOUR: EveryNumber =
+        EveryNumber { teams: "up to four robots", most_starts: 4, ..EveryNumber::DEFAULT };
+    static OPEN: Check<Flags<2>> = Check::new(NamedRule::new("flags", Flags::<2>), &FOUR, Verdict::Open, &[]);
+    assert_eq!(decided_by(FOUR, &Flags::<3>).0, Verdict::Holds);
     assert!(!Invariant::of(&Flags::<3>).expect("a local rule").holds());
     let decision = OPEN.decide(&mut Cache::default(), &mut unwatched).expect("a local rule");
     assert_eq!((decision.verdict, decision.counterexample), (Verdict::Open, None));

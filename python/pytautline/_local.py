@@ -49,6 +49,8 @@ class LocalRule:
     """Whether robots that are farther apart keep the promise."""
     may_fail: bool = False
     """Whether a robot may be kept from going though no wall stands in its way."""
+    meets_walls: bool = True
+    """Whether a robot that goes may meet a wall: then whoever goes may stay. Without, its planner knows the layout."""
 
     def acts(self, state: Any) -> Sequence[tuple[str, Sequence[tuple[bool, Hashable]]]]:
         """Whatever a robot in this state can do: a letter of E, S, W, N or ``.``, and all that may come of it.

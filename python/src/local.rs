@@ -66,6 +66,8 @@ struct LocalScript {
     reach: i16,
     far: Far,
     is_in_a_row: bool,
+    /// Whether a robot that goes may be stopped, by a wall or a fault.
+    may_be_stopped: bool,
 }
 
 impl LocalScript {
@@ -93,6 +95,8 @@ impl LocalScript {
             reach: number(rule, "reach", 0..=MAX_REACH)?,
             far: if is_far_fine { Far::Fine } else { Far::Broken },
             is_in_a_row: attribute(rule, "in_a_row", "in_a_row, True or False")?,
+            may_be_stopped: attribute(rule, "meets_walls", "meets_walls, True or False")?
+                || attribute(rule, "may_fail", "may_fail, True or False")?,
         };
         for state in &listed {
             let number = written.script.number(py, "states", state)?;
@@ -129,7 +133,13 @@ impl LocalScript {
                 let end = |(goes, next): (bool, Bound<'_, PyAny>)| {
                     Ok((goes && step != Step::Stay, self.named(py, "acts", &next)?))
                 };
-                let ends = ends.into_iter().map(end).collect::<PyResult<_>>()?;
+                let ends: Vec<_> = ends.into_iter().map(end).collect::<PyResult<_>>()?;
+                if self.may_be_stopped && step != Step::Stay && ends.iter().all(|&(goes, _)| goes) {
+                    let what = format!("{letter} goes in every outcome, and there may be a wall");
+                    let remedy =
+                        "name an outcome (False, state) as well, or give the rule meets_walls = False";
+                    return Err(error(py, Kind::Input, what, remedy));
+                }
                 Ok(Act { act: Letter(letter), step, ends, needs_open: false })
             };
             told.into_iter().map(act).collect::<PyResult<Vec<_>>>()
@@ -224,6 +234,10 @@ impl<const ROBOTS: usize, const FAULTS: bool> Local for Posed<'_, ROBOTS, FAULTS
     fn start(&self, robots: usize) -> Vec<Robot<State>> {
         let start = Python::attach(|py| self.0.start(py, robots));
         start.unwrap_or_else(|error| self.0.script.fail(error))
+    }
+
+    fn is_sure(&self, _: Letter) -> bool {
+        !self.0.may_be_stopped
     }
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {

@@ -51,6 +51,15 @@ def test_a_wrong_rule_is_refuted_by_a_real_team():
     assert found.verdict == "refuted" and "wall" in found.counterexample
 
 
+def test_a_planner_that_knows_the_layout_meets_no_wall():
+    goes = {"acts": lambda self, state: [("E", [(True, state)]), (".", [(False, state)])]}
+    only_goals = {"admits": lambda self, plans: plans[0].to != plans[1].to}
+    with pytest.raises(InputError, match="there may be a wall"):
+        tautline.decide_every_number(changed(**goes, **only_goals))
+    found = tautline.decide_every_number(changed(meets_walls=False, **goes, **only_goals))
+    assert found.verdict == "holds"
+
+
 def test_states_and_triples_are_decided():
     class Three(Apart):
         """Never three in a cell: whoever would be the third waits."""
@@ -107,6 +116,9 @@ def test_a_rule_that_knows_where_it_is_is_refused():
         ({"acts": lambda self, state: [("X", [(True, None)])]}, RuleWrongType),
         ({"acts": lambda self, state: [("E", [])]}, RuleWrongType),
         ({"acts": lambda self, state: [("E", [(True, 7)])]}, InputError),
+        ({"acts": lambda self, state: [("E", [(True, None)])]}, InputError),
+        ({"meets_walls": "no"}, RuleWrongType),
+        ({"start": lambda self, robots: [((robot % 4, 0), None) for robot in range(robots)]}, InputError),
         ({"admits": lambda self, plans: "yes"}, RuleWrongType),
         ({"admits": lambda self, plans: 1 / 0}, RuleRaised),
         ({"keeps": lambda self, robots: True, "may_start": lambda self, robots: 1 / 0}, RuleRaised),

@@ -12,7 +12,8 @@ use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, chain};
 pub(super) const ITS_CONTACT: EveryNumber = EveryNumber { part: "contact alone", ..EveryNumber::DEFAULT };
 
 /// Chains of three.
-pub(super) const THREE: EveryNumber = EveryNumber { teams: "N = 3", most_robots: 3, ..EveryNumber::DEFAULT };
+pub(super) const THREE: EveryNumber =
+    EveryNumber { teams: "N = 3", most_robots: 3, most_starts: 3, ..EveryNumber::DEFAULT };
 
 /// The kernel keeps every plan that it returns to the relation: see `Rule::admits_plan`.
 const EVERY_PLAN: &str = "the relation, to which every plan is kept";

@@ -70,9 +70,10 @@ impl Local for Alone {
             act(&mut robot);
             Some(robot.stance())
         };
+        // What a robot cannot do is none of its acts.
         let act = |act, step, state: Option<Stance>| {
-            let ends = state.map(|state| (step != Step::Stay, state)).into_iter().collect();
-            Act { act, step, ends, needs_open: false }
+            let ends = vec![(step != Step::Stay, state?)];
+            Some(Act { act, step, ends, needs_open: false })
         };
         let own = match stance {
             Stance::Stands => Side::ALL
@@ -92,7 +93,7 @@ impl Local for Alone {
                 vec![act(Doing::Arrives, Step::Cross(side), arrives)]
             }
         };
-        [own, vec![act(Doing::Idles, Step::Stay, Some(stance))]].concat()
+        own.into_iter().chain([act(Doing::Idles, Step::Stay, Some(stance))]).flatten().collect()
     }
 
     /// A robot that looks sees another one that is in the cell, or counts as entering it, if its rule lets it look.
@@ -123,5 +124,10 @@ impl Local for Alone {
 
     fn start(&self, robots: usize) -> Vec<Robot<Stance>> {
         in_a_row(robots, Stance::Stands)
+    }
+
+    /// A robot has looked before it enters.
+    fn is_sure(&self, act: Doing) -> bool {
+        act == Doing::Arrives
     }
 }

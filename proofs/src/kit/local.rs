@@ -8,7 +8,7 @@ use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, in_a_row};
 
 /// Two robots: of more the kernel asks that sets of them hear each other.
 pub(super) const TWO: EveryNumber =
-    EveryNumber { teams: "two robots", most_robots: 2, ..EveryNumber::DEFAULT };
+    EveryNumber { teams: "two robots", most_robots: 2, most_starts: 2, ..EveryNumber::DEFAULT };
 
 /// As [`TWO`], looked at where both stand.
 pub(super) const AT_NODES: EveryNumber = EveryNumber { teams: "two robots where both stand", ..TWO };
@@ -155,6 +155,11 @@ impl Local for Two {
     fn start(&self, robots: usize) -> Vec<Robot<Step>> {
         in_a_row(robots, Step::Stay)
     }
+
+    /// Paths of a lattice are known.
+    fn is_sure(&self, act: Doing) -> bool {
+        act == Doing::Arrives
+    }
 }
 
 /// The step that a robot takes, and when it has left: a third of those that leave one after the other.
@@ -234,5 +239,9 @@ impl Local for AtEqualSpeeds {
 
     fn start(&self, robots: usize) -> Vec<Robot<Timed>> {
         in_a_row(robots, (Step::Stay, 0))
+    }
+
+    fn is_sure(&self, (act, _): (Doing, u8)) -> bool {
+        act == Doing::Arrives
     }
 }

@@ -9,6 +9,7 @@ use tautline_kernel::ground::{Cell, Step};
 use super::certificate::terms;
 use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
 use crate::decide::MethodError;
+use crate::engine::watchdog;
 use crate::protocol::combinations;
 
 /// More relative places than these are refused.
@@ -43,10 +44,15 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
     /// The set of `rule`: the first that holds of those that look as far as the promise and a little farther.
     ///
     /// # Errors
-    /// [`MethodError`] if the rule is not the same everywhere, has a state that is none of its states, looks too far,
-    /// may start with a broken promise, or may not start.
+    /// [`MethodError`] if the rule is not the same everywhere, has no state or one that is none of its states, an act
+    /// without an outcome or one that no wall stops, looks too far, may start with a broken promise, or may not start.
     pub fn of<R: Local<State = S>>(rule: &R) -> Result<Self, MethodError> {
         let (reach, far) = rule.reach();
+        MethodError::unless(reach >= 0, format_args!("the promise looks {reach} cells far: give 0 or more"))?;
+        MethodError::unless(
+            !rule.states().is_empty(),
+            "the rule names no state: the promise would be about nothing",
+        )?;
         let mut found = Self::within(rule, reach)?;
         let widest = if far == Far::Fine { reach + WIDER } else { reach };
         for window in reach + 1..=widest {
@@ -74,7 +80,7 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
     /// A shortest way of the robots of which the rule speaks from a start to where they break the promise, each place in
     /// words: what others do to them plays no part, so that no team need go so. Empty if there is none.
     pub(super) fn way_out<R: Local<State = S>>(&self, rule: &R) -> Result<Vec<String>, MethodError> {
-        let steps = Steps::of(rule);
+        let steps = Steps::of(rule)?;
         let starts = tuples(rule, self.window)?.into_iter().filter(|tuple| rule.may_start(tuple));
         let mut ways: Vec<(Tuple<S>, Option<usize>)> = starts.map(|tuple| (tuple, None)).collect();
         let mut known: FxHashSet<Tuple<S>> = ways.iter().map(|(tuple, _)| tuple.clone()).collect();
@@ -113,8 +119,10 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         // Each tuple is looked at once more when one to which it leads is gone.
         let mut before: FxHashMap<Tuple<S>, Vec<Tuple<S>>> = FxHashMap::default();
         let mut gone: Vec<Tuple<S>> = Vec::new();
-        let steps = Steps::of(rule);
+        let making = watchdog::Steps::begin();
+        let steps = Steps::of(rule)?;
         for tuple in all.iter().filter(|tuple| kept.contains(*tuple)) {
+            making.next();
             let mut is_gone = false;
             cases += steps.each(tuple, None, &mut |next| {
                 if !is_near(&next) {
@@ -137,6 +145,7 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         let mut is_left = starts.iter().any(|&start| !kept.contains(start));
         if is_fine && !is_left {
             for tuple in tuples(rule, window + AFAR)?.iter().filter(|tuple| !is_near(tuple)) {
+                making.next();
                 cases += steps.each(tuple, Some(window), &mut |next| {
                     is_left |= is_near(&next) && !kept.contains(&next);
                 })?;
@@ -254,9 +263,31 @@ struct Steps<'r, R: Local> {
 }
 
 impl<'r, R: Local> Steps<'r, R> {
-    fn of(rule: &'r R) -> Self {
-        let acts = rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
-        Self { rule, acts }
+    /// # Errors
+    /// [`MethodError`] if an act has no outcome, or only such as a wall forbids, or one in no state of the rule.
+    fn of(rule: &'r R) -> Result<Self, MethodError> {
+        let acts: FxHashMap<_, Vec<_>> =
+            rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
+        for (state, act) in acts.iter().flat_map(|(state, acts)| acts.iter().map(move |act| (state, act))) {
+            let what = || format!("{:?} in state {state:?}", act.act);
+            MethodError::unless(
+                !act.ends.is_empty(),
+                format_args!("{} has no outcome: name at least one, or leave the act out", what()),
+            )?;
+            if let Some((_, next)) = act.ends.iter().find(|(_, next)| !acts.contains_key(next)) {
+                return Err(MethodError::new(format_args!("{next:?} is none of the states of the rule")));
+            }
+            let may_stay = act.step == Step::Stay || act.ends.iter().any(|&(goes, _)| !goes);
+            MethodError::unless(
+                may_stay || act.needs_open && !R::FAULTS || rule.is_sure(act.act),
+                format_args!(
+                    "{} crosses a side that may be a wall: name an outcome in which the robot stays, or say that \
+                     the act is_sure",
+                    what()
+                ),
+            )?;
+        }
+        Ok(Self { rule, acts })
     }
 
     /// Visits every tuple to which one step of a tuple may lead, as seen from its first robot then, and returns how many
@@ -286,12 +317,7 @@ impl<'r, R: Local> Steps<'r, R> {
                     let acts = picked.iter().map(|act| act.step).zip(aims.iter().copied());
                     let after =
                         tuple.iter().zip(acts).zip(ends).map(|((robot, act), end)| robot.after(act, end));
-                    let next: Vec<_> = after.collect();
-                    if let Some(robot) = next.iter().find(|robot| !self.acts.contains_key(&robot.state)) {
-                        let why = format!("{:?} is none of the states of the rule", robot.state);
-                        return Err(MethodError::new(why));
-                    }
-                    visit(relative(&next));
+                    visit(relative(&after.collect::<Vec<_>>()));
                 }
             }
         }

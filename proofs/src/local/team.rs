@@ -73,6 +73,26 @@ impl<'r, R: Local> Team<'r, R> {
             );
             return Err(MethodError::new(why));
         }
+        if let Some(robot) = team.start.iter().find(|robot| !rule.states().contains(&robot.state)) {
+            let why = format!(
+                "a team of {robots} starts in {:?}, which is none of the states of the rule",
+                robot.state
+            );
+            return Err(MethodError::new(why));
+        }
+        let is_none = |tuple: &&Vec<usize>| {
+            let is_wrong =
+                |(place, robot): (usize, &usize)| *robot >= robots || tuple[..place].contains(robot);
+            tuple.len() != R::ROBOTS || tuple.iter().enumerate().any(is_wrong)
+        };
+        if let Some(tuple) = team.tuples.iter().find(is_none) {
+            let why = format!("tuples names {tuple:?}, which are not {} of {robots} robots", R::ROBOTS);
+            return Err(MethodError::new(why));
+        }
+        if team.tuples.is_empty() && robots >= R::ROBOTS {
+            let why = format!("tuples names none of {robots} robots: the promise would be about nothing");
+            return Err(MethodError::new(why));
+        }
         let may_not = |tuple: &Vec<RobotOf<R>>| !rule.may_start(tuple) || !promised(rule, tuple);
         match team.tuples.iter().map(|tuple| seen(tuple, &team.start)).find(may_not) {
             Some(tuple) => {

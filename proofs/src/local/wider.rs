@@ -82,6 +82,10 @@ impl<R: Local> Local for Wider<'_, R> {
         self.rule.is_always_possible(act)
     }
 
+    fn is_sure(&self, act: R::Act) -> bool {
+        self.rule.is_sure(act)
+    }
+
     fn is_fixed(&self, robot: usize) -> bool {
         self.rule.is_fixed(robot)
     }
