@@ -114,11 +114,11 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// A counterexample, or `shown` if everything was looked at; else the question is open.
+    /// A counterexample, or `shown` if everything was looked at, and that was not nothing; else the question is open.
     pub fn new(counterexample: Option<Evidence>, is_whole: bool, shown: Verdict, cases: u64) -> Self {
         let verdict = match counterexample {
             Some(_) => Verdict::Refuted,
-            None if is_whole => shown,
+            None if is_whole && cases > 0 => shown,
             None => Verdict::Open,
         };
         Self { verdict, cases, given_up: 0, counterexample, note: None }
@@ -485,6 +485,7 @@ where
     /// The choices are the number of the start, and those of the steps.
     fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> Decided {
         let system = (self.system)(rule);
+        states::repeats(&system, (self.starts)(&system)).map_err(MethodError::new)?;
         let limits = Limits { most_steps: self.most_steps.into(), room: context.room };
         let found = states::search(&system, (self.starts)(&system), limits);
         let evidence = found.broken.first().map(|run| Evidence {

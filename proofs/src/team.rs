@@ -270,13 +270,28 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// A team that follows `rule` in it; of its demands those are looked at that are `wanted`, or all if none is.
     ///
     /// # Errors
-    /// [`MethodError`] as of [`Self::starts`], or if there is no start.
+    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand.
     pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
         let starts = self.starts(rule)?;
         let start =
             starts.into_iter().next().ok_or_else(|| MethodError::new("there is no layout to start in"))?;
-        let all = || (0..self.demands.len()).map(Promise).collect();
-        let wanted = if wanted.is_empty() { all() } else { wanted.to_vec() };
+        self.playing_from(rule, wanted, start)
+    }
+
+    /// A team as of [`Self::playing`] that begins so.
+    fn playing_from(
+        &'a self,
+        rule: &R,
+        wanted: &[Promise],
+        start: Scene<R>,
+    ) -> Result<TeamWorld<'a, R>, MethodError> {
+        let demands = self.demands.len();
+        if let Some(Promise(none)) = wanted.iter().find(|promise| promise.0 >= demands) {
+            return Err(MethodError::new(format_args!(
+                "there is no demand {none}: the setting has {demands}"
+            )));
+        }
+        let wanted = if wanted.is_empty() { (0..demands).map(Promise).collect() } else { wanted.to_vec() };
         Ok(TeamWorld { setting: self, rule: rule.clone(), wanted, start })
     }
 

@@ -30,3 +30,4 @@ mod smallest;
 mod teams;
 mod trap;
 mod trees;
+mod unsound;

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use tautline_proofs::clause::{AnyCheck, Check, Clause, NamedRule};
 use tautline_proofs::decide::{MethodError, RandomRuns, Verdict};
 use tautline_proofs::engine::Choices;
-use tautline_proofs::engine::states::{Limits, Unrepeatable};
+use tautline_proofs::engine::states::{Limits, Unsound};
 use tautline_proofs::protocol::Keeps;
 use tautline_sim::counterexample::refutation::{self, Meant};
 
@@ -222,7 +222,7 @@ fn decide(
 
 /// The exception of a rule whose states cannot be searched.
 fn refused(py: Python<'_>, script: &StateScript, why: &MethodError) -> PyErr {
-    if why.to_string() == Unrepeatable.to_string() {
+    if why.to_string() == Unsound::Unrepeatable.to_string() {
         return script.script.not_pure(py);
     }
     let remedy = "let alike return only states with the same moves of the same actors, in the same words, to states that \

@@ -33,7 +33,8 @@ pub use walk::{walk, without_detours};
 
 use super::bodies::Odometer;
 use super::script::Choices;
-use super::world::{Turn, World};
+use super::watchdog;
+use super::world::{MOST_COVERS, Turn, World};
 
 /// A set of at most sixteen things, one bit each.
 pub type Bits = u16;
@@ -180,13 +181,35 @@ pub fn is_same<S: System>(system: &S, one: &S::State, other: &S::State) -> bool 
     walk::kept(system, one) == walk::kept(system, other)
 }
 
-/// A rule whose steps are not a function of their state.
+/// Why no search of a system can be believed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Unrepeatable;
+pub enum Unsound {
+    /// More than [`MOST_COVERS`] situations must occur.
+    TooManyCovers,
+    /// Steps are not a function of their state.
+    Unrepeatable,
+    /// A state that is taken apart and put together again is another one.
+    Torn,
+    /// A state and the one that stands for it have other steps, or that is not the one that stands for itself.
+    Unlike,
+}
 
-impl fmt::Display for Unrepeatable {
+impl fmt::Display for Unsound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("from one state a step led to two: a rule may depend on nothing but its arguments")
+        f.write_str(match self {
+            Self::TooManyCovers => "more than 64 situations must occur: no more can be told apart",
+            Self::Unrepeatable => {
+                "from one state a step led to two: a rule may depend on nothing but its arguments"
+            }
+            Self::Torn => {
+                "a state that is taken apart and put together again goes on in another way: `part` and `put`, or \
+                 `write` and `read`, must leave nothing out"
+            }
+            Self::Unlike => {
+                "a state and the one that `make_canonical` makes of it go on in other ways, or it makes another one of \
+                 that: only states that are alike may be taken for one"
+            }
+        })
     }
 }
 
@@ -198,8 +221,10 @@ pub(crate) fn first_states<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
 ) -> impl Iterator<Item = S::State> {
+    let making = watchdog::Steps::begin();
     let mut ahead: VecDeque<S::State> = starts.into_iter().take(TRIED).collect();
     let next = move || {
+        making.next();
         let state = ahead.pop_front()?;
         let room = TRIED.saturating_sub(ahead.len());
         ahead.extend(steps(system, &state).map(|step| step.state).take(room));
@@ -208,21 +233,45 @@ pub(crate) fn first_states<S: System>(
     iter::from_fn(next).take(TRIED)
 }
 
-/// Makes the steps from the first few states twice, and compares them.
+/// Makes the steps from the first few states again, also once they are put together in the place of another state, and
+/// from those that stand for them, and compares them.
 ///
 /// # Errors
-/// [`Unrepeatable`] if they differ: no search can be believed then.
-pub fn repeats<S: System>(
-    system: &S,
-    starts: impl IntoIterator<Item = S::State>,
-) -> Result<(), Unrepeatable> {
-    let differs = |state: S::State| {
-        let [first, again] =
-            [(); 2].map(|()| steps(system, &state).map(|step| step.state).collect::<Vec<_>>());
-        let are_same = |(one, other): (&S::State, &S::State)| is_same(system, one, other);
-        first.len() != again.len() || !first.iter().zip(&again).all(are_same)
+/// [`Unsound`] if they differ, or too many situations must occur.
+pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>) -> Result<(), Unsound> {
+    let of_step = |step: Step<S>| (walk::kept(system, &step.state), step.is_bound, step.breaks);
+    let outlook = |state: &S::State| steps(system, state).map(of_step).collect::<Vec<_>>();
+    let canonical = |state: &S::State| {
+        let mut state = state.clone();
+        system.make_canonical(&mut state);
+        state
     };
-    if first_states(system, starts).any(differs) { Err(Unrepeatable) } else { Ok(()) }
+    if system.covers().len() > MOST_COVERS {
+        return Err(Unsound::TooManyCovers);
+    }
+    let mut before: Option<S::State> = None;
+    for state in first_states(system, starts) {
+        let (own, first) = (canonical(&state), outlook(&state));
+        if first != outlook(&state) {
+            return Err(Unsound::Unrepeatable);
+        }
+        let of_own = outlook(&own);
+        let breaks =
+            |outlook: &[(_, _, Vec<_>)]| outlook.iter().map(|(_, _, breaks)| breaks.len()).sum::<usize>();
+        let are_alike = first.len() == of_own.len() && breaks(&first) == breaks(&of_own);
+        if !are_alike || !is_same(system, &own, &canonical(&own)) {
+            return Err(Unsound::Unlike);
+        }
+        if let Some(mut other) = before.replace(own) {
+            let (parts, bytes) = before.as_ref().map(|own| walk::kept(system, own)).unwrap_or_default();
+            system.read(&mut other, &bytes);
+            parts.iter().enumerate().for_each(|(place, part)| system.put(&mut other, place, part));
+            if outlook(&other) != of_own {
+                return Err(Unsound::Torn);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The situation in which a run ends.

@@ -45,7 +45,7 @@ pub trait World {
         Vec::new()
     }
 
-    /// The situations that must occur, at most 64 of them.
+    /// The situations that must occur, at most [`MOST_COVERS`] of them.
     fn covers(&self) -> Vec<&'static str> {
         Vec::new()
     }
@@ -82,6 +82,9 @@ pub fn any_of<T>(all: Vec<T>) -> Option<Vec<T>> {
 pub fn picked<T: Clone>(all: &[T], world: &mut impl Oracle) -> T {
     all[world.pick(all.len() as u32) as usize].clone()
 }
+
+/// The most situations that can be said to occur: each has a bit.
+pub const MOST_COVERS: usize = u64::BITS as usize;
 
 /// The bit of `situation` among those that must occur; none if it is none of them.
 pub fn bit(covers: &[&str], situation: &str) -> u64 {

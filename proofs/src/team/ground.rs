@@ -88,12 +88,24 @@ impl Ground {
     /// Every layout as it is known before a run begins.
     ///
     /// # Errors
-    /// [`MethodError`] if the area is too large, or there are too many layouts.
+    /// [`MethodError`] if the area is too large, a given wall or blocked cell is outside, or layouts are too many.
     pub(super) fn maps(&self) -> Result<Vec<Map>, MethodError> {
         let area = self.area().ok_or_else(|| MethodError::new("the area holds no cell"))?;
         let blank = Map::new(area).ok_or_else(|| MethodError::new("an area has at most 16×16 cells"))?;
         let edges: Vec<Edge> = area.edges().collect();
         let cells: Vec<Cell> = area.cells().collect();
+        if let Which::These(these) = self.obstacles
+            && let Some(outside) = these.iter().find(|cell| !cells.contains(cell))
+        {
+            return Err(MethodError::new(format_args!("the blocked cell {outside} is outside of the area")));
+        }
+        if let Which::These(these) = self.walls
+            && let Some(outside) = these.iter().find(|edge| !edges.contains(edge))
+        {
+            let (one, other) = (outside.cell(), outside.cell().beyond(outside.side()));
+            let why = format_args!("the wall {one}|{other} is between no two cells of the area");
+            return Err(MethodError::new(why));
+        }
         let mut maps = Vec::new();
         for walls in sets(&edges, self.walls)? {
             for blocked in sets(&cells, self.obstacles)? {

@@ -121,7 +121,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
     }
 
     fn in_tree(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided {
-        let playing = self.0.playing(rule, &[])?;
+        let playing = self.0.playing(rule, &[Promise(self.1)])?;
         let start = playing.start.clone();
         states::repeats(&playing, [start.clone()]).map_err(MethodError::new)?;
         let found = self.found(rule, until, context)?;
@@ -138,7 +138,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         let Some(start) = starts.first().cloned() else {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
         };
-        let playing = TeamWorld { setting: self.0, rule: rule.clone(), wanted: vec![Promise(self.1)], start };
+        let playing = self.0.playing_from(rule, &[Promise(self.1)], start)?;
         states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
         let limits = states::Limits { room: context.room, ..states::Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
@@ -194,6 +194,7 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
 
     fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
         let demand = Promise(self.1);
+        let playing = self.0.playing(rule, &[demand])?;
         Ok(vec![match self.0.strategy() {
             Strategy::Tree => {
                 Box::new(AllRuns::new(Box::new(self.0.search(rule, Until::Exhausted, &[])?), demand))
@@ -201,7 +202,7 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             Strategy::States => {
                 let starts =
                     |playing: &TeamWorld<'_, R>| playing.setting.starts(&playing.rule).unwrap_or_default();
-                Box::new(Started::new(self.0.playing(rule, &[demand])?, starts))
+                Box::new(Started::new(playing, starts))
             }
         }])
     }
