@@ -81,6 +81,43 @@ fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
     assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7");
 }
 
+/// A number that grows beyond its byte, long after the states that are tried first.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Grows;
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Wide(u16);
+
+impl Compact for Wide {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.0.min(900).write(to);
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        Self(u16::read(from))
+    }
+}
+
+impl Protocol for Grows {
+    type Bound = Starts;
+    type State = Wide;
+    demands! { always "it is below 1000", |_, _, _, number| number.0 < 1000; }
+
+    fn starts(&self, _: &Starts) -> impl IntoIterator<Item = Wide> {
+        [Wide(0)]
+    }
+
+    fn moves(&self, _: &Starts, &Wide(number): &Wide) -> Vec<Move<Wide>> {
+        vec![Move::of(0, "doubles", Wide(2 * number % 1009)), Move::of(0, "grows", Wide(number + 1))]
+    }
+}
+
+#[test]
+fn a_state_that_is_lost_deep_in_a_search_is_refused() {
+    let refused = refused(&Grows, Starts::of(1), 0);
+    assert!(refused.ends_with("does not come back from its bytes"), "{refused}");
+}
+
 /// A robot that stays where it is.
 #[derive(Clone, Copy)]
 struct Stays;

@@ -107,8 +107,14 @@ impl<S> Move<S> {
 }
 
 /// The set of these, a bit for each.
+///
+/// # Panics
+/// If one is above 15.
 pub fn set(members: impl IntoIterator<Item = usize>) -> Bits {
-    members.into_iter().fold(0, |set, member| set | 1 << member)
+    members.into_iter().fold(0, |set, member| {
+        assert!(member < Bits::BITS as usize, "a set has members from 0 to 15, not {member}");
+        set | 1 << member
+    })
 }
 
 /// Every way to put so many of these in a row, none of them twice, the last one changing first.

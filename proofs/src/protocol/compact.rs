@@ -176,6 +176,15 @@ macro_rules! compact {
         $crate::compact! { $name: $($variant),* }
     };
     ($name:ident: $($variant:ident),*) => {
+        const _: () = {
+            let mut number = 0;
+            $(
+                assert!($name::$variant as usize == number, "give the words in the order of the enum, numbered from 0");
+                number += 1;
+            )*
+            assert!(number <= 256, "an enum has at most 256 words");
+        };
+
         impl $crate::protocol::Compact for $name {
             fn write(&self, to: &mut Vec<u8>) {
                 to.push(*self as u8);

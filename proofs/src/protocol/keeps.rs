@@ -1,6 +1,7 @@
 //! A check that a protocol keeps a demand within its bound. Each of the surroundings is searched by itself, since no
 //! state of one is a state of another: so a check can be divided, and counts are the same however it is.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tautline_kernel::choice::Oracle;
@@ -32,7 +33,7 @@ impl<P: Protocol> Keeps<P> {
         let none = || MethodError::new(format_args!("there is no demand {}", self.1));
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
         let each = self.0.each()?.into_iter();
-        Ok(each.map(|here| Playing { rule: rule.clone(), here, demand }).collect())
+        Ok(each.map(|here| Playing { rule: rule.clone(), here, demand, lost: OnceLock::new() }).collect())
     }
 
     /// The states, and the shortest run that breaks the demand if there is one.
@@ -89,8 +90,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         let found = searched(&all, portion, until, limits, rayon::current_num_threads())?;
         let evidence = found.broken.first().and_then(|run| evidence(&all, run));
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
-        let is_whole = found.is_whole && is_covered && found.states > 0;
-        Ok(Answer::new(evidence, is_whole, self.shows(), found.states))
+        Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
     }
 
     /// Surroundings without a start are left out, unless there are no others.
@@ -208,7 +208,8 @@ fn searched<P: Protocol>(
         let found = each_of(places, at_once, |place| {
             all[place].search(Limits { room: limits.room.of_search(place), ..limits }, each)
         });
-        for (&place, mut found) in places.iter().zip(found) {
+        for (&place, found) in places.iter().zip(found) {
+            let mut found = found?;
             if let Some(run) = found.broken.pop()
                 && shortest.as_ref().is_none_or(|(_, other)| run.length() < other.length())
             {

@@ -2,12 +2,13 @@
 
 use std::mem;
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 
 use tautline_kernel::choice::Oracle;
 
 use super::{Compact, Demand, Move, Protocol, Surroundings, When, beside};
 use crate::decide::{Depiction, Evidence, MethodError};
-use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System};
+use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System, Unsound};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 
 /// A protocol in its surroundings, of whose demands one is looked at.
@@ -15,6 +16,8 @@ pub(super) struct Playing<P: Protocol> {
     pub(super) rule: P,
     pub(super) here: Surroundings<P>,
     pub(super) demand: &'static Demand<P>,
+    /// A state that did not come back from its bytes.
+    pub(super) lost: OnceLock<P::State>,
 }
 
 impl<P: Protocol> World for Playing<P> {
@@ -98,13 +101,17 @@ impl<P: Protocol> System for Playing<P> {
         }
     }
 
-    /// Takes the moves as they are, without a copy of each.
+    /// Takes the moves as they are, without a copy of each. The state to which the first one leads is read again from
+    /// its bytes; in a debug build each is.
     fn each_step<B>(
         &self,
         state: &P::State,
         mut take: impl FnMut(Step<Self, &mut P::State>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        self.moves(state).into_iter().try_for_each(|Move { actors, words, mut to }| {
+        self.moves(state).into_iter().enumerate().try_for_each(|(number, Move { actors, words, mut to })| {
+            if (number == 0 || cfg!(debug_assertions)) && is_lost(&to) {
+                self.lost.get_or_init(|| to.clone());
+            }
             let breaks = self.broken_between(state, &to);
             let (occurs, is_bound) = (bit(P::COVERS, words), actors != 0);
             let event = (actors, words);
@@ -218,20 +225,33 @@ impl<P: Protocol> Playing<P> {
     /// # Errors
     /// [`MethodError`] if it cannot.
     pub(super) fn is_sound(&self) -> Result<(), MethodError> {
-        states::repeats(self, self.starts()).map_err(MethodError::new)?;
         self.comes_back()?;
-        self.is_symmetric()
+        match states::repeats(self, self.starts()) {
+            // Which states are not alike is said below.
+            Ok(()) | Err(Unsound::Unlike) => self.is_symmetric(),
+            Err(why) => Err(MethodError::new(why)),
+        }
     }
 
     /// The findings of a search of all states here.
-    pub(super) fn search(&self, limits: Limits<'_>, workers: usize) -> Findings<&'static str> {
+    ///
+    /// # Errors
+    /// [`MethodError`] if a state did not come back from its bytes.
+    pub(super) fn search(
+        &self,
+        limits: Limits<'_>,
+        workers: usize,
+    ) -> Result<Findings<&'static str>, MethodError> {
         let mut found = states::search_together(self, self.starts(), limits, workers);
+        if let Some(state) = self.lost.get() {
+            return Err(self.why_lost(state));
+        }
         for run in &mut found.broken {
             if let Some(start) = self.starts().nth(run.start) {
                 *run = self.unfolded(&start, run.clone());
             }
         }
-        found
+        Ok(found)
     }
 
     /// Whether the first few states come back from their bytes.
@@ -239,15 +259,14 @@ impl<P: Protocol> Playing<P> {
     /// # Errors
     /// [`MethodError`] if one does not: two states might be taken for one.
     fn comes_back(&self) -> Result<(), MethodError> {
-        let first = |state: P::State| {
-            let next: Vec<P::State> = self.moves(&state).into_iter().map(|next| next.to).collect();
-            next.into_iter().chain([state])
-        };
-        let differs = |state: &P::State| P::State::read(&mut &bytes(state)[..]) != *state;
-        self.starts().take(states::TRIED).flat_map(first).find(differs).map_or(Ok(()), |state| {
-            let state = self.rule.words(&state);
-            Err(MethodError::new(format_args!("the state {state} does not come back from its bytes")))
-        })
+        states::first_states(self, self.starts())
+            .find(is_lost)
+            .map_or(Ok(()), |state| Err(self.why_lost(&state)))
+    }
+
+    fn why_lost(&self, state: &P::State) -> MethodError {
+        let state = self.rule.words(state);
+        MethodError::new(format_args!("the state {state} does not come back from its bytes"))
     }
 
     pub(super) fn evidence(&self, start: &P::State, run: &states::Run<&'static str>) -> Evidence {
@@ -274,6 +293,11 @@ impl<P: Protocol> Playing<P> {
         };
         Depiction::Story(beside(&frames) + end)
     }
+}
+
+/// Whether a state does not come back from its bytes.
+fn is_lost<S: Compact + Eq>(state: &S) -> bool {
+    S::read(&mut &bytes(state)[..]) != *state
 }
 
 fn bytes(state: &impl Compact) -> Vec<u8> {
