@@ -234,7 +234,14 @@ impl Judge {
             Kind::Joined => {
                 Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Joining::JoinedAtStart }
             }
-            Kind::Apart => Demand::Apart { least_mm: milli(self.least.unwrap_or(KIT_LEAST)) },
+            Kind::Apart => {
+                let least_mm = milli(self.least.unwrap_or(KIT_LEAST));
+                if limits.tolerance_mm >= least_mm {
+                    let what = format!("with this tolerance no distance breaks {id}");
+                    return Err(Diagnostic::usage(what, "give a --tolerance below --least"));
+                }
+                Demand::Apart { least_mm }
+            }
             Kind::Crowd { most, is_base_free } => {
                 given.check_cells(id, limits)?;
                 let base = is_base_free.then(|| given.base(tracks).ok_or_else(|| self.no_base(id)));

@@ -144,6 +144,7 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
         ("field.csv --clauses CHAIN-3 --origin 1,1", "--origin has no effect"),
         ("field.csv --clauses PACK-2 --map open:9x9 --base 1,1", "--base has no effect"),
         ("field.csv --clauses CHAIN-2 --tolerance 0.5", "give a --tolerance below half a --cell"),
+        ("field.csv --clauses KIT-3 --tolerance 3", "give a --tolerance below --least"),
         ("field.csv --clauses CHAIN-2 --map field.csv", "field.csv:1"),
         ("field.csv --clauses CHAIN-2 --map open:9x9 --base 9,9", "the base 9,9 is outside"),
         ("field.csv --clauses PACK-2 --origin=NaN,0", "write metres from -1000000 to 1000000"),
