@@ -249,7 +249,10 @@ fn text(setting: &Setting, report: &Report) -> String {
     columns.row(["metres", "median", "95th percentile", "root mean square"]);
     let row = |name: &str, errors: &Errors| {
         let Errors { of, interval } = errors;
-        let cell = |number: f64, [least, most]: [f64; 2]| format!("{number:.3} [{least:.3}, {most:.3}]");
+        let cell = |number: f64, interval: Option<[f64; 2]>| {
+            let ends = interval.map_or_else(String::new, |[least, most]| format!(" [{least:.3}, {most:.3}]"));
+            format!("{number:.3}{ends}")
+        };
         [
             name.to_owned(),
             cell(of.median, interval.median),

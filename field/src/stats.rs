@@ -163,15 +163,17 @@ fn student(degrees_of_freedom: u32) -> f64 {
 }
 
 /// The value below which a share of `sorted` lies, and its 95 % interval: the ranks between which the true one is with
-/// that probability, whatever the distribution. 0 of nothing.
-pub fn quantile(sorted: &[f64], share: f64) -> (f64, [f64; 2]) {
+/// that probability, whatever the distribution. Values that may all lie on one side of it give none. 0 of nothing.
+pub fn quantile(sorted: &[f64], share: f64) -> (f64, Option<[f64; 2]>) {
     let count = f64::from(u32::try_from(sorted.len()).unwrap_or(u32::MAX));
     let at = |rank: f64| {
         let place = rank.clamp(1.0, count.max(1.0)) as usize - 1;
         sorted.get(place).copied().unwrap_or(0.0)
     };
     let margin = NORMAL * (count * share * (1.0 - share)).sqrt();
-    (at((count * share).ceil()), [at((count * share - margin).floor()), at((count * share + margin).ceil())])
+    let are_enough = share.max(1.0 - share).powf(count) <= 0.025;
+    let interval = || [at((count * share - margin).floor()), at((count * share + margin).ceil())];
+    (at((count * share).ceil()), are_enough.then(interval))
 }
 
 /// Rounded to two decimals.
@@ -213,6 +215,15 @@ mod tests {
             assert!((student(degrees) - quantile).abs() <= 0.005_5, "{degrees}: {}", student(degrees));
         }
         assert_eq!([60, 199, 1_000, u32::MAX].map(student).map(rounded), [20_000, 19_700, 19_600, 19_600]);
+    }
+
+    #[test]
+    fn a_few_values_have_no_interval_of_a_quantile() {
+        let sorted: Vec<f64> = (1..=72).map(f64::from).collect();
+        for (share, least) in [(0.5, 6), (0.95, 72)] {
+            assert_eq!(super::quantile(&sorted[..least - 1], share).1, None);
+            assert!(super::quantile(&sorted[..least], share).1.is_some());
+        }
     }
 
     #[test]

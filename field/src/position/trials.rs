@@ -156,8 +156,8 @@ pub struct Errors {
     /// The numbers.
     #[serde(flatten)]
     pub of: Quantiles<f64>,
-    /// Their 95 % intervals.
-    pub interval: Quantiles<[f64; 2]>,
+    /// Their 95 % intervals; of few distances there are none.
+    pub interval: Quantiles<Option<[f64; 2]>>,
 }
 
 /// How many cells a floor can have from side to side, so that an error of the 99th percentile leaves a robot in its
@@ -199,9 +199,9 @@ impl Errors {
         let root = |square: f64| decimals(square.max(0.0).sqrt(), PARTS);
         let [median, p95] = [0.5, 0.95].map(|share| {
             let (at, interval) = quantile(&distances_m, share);
-            (decimals(at, PARTS), interval.map(|end| decimals(end, PARTS)))
+            (decimals(at, PARTS), interval.map(|ends| ends.map(|end| decimals(end, PARTS))))
         });
-        let rms = (root(square.mean), square.interval.unwrap_or([square.mean; 2]).map(root));
+        let rms = (root(square.mean), square.interval.map(|ends| ends.map(root)));
         Self {
             of: Quantiles { median: median.0, p95: p95.0, rms: rms.0 },
             interval: Quantiles { median: median.1, p95: p95.1, rms: rms.1 },

@@ -84,7 +84,7 @@ pub struct CoursePoint {
     /// The median distance to the optimum, in metres, and its 95 % interval.
     pub optimum_m: f64,
     /// That interval.
-    pub interval_m: [f64; 2],
+    pub interval_m: Option<[f64; 2]>,
     /// The share of runs that are less than 5 cm from it.
     pub below_5_cm: Estimate,
     /// The median distance to where the robot is, in metres.
@@ -162,8 +162,9 @@ impl Table for LocateConvergence {
             "{PARTICLES} particles, medians of {} positions, noise {} dB, exponent {}, seed {}; after iterations:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
         );
-        let optimum = |CoursePoint { optimum_m, interval_m: [least, most], .. }: CoursePoint| {
-            format!("{:.1} [{:.1}, {:.1}]", 1e3 * optimum_m, 1e3 * least, 1e3 * most)
+        let optimum = |CoursePoint { optimum_m, interval_m, .. }: CoursePoint| {
+            let ends = |[least, most]: [f64; 2]| format!(" [{:.1}, {:.1}]", 1e3 * least, 1e3 * most);
+            format!("{:.1}{}", 1e3 * optimum_m, interval_m.map_or_else(String::new, ends))
         };
         let parts: [(&str, &dyn Fn(CoursePoint) -> String); 3] = [
             ("distance to the optimum, mm", &optimum),
@@ -203,7 +204,7 @@ impl Table for LocateConvergence {
         let point = |after: &CoursePoint| chart::Point {
             x: after.iterations.into(),
             y: 1e2 * after.optimum_m,
-            interval: Some(after.interval_m.map(|end| 1e2 * end)),
+            interval: after.interval_m.map(|ends| ends.map(|end| 1e2 * end)),
         };
         let series = |one: &Variant| Series::measured(one.reading, one.course.after.iter().map(point));
         let title = format!("Particles on their way to the optimum, noise {} dB", settings.noise_db);
@@ -268,7 +269,7 @@ fn after(
     Ok(CoursePoint {
         iterations: parameters.iterations,
         optimum_m: decimals(optimum_m, 1e6),
-        interval_m: interval_m.map(|end| decimals(end, 1e6)),
+        interval_m: interval_m.map(|ends| ends.map(|end| decimals(end, 1e6))),
         below_5_cm: rounded(below, 1e4),
         error_m: decimals(quantile(&to_robot, 0.5).0, 1e4),
     })

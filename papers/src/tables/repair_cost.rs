@@ -96,8 +96,8 @@ pub struct Comparison {
     pub repaired: f64,
     /// The mean of repaired less published.
     pub difference: f64,
-    /// Half the width of its 95 % interval.
-    pub margin: f64,
+    /// Half the width of its 95 % interval; one pair gives none.
+    pub margin: Option<f64>,
 }
 
 /// Runs that break a clause.
@@ -223,7 +223,10 @@ fn compared(title: &str, lines: &[Line], number: impl Fn(&Line) -> &Comparison) 
         .left("density", 7, |(density, _)| density)
         .right("published", 9, |(_, both)| format!("{:.2}", both.published))
         .right("repaired", 9, |(_, both)| format!("{:.2}", both.repaired))
-        .right("difference", 15, |(_, both)| format!("{:+.2} ± {:.2}", both.difference, both.margin))
+        .right("difference", 15, |(_, both)| {
+            let margin = both.margin.map_or_else(String::new, |margin| format!(" ± {margin:.2}"));
+            format!("{:+.2}{margin}", both.difference)
+        })
         .right("layouts", 7, |(_, both)| both.pairs)
         .right("left out", 8, |(_, both)| both.left_out)
         .text()
@@ -311,17 +314,16 @@ impl PairMoments {
         }
     }
 
-    /// Without pairs everything is 0, and of one pair the margin.
+    /// Without pairs everything is 0.
     fn comparison(self, layouts: u32) -> Comparison {
         let mean = |moments: Moments| hundredths(moments.estimate().map_or(0.0, |estimate| estimate.mean));
-        let margin = self.difference.estimate().and_then(Estimate::margin);
         Comparison {
             pairs: self.difference.count(),
             left_out: layouts - self.difference.count(),
             published: mean(self.published),
             repaired: mean(self.repaired),
             difference: mean(self.difference),
-            margin: hundredths(margin.unwrap_or(0.0)),
+            margin: self.difference.estimate().and_then(Estimate::margin).map(hundredths),
         }
     }
 }

@@ -35,16 +35,16 @@ impl Judgement {
 /// How far from a figure of a paper ours may be to be the same: a tenth of it. No paper gives a number.
 const SAME: f64 = 0.1;
 
-/// Whether `ours` is the figure `paper`, by its whole 95 % interval.
+/// Whether `ours` is the figure `paper`, by its whole 95 % interval; without one that is open.
 pub(super) fn same(paper: f64, ours: Estimate) -> Verdict {
-    let [low, high] = ours.interval.unwrap_or([ours.mean, ours.mean]);
+    let Some([low, high]) = ours.interval else { return Verdict::Open };
     let [least, most] = [paper - SAME * paper.abs(), paper + SAME * paper.abs()];
     Verdict::decided(least <= low && high <= most, high < least || most < low)
 }
 
-/// Whether a figure is at least so much, by its whole 95 % interval.
+/// Whether a figure is at least so much, by its whole 95 % interval; without one that is open.
 pub(super) fn at_least(least: f64, ours: Estimate) -> Verdict {
-    let [low, high] = ours.interval.unwrap_or([ours.mean; 2]);
+    let Some([low, high]) = ours.interval else { return Verdict::Open };
     Verdict::decided(low >= least, high < least)
 }
 

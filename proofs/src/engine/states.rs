@@ -265,7 +265,9 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
         if let Some(mut other) = before.replace(own) {
             let (parts, bytes) = before.as_ref().map(|own| walk::kept(system, own)).unwrap_or_default();
             system.read(&mut other, &bytes);
-            parts.iter().enumerate().for_each(|(place, part)| system.put(&mut other, place, part));
+            for (place, part) in parts.iter().enumerate() {
+                system.put(&mut other, place, part);
+            }
             if outlook(&other) != of_own {
                 return Err(Unsound::Torn);
             }
