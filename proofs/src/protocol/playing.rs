@@ -225,12 +225,13 @@ impl<P: Protocol> Playing<P> {
     /// # Errors
     /// [`MethodError`] if it cannot.
     pub(super) fn is_sound(&self) -> Result<(), MethodError> {
-        self.comes_back()?;
-        match states::repeats(self, self.starts()) {
-            // Which states are not alike is said below.
-            Ok(()) | Err(Unsound::Unlike) => self.is_symmetric(),
-            Err(why) => Err(MethodError::new(why)),
+        let sound = states::repeats(self, self.starts());
+        if !matches!(sound, Err(Unsound::Unrepeatable | Unsound::TooManyCovers)) {
+            // Which states do not come back, or are not alike, is said in the words of the rule.
+            self.comes_back()?;
+            self.is_symmetric()?;
         }
+        sound.map_err(MethodError::new)
     }
 
     /// The findings of a search of all states here.
