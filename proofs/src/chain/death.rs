@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use tautline_kernel::chain::{Chain, Damage, Intent, Kind, Message, Outcome as Came, Reformation};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::ground::{Cell, CellMark, Edge, EdgeMark, Grid, Side, SmallGrid, Step};
+use tautline_kernel::ground::{Cell, Edge, Grid, Side, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
-use super::links::within_reach;
+use super::links::has_explored;
 use super::observed::Subject;
 use super::whole::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
@@ -247,12 +247,8 @@ impl Death<'_> {
             }
             let may_leave = self.dying.then != Aftermath::StayOut && chain.has_more_within_reach();
             let Some(mut reforming) = chain.come_home(parts).filter(|_| may_leave) else {
-                let is_open = |edge| !chain.grid().edge_has(EdgeMark::Wall, edge);
-                let area = chain.grid().area();
-                let within_reach = within_reach(area, chain.cells()[0], chain.cells().len(), is_open);
-                let is_explored = |&cell: &Cell| chain.grid().has(CellMark::Explored, cell);
                 require(
-                    within_reach.iter().all(is_explored),
+                    has_explored(chain.grid(), chain.cells()[0], chain.cells().len()),
                     "in the end all is explored within reach of those left",
                 )?;
                 return Ok(match (comes_home, taken_back) {

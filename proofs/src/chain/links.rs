@@ -3,7 +3,7 @@
 //! ways round it has no wall. The chain can be brought there by team moves that every rule admits; the argument is that
 //! of CHAIN-13.
 
-use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_kernel::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Side};
 
 /// The cells of `area` within reach of a chain of `robots`, nearest first, where `is_open` tells the edges without a
 /// wall.
@@ -38,6 +38,14 @@ pub fn within_reach(area: Area, base: Cell, robots: usize, is_open: impl Fn(Edge
         first = last;
     }
     reached
+}
+
+/// Whether all is explored that is within reach of such a chain by the walls that are known.
+pub(super) fn has_explored(grid: &impl Grid, base: Cell, robots: usize) -> bool {
+    let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
+    within_reach(grid.area(), base, robots, is_open)
+        .into_iter()
+        .all(|cell| grid.has(CellMark::Explored, cell))
 }
 
 #[cfg(test)]

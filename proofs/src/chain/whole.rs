@@ -326,11 +326,10 @@ fn plain_run(observed: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) ->
 mod tests {
     use rustc_hash::FxHashMap;
     use tautline_kernel::chain::{Budget, Rule};
-    use tautline_kernel::ground::CellMark;
 
     use super::super::breach::Breach;
     use super::super::invariant::{Invariant, Moment};
-    use super::super::links::within_reach;
+    use super::super::links::has_explored;
     use super::*;
     use crate::engine::{SeededOracle, sample};
 
@@ -421,9 +420,7 @@ mod tests {
                 false
             });
             let (grid, base) = (chain.grid(), chain.cells()[0]);
-            let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
-            let mut within_reach = within_reach(grid.area(), base, robots, is_open).into_iter();
-            assert!(!ended || within_reach.all(|cell| grid.has(CellMark::Explored, cell)), "seed {seed}");
+            assert!(!ended || has_explored(grid, base, robots), "seed {seed}");
         }
         assert!(known > 0 && refused > 0, "{known} {refused}");
     }

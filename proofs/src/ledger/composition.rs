@@ -89,9 +89,9 @@ pub(super) fn words(clause: &str, rule: &str, engine: &str, bound: &str) -> Opti
         .filter(|theorem| theorem.is_about(clause, rule, bound))
         .partition(|theorem| theorem.is_certificate);
     let (what, found) = match engine {
-        LOCAL if certificates.is_empty() => ("composition", others),
-        LOCAL if bound.starts_with(EVERY_N) => (EVERY_N, certificates),
-        LOCAL => ("every layout", certificates),
+        LOCAL if !certificates.is_empty() => {
+            (if bound.starts_with(EVERY_N) { EVERY_N } else { "every layout" }, certificates)
+        }
         _ => ("composition", others),
     };
     if found.iter().any(|theorem| theorem.part.is_none()) {

@@ -73,7 +73,8 @@ impl<'r, R: Local> Team<'r, R> {
             );
             return Err(MethodError::new(why));
         }
-        if let Some(robot) = team.start.iter().find(|robot| !rule.states().contains(&robot.state)) {
+        let states = rule.states();
+        if let Some(robot) = team.start.iter().find(|robot| !states.contains(&robot.state)) {
             let why = format!(
                 "a team of {robots} starts in {:?}, which is none of the states of the rule",
                 robot.state
