@@ -1,4 +1,4 @@
-//! The clauses of our own, as they are registered: each has an id of its own, a mutant, and the readings of its paper.
+//! The clauses of our own, as they are registered: each has an id of its own, its checks mutants, and the readings of its paper.
 
 use std::collections::BTreeSet;
 
@@ -12,12 +12,13 @@ fn clause(id: &str) -> &'static Clause {
 }
 
 #[test]
-fn every_id_is_there_once_and_every_clause_has_a_mutant() {
+fn every_id_is_there_once_and_every_check_that_refutes_nothing_has_a_mutant() {
     let rooms: Vec<&[Clause]> = ROOMS.iter().map(|room| room.clauses).collect();
     for clause in register(&rooms).expect("ids of their own") {
-        let is_mutant = |variant: &Variant| variant.reading().is_none();
-        let has_mutant = clause.checks.iter().any(|check| check.variants().iter().any(is_mutant));
-        assert!(has_mutant, "{} has no mutant", clause.id);
+        for check in clause.checks.iter().filter(|check| check.expected() != Verdict::Refuted) {
+            let has_mutant = check.variants().iter().any(|variant| variant.reading().is_none());
+            assert!(has_mutant, "{}: {check:?} has no mutant", clause.id);
+        }
         assert!(clause.sentence.contains("MUST"), "{}", clause.id);
     }
 }

@@ -133,6 +133,9 @@ const fn choosing(name: &'static str, to: To) -> NamedRule<Going> {
     NamedRule::new(name, Going { rule: TreeRule::TREE, to })
 }
 
+/// The words for a rule against missed sensors with [`Bricks`].
+const BRICKS_SEEN: &str = "cells marked that do not block, as far as is seen";
+
 /// The words for a rule without [`LowerOnly`].
 const TWICE_ADOPTED: &str = "cells of the same tree adopted once more";
 
@@ -218,11 +221,11 @@ pub static CLAUSES: [Clause; 15] = [
             ),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Connected), &[TRUSTING, ONCE_OVER]),
             &holds(TREE, &Floors::shared(&TREES, Connected), &[PARENTS_MARKED, WRAPPING]),
-            &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[PARENTS_MARKED]),
             &holds(
                 CAREFUL,
                 &Floors::shared(&TREES_HALF_BLIND, Connected),
-                &[named("cells marked that do not block, as far as is seen", TreeRule::ROBUST.with(Bricks))],
+                &[named(BRICKS_SEEN, TreeRule::ROBUST.with(Bricks))],
             ),
         ],
     },
@@ -253,13 +256,24 @@ pub static CLAUSES: [Clause; 15] = [
             &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(BEFORE_THE_END).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
-            &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[NO_EXITS]),
             &refuted(MDFS, &Floors::broken_on(PAIR, &TREES, Knowing)).because("a rival"),
             &refuted(TREE, &Floors::broken_on(HALF_BLIND_PAIR, &TREES_HALF_BLIND, Knowing))
                 .because("with missed sensors; the rule careful is for those"),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Knowing), &[BELIEVING]),
-            &holds(DOUBTING_ONCE, &Floors::shared(&ROUND, Knowing), &[]),
-            &holds(DOUBTING, &Floors::shared(&AS_SHIPPED, Knowing), &[]),
+            &holds(
+                DOUBTING_ONCE,
+                &Floors::shared(&ROUND, Knowing),
+                &[named(BRICKS_SEEN, DOUBTING_RULE.with(Bricks))],
+            ),
+            &holds(
+                DOUBTING,
+                &Floors::shared(&AS_SHIPPED, Knowing),
+                &[
+                    named(BRICKS_SEEN, TreeRule::DOUBTING.with(Bricks)),
+                    named("one scan is believed", TreeRule::DOUBTING.reading(1)),
+                ],
+            ),
         ],
     },
     Clause {
@@ -294,7 +308,7 @@ pub static CLAUSES: [Clause; 15] = [
             &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Ends), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
             &holds(TREE, &Floors::shared(&TREES, Ends), &[PARENTS_MARKED]),
-            &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[PARENTS_MARKED]),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Ends), &[BELIEVING]),
             &holds(
                 CAREFUL,

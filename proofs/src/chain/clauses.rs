@@ -1,10 +1,10 @@
 //! The clauses of the chain, in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{
-    CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
-    Unfold, UnsureAhead,
+    CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, Hold, RefusedIsVirtual,
+    SafeAhead, Unfold, UnsureAhead,
 };
-use tautline_kernel::chain::{Budget, Habit, High, Rule};
+use tautline_kernel::chain::{Budget, Condition, Habit, Rule};
 use tautline_kernel::ground::Circle;
 
 use super::breach::Breach;
@@ -29,50 +29,80 @@ pub(super) const REEL: NamedRule<Subject> = NamedRule::new("reel", Subject::REEL
 pub(super) const UNHELD: NamedRule<Subject> = NamedRule::new("unheld", Subject::UNHELD);
 const SPARING: NamedRule<Subject> = NamedRule::new("sparing", Subject::SPARING);
 
+/// `subject` without one condition, under its name.
+pub(super) const fn lacking(subject: Subject, condition: Condition) -> NamedRule<Subject> {
+    let name = match condition {
+        SafeAhead => "without E_S ahead",
+        CoveredBehind => "without E_C behind",
+        Distinct => "without distinctness",
+        RefusedIsVirtual => "refusals leave no obstacle",
+        EpochMustGain => "epochs need no gain",
+        UnsureAhead => "without unsure neighbour",
+        FullForFollower => "without full cell for followers",
+        FullForLeader => "without full cell for the leader",
+        Unfold => "without unfolding",
+        Hold => "without hold",
+    };
+    NamedRule::new(name, subject.without(condition))
+}
+
+/// Followers that look where the robot ahead is, not where it goes.
+const fn high_from_present(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("P_high from present positions", subject.high_from_present())
+}
+
+const fn base_follows(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("the base follows R_2", subject.deceiving(Deception::BaseFollows))
+}
+
+const fn swapped_bits(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("message bits swapped", subject.deceiving(Deception::SwappedBits))
+}
+
 step_checks! { Subject;
     contact: pair::contact, REPAIRED, pair::neighbours,
         covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
         unwind 6, mutants {
             published: "as published" => Subject::PUBLISHED,
-            without_unsure_ahead: "without unsure neighbour" => Subject::without(UnsureAhead),
-            without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
-            without_covered_behind: "without E_C behind" => Subject::without(CoveredBehind),
-            covered_too_wide: "E_C widened" => Subject::with_covered(WIDER),
+            without_unsure_ahead: "without unsure neighbour" => Subject::REPAIRED.without(UnsureAhead),
+            without_safe_ahead: "without E_S ahead" => Subject::REPAIRED.without(SafeAhead),
+            without_covered_behind: "without E_C behind" => Subject::REPAIRED.without(CoveredBehind),
+            covered_too_wide: "E_C widened" => Subject::REPAIRED.with_covered(WIDER),
         };
     crowding: crowd::crowding, REPAIRED, crowd::crowds,
         covers ["none arrives", "one arrives", "two arrive", "two were there"], unwind 6, mutants {
             published: "as published" => Subject::PUBLISHED,
-            without_full_for_follower: "without full cell for followers" => Subject::without(FullForFollower),
-            without_full_for_leader: "without full cell for the leader" => Subject::without(FullForLeader),
-            without_distinct: "without distinctness" => Subject::without(Distinct),
+            without_full_for_follower: "without full cell for followers" => Subject::REPAIRED.without(FullForFollower),
+            without_full_for_leader: "without full cell for the leader" => Subject::REPAIRED.without(FullForLeader),
+            without_distinct: "without distinctness" => Subject::REPAIRED.without(Distinct),
         };
     coverage: pair::coverage, PUBLISHED, pair::neighbours,
         covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
         unwind 6, mutants {
-            without_safe_ahead: "without E_S ahead" => Subject::following(Rule::PUBLISHED.without(SafeAhead)),
-            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
+            without_safe_ahead: "without E_S ahead" => Subject::PUBLISHED.without(SafeAhead),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::REPAIRED.with_safe(Circle::COVERED),
         };
     message: small::message, REPAIRED, small::messages,
         covers ["a byte", "a message", "no message"], unwind 6, mutants {
-            swapped_bits: "message bits swapped" => Subject::deceiving(Deception::SwappedBits),
+            swapped_bits: "message bits swapped" => Subject::REPAIRED.deceiving(Deception::SwappedBits),
         };
     contact_of_three: three::contact, PUBLISHED, three::places,
         covers ["R_2 may do anything else", "R_2 stays"], unwind 6, mutants {
             high_from_present: "P_high from present positions" =>
-                Subject::following(Rule { high: High::Present, ..Rule::PUBLISHED }),
-            without_safe_ahead: "without E_S ahead" => Subject::following(Rule::PUBLISHED.without(SafeAhead)),
+                Subject::PUBLISHED.high_from_present(),
+            without_safe_ahead: "without E_S ahead" => Subject::PUBLISHED.without(SafeAhead),
             without_covered_behind: "without E_C behind" =>
-                Subject::following(Rule::PUBLISHED.without(CoveredBehind)),
+                Subject::PUBLISHED.without(CoveredBehind),
         };
     ring: small::ring_of_neighbours, PUBLISHED, small::pairs_in_rings,
         covers ["farther in", "farther out", "in the same ring"], unwind 6, mutants {
-            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
-            without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::REPAIRED.with_safe(Circle::COVERED),
+            without_safe_ahead: "without E_S ahead" => Subject::REPAIRED.without(SafeAhead),
         };
     unfolding: walk::unfolding, REPAIRED, walk::walks,
         covers ["both go on", "both stay", "the robot ahead goes on"], unwind 6, mutants {
-            safe_too_narrow: "E_S narrowed to E_N" => Subject::with_safe(NARROWER),
-            covered_too_narrow: "E_C with the radius of E_S" => Subject::with_covered(Circle::SAFE),
+            safe_too_narrow: "E_S narrowed to E_N" => Subject::REPAIRED.with_safe(NARROWER),
+            covered_too_narrow: "E_C with the radius of E_S" => Subject::REPAIRED.with_covered(Circle::SAFE),
         };
 }
 
@@ -98,20 +128,26 @@ pub(super) const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
 const THREE_ROBOTS: (usize, u32) = (3, 5);
 
 /// Rules under which runs do not end.
-const ENDLESS: [NamedRule<Subject>; 2] = [
-    NamedRule::new("epochs need no gain", Subject::without(EpochMustGain)),
-    NamedRule::new("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
-];
+const ENDLESS: [NamedRule<Subject>; 2] =
+    [lacking(Subject::REPAIRED, EpochMustGain), lacking(Subject::REPAIRED, RefusedIsVirtual)];
 
 /// Reels that do not end, or gain nothing where they said so.
 pub(super) const UNREHEARSED: NamedRule<Subject> =
-    NamedRule::new("tasks are not rehearsed", Subject::without_habits(&[Habit::Rehearses]));
+    NamedRule::new("tasks are not rehearsed", Subject::REEL.without_habits(&[Habit::Rehearses]));
 pub(super) const FICKLE: NamedRule<Subject> =
-    NamedRule::new("stages go back", Subject::without_habits(&[Habit::KeepsTask]));
+    NamedRule::new("stages go back", Subject::REEL.without_habits(&[Habit::KeepsTask]));
+
+/// A team that pursues as the repaired rule does, and does not unfold.
+const LEAVES_CELLS: NamedRule<Subject> =
+    NamedRule::new("as repaired, without unfolding", Subject::REEL.following(Rule::REPAIRED.without(Unfold)));
+
+/// The mutant of a reel, as one that need not hold.
+pub(super) const fn unheld(reel: NamedRule<Subject>) -> NamedRule<Subject> {
+    NamedRule::new(reel.name, Subject { intended: Subject::UNHELD.rule, ..reel.rule.without(Hold) })
+}
 
 /// A reel that claims to hold contact whoever stays.
-pub(super) const NOT_HELD: NamedRule<Subject> =
-    NamedRule::new("without hold", Subject::reeling(Subject::UNHELD.rule));
+pub(super) const NOT_HELD: NamedRule<Subject> = lacking(Subject::REEL, Hold);
 
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
@@ -129,11 +165,11 @@ const SAME_PLAN: Check<Subject> = Check::holds(
         covers: &ENDS,
     },
     &[
-        NamedRule::new("P_high from present positions", Subject::high_from_present()),
-        NamedRule::new("without distinctness", Subject::without(Distinct)),
-        NamedRule::new("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
-        NamedRule::new("without unfolding", Subject::without(Unfold)),
-        NamedRule::new("nobody ahead is sure to arrive", Subject::deceiving(Deception::DoubtsAll)),
+        high_from_present(Subject::REPAIRED),
+        lacking(Subject::REPAIRED, Distinct),
+        lacking(Subject::REPAIRED, RefusedIsVirtual),
+        lacking(Subject::REPAIRED, Unfold),
+        NamedRule::new("nobody ahead is sure to arrive", Subject::REPAIRED.deceiving(Deception::DoubtsAll)),
     ],
 );
 
@@ -147,14 +183,14 @@ const SAME_PLAN_AT_RANDOM: RandomAnswers<Subject> = RandomAnswers {
 /// A team that claims a budget and has none.
 const LAVISH: NamedRule<Subject> = NamedRule::new(
     "no budget",
-    Subject { rule: Rule { budget: Budget::Unlimited, ..Rule::REPAIRED }, ..Subject::SPARING },
+    Subject::SPARING.following(Rule { budget: Budget::Unlimited, ..Rule::REPAIRED }),
 );
 
 const CHEAP: Check<Subject> = Check::new(
     REPAIRED,
     &RandomAnswers { body: whole::cheap, runs: 44, range: whole::cheap_runs, covers: &["a longer run"] },
     Verdict::Unrefuted,
-    &[NamedRule::new("the plain recursion", Subject::deceiving(Deception::PlainRecursion))],
+    &[NamedRule::new("the plain recursion", Subject::REPAIRED.deceiving(Deception::PlainRecursion))],
 );
 
 const DEAR: Check<Subject> = Check::refuted(
@@ -185,11 +221,19 @@ pub static CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Without(Breach::Contact), FOUR_ROBOTS),
                 &[
                     NamedRule::new("as published", Subject::PUBLISHED),
-                    NamedRule::new("without unsure neighbour", Subject::without(UnsureAhead)),
+                    lacking(Subject::REPAIRED, UnsureAhead),
                 ],
             ),
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS), &[]),
-            &Check::holds(REEL, &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                UNHELD,
+                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
+                &[lacking(Subject::UNHELD, UnsureAhead)],
+            ),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
+                &[lacking(Subject::REEL, SafeAhead)],
+            ),
             &Check::holds(
                 NamedRule::new("repaired", Contact::<false>(Rule::REPAIRED)),
                 &EveryNumber::DEFAULT,
@@ -199,7 +243,11 @@ pub static CLAUSES: [Clause; 15] = [
                     NamedRule::new("without E_C behind", Contact(Rule::REPAIRED.without(CoveredBehind))),
                 ],
             ),
-            &Check::holds(NamedRule::new("reel", Contact::<false>(Rule::REEL)), &EveryNumber::DEFAULT, &[]),
+            &Check::holds(
+                NamedRule::new("reel", Contact::<false>(Rule::REEL)),
+                &EveryNumber::DEFAULT,
+                &[NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind)))],
+            ),
         ],
     },
     Clause {
@@ -218,19 +266,16 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 UNHELD,
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
-                &[NamedRule::new(
-                    "without distinctness",
-                    Subject { rule: UNHELD.rule.rule.without(Distinct), ..UNHELD.rule },
-                )],
+                &[lacking(Subject::UNHELD, Distinct)],
             ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
                 &[
-                    NamedRule::new("without distinctness", Subject::reeling(Rule::REEL.without(Distinct))),
+                    lacking(Subject::REEL, Distinct),
                     NamedRule::new(
                         "without full cells",
-                        Subject::reeling(Rule::REEL.without(FullForFollower).without(FullForLeader)),
+                        Subject::REEL.following(Rule::REEL.without(FullForFollower).without(FullForLeader)),
                     ),
                 ],
             ),
@@ -250,7 +295,11 @@ pub static CLAUSES: [Clause; 15] = [
                     NamedRule::new("without distinctness", Crowd::of(Rule::REPAIRED.without(Distinct))),
                 ],
             ),
-            &Check::holds(NamedRule::new("reel", Crowd::of(Rule::REEL)), &EveryNumber::DEFAULT, &[]),
+            &Check::holds(
+                NamedRule::new("reel", Crowd::of(Rule::REEL)),
+                &EveryNumber::DEFAULT,
+                &[NamedRule::new("without distinctness", Crowd::of(Rule::REEL.without(Distinct)))],
+            ),
         ],
     },
     Clause {
@@ -262,13 +311,14 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 PUBLISHED,
                 &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_ROBOTS),
-                &[NamedRule::new(
-                    "without E_S ahead",
-                    Subject::following(Rule::PUBLISHED.without(SafeAhead)),
-                )],
+                &[lacking(Subject::PUBLISHED, SafeAhead)],
             ),
             &Check { about: UNCOVERED, ..coverage::CHECK },
-            &Check::holds(REEL, &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS),
+                &[lacking(Subject::REEL, SafeAhead)],
+            ),
             &Check::holds(
                 NamedRule::new("published", Coverage(Rule::PUBLISHED)),
                 &EveryNumber::DEFAULT,
@@ -277,28 +327,43 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 NamedRule::new("uncovered", Coverage(Rule::PUBLISHED.without(CoveredBehind))),
                 &EveryNumber::DEFAULT,
-                &[],
+                &[NamedRule::new(
+                    "without E_S ahead",
+                    Coverage(Rule::PUBLISHED.without(CoveredBehind).without(SafeAhead)),
+                )],
             ),
-            &Check::holds(NamedRule::new("reel", Coverage(Rule::REEL)), &EveryNumber::DEFAULT, &[]),
+            &Check::holds(
+                NamedRule::new("reel", Coverage(Rule::REEL)),
+                &EveryNumber::DEFAULT,
+                &[NamedRule::new("without E_S ahead", Coverage(Rule::REEL.without(SafeAhead)))],
+            ),
         ],
     },
     Clause {
         id: "CHAIN-4",
         sentence: "Every step of a planned team move MUST be admitted by the conditions of the rule.",
         checks: &[
-            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                PUBLISHED,
+                &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
+                &[lacking(Subject::PUBLISHED, SafeAhead), lacking(Subject::PUBLISHED, CoveredBehind)],
+            ),
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
                 &[
-                    NamedRule::new("without E_S ahead", Subject::without(SafeAhead)),
-                    NamedRule::new("without E_C behind", Subject::without(CoveredBehind)),
-                    NamedRule::new("without unsure neighbour", Subject::without(UnsureAhead)),
-                    NamedRule::new("without full cell for followers", Subject::without(FullForFollower)),
-                    NamedRule::new("without full cell for the leader", Subject::without(FullForLeader)),
+                    lacking(Subject::REPAIRED, SafeAhead),
+                    lacking(Subject::REPAIRED, CoveredBehind),
+                    lacking(Subject::REPAIRED, UnsureAhead),
+                    lacking(Subject::REPAIRED, FullForFollower),
+                    lacking(Subject::REPAIRED, FullForLeader),
                 ],
             ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
+                &[lacking(Subject::REEL, SafeAhead), lacking(Subject::REEL, CoveredBehind)],
+            ),
             &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FIVE_TWO_WALLS), &[NOT_HELD]),
         ],
     },
@@ -306,13 +371,21 @@ pub static CLAUSES: [Clause; 15] = [
         id: "CHAIN-5",
         sentence: "In a planned team move every robot MUST have a cell of its own, the base excepted.",
         checks: &[
-            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                PUBLISHED,
+                &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
+                &[lacking(Subject::PUBLISHED, Distinct)],
+            ),
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
-                &[NamedRule::new("without distinctness", Subject::without(Distinct))],
+                &[lacking(Subject::REPAIRED, Distinct)],
             ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
+                &[lacking(Subject::REEL, Distinct)],
+            ),
         ],
     },
     Clause {
@@ -322,15 +395,12 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
-                &[NamedRule::new("the base follows R_2", Subject::deceiving(Deception::BaseFollows))],
+                &[base_follows(Subject::REPAIRED)],
             ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
-                &[NamedRule::new(
-                    "the base follows R_2",
-                    Subject { deception: Deception::BaseFollows, ..REEL.rule },
-                )],
+                &[base_follows(Subject::REEL)],
             ),
         ],
     },
@@ -339,7 +409,11 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Every run MUST end.",
         checks: &[
             &Check::holds(REPAIRED, &EveryLayout(Invariant::Progress, FOUR_FEWER_WALLS), &ENDLESS),
-            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &[]),
+            &Check::holds(
+                PUBLISHED,
+                &EveryLayout(Invariant::Ends, FOUR_ROBOTS),
+                &[lacking(Subject::PUBLISHED, EpochMustGain), lacking(Subject::PUBLISHED, RefusedIsVirtual)],
+            ),
             &Check::holds(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &ENDLESS),
             &Check::holds(REEL, &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS), &[UNREHEARSED, FICKLE]),
         ],
@@ -352,9 +426,13 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS),
-                &[NamedRule::new("message bits swapped", Subject::deceiving(Deception::SwappedBits))],
+                &[swapped_bits(Subject::REPAIRED)],
             ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS),
+                &[swapped_bits(Subject::REEL)],
+            ),
         ],
     },
     Clause {
@@ -362,13 +440,11 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "Without obstacles a chain of N robots MUST have explored all (2N−1)² cells after exactly \
                    9(N−1)−1 team moves.",
         checks: &[
-            &Check::holds(PUBLISHED, &SPIRALS, &[]).under(&holding(READINGS, [0])).of(&PAPER),
-            &Check::holds(
-                REPAIRED,
-                &SPIRALS,
-                &[NamedRule::new("P_high from present positions", Subject::high_from_present())],
-            ),
-            &Check::holds(REEL, &SPIRALS, &[]),
+            &Check::holds(PUBLISHED, &SPIRALS, &[high_from_present(Subject::PUBLISHED)])
+                .under(&holding(READINGS, [0]))
+                .of(&PAPER),
+            &Check::holds(REPAIRED, &SPIRALS, &[high_from_present(Subject::REPAIRED)]),
+            &Check::holds(REEL, &SPIRALS, &[high_from_present(Subject::REEL)]),
         ],
     },
     Clause {
@@ -376,17 +452,8 @@ pub static CLAUSES: [Clause; 15] = [
         sentence: "A chain of N robots MUST need at least 9(N−1)−1 team moves to explore (2N−1)² cells.",
         checks: &[
             &ring::CHECK,
-            &Check::holds(
-                PUBLISHED,
-                &EveryAnswer { body: small::ring_cells, range: small::rings, covers: &["a ring"] },
-                &[],
-            ),
-            &Check::holds(PUBLISHED, &SOLVED, &[]),
-            &Check::holds(
-                REPAIRED,
-                &SOLVED,
-                &[NamedRule::new("without E_S ahead", Subject::without(SafeAhead))],
-            ),
+            &Check::holds(PUBLISHED, &SOLVED, &[lacking(Subject::PUBLISHED, SafeAhead)]),
+            &Check::holds(REPAIRED, &SOLVED, &[lacking(Subject::REPAIRED, SafeAhead)]),
         ],
     },
     Clause {
@@ -418,17 +485,17 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_ROBOTS),
-                &[NamedRule::new("without unfolding", Subject::without(Unfold))],
+                &[lacking(Subject::REPAIRED, Unfold)],
             ),
             &Check::holds(
                 UNHELD,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                &[],
+                &[unheld(LEAVES_CELLS)],
             ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                &[],
+                &[LEAVES_CELLS],
             ),
         ],
     },
@@ -442,7 +509,7 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Exhausts, (3, 2)),
-                &[NamedRule::new("without unfolding", Subject::without(Unfold))],
+                &[lacking(Subject::REPAIRED, Unfold)],
             ),
             &Check::refuted(REPAIRED, &EveryArea(Invariant::Exhausts, AREAS, READ))
                 .because("no repair yet: walls part the ways of neighbours"),
@@ -456,12 +523,8 @@ pub static CLAUSES: [Clause; 15] = [
             &Check::holds(
                 PUBLISHED,
                 &EveryLayout(Invariant::Without(Breach::Contact), THREE_ROBOTS),
-                &[NamedRule::new(
-                    "without E_S ahead",
-                    Subject::following(Rule::PUBLISHED.without(SafeAhead)),
-                )],
+                &[lacking(Subject::PUBLISHED, SafeAhead)],
             ),
-            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Without(Breach::Crowding), THREE_ROBOTS), &[]),
             &Check::holds(
                 NamedRule::new("published", OfThree(Rule::PUBLISHED)),
                 &local::THREE,

@@ -1,7 +1,7 @@
 //! A chain as a check observes it: the rule that it follows, the rule that it claims to follow, and what no set of
 //! conditions can express, done to a mutant on the way from the rule to the check.
 
-use tautline_kernel::chain::{Budget, Condition, Habit, Habits, High, Pursuit, Rule};
+use tautline_kernel::chain::{Budget, Condition, Habit, High, Pursuit, Rule};
 use tautline_kernel::ground::Circle;
 
 use super::readings::Readings;
@@ -73,49 +73,44 @@ impl Subject {
         self.readings != Readings::of(&[])
     }
 
-    /// A chain that claims to follow the repaired rule, but follows `rule`.
-    pub const fn following(rule: Rule) -> Self {
-        Self { rule, ..Self::REPAIRED }
+    /// It, which claims what it claims, but follows `rule`.
+    pub const fn following(self, rule: Rule) -> Self {
+        Self { rule, ..self }
     }
 
-    /// The repaired chain without one condition.
-    pub const fn without(condition: Condition) -> Self {
-        Self::following(Rule::REPAIRED.without(condition))
+    /// It, without one condition.
+    pub const fn without(self, condition: Condition) -> Self {
+        self.following(self.rule.without(condition))
     }
 
-    /// A chain that claims to follow the reel, but follows `rule`.
-    pub const fn reeling(rule: Rule) -> Self {
-        Self { rule, ..Self::REEL }
-    }
-
-    /// The reel without some of its habits.
-    pub const fn without_habits(habits: &[Habit]) -> Self {
-        let mut left = Habits::of(&Habit::ALL);
+    /// It, if it is a reel, without some of its habits.
+    pub const fn without_habits(self, habits: &[Habit]) -> Self {
+        let Pursuit::Reel(mut left) = self.rule.pursuit else { return self };
         let mut place = 0;
         while place < habits.len() {
             left = left.without(habits[place]);
             place += 1;
         }
-        Self::reeling(Rule { pursuit: Pursuit::Reel(left), ..Rule::REEL })
+        self.following(Rule { pursuit: Pursuit::Reel(left), ..self.rule })
     }
 
-    /// The repaired chain, deceiving.
-    pub const fn deceiving(deception: Deception) -> Self {
-        Self { deception, ..Self::REPAIRED }
+    /// It, deceiving.
+    pub const fn deceiving(self, deception: Deception) -> Self {
+        Self { deception, ..self }
     }
 
-    /// The repaired chain with another circle of E_S.
-    pub const fn with_safe(safe: Circle) -> Self {
-        Self::following(Rule { safe, ..Rule::REPAIRED })
+    /// It, with another circle of E_S.
+    pub const fn with_safe(self, safe: Circle) -> Self {
+        self.following(Rule { safe, ..self.rule })
     }
 
-    /// The repaired chain with another circle of E_C.
-    pub const fn with_covered(covered: Circle) -> Self {
-        Self::following(Rule { covered, ..Rule::REPAIRED })
+    /// It, with another circle of E_C.
+    pub const fn with_covered(self, covered: Circle) -> Self {
+        self.following(Rule { covered, ..self.rule })
     }
 
-    /// The repaired chain that reads P_high from present positions.
-    pub const fn high_from_present() -> Self {
-        Self::following(Rule { high: High::Present, ..Rule::REPAIRED })
+    /// It, reading P_high from present positions.
+    pub const fn high_from_present(self) -> Self {
+        self.following(Rule { high: High::Present, ..self.rule })
     }
 }

@@ -1,12 +1,13 @@
 //! The clauses of what is ours in the chain: certified plans, the reel, contact in any order, and faults. They
 //! follow those of [`super::clauses`] in the order of `SPEC.md`.
 
-use tautline_kernel::chain::Condition::{CoveredBehind, SafeAhead};
+use tautline_kernel::chain::Condition::{CoveredBehind, Hold, SafeAhead};
 use tautline_kernel::chain::{Habit, Rule, World};
 
 use super::barrier::{self, Reading};
 use super::clauses::{
-    AREAS, FICKLE, FIVE_TWO_WALLS, FOUR_FEWER_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD, UNREHEARSED,
+    AREAS, FICKLE, FIVE_TWO_WALLS, FOUR_FEWER_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD,
+    UNREHEARSED, unheld,
 };
 use super::death::{self, Aftermath, DeathCase};
 use super::every_area::EveryArea;
@@ -26,9 +27,9 @@ step_checks! { Subject;
     hold: pair::hold, REEL, pair::goers,
         covers ["both have gone", "neither has gone", "the robot ahead has gone", "the robot behind has gone"],
         unwind 6, mutants {
-            without_hold: "without hold" => Subject::reeling(Subject::UNHELD.rule),
-            without_safe_ahead: "without E_S ahead" => Subject::reeling(Rule::REEL.without(SafeAhead)),
-            without_covered_behind: "without E_C behind" => Subject::reeling(Rule::REEL.without(CoveredBehind)),
+            without_hold: "without hold" => Subject::REEL.without(Hold),
+            without_safe_ahead: "without E_S ahead" => Subject::REEL.without(SafeAhead),
+            without_covered_behind: "without E_C behind" => Subject::REEL.without(CoveredBehind),
         };
 }
 
@@ -38,13 +39,22 @@ const THREE_FOUR_WALLS: (usize, u32) = (3, 4);
 
 const NO_NEARER: NamedRule<Subject> = NamedRule::new(
     "an approach gets no nearer",
-    Subject::without_habits(&[Habit::Rehearses, Habit::ComesNearer]),
+    Subject::REEL.without_habits(&[Habit::Rehearses, Habit::ComesNearer]),
 );
 const TAKES_BACK_ONE: NamedRule<Subject> =
-    NamedRule::new("take-backs always of one", Subject::without_habits(&[Habit::Doubles]));
+    NamedRule::new("take-backs always of one", Subject::REEL.without_habits(&[Habit::Doubles]));
+
+/// Followers kept nearer than the planners reckon with.
+const fn narrowed(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("E_S narrowed to E_N", subject.with_safe(NARROWER))
+}
+
+const NARROWED_UNREHEARSED: NamedRule<Subject> =
+    NamedRule::new("tasks are not rehearsed, E_S narrowed to E_N", UNREHEARSED.rule.with_safe(NARROWER));
 
 /// The repaired rule, pursued as a reel.
-const AS_REPAIRED: NamedRule<Subject> = NamedRule::new("as repaired", Subject::reeling(Rule::REPAIRED));
+const AS_REPAIRED: NamedRule<Subject> =
+    NamedRule::new("as repaired", Subject::REEL.following(Rule::REPAIRED));
 
 /// The contact of a reel of any number of robots, and what breaks it.
 const CONTACT: NamedRule<Contact<true>> = NamedRule::new("reel", Contact(Rule::REEL));
@@ -161,20 +171,25 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",
         checks: &[
-            &Check::holds(PUBLISHED, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                PUBLISHED,
+                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
+                &[narrowed(Subject::REPAIRED)],
+            ),
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                &[NamedRule::new("E_S narrowed to E_N", Subject::with_safe(NARROWER))],
+                &[narrowed(Subject::REPAIRED)],
             ),
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                UNHELD,
+                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
+                &[unheld(NARROWED_UNREHEARSED)],
+            ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                &[NamedRule::new(
-                    "tasks are not rehearsed, E_S narrowed to E_N",
-                    Subject::reeling(Rule { safe: NARROWER, ..UNREHEARSED.rule.rule }),
-                )],
+                &[NARROWED_UNREHEARSED],
             ),
         ],
     },
@@ -182,7 +197,11 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-17",
         sentence: "Each team move of the reel MUST gain, or bring its measure down; so every run ends.",
         checks: &[
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                UNHELD,
+                &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS),
+                &[unheld(UNREHEARSED), unheld(FICKLE), unheld(NO_NEARER), unheld(TAKES_BACK_ONE)],
+            ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS),
@@ -200,7 +219,7 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "A rehearsal of the reel that meets no surprise MUST explore a cell in exactly its number of team \
                    moves.",
         checks: &[
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(UNHELD, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[unheld(UNREHEARSED)]),
             &Check::holds(REEL, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[UNREHEARSED]),
         ],
     },
@@ -251,7 +270,11 @@ pub static CLAUSES: [Clause; 10] = [
         sentence: "As long as nothing is gained, the reel MUST take back one team move, then two, then four, each time twice \
                    as many, as far as there are.",
         checks: &[
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                UNHELD,
+                &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS),
+                &[unheld(TAKES_BACK_ONE)],
+            ),
             &Check::holds(REEL, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), &[TAKES_BACK_ONE]),
         ],
     },
@@ -259,9 +282,13 @@ pub static CLAUSES: [Clause; 10] = [
         id: "CHAIN-24",
         sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, and N² more for each wall that it meets.",
         checks: &[
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[]),
+            &Check::holds(
+                UNHELD,
+                &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
+                &[unheld(AS_REPAIRED), unheld(UNREHEARSED)],
+            ),
             &Check::holds(REEL, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
-            &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[AS_REPAIRED]),
         ],
     },
     Clause {
@@ -273,7 +300,11 @@ pub static CLAUSES: [Clause; 10] = [
                 &EveryLayout(Invariant::Chosen, FOUR_TWO_WALLS),
                 &[UNREHEARSED, FICKLE, AS_REPAIRED],
             ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS), &[]),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS),
+                &[UNREHEARSED, FICKLE, AS_REPAIRED],
+            ),
         ],
     },
 ];
@@ -338,7 +369,7 @@ mod tests {
 
     #[test]
     fn while_tasks_are_rehearsed_no_promise_needs_the_last_place_on_a_walk() {
-        let observed = Subject::without_habits(&[Habit::LastPlace]);
+        let observed = Subject::REEL.without_habits(&[Habit::LastPlace]);
         let invariants = Invariant::Falls.companions(&observed.intended).to_vec();
         let found = search(&Bounds { invariants, ..Bounds::new(observed, 3, 3) }, &mut unwatched);
         let found = found.expect("it can be searched");

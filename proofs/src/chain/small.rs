@@ -41,9 +41,6 @@ pub(super) fn message(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     Ok("a message")
 }
 
-/// The longest chain that the ring argument is checked for. The step of the argument does not depend on N.
-const LONGEST: u32 = 32;
-
 /// Columns and rows in which the robot behind is looked at, from the base on.
 const BEHIND: u32 = 4;
 
@@ -73,27 +70,6 @@ pub(super) fn ring_of_neighbours(observed: &Subject, oracle: &mut dyn Oracle) ->
         Ordering::Equal => "in the same ring",
         Ordering::Greater => "farther out",
     })
-}
-
-/// The bound of [`ring_cells`], in words.
-pub(super) fn rings() -> String {
-    format!("N = 2 … {LONGEST}")
-}
-
-/// CHAIN-10, second fact: ring N−1 has 8(N−1) cells.
-///
-/// # Errors
-/// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn ring_cells(_: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    let outermost = oracle.pick(LONGEST - 1) as i16 + 1;
-    let coordinates = -outermost..=outermost;
-    let cells = coordinates
-        .clone()
-        .flat_map(|x| coordinates.clone().map(move |y| Cell::new(x, y)))
-        .filter(|&cell| ring(cell) == outermost as u16)
-        .count();
-    require(cells == 8 * outermost as usize, "ring N−1 has 8(N−1) cells")?;
-    Ok("a ring")
 }
 
 /// Which ring round the base in 0,0 a cell is in.

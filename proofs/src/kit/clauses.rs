@@ -394,7 +394,7 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Ends)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Ends), &[NO_STAY]),
-            &Check::holds(REPAIRED, &side_by_side(Demand::Ends), &[]),
+            &Check::holds(REPAIRED, &side_by_side(Demand::Ends), &[NO_STAY]),
         ],
     },
     Clause {

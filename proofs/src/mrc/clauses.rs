@@ -149,6 +149,18 @@ const REDECIDE: NamedRule<Subject> = lacking("redecide on a late MOVE", ChoiceSt
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(Rule::REPAIRED.without(LeastIdentity));
 const NO_EPOCH: NamedRule<Subject> = lacking("no epoch", Epochs);
 const NO_CONSENT: NamedRule<Subject> = lacking("no consent", Consent);
+const NO_RENEWAL: NamedRule<Subject> = lacking("no renewal", Renewal);
+const NO_LONGER_ASKS: NamedRule<Subject> = lacking("it no longer asks, and accepts", StillAsks);
+const UNANSWERED: NamedRule<Subject> = lacking("late MOVEs unanswered", AnswersAgain);
+/// Robots that ask for another call than the nearest, or of equals than the first by name.
+const BY_OTHER_CALLS: [NamedRule<Subject>; 3] = [
+    lacking("the least SN, however far", NearestCall),
+    NamedRule::new("of equal HC the first heard", FIRST_OF_EQUALS),
+    NamedRule::new(
+        "the first call heard",
+        Subject::rescuing(Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
+    ),
+];
 const ACCEPTS: NamedRule<Subject> =
     NamedRule::new("on its way elsewhere it accepts", Subject::misreading(Misreading::Offers));
 
@@ -185,8 +197,8 @@ pub static CLAUSES: [Clause; 14] = [
                 .under(HOLDS_IF_IT_STANDS)
                 .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO), &[REDECIDE]),
-            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), &[REDECIDE]),
+            &Check::holds(REPAIRED, &Within(Demand::OneRobotForACall, THREE_AND_TWO), &[REDECIDE]),
         ],
     },
     Clause {
@@ -197,8 +209,8 @@ pub static CLAUSES: [Clause; 14] = [
                 .under(HOLDS_IN_A_WINDOW)
                 .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO), &[NO_CONSENT]),
-            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), &[NO_CONSENT]),
+            &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), &[NO_CONSENT]),
             &Check::holds(REPAIRED, &Within(Demand::OneCallForARobot, TWO_FAULTS), &[ACCEPTS]),
         ],
     },
@@ -224,8 +236,8 @@ pub static CLAUSES: [Clause; 14] = [
                     NO_EPOCH,
                 ],
             ),
-            &Check::holds(REPAIRED, &Within(Demand::BestOfTheWindow, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::BestOfTheWindow, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::BestOfTheWindow, TWO_LONGER), &[REDECIDE, NO_EPOCH]),
+            &Check::holds(REPAIRED, &Within(Demand::BestOfTheWindow, THREE_AND_TWO), &[REDECIDE, NO_EPOCH]),
         ],
     },
     Clause {
@@ -236,8 +248,8 @@ pub static CLAUSES: [Clause; 14] = [
                 .under(REFUTED)
                 .of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO), &[NO_CONSENT]),
-            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), &[NO_CONSENT]),
+            &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), &[NO_CONSENT]),
             &Check::holds(REPAIRED, &Within(Demand::CountsOnConsent, TWO_FAULTS), &[ACCEPTS]),
         ],
     },
@@ -249,11 +261,7 @@ pub static CLAUSES: [Clause; 14] = [
                 .under(&holding(CHOICES, []))
                 .of(&PAPER),
             &Check::refuted(PUBLISHED, &Within(Demand::IsServed, ALONE)).under(REFUTED).of(&PAPER),
-            &Check::holds(
-                REPAIRED,
-                &Within(Demand::IsServed, TWO_AND_ONE),
-                &[lacking("no renewal", Renewal), NO_EPOCH],
-            ),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO_AND_ONE), &[NO_RENEWAL, NO_EPOCH]),
             &Check::holds(
                 REPAIRED,
                 &Within(Demand::IsServed, ONE_AND_TWO),
@@ -262,9 +270,9 @@ pub static CLAUSES: [Clause; 14] = [
                     Subject::rescuing(Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
                 )],
             ),
-            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::IsServed, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO), &[NO_RENEWAL, NO_EPOCH]),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO_LONGER), &[NO_RENEWAL, NO_EPOCH]),
+            &Check::holds(REPAIRED, &Within(Demand::IsServed, THREE_AND_TWO), &[NO_RENEWAL]),
         ],
     },
     Clause {
@@ -273,8 +281,8 @@ pub static CLAUSES: [Clause; 14] = [
         checks: &[
             &Check::refuted(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO), &[NO_EPOCH]),
-            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), &[NO_EPOCH]),
+            &Check::holds(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), &[NO_EPOCH]),
         ],
     },
     Clause {
@@ -296,20 +304,13 @@ pub static CLAUSES: [Clause; 14] = [
                     ),
                 ],
             ),
+            &Check::holds(REPAIRED, &Within(Demand::AsksNearest, TWO), &BY_OTHER_CALLS),
+            &Check::holds(REPAIRED, &Within(Demand::AsksNearest, ONE_AND_THREE), &BY_OTHER_CALLS),
             &Check::holds(
                 REPAIRED,
-                &Within(Demand::AsksNearest, TWO),
-                &[
-                    lacking("the least SN, however far", NearestCall),
-                    NamedRule::new("of equal HC the first heard", FIRST_OF_EQUALS),
-                    NamedRule::new(
-                        "the first call heard",
-                        Subject::rescuing(Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
-                    ),
-                ],
+                &Within(Demand::AsksNearest, THREE_AND_TWO),
+                &[BY_OTHER_CALLS[1], BY_OTHER_CALLS[2]],
             ),
-            &Check::holds(REPAIRED, &Within(Demand::AsksNearest, ONE_AND_THREE), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::AsksNearest, THREE_AND_TWO), &[]),
         ],
     },
     Clause {
@@ -320,13 +321,17 @@ pub static CLAUSES: [Clause; 14] = [
             &Check::refuted(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE))
                 .under(REFUTED)
                 .of(&PAPER),
+            &Check::holds(REPAIRED, &Within(Demand::TakesWhatItAsksFor, TWO), &[NO_LONGER_ASKS, NO_CONSENT]),
             &Check::holds(
                 REPAIRED,
-                &Within(Demand::TakesWhatItAsksFor, TWO),
-                &[lacking("it no longer asks, and accepts", StillAsks), NO_CONSENT],
+                &Within(Demand::TakesWhatItAsksFor, TWO_LONGER),
+                &[NO_LONGER_ASKS, NO_CONSENT],
             ),
-            &Check::holds(REPAIRED, &Within(Demand::TakesWhatItAsksFor, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::TakesWhatItAsksFor, THREE_AND_TWO), &[]),
+            &Check::holds(
+                REPAIRED,
+                &Within(Demand::TakesWhatItAsksFor, THREE_AND_TWO),
+                &[NO_LONGER_ASKS, NO_CONSENT],
+            ),
         ],
     },
     Clause {
@@ -340,15 +345,15 @@ pub static CLAUSES: [Clause; 14] = [
                 REPAIRED,
                 &Within(Demand::TellsWhoAsked, TWO),
                 &[
-                    lacking("late MOVEs unanswered", AnswersAgain),
+                    UNANSWERED,
                     NamedRule::new(
                         "a new call keeps who has asked under the one before",
                         Subject::misreading(Misreading::Askers),
                     ),
                 ],
             ),
-            &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), &[]),
-            &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, THREE_AND_TWO), &[]),
+            &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), &[UNANSWERED]),
+            &Check::holds(REPAIRED, &Within(Demand::TellsWhoAsked, THREE_AND_TWO), &[UNANSWERED]),
         ],
     },
     Clause {

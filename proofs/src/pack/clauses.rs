@@ -8,7 +8,7 @@ use super::gains::Gains;
 use super::local;
 use super::played::{Demand, SITUATIONS};
 use super::rays::{self, Rays};
-use super::readings::{PAPER, READINGS, Subject};
+use super::readings::{Flaw, PAPER, READINGS, Subject};
 use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::EveryAnswer;
 use crate::local::EveryNumber;
@@ -28,8 +28,19 @@ const NO_LEAD: NamedRule<Subject> = without("nobody leads", Lead);
 const NO_BACK: NamedRule<Subject> = without("no move is taken back", Back);
 const NO_DOUBLE: NamedRule<Subject> = without("always one move is taken back", Double);
 const NO_ANEW: NamedRule<Subject> = without("ways are kept when a move is taken back", Anew);
-const HEEDS_NO_WAY: NamedRule<Subject> =
-    NamedRule::new("the way does not count", Subject { heeds_no_way: true, ..Subject::of(Rule::REPAIRED) });
+const HEEDS_NO_WAY: NamedRule<Subject> = NamedRule::new(
+    "the way does not count",
+    Subject { flaw: Some(Flaw::HeedsNoWay), ..Subject::of(Rule::REPAIRED) },
+);
+
+const FORGETS: NamedRule<Subject> = NamedRule::new(
+    "what was seen is forgotten",
+    Subject { flaw: Some(Flaw::Forgets), ..Subject::of(Rule::PUBLISHED) },
+);
+const TWO_AT_ONCE: NamedRule<Subject> = NamedRule::new(
+    "two team moves at once",
+    Subject { flaw: Some(Flaw::TwoAtOnce), ..Subject::of(Rule::PUBLISHED) },
+);
 
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
@@ -126,7 +137,11 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-2",
         sentence: "Two robots of a pack MUST never be in one cell.",
         checks: &[
-            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Single), &[]),
+            &Check::holds(
+                PUBLISHED,
+                &demand(OF_FEW, Demand::Single),
+                &[NamedRule::new(NO_SINGLE.name, Subject::of(Rule::PUBLISHED.without(Single)))],
+            ),
             &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Single), &[NO_SINGLE]),
             &Check::holds(REPAIRED, &far(Demand::Single), &[NO_SINGLE]),
             &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Single), &[NO_SINGLE]),
@@ -158,7 +173,7 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-4",
         sentence: "Every run of a pack MUST end.",
         checks: &[
-            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Ends), &[]),
+            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Ends), &[FORGETS]),
             &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Ends), &[NO_DOUBLE]),
             &Check::holds(REPAIRED, &far(Demand::Ends), &[NO_DOUBLE]),
             &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Ends), &[NO_DOUBLE]),
@@ -177,7 +192,7 @@ pub static CLAUSES: [Clause; 8] = [
         id: "PACK-6",
         sentence: "A robot of a pack MUST always be in a free cell, and in a team move go one step at most.",
         checks: &[
-            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Free), &[]),
+            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Free), &[TWO_AT_ONCE]),
             &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Free), &[NO_ANEW]),
             &Check::holds(REPAIRED, &far(Demand::Free), &[NO_ANEW]),
             &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Free), &[NO_ANEW]),

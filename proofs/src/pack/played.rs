@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Team};
 
 use super::gains::{self, Gains, are_best};
-use super::readings::Subject;
+use super::readings::{Flaw, Subject};
 use crate::judge::Place;
 use crate::judge::pack::Metric;
 use crate::plural::counted;
@@ -196,13 +196,17 @@ pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<R
     }
     let area = floor.area;
     let cells = area.width() * area.height();
-    let mut chart = Chart::new(area, vec![[0; 2]; Chart::<Vec<[u64; 2]>>::words(area)])?;
+    let blank = Chart::new(area, vec![[0; 2]; Chart::<Vec<[u64; 2]>>::words(area)])?;
+    let mut chart = blank.clone();
     let (mut reached, mut queue) = (vec![0; cells], vec![Cell::default(); cells]);
     let (mut gains, mut rounds) = (vec![0; cells], 0);
     let (mut past, mut steps) = (Moves::default(), [Step::Stay; MAX_ROBOTS]);
     let mut played = RunOutcome::default();
     let mut seen = floor.starts.clone();
     loop {
+        if subject.flaw == Some(Flaw::Forgets) {
+            chart = blank.clone();
+        }
         for &cell in team.cells() {
             chart.look(
                 rule.sight(),
@@ -219,12 +223,15 @@ pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<R
             Scratch { reached: &mut reached, queue: &mut queue, gains: &mut gains, rounds: &mut rounds };
         let (before, aims) = (team.cells().to_vec(), team.aims().collect::<Vec<_>>());
         let Ok(made) = team.advance(&chart, &mut past, &mut memory, &mut steps) else { break };
+        if subject.flaw == Some(Flaw::TwoAtOnce) {
+            let _ended = team.advance(&chart, &mut past, &mut memory, &mut steps);
+        }
         if made == MoveKind::Spread && choices == Gains::Compared {
             // A robot that has gone its own way keeps its aim as long as that is a frontier cell.
             let has_spread = played.moves.last().is_none_or(|&(last, _)| last == MoveKind::Spread);
             let is_kept = |&aim: &Cell| has_spread && chart.is_frontier(aim);
             let kept: Vec<Option<Cell>> = aims.into_iter().map(|aim| aim.filter(is_kept)).collect();
-            let chosen: Vec<Option<Cell>> = if subject.heeds_no_way {
+            let chosen: Vec<Option<Cell>> = if subject.flaw == Some(Flaw::HeedsNoWay) {
                 gains::most_seen(rule, &chart, &before, &kept)
             } else {
                 team.aims().collect()

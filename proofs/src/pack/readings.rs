@@ -16,14 +16,25 @@ pub(super) struct Subject {
     pub(super) rule: Rule,
     /// What its robots compare: another one than the published one is followed by the published rule alone.
     pub(super) metric: Metric,
-    /// Whether robots choose by what they would see alone, however far it is: a mutant's. It chooses beside the rule, where
-    /// gains are compared, and its team moves are the rule's.
-    pub(super) heeds_no_way: bool,
+    /// What is wrong with it that no condition expresses: a mutant's.
+    pub(super) flaw: Option<Flaw>,
+}
+
+/// What can be wrong with a pack beside its rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Flaw {
+    /// Robots choose by what they would see alone, however far it is. They choose beside the rule, where gains are compared, and
+    /// their team moves are the rule's.
+    HeedsNoWay,
+    /// Robots forget after each team move what they have seen.
+    Forgets,
+    /// They make two team moves in one.
+    TwoAtOnce,
 }
 
 impl Subject {
     pub(super) const fn of(rule: Rule) -> Self {
-        Self { rule, metric: Metric::CellsBySteps, heeds_no_way: false }
+        Self { rule, metric: Metric::CellsBySteps, flaw: None }
     }
 
     /// A run on `floor`, written down for the judge; no team moves yet.
