@@ -81,9 +81,12 @@ fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
     assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7");
 }
 
-/// A number that grows beyond its byte, long after the states that are tried first.
+/// A number that grows beyond its bytes, long after the states that are tried first; or does not.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Grows;
+enum Grows {
+    Beyond,
+    UpTo900,
+}
 
 #[derive(Clone, PartialEq, Eq, Debug)]
 struct Wide(u16);
@@ -103,18 +106,72 @@ impl Protocol for Grows {
     type State = Wide;
     demands! { always "it is below 1000", |_, _, _, number| number.0 < 1000; }
 
-    fn starts(&self, _: &Starts) -> impl IntoIterator<Item = Wide> {
-        [Wide(0)]
+    fn starts(&self, here: &Starts) -> impl IntoIterator<Item = Wide> {
+        (0..here.starts).map(|start| Wide(start.into()))
     }
 
     fn moves(&self, _: &Starts, &Wide(number): &Wide) -> Vec<Move<Wide>> {
-        vec![Move::of(0, "doubles", Wide(2 * number % 1009)), Move::of(0, "grows", Wide(number + 1))]
+        let grown = [2 * number % 907, number + 1].map(|number| match self {
+            Self::Beyond => Wide(number),
+            Self::UpTo900 => Wide(number.min(900)),
+        });
+        let [doubled, grown] = grown;
+        vec![Move::of(0, "doubles", doubled), Move::of(0, "grows", grown)]
     }
 }
 
 #[test]
 fn a_state_that_is_lost_deep_in_a_search_is_refused() {
-    let refused = refused(&Grows, Starts::of(1), 0);
+    let refused = refused(&Grows::Beyond, Starts::of(1), 0);
+    assert!(refused.ends_with("does not come back from its bytes"), "{refused}");
+}
+
+#[test]
+fn a_rule_of_which_a_state_is_lost_gets_no_certificate_and_that_of_another_rule_is_not_accepted_for_it() {
+    static CHECK: Keeps<Grows> = Keeps(Starts::of(1), 0);
+    static BEYOND: Clause = Clause {
+        id: "GROWS-1",
+        sentence: "The number MUST be below 1000.",
+        checks: &[&Check::new(NamedRule::new("grows", Grows::Beyond), &CHECK, Verdict::Holds, &[])],
+    };
+    static UP_TO_900: Clause = Clause {
+        checks: &[&Check::new(NamedRule::new("grows", Grows::UpTo900), &CHECK, Verdict::Holds, &[])],
+        ..BEYOND
+    };
+    let none =
+        ledger::certificate(&BEYOND, 0, Limits::NONE).map(|bytes| bytes.len()).map_err(|why| why.to_string());
+    assert_eq!(none, Err("a state does not come back from its bytes".to_owned()));
+    let other = ledger::certificate(&UP_TO_900, 0, Limits::NONE).expect("it holds");
+    let refusal = |clause| match ledger::examine(&other, [clause]) {
+        Ok(examined) => examined.outcome.err().map(|(_, refusal)| refusal.to_string()),
+        Err(misfit) => Some(misfit.to_string()),
+    };
+    assert_eq!(refusal(&UP_TO_900), None);
+    let refused = refusal(&BEYOND).expect("it is refused");
+    assert!(refused.ends_with("a state does not come back from its bytes"), "{refused}");
+}
+
+/// More starts than the states that are tried first, of which a late one does not come back.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct ManyStarts;
+
+impl Protocol for ManyStarts {
+    type Bound = Starts;
+    type State = Wide;
+    demands! { always "it is below 1000", |_, _, _, number| number.0 < 1000; }
+
+    fn starts(&self, _: &Starts) -> impl IntoIterator<Item = Wide> {
+        (0..=999).map(Wide)
+    }
+
+    fn moves(&self, _: &Starts, &Wide(number): &Wide) -> Vec<Move<Wide>> {
+        (number == 999).then(|| Move::of(0, "grows", Wide(1000))).into_iter().collect()
+    }
+}
+
+#[test]
+fn a_start_that_is_lost_is_refused_although_many_are_before_it() {
+    let refused = refused(&ManyStarts, Starts::of(1), 0);
     assert!(refused.ends_with("does not come back from its bytes"), "{refused}");
 }
 

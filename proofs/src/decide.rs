@@ -498,7 +498,9 @@ where
     }
 
     fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
-        Ok(vec![Box::new(Started::new((self.system)(rule), self.starts))])
+        let system = (self.system)(rule);
+        states::repeats(&system, (self.starts)(&system)).map_err(MethodError::new)?;
+        Ok(vec![Box::new(Started::new(system, self.starts))])
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -68,7 +68,8 @@ pub trait Protocol: Clone + Sync + 'static {
 /// A move to another state.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Move<S> {
-    /// The actors, a bit for each. With none of them it is a fault, which no run is bound to meet.
+    /// The actors, a bit for each. With none of them it is a fault, which no run is bound to meet, and no run
+    /// meets for ever: an endless run is looked at from its last fault on.
     pub actors: Bits,
     /// The move in words.
     pub words: &'static str,

@@ -11,6 +11,9 @@ use super::states::System;
 use super::tree::Game;
 use super::world::Turn;
 
+/// What is said where what is kept of a state leaves something of it out.
+pub(super) const LOST: &str = "a state does not come back from its bytes";
+
 /// A system with its starts, and which demands count.
 pub struct Started<S: System> {
     /// The system.
@@ -67,6 +70,7 @@ where
         let breaks = self.words(self.system.broken_by(&turn));
         let acting = self.system.is_bound(&turn).then(|| self.system.acting(&turn));
         self.system.make_canonical(&mut after);
+        let breaks = breaks.or_else(|| self.system.is_lost(&after).then(|| LOST.to_owned()));
         Step { to: after, acting, breaks }
     }
 

@@ -81,6 +81,12 @@ pub trait System: World {
     /// Makes `state` the one of which [`Self::write`] made these bytes.
     fn read(&self, _: &mut Self::State, _: &[u8]) {}
 
+    /// Whether what is kept of `state` leaves something of it out, as far as the system can tell: then another state may
+    /// be taken for it, and no search that meets it can be believed.
+    fn is_lost(&self, _: &Self::State) -> bool {
+        false
+    }
+
     /// Makes every step from `state`, one for each combination of answers, always in the same order. The next one is
     /// made in the place of the state to which the last one leads.
     fn each_step<B>(

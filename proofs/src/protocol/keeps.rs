@@ -96,6 +96,8 @@ impl<P: Protocol> Method<P> for Keeps<P> {
     /// Surroundings without a start are left out, unless there are no others.
     fn systems(&self, rule: &P) -> Result<Systems, MethodError> {
         let mut all = self.playing(rule)?;
+        is_sound(&all)?;
+        all.iter().try_for_each(Playing::starts_come_back)?;
         let has_start = |playing: &Playing<P>| playing.starts().next().is_some();
         if all.iter().any(has_start) {
             all.retain(has_start);

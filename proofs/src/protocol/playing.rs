@@ -101,6 +101,10 @@ impl<P: Protocol> System for Playing<P> {
         }
     }
 
+    fn is_lost(&self, state: &P::State) -> bool {
+        is_lost(state)
+    }
+
     /// Takes the moves as they are, without a copy of each. The state to which the first one leads is read again from
     /// its bytes; in a debug build each is.
     fn each_step<B>(
@@ -243,6 +247,7 @@ impl<P: Protocol> Playing<P> {
         limits: Limits<'_>,
         workers: usize,
     ) -> Result<Findings<&'static str>, MethodError> {
+        self.starts_come_back()?;
         let mut found = states::search_together(self, self.starts(), limits, workers);
         if let Some(state) = self.lost.get() {
             return Err(self.why_lost(state));
@@ -253,6 +258,14 @@ impl<P: Protocol> Playing<P> {
             }
         }
         Ok(found)
+    }
+
+    /// Whether all starts come back from their bytes.
+    ///
+    /// # Errors
+    /// [`MethodError`] if one does not: two starts might be taken for one.
+    pub(super) fn starts_come_back(&self) -> Result<(), MethodError> {
+        self.starts().find(is_lost).map_or(Ok(()), |state| Err(self.why_lost(&state)))
     }
 
     /// Whether the first few states come back from their bytes.

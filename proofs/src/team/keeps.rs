@@ -195,6 +195,11 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
     fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
         let demand = Promise(self.1);
         let playing = self.0.playing(rule, &[demand])?;
+        let starts = match self.0.strategy() {
+            Strategy::Tree => vec![playing.start.clone()],
+            Strategy::States => self.0.starts(rule)?,
+        };
+        states::repeats(&playing, starts).map_err(MethodError::new)?;
         Ok(vec![match self.0.strategy() {
             Strategy::Tree => {
                 Box::new(AllRuns::new(Box::new(self.0.search(rule, Until::Exhausted, &[])?), demand))

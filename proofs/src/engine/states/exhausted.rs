@@ -13,7 +13,7 @@ use super::limits::{Limits, MemoryLimit, MemoryShare};
 use super::rounds::{NONE, TooLarge};
 use super::search::{Search, search};
 use super::{Bits, System};
-use crate::engine::model::Started;
+use crate::engine::model::{LOST, Started};
 
 /// Why there is no certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,6 +24,8 @@ pub enum NoCertificate {
     Unfinished,
     /// A step was made again and led to another state.
     Unrepeatable,
+    /// What is kept of a state leaves something of it out.
+    Lost,
 }
 
 impl fmt::Display for NoCertificate {
@@ -32,6 +34,7 @@ impl fmt::Display for NoCertificate {
             Self::Broken => "its search finds something broken",
             Self::Unfinished => "its search did not come to its end",
             Self::Unrepeatable => "from one state a step led to two",
+            Self::Lost => LOST,
         })
     }
 }
@@ -126,6 +129,9 @@ impl<S: System> Search<'_, S> {
     /// The number of a state that is known.
     fn node(&mut self, state: &mut S::State) -> Result<u32, NoCertificate> {
         self.system.make_canonical(state);
+        if self.system.is_lost(state) {
+            return Err(NoCertificate::Lost);
+        }
         self.known.find(self.system, state).ok_or(NoCertificate::Unrepeatable)
     }
 
