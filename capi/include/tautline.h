@@ -105,7 +105,7 @@ enum TautlineStatus
    */
   TAUTLINE_STATUS_UNKNOWN_RULE = -3,
   /*
-   A chain is a base and at least one robot.
+   A chain is a base and at least one robot, and a monitor has at least one.
    */
   TAUTLINE_STATUS_TOO_FEW_ROBOTS = -4,
   /*
@@ -161,7 +161,7 @@ enum TautlineStatus
    */
   TAUTLINE_STATUS_DAMAGED_OTHER_WORLD = -17,
   /*
-   There is no such demand, or its cells have no width.
+   There is no such demand, or nothing breaks it with its tolerance.
    */
   TAUTLINE_STATUS_BAD_DEMAND = -18,
 };

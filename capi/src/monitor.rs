@@ -51,7 +51,7 @@ pub struct TautlineDemand {
     pub kind: u32,
     /// The range, the least distance, or the width of a cell, in millimetres.
     pub length_mm: u32,
-    /// How far off a distance, or a position in cells, may be.
+    /// How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a cell.
     pub tolerance_mm: u32,
     /// The most robots in a cell.
     pub most: u32,
@@ -95,13 +95,22 @@ pub struct TautlineMonitor {
 impl TautlineDemand {
     const fn demand(&self) -> Option<AnyDemand> {
         let &Self { kind, length_mm, tolerance_mm, most, .. } = self;
+        // With such a tolerance nothing could break it.
+        let is_blind = match kind {
+            TAUTLINE_DEMAND_APART => tolerance_mm >= length_mm,
+            TAUTLINE_DEMAND_CELLS => tolerance_mm >= length_mm.div_ceil(2),
+            _ => false,
+        };
+        if is_blind {
+            return None;
+        }
         Some(match kind {
             TAUTLINE_DEMAND_NEIGHBOURS => {
                 AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm })
             }
             TAUTLINE_DEMAND_JOINED => AnyDemand::Joined(Joined { range_mm: length_mm, tolerance_mm }),
             TAUTLINE_DEMAND_APART => AnyDemand::Apart(Apart { least_mm: length_mm, tolerance_mm }),
-            TAUTLINE_DEMAND_CELLS if length_mm > 0 => {
+            TAUTLINE_DEMAND_CELLS => {
                 let base = if self.has_base == 0 { None } else { Some([self.base_column, self.base_row]) };
                 AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm })
             }
@@ -175,6 +184,9 @@ pub unsafe extern "C" fn tautline_monitor_begin(
         }
         // SAFETY: the caller's promise.
         let demand = unsafe { read(demand) }?.demand().ok_or(TautlineStatus::BadDemand)?;
+        if count == 0 {
+            return Err(TautlineStatus::TooFewRobots);
+        }
         if count > isize::MAX as usize / size_of::<Robot>() {
             return Err(TautlineStatus::TooManyRobots);
         }

@@ -20,7 +20,7 @@ pub enum TautlineStatus {
     NotBegun = -2,
     /// There is no such rule.
     UnknownRule = -3,
-    /// A chain is a base and at least one robot.
+    /// A chain is a base and at least one robot, and a monitor has at least one.
     TooFewRobots = -4,
     /// A chain here has at most 16 robots, the base counted.
     TooManyRobots = -5,
@@ -48,7 +48,7 @@ pub enum TautlineStatus {
     DamagedOtherStep = -16,
     /// A message contradicts what the team knows.
     DamagedOtherWorld = -17,
-    /// There is no such demand, or its cells have no width.
+    /// There is no such demand, or nothing breaks it with its tolerance.
     BadDemand = -18,
 }
 
@@ -85,7 +85,9 @@ impl TautlineStatus {
             Self::NullPointer => c"a pointer is null; give the address of the caller's own memory",
             Self::NotBegun => c"the memory holds nothing begun; call tautline_chain_begin or tautline_monitor_begin first",
             Self::UnknownRule => c"there is no such rule; give one of TAUTLINE_RULE_...",
-            Self::TooFewRobots => c"too few robots; give at least 2, the base counted",
+            Self::TooFewRobots => {
+                c"too few robots; give a chain at least 2, the base counted, and a monitor at least 1"
+            }
             Self::TooManyRobots => {
                 c"too many robots; give at most TAUTLINE_CHAIN_ROBOTS, the base counted"
             }
@@ -110,7 +112,7 @@ impl TautlineStatus {
                 c"a message contradicts what the team knows; ask the robots for their messages again"
             }
             Self::BadDemand => {
-                c"there is no such demand; give one of TAUTLINE_DEMAND_..., and cells a width above 0"
+                c"no such demand; give one of TAUTLINE_DEMAND_..., and a tolerance below its least distance, or half its cells' width"
             }
         }
     }
