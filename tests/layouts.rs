@@ -435,11 +435,13 @@ fn a_bad_ros_map_is_refused_at_its_place() {
     };
     assert_snapshot!(bad("map.pgm", "gone.png"), @"map.yaml:1:8: the image gone.png is not there; name another image with --image FILE");
     assert_snapshot!(bad("resolution: 0.05\n", ""), @"map.yaml:5:1: this does not describe a map: missing field `resolution`; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
-    assert_snapshot!(bad("0.05", "0"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, above 0");
-    assert_snapshot!(bad("0.05", ".nan"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, above 0");
+    assert_snapshot!(bad("0.05", "0"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
+    assert_snapshot!(bad("0.05", ".nan"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
+    assert_snapshot!(bad("0.05", "1e308"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
     assert_snapshot!(bad("0.05", "[1"), @"map.yaml:2:13: this does not describe a map: the list has no end on its line; write one `key: value` a line, where a value is a word, a text between quotes, or a list such as [0, 0, 0]");
     assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5]"), @"map.yaml:3:9: this does not describe a map: `origin` is no list of 3 numbers; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
-    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5, .inf]"), @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians");
+    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5, .inf]"), @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most 1000000000");
+    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1e300, 2.5, 0]"), @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most 1000000000");
     assert_snapshot!(bad("negate: 0", "negate: 2"), @"map.yaml:4:9: `negate` is out of bounds; write 0 or 1");
     assert_snapshot!(bad("negate: 0", "negate: perhaps"), @"map.yaml:4:9: this does not describe a map: expected 0 or 1; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
     assert_snapshot!(bad("0.65", "1.5"), @"map.yaml:5:18: `occupied_thresh` is out of bounds; write a number from 0 to 1");
@@ -452,6 +454,10 @@ fn a_bad_ros_map_is_refused_at_its_place() {
     assert_snapshot!(bad(b"neither"), @"map.pgm: the image cannot be read: it is neither PGM nor PNG; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"GIF89a"), @"map.pgm: the image cannot be read: it is neither PGM nor PNG; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P5 2 2 255\n\x00\xff"), @"map.pgm: the image cannot be read: it ends before its last pixel; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P2 2 1 255\n254 -3\n"), @"map.pgm: the image cannot be read: before its last pixel it ends, or has something that is no number; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P2 2 1 255\n254 300\n"), @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P5 2 1 100\n\x10\xff"), @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P5\r\n2 1\r\n255\r\n\xff\xff"), @"map.pgm: the image cannot be read: its header ends in CR LF, and the LF would be its first pixel; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P5 32000 31250 255\n\x00\xff"), @"map.pgm: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
     assert_snapshot!(bad(b"P5 2 1 255\n\x00\x00"), @"map.pgm: no cell is free; leave at least one cell free for the base");
 }

@@ -35,8 +35,9 @@ fn decode_png(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     let frame = reader.next_frame(&mut samples).map_err(undecoded)?;
     samples.truncate(frame.buffer_size());
     if frame.bit_depth == BitDepth::Sixteen {
-        let wide =
-            samples.chunks_exact(2).map(|pair| scaled(u16::from_be_bytes([pair[0], pair[1]]), u16::MAX));
+        let wide = samples
+            .chunks_exact(2)
+            .filter_map(|pair| scaled(u16::from_be_bytes([pair[0], pair[1]]).into(), u16::MAX));
         samples = wide.collect();
     }
     Ok((layout, samples.chunks_exact(frame.color_type.samples()).map(pixel).collect()))
@@ -53,10 +54,10 @@ fn pixel(samples: &[u8]) -> Pixel {
     }
 }
 
-/// A sample from 0 to `most`, from 0 to 255.
-fn scaled(sample: u16, most: u16) -> u8 {
-    let most = u32::from(most.max(1));
-    ((u32::from(sample).min(most) * 255 + most / 2) / most) as u8
+/// A sample from 0 to `most`, which is above 0, from 0 to 255; `None` if it is above `most`.
+fn scaled(sample: u32, most: u16) -> Option<u8> {
+    let most = u32::from(most);
+    (sample <= most).then(|| ((sample * 255 + most / 2) / most) as u8)
 }
 
 /// Decodes the formats P2, P3, P5 and P6: grey or coloured, in decimal numbers or bytes.
@@ -72,20 +73,28 @@ fn decode_pnm(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     let is_plain = matches!(bytes[1], b'2' | b'3');
     let channels = if matches!(bytes[1], b'2' | b'5') { 1 } else { 3 };
     let count = width as usize * height as usize * channels;
-    let samples: Vec<u8> = if is_plain {
-        numbers.take(count).map(|sample| scaled(sample.min(u32::from(u16::MAX)) as u16, most)).collect()
+    let samples: Option<Vec<u8>> = if is_plain {
+        numbers.take(count).map(|sample| scaled(sample, most)).collect()
     } else {
+        if numbers.0.starts_with(b"\r\n") {
+            return Err(wrong("its header ends in CR LF, and the LF would be its first pixel"));
+        }
         // One blank stands between the largest level and the first sample.
         let raster = numbers.0.get(1..).unwrap_or_default();
         if most > u16::from(u8::MAX) {
             let pairs = raster.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
-            pairs.take(count).map(|sample| scaled(sample, most)).collect()
+            pairs.take(count).map(|sample| scaled(sample.into(), most)).collect()
         } else {
             raster.iter().take(count).map(|&sample| scaled(sample.into(), most)).collect()
         }
     };
+    let samples = samples.ok_or_else(|| wrong("a pixel is above its largest level"))?;
     if samples.len() < count {
-        return Err(wrong("it ends before its last pixel"));
+        return Err(wrong(if is_plain {
+            "before its last pixel it ends, or has something that is no number"
+        } else {
+            "it ends before its last pixel"
+        }));
     }
     Ok((layout, samples.chunks_exact(channels).map(pixel).collect()))
 }

@@ -6,7 +6,7 @@
 //! not opaque. That is the meaning of the modes `trinary` and `scale`; in `raw` pixels are no occupancies,
 //! and it is refused.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use tautline_io::diagnostic::Diagnostic;
@@ -102,6 +102,12 @@ pub(super) fn image(file: &Path) -> Option<PathBuf> {
     Some(file.with_file_name(description.image))
 }
 
+/// The side of a pixel. Beyond, places in metres are no numbers, or those of neighbours are the same.
+const RESOLUTION_M: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// How far off the origin may be.
+const FARTHEST_M: f64 = 1e9;
+
 /// Reads the YAML file.
 ///
 /// # Errors
@@ -121,11 +127,13 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
         other if other.parse::<u8>().is_ok() => Err(out_of_bounds(&negate.at, "negate", "write 0 or 1")),
         _ => return Err(no_map(&negate.at, "expected 0 or 1", FIELDS)),
     };
-    if !(metres > 0.0 && metres.is_finite()) {
-        return Err(out_of_bounds(&metres_at, "resolution", "write the metres of a pixel's side, above 0"));
+    if !RESOLUTION_M.contains(&metres) {
+        let allowed = "write the metres of a pixel's side, from 0.000001 to 1000000";
+        return Err(out_of_bounds(&metres_at, "resolution", allowed));
     }
-    if ![x_m, y_m, yaw_rad].iter().all(|number| number.is_finite()) {
-        return Err(out_of_bounds(&origin_at, "origin", "write x and y in metres and the yaw in radians"));
+    if ![x_m, y_m, yaw_rad].iter().all(|number| number.abs() <= FARTHEST_M) {
+        let allowed = "write x and y in metres and the yaw in radians, each at most 1000000000";
+        return Err(out_of_bounds(&origin_at, "origin", allowed));
     }
     if !(0.0..=1.0).contains(&occupied_above) {
         return Err(out_of_bounds(&occupied_at, "occupied_thresh", "write a number from 0 to 1"));
