@@ -24,6 +24,8 @@ pub struct Refused {
     pub late: Option<(u32, u32)>,
     /// Stamps that are farther than the limit from the one before and from half of those behind.
     pub astray: Option<(u32, u32)>,
+    /// Positions in whose place another one of the same robot stands, at the same stamp.
+    pub replaced: Option<(u32, u32)>,
     /// Positions of names that are no robots.
     pub nobody: Option<(u32, u32)>,
 }
@@ -88,7 +90,12 @@ impl Tracks {
             let sample = Sample { robot, ..*sample };
             // Of several positions with one stamp the last counts.
             match track.last_mut() {
-                Some(last) if last.at_us == sample.at_us => *last = sample,
+                Some(last) if last.at_us == sample.at_us => {
+                    if (last.x_mm, last.y_mm) != (sample.x_mm, sample.y_mm) {
+                        count(&mut refused.replaced, last.place);
+                    }
+                    *last = sample;
+                }
                 Some(_) | None => track.push(sample),
             }
         }

@@ -101,7 +101,18 @@ fn damaged_logs_are_refused_with_the_place() {
         let mut bytes = whole.clone();
         bytes[place] ^= 0x55;
         let _ = read(&bytes);
+        // Nor is there one where a length is any other.
+        for length in [0, 5, 200, 1 << 40, u64::MAX - 9, u64::MAX] {
+            let mut bytes = whole.clone();
+            bytes.splice(place..whole.len().min(place + 8), length.to_le_bytes());
+            let _ = read(&bytes);
+        }
     }
+    let endless = [mcap::MAGIC, &[1], &u64::MAX.to_le_bytes()].concat();
+    assert_eq!(
+        read(&endless).expect_err("no end").what,
+        "a record of this MCAP says that it ends where none can"
+    );
 }
 
 #[test]
@@ -137,6 +148,9 @@ fn late_and_far_stamps_are_not_taken() {
     assert_eq!((refused.late, refused.astray, refused.nobody), (Some((2, 4)), Some((1, 5)), Some((1, 9))));
     assert_eq!(tracks.at(1, 1_500_000), Some([1_500.0, 0.0]));
     assert_eq!(tracks.at(0, 1_500_000), None);
+    let log = read(b"t,robot,x,y\n0,a,0,0\n1,a,9,0\n1,a,1,0\n1,a,1,0\n").expect("a log");
+    let tracks = Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS);
+    assert_eq!((tracks.at(0, 1_000_000), tracks.refused().replaced), (Some([1_000.0, 0.0]), Some((1, 3))));
     // A log that pauses goes on; a first stamp far off is not the log's.
     let pause = read(b"t,robot,x,y\n7,a,0,0\n1e6,a,0,0\n1000001,a,1,0\n").expect("a log");
     let tracks = Tracks::new(&pause, &Numbers::natural(&pause.names), &LIMITS);

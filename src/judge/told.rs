@@ -136,6 +136,7 @@ impl Told<'_> {
         };
         say(refused.late, "not taken: a stamp before an earlier one of the same robot");
         say(refused.astray, "not taken: a stamp farther than --jump from those before and behind it");
+        say(refused.replaced, "not taken: a position before another one of the same robot at the same stamp");
         say(refused.nobody, "not taken: a name that is no robot");
         say(log.unplaced, "not taken: a position that is no number, or beyond 1,000 km");
         if let Some(misplaced) = self.misplaced {

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 
+use mcap::records::op;
 use mcap::{McapError, MessageStream};
 use serde_json::{Map, Value};
 
@@ -90,6 +91,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
     if !bytes.starts_with(mcap::MAGIC) {
         return Err(unread(0, &McapError::BadMagic));
     }
+    if overruns(bytes) {
+        return Err(Fault::whole("a record of this MCAP says that it ends where none can", REPAIR));
+    }
     let stream = MessageStream::new(bytes).map_err(|error| unread(0, &error))?;
     for message in stream {
         number = number.saturating_add(1);
@@ -140,10 +144,63 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
     Ok(reading.log)
 }
 
+/// Whether a record says that it ends behind its chunk, or behind all bytes that there can be: the reader does not check
+/// that. What ends behind the recording alone is cut.
+fn overruns(bytes: &[u8]) -> bool {
+    let mut rest = bytes.get(mcap::MAGIC.len()..).unwrap_or_default();
+    while let Some((kind, length, behind)) = record(rest) {
+        let content = behind.get(..length as usize).unwrap_or(behind);
+        let is_whole = content.len() as u64 == length;
+        if length >= isize::MAX as u64 || kind == op::CHUNK && is_overrun(content, length).unwrap_or(is_whole)
+        {
+            return true;
+        }
+        if kind == op::FOOTER || !is_whole {
+            break;
+        }
+        rest = &behind[length as usize..];
+    }
+    false
+}
+
+/// Whether records of a chunk that has so many bytes, or more than are there, end behind it; `None` if it ends before that
+/// can be told.
+fn is_overrun(chunk: &[u8], length: u64) -> Option<bool> {
+    // Two times, the size once it is unpacked, and a checksum; then the name of the compression.
+    let rest = chunk.get(3 * 8 + 4..)?;
+    let (name, rest) = rest.split_first_chunk()?;
+    let rest = rest.get(u32::from_le_bytes(*name) as usize..)?;
+    let (left, mut rest) = rest.split_first_chunk()?;
+    let mut left = u64::from_le_bytes(*left);
+    if left > length - (chunk.len() - rest.len()) as u64 {
+        return Some(true);
+    }
+    while left > 0 && *name == [0; 4] {
+        let Some((_, length, behind)) = record(rest) else { return Some(left < RECORD) };
+        let Some(after) = left.checked_sub(RECORD).and_then(|left| left.checked_sub(length)) else {
+            return Some(true);
+        };
+        (left, rest) = (after, behind.get(length as usize..)?);
+    }
+    Some(false)
+}
+
+/// Bytes of a record before its content: its kind and its length.
+const RECORD: u64 = 9;
+
+/// The kind and the length of the record that begins here, and the bytes behind them.
+fn record(bytes: &[u8]) -> Option<(u8, u64, &[u8])> {
+    let (&kind, rest) = bytes.split_first()?;
+    let (length, rest) = rest.split_first_chunk()?;
+    Some((kind, u64::from_le_bytes(*length), rest))
+}
+
+const REPAIR: &str = "record it anew, or repair it, as `mcap recover` does";
+
 fn unread(message: u32, error: &McapError) -> Fault {
     let remedy = match error {
         McapError::UnsupportedCompression(_) => "unpack its chunks, as `mcap decompress` does",
-        _ => "record it anew, or repair it, as `mcap recover` does",
+        _ => REPAIR,
     };
     if message == 0 {
         return Fault::whole(format!("this is no MCAP: {error}"), remedy);
