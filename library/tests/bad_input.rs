@@ -111,11 +111,10 @@ impl Protocol for Grows {
     }
 
     fn moves(&self, _: &Starts, &Wide(number): &Wide) -> Vec<Move<Wide>> {
-        let grown = [2 * number % 907, number + 1].map(|number| match self {
+        let [doubled, grown] = [2 * number % 907, number + 1].map(|number| match self {
             Self::Beyond => Wide(number),
             Self::UpTo900 => Wide(number.min(900)),
         });
-        let [doubled, grown] = grown;
         vec![Move::of(0, "doubles", doubled), Move::of(0, "grows", grown)]
     }
 }
