@@ -117,7 +117,7 @@ impl Judge {
         if given.layout().is_some() {
             given.check_cells("--map", &self.limits())?;
         }
-        let bytes = given::bytes(&self.log, MOST_BYTES)?;
+        let bytes = given::bytes(&self.log, MOST_BYTES, "cut it into parts")?;
         let log = read(&bytes).map_err(|fault| self.unread(fault))?;
         drop(bytes);
         let numbers = self.numbers(&log)?;
@@ -195,7 +195,7 @@ impl Judge {
     /// The numbers of the robots.
     fn numbers(&self, log: &Log) -> Result<Numbers, Diagnostic> {
         let Some(file) = &self.names else { return Ok(Numbers::natural(&log.names)) };
-        let bytes = given::bytes(file, MOST_BYTES)?;
+        let bytes = given::bytes(file, MOST_BYTES, "cut it into parts")?;
         let text = String::from_utf8_lossy(&bytes);
         Numbers::named(&log.names, &text).map_err(|wrong| {
             let remedy = "write lines as robot_a,1 with the names of the log and the numbers of robots, from 1, each \

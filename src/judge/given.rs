@@ -219,15 +219,15 @@ impl Ground for Given {
     }
 }
 
-/// The bytes of a file, at most so many.
-pub(crate) fn bytes(file: &Path, most: u64) -> Result<Vec<u8>, Diagnostic> {
+/// The bytes of a file, at most so many; `smaller` is what to do about one that has more.
+pub(crate) fn bytes(file: &Path, most: u64, smaller: &str) -> Result<Vec<u8>, Diagnostic> {
     let unread = |error: std::io::Error| Diagnostic::in_file(file, error, "name a file that can be read");
     let mut bytes = Vec::new();
     let opened = File::open(file).map_err(unread)?;
     opened.take(most + 1).read_to_end(&mut bytes).map_err(unread)?;
     if bytes.len() as u64 > most {
         let what = format!("the file has more than {} MiB", most >> 20);
-        return Err(Diagnostic::in_file(file, what, "cut it into parts"));
+        return Err(Diagnostic::in_file(file, what, smaller));
     }
     Ok(bytes)
 }

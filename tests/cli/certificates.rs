@@ -58,6 +58,11 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
         (said(changed(&bytes, b"tautline 0", b"tautline 9")), "it is a certificate of \"tautline 9"),
         (refused(folder, &["check", "nowhere.cert"]), "nowhere.cert"),
     ];
+    // Of its states a checker keeps many times as many bytes.
+    let large = fs::File::create(folder.join("large.cert")).expect("a file");
+    large.set_len((1 << 28) + 1).expect("a large file");
+    let large = refused(folder, &["check", "large.cert"]);
+    assert!(large.contains("large.cert: the file has more than 256 MiB"), "{large}");
     for (words, part) in cases {
         assert!(words.contains(part), "{part}: {words}");
     }
