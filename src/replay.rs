@@ -1,6 +1,5 @@
 //! `tautline replay`: a stored run again.
 
-use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -15,11 +14,11 @@ use tautline_io::json_lines;
 use tautline_kernel::ground::Area;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Depiction, Evidence};
-use tautline_proofs::judge::AnyCase;
-use tautline_proofs::judge::chain::{Exhibit, judge, judges};
-use tautline_proofs::judge::floor;
+use tautline_proofs::judge::Case;
+use tautline_proofs::judge::chain::judges;
 use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
+use tautline_proofs::run::Frame;
 
 use super::evidence::{self, EvidenceJson, setup, shown, story};
 use super::explore::{Wanted, draw_moves, summary};
@@ -28,10 +27,10 @@ use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
-use tautline_sim::counterexample::judge_input::{exhibit, of_agent, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::draw::{self, page, svg};
-use tautline_sim::explore::{ClauseId, Judge, Play, Report, Setup, team};
+use tautline_sim::explore::judge_input::exhibit;
+use tautline_sim::explore::{ClauseId, Play, Report, Setup, team};
 use tautline_sim::trace::{self, ForeignRun, StoredMove, StoredRun, Summary, Trace};
 
 const EXAMPLES: &str = "\
@@ -197,36 +196,17 @@ impl Replay {
     fn run_team(&self, trace: Trace, files: RunFiles, out: &mut Output) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         self.check_drawing(team(&setup)?.area(&setup.layout), &files)?;
-        let judge = clause.and_then(|clause| setup.scheme.clause(clause)?.judge);
-        // What a judge reads: the run of a chain, or that of a single agent that is done too early.
-        let mut chain = match (judge, clause) {
-            (Some(Judge::Chain), Some(clause)) => Some(exhibit(&setup, clause.as_str(), &[])),
-            _ => None,
-        };
-        let mut agent = (judge == Some(Judge::Agent) && setup.robots == 1).then(Vec::new);
+        let case = |frames: &[Frame]| (setup.scheme.case)(&setup, clause?, frames);
+        let (is_read, mut frames) = (case(&[]).is_some(), Vec::new());
         let report = trace.replay(&mut |made| {
-            let read = match (&mut chain, &mut agent) {
-                (Some(exhibit), _) => {
-                    exhibit.moves.push(written_down(made.frame));
-                    exhibit.moves.len() * exhibit.robots
-                }
-                (None, Some(frames)) => {
-                    frames.push(made.frame.clone());
-                    frames.len()
-                }
-                (None, None) => 0,
-            };
-            if read <= MAX_JUDGED {
+            frames.extend(is_read.then(|| made.frame.clone()));
+            if frames.len() * usize::from(setup.robots) <= MAX_JUDGED {
                 return Ok(());
             }
             let what = format!("the judge reads no more than {MAX_JUDGED} robots in all team moves");
             Err(Diagnostic::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
         })?;
-        let is_judged = match (chain, agent.zip(clause)) {
-            (Some(exhibit), _) => self.judge_chain(&exhibit)?,
-            (None, Some((frames, clause))) => self.judge_floor(&of_agent(&setup, clause, &frames))?,
-            (None, None) => self.judge_case(clause.and_then(|clause| (setup.scheme.case)(&setup, clause)))?,
-        };
+        let is_judged = self.judge_case(case(&frames))?;
         let said = clause.map(|clause| said(clause.as_str(), is_judged));
         self.show(&setup, &report, clause, Remarks { said, is_rule_run: None }, files, out)
     }
@@ -380,7 +360,7 @@ impl Replay {
         match &evidence.seen {
             Depiction::Robots(run) => match setup(check, run)? {
                 Some(setup) if judges(clause.id) => {
-                    self.judge_chain(&exhibit(&setup, clause.id, &run.frames))
+                    self.judge_case(Some(Box::new(exhibit(&setup, clause.id, &run.frames))))
                 }
                 Some(_) | None => Ok(false),
             },
@@ -391,28 +371,14 @@ impl Replay {
     }
 
     /// Whether a judge accepts what is written down for it, if anything is.
-    fn judge_case(&self, case: Option<Box<dyn AnyCase>>) -> Result<bool, Halt> {
+    fn judge_case(&self, case: Option<Box<impl Case + ?Sized>>) -> Result<bool, Halt> {
         let Some(case) = case else { return Ok(false) };
-        case.judge().map_err(|objection| self.rejected(&objection))?;
+        case.judge().map_err(|objection| self.rejected(&objection.of(case.step())))?;
         Ok(true)
-    }
-
-    /// Whether the judge of the chain accepts it.
-    fn judge_chain(&self, exhibit: &Exhibit) -> Result<bool, Halt> {
-        judge(exhibit).map_err(|objection| self.rejected(&objection.of("team move")))?;
-        Ok(true)
-    }
-
-    /// Whether the judge of agents sees that the clause is broken.
-    fn judge_floor(&self, exhibit: &floor::Exhibit) -> Result<bool, Halt> {
-        match floor::judge(exhibit) {
-            Ok(judgement) => Ok(judgement == floor::Judgement::Broken),
-            Err(objection) => Err(self.rejected(&objection.of("turn")).into()),
-        }
     }
 
     /// The judge has an objection.
-    fn rejected(&self, objection: &dyn Display) -> Diagnostic {
+    fn rejected(&self, objection: &str) -> Diagnostic {
         let what = format!("the judge rejects this counterexample: {objection}");
         Diagnostic::in_file(&self.file, what, "make it again with `tautline hunt` or `tautline prove --out`")
     }

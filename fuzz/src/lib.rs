@@ -33,10 +33,10 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{SeededOracle, Tape};
 use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
-use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::chain::hunt::{self, HuntTask, Waves};
 use tautline_sim::explore::hunt::Asked;
+use tautline_sim::explore::judge_input::exhibit;
 use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
 use tautline_sim::trace::Trace;
 

@@ -37,6 +37,11 @@ pub trait Case: fmt::Debug {
     /// The clause that it is said to break.
     fn clause(&self) -> &'static str;
 
+    /// The noun for a step of it.
+    fn step(&self) -> &'static str {
+        "step"
+    }
+
     /// Judges whether it is possible, whether its rule takes each step of it, and whether the last step, or the end,
     /// breaks the clause, and no earlier one.
     ///

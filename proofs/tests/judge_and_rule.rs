@@ -24,9 +24,16 @@ fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
 }
 
-fn exhibit(clause: &str, rule: Rule, area: Area, walls: &[Edge], base: Cell, robots: usize) -> Exhibit {
+fn exhibit(
+    clause: &'static str,
+    rule: Rule,
+    area: Area,
+    walls: &[Edge],
+    base: Cell,
+    robots: usize,
+) -> Exhibit {
     Exhibit {
-        clause: clause.to_owned(),
+        clause,
         repairs: if rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without },
         width: i32::from(area.last().x) + 1,
         height: i32::from(area.last().y) + 1,

@@ -13,14 +13,14 @@ fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
 }
 
-fn written_down(clause: &str, course: &Course) -> Exhibit {
+fn written_down(clause: &'static str, course: &Course) -> Exhibit {
     let turn = |turn: &tautline_proofs::floor_trace::Turn| Turn {
         agent: turn.agent,
         to: place(turn.before.cells[turn.agent].after(turn.step)),
         is_done: turn.is_done,
     };
     Exhibit {
-        clause: clause.to_owned(),
+        clause,
         width: course.width.into(),
         height: course.height.into(),
         walls: BTreeSet::new(),
@@ -68,7 +68,7 @@ fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
         rejects(&|changed| changed.turns[0].is_done = true, "an agent that is done too early");
         rejects(&|changed| changed.starts[0] = (-1, 0), "a start outside");
         rejects(&|changed| changed.starts.push((0, 0)), "another agent, which does nothing");
-        rejects(&|changed| changed.clause = "BRICKS-2".to_owned(), "a clause about marks");
+        rejects(&|changed| changed.clause = "BRICKS-2", "a clause about marks");
         if exhibit.round == 0 {
             rejects(&|changed| changed.turns[last].is_done = false, "a run that is not over");
             rejects(&|changed| changed.round = 1, "a round that is none");
@@ -84,7 +84,7 @@ fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
 fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
     let turn = |to, is_done| Turn { agent: 0, to, is_done };
     let exhibit = |turns: &[Turn]| Exhibit {
-        clause: "BRICKS-4".to_owned(),
+        clause: "BRICKS-4",
         width: 3,
         height: 1,
         walls: BTreeSet::new(),
@@ -112,7 +112,7 @@ fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
 #[test]
 fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
     let run = |moves: usize| Exhibit {
-        clause: "BRICKS-12".to_owned(),
+        clause: "BRICKS-12",
         width: 2,
         height: 1,
         walls: BTreeSet::new(),
@@ -143,9 +143,14 @@ fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
 }
 
 /// Agents on 3×3 cells, of which the middle one is where all start.
-fn in_the_middle(clause: &str, agents: usize, turns: &[(usize, Place, bool)], round: usize) -> Exhibit {
+fn in_the_middle(
+    clause: &'static str,
+    agents: usize,
+    turns: &[(usize, Place, bool)],
+    round: usize,
+) -> Exhibit {
     Exhibit {
-        clause: clause.to_owned(),
+        clause,
         width: 3,
         height: 3,
         walls: BTreeSet::new(),
@@ -240,7 +245,7 @@ fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
         assert_eq!(says(&in_the_middle(clause, agents, turns, round)), words, "{clause} {turns:?} {round}");
     }
     // With no other cell the run is over and nothing is left: that is a matter of marks, or no counterexample.
-    let all_explored = |clause: &str, round: usize, is_done: bool| {
+    let all_explored = |clause: &'static str, round: usize, is_done: bool| {
         let exhibit = in_the_middle(clause, 1, &[(0, MIDDLE, is_done)], round);
         says(&Exhibit { width: 2, height: 2, blocked: BTreeSet::from([(0, 1), (1, 0)]), ..exhibit })
     };

@@ -21,7 +21,7 @@ fn exhibit(found: &Counterexample, bounds: &Bounds) -> Exhibit {
     let side = 2 * bounds.robots as i32 - 1;
     let repairs = if bounds.observed.rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without };
     Exhibit {
-        clause: found.broken.clause().to_owned(),
+        clause: found.broken.clause(),
         repairs,
         width: side,
         height: side,
@@ -82,7 +82,7 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
     for clause in ["CHAIN-13", "CHAIN-14"] {
         for repairs in [Repairs::Without, Repairs::With] {
             let mut exhibit = Exhibit {
-                clause: clause.to_owned(),
+                clause,
                 repairs,
                 width: 5,
                 height: 5,
@@ -102,7 +102,7 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
 }
 
 /// The whole run of three robots in the open, as a counterexample to `clause`.
-fn open_run(observed: Subject, clause: &str) -> Exhibit {
+fn open_run(observed: Subject, clause: &'static str) -> Exhibit {
     let bounds = Bounds::new(observed, 3, 0);
     let grid = SmallGrid::new(bounds.area).expect("five cells wide");
     let mut chain = Chain::<_, 3>::new(observed.rule, 3, bounds.base, grid).expect("it fits");
@@ -114,7 +114,7 @@ fn open_run(observed: Subject, clause: &str) -> Exhibit {
     }
     let (broken, demand, answers) = (Invariant::Exhausts, "nothing", Vec::new());
     let run = Counterexample { broken, runs: 1, demand, frames, answers };
-    Exhibit { clause: clause.to_owned(), ..exhibit(&run, &bounds) }
+    Exhibit { clause, ..exhibit(&run, &bounds) }
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn a_run_that_ends_with_everything_explored_breaks_nothing() {
 fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
     let exhibits = counterexamples();
     assert_eq!(
-        exhibits.iter().map(|exhibit| (exhibit.clause.as_str(), exhibit.repairs)).collect::<Vec<_>>(),
+        exhibits.iter().map(|exhibit| (exhibit.clause, exhibit.repairs)).collect::<Vec<_>>(),
         [
             ("CHAIN-1", Repairs::Without),
             ("CHAIN-2", Repairs::Without),
@@ -199,7 +199,7 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
         if exhibit.repairs == Repairs::Without {
             rejects(&|changed| changed.repairs = Repairs::With, "the repaired rule");
         }
-        rejects(&|changed| changed.clause = "CHAIN-3".to_owned(), "another clause");
+        rejects(&|changed| changed.clause = "CHAIN-3", "another clause");
         rejects(&|changed| changed.robots += 1, "another robot");
         rejects(&|changed| changed.base.0 -= 1, "another base");
         rejects(&|changed| changed.blocked = BTreeSet::from([changed.base]), "a blocked base");

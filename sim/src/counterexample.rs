@@ -1,7 +1,5 @@
-//! Counterexamples: how they are found, made minimal, stored, and written down for judges who share no code with what
-//! made them.
+//! Counterexamples: how they are found, made minimal and stored.
 
-pub mod judge_input;
 pub mod minimise;
 pub mod own;
 pub mod refutation;

@@ -15,6 +15,7 @@ pub mod floor;
 pub mod frontier;
 pub mod hunt;
 mod hunt_states;
+pub mod judge_input;
 pub mod kit;
 mod own;
 mod own_rule;
@@ -29,7 +30,7 @@ mod states;
 mod together;
 
 pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts, Told};
-pub use self::clause::{Clause, ClauseId, Judge};
+pub use self::clause::{Clause, ClauseId};
 pub use self::course::{Course, Made};
 pub use self::own::Own;
 pub use self::own_rule::OwnRule;

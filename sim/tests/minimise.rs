@@ -13,9 +13,9 @@ use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
-use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refusal, minimise};
 use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::judge_input::exhibit;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{
     Asked, Catalogue, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,

@@ -13,6 +13,7 @@ use court::Court;
 use duty::{Duty, MOST_LED};
 pub use judge_input::{Exhibit, Move, Repairs};
 
+use super::Case;
 pub use super::{Objection, Place};
 
 /// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule; whether in each of them the
@@ -24,7 +25,7 @@ pub use super::{Objection, Place};
 /// # Errors
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
-    let Some(clause) = broken(&exhibit.clause) else {
+    let Some(clause) = broken(exhibit.clause) else {
         return Err("there is no such clause to break in a run".into());
     };
     let first = exhibit.moves.first().filter(|_| exhibit.robots >= 2);
@@ -66,6 +67,20 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         return Err("a wall was never met".into());
     }
     Ok(())
+}
+
+impl Case for Exhibit {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn step(&self) -> &'static str {
+        "team move"
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        judge(self)
+    }
 }
 
 /// Whether the judge knows this clause.

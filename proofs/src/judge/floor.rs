@@ -13,7 +13,7 @@ pub use super::{Objection, Place};
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Exhibit {
     /// The clause that it is said to break.
-    pub clause: String,
+    pub clause: &'static str,
     /// Columns of the layout.
     pub width: i32,
     /// Rows of the layout.
@@ -77,7 +77,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
         court.hear(exhibit, turn).map_err(|what| Objection { at: index + 1, what })?;
         acting.extend((index >= home).then_some(turn.agent));
         let is_early = turn.is_done && !due.is_subset(&court.explored);
-        let is_broken = match clause.as_str() {
+        let is_broken = match *clause {
             "BRICKS-4" => is_early,
             "BRICKS-12" => moves > 2 * due.len(),
             _ => false,
@@ -93,7 +93,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
         before == court && (0..starts.len()).all(acts) && !is_over
     });
     let last_is_done = turns.last().is_some_and(|turn| turn.is_done);
-    match (clause.as_str(), *round) {
+    match (*clause, *round) {
         ("BRICKS-4", 0) if last_is_done && is_unexplored => Ok(Judgement::Broken),
         ("BRICKS-4", 0) if last_is_done => Ok(Judgement::Unseen),
         ("BRICKS-12", 0) if starts.len() == 1 && moves > 2 * due.len() => Ok(Judgement::Broken),
@@ -109,6 +109,21 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
         ("BRICKS-5", _) if !is_unexplored => Err("every cell is explored".into()),
         ("BRICKS-5" | "BRICKS-6", _) => Ok(Judgement::Broken),
         _ => Ok(Judgement::Unseen),
+    }
+}
+
+impl Case for Exhibit {
+    fn clause(&self) -> &'static str {
+        self.clause
+    }
+
+    fn step(&self) -> &'static str {
+        "turn"
+    }
+
+    fn judge(&self) -> Result<(), Objection> {
+        let is_seen = judge(self)? == Judgement::Broken;
+        Ok(must(is_seen, "whether it is broken is a matter of marks, which the judge does not know")?)
     }
 }
 

@@ -5,12 +5,15 @@ use tautline_kernel::bricks::tree::Rule as Trees;
 use tautline_kernel::bricks::{Condition, Rule as Bricks};
 use tautline_kernel::floor::{Mark, Replaced};
 use tautline_kernel::ground::Cell;
+use tautline_proofs::judge::Case;
+use tautline_proofs::judge::floor::{self, Judgement};
 use tautline_proofs::plural::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, unvisited};
 use super::catalogue::{Knowledge, Profile};
-use super::clause::{Clause, Judge};
+use super::clause::Clause;
 use super::hunt_states::{crew, switched};
+use super::judge_input::of_agent;
 use super::rule::{Rule, RuleId};
 use super::run::{Survey, TeamMove};
 use super::setup::Setup;
@@ -54,9 +57,14 @@ pub static BRICKS_ANTS: Profile = Profile {
 pub(super) const MARKING: Profile = Profile {
     knowledge: Some(Knowledge::Visited),
     clauses: &[
-        Clause { judge: Some(Judge::Agent), told: premature, ..Clause::new(PREMATURE.as_str()) },
+        Clause { told: premature, ..Clause::new(PREMATURE.as_str()) },
         Clause { missed: Some("Connected with a start and not visited"), ..Clause::new(UNVISITED.as_str()) },
     ],
+    // Where marks decide, there is no judge.
+    case: |setup, clause, frames| {
+        let agent = (clause == PREMATURE && setup.robots == 1).then(|| of_agent(setup, clause, frames))?;
+        (floor::judge(&agent) != Ok(Judgement::Unseen)).then(|| Box::new(agent) as Box<dyn Case>)
+    },
     ..AGENTS
 };
 

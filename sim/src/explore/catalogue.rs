@@ -9,7 +9,8 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Serialize, Serializer};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::judge::AnyCase;
+use tautline_proofs::judge::Case;
+use tautline_proofs::run::Frame;
 
 use super::SCHEMES;
 use super::clause::{Clause, ClauseId};
@@ -243,9 +244,12 @@ pub struct Profile {
     pub knowledge: Option<Knowledge>,
     /// The clauses that its runs can break, in order.
     pub clauses: &'static [Clause],
-    /// A run that is said to break a clause, written down for a judge; `None` if none reads it.
-    pub case: fn(&Setup, ClauseId) -> Option<Box<dyn AnyCase>>,
+    /// How its runs are written down for a judge.
+    pub case: WriteCase,
 }
+
+/// Writes down a run of these team moves that is said to break a clause; `None` if no judge reads it.
+pub type WriteCase = fn(&Setup, ClauseId, &[Frame]) -> Option<Box<dyn Case>>;
 
 /// Where the robots of a team start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -432,7 +436,7 @@ impl Profile {
             look: Look::Robots,
             knowledge: None,
             clauses: &[],
-            case: |_, _| None,
+            case: |_, _, _| None,
         }
     }
 }

@@ -11,13 +11,16 @@ use tautline_kernel::chain::{self, Chain, MAX_ROBOTS, SetupError};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::judge::Case;
+use tautline_proofs::judge::chain::judges;
 use tautline_proofs::plural::counted;
 
 use self::hunt::Walls;
 use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH, HEARD};
 use super::catalogue::{By, Drawn, Look, Profile, Starts, Told};
-use super::clause::{Clause, Judge};
+use super::clause::Clause;
+use super::judge_input::exhibit;
 use super::rule::{Rule, RuleId, Switched};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
@@ -63,31 +66,20 @@ pub static CHAIN: Profile = Profile {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },
     clauses: &[
-        Clause {
-            judge: Some(Judge::Chain),
-            told: |_, _, made| far_apart(made),
-            ..Clause::new(Breach::Contact.clause())
-        },
-        Clause {
-            judge: Some(Judge::Chain),
-            told: |_, _, made| crowded(&made.frame.cells),
-            ..Clause::new(Breach::Crowding.clause())
-        },
-        Clause {
-            judge: Some(Judge::Chain),
-            told: |_, _, made| out_of_range(made),
-            ..Clause::new(Breach::Coverage.clause())
-        },
+        Clause { told: |_, _, made| far_apart(made), ..Clause::new(Breach::Contact.clause()) },
+        Clause { told: |_, _, made| crowded(&made.frame.cells), ..Clause::new(Breach::Crowding.clause()) },
+        Clause { told: |_, _, made| out_of_range(made), ..Clause::new(Breach::Coverage.clause()) },
         Clause::new(HEARD.as_str()),
         Clause::new(Breach::Costly.clause()),
-        Clause {
-            judge: Some(Judge::Chain),
-            missed: Some("Within reach and unexplored"),
-            ..Clause::new(Breach::Completeness.clause())
-        },
+        Clause { missed: Some("Within reach and unexplored"), ..Clause::new(Breach::Completeness.clause()) },
         Clause::new(ANY_ORDER.as_str()),
         Clause { missed: Some("Within reach of those left and unexplored"), ..Clause::new(DEATH.as_str()) },
     ],
+    // In which order robots went is not written down.
+    case: |setup, clause, frames| {
+        let is_judged = clause != ANY_ORDER && judges(clause.as_str());
+        is_judged.then(|| Box::new(exhibit(setup, clause.as_str(), frames)) as Box<dyn Case>)
+    },
     ..Profile::named("chain")
 };
 

@@ -103,27 +103,16 @@ impl PartialEq<Breach> for ClauseId {
 pub struct Clause {
     /// Its id.
     pub id: ClauseId,
-    /// Which independent judge reads its counterexamples.
-    pub judge: Option<Judge>,
     /// How a team move breaks it, one line for each pair or cell.
     pub told: fn(&Setup, &Survey, &TeamMove<'_>) -> Vec<String>,
     /// If it is about the end of a run: what the cells are that are missed.
     pub missed: Option<&'static str>,
 }
 
-/// A judge of counterexamples.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Judge {
-    /// The judge of the chain.
-    Chain,
-    /// The judge of agents, for runs of one agent.
-    Agent,
-}
-
 impl Clause {
-    /// The clause with this id, of which the words of the clause itself tell enough, and which has no judge.
+    /// The clause with this id, of which the words of the clause itself tell enough.
     pub const fn new(id: &'static str) -> Self {
-        Self { id: ClauseId::new(id), judge: None, told: |_, _, _| Vec::new(), missed: None }
+        Self { id: ClauseId::new(id), told: |_, _, _| Vec::new(), missed: None }
     }
 }
 

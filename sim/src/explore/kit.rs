@@ -103,7 +103,7 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
         Clause::new(ANY_SHORTEST.as_str()),
     ],
-    case: scripted::case,
+    case: |setup, clause, _| scripted::case(setup, clause),
     ..Profile::named("kit")
 };
 

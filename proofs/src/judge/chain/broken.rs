@@ -132,7 +132,7 @@ mod tests {
     /// A layout without walls, its base in the middle.
     fn exhibit(width: i32, height: i32, robots: usize) -> Exhibit {
         Exhibit {
-            clause: String::new(),
+            clause: "",
             repairs: Repairs::With,
             width,
             height,

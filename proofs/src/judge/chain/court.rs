@@ -166,7 +166,7 @@ mod tests {
 
     fn exhibit(repairs: Repairs) -> Exhibit {
         Exhibit {
-            clause: String::new(),
+            clause: "",
             repairs,
             width: 7,
             height: 7,

@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn a_chain_unfolds_until_it_has_gained_as_long_as_there_is_something_within_reach() {
         let mut exhibit = Exhibit {
-            clause: String::new(),
+            clause: "",
             repairs: Repairs::With,
             width: 5,
             height: 5,

@@ -9,7 +9,7 @@ use super::place::{Place, SIDES, add, side_between};
 pub struct Exhibit {
     /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2` or `CHAIN-3`, or its end, `CHAIN-13` or
     /// `CHAIN-14`.
-    pub clause: String,
+    pub clause: &'static str,
     /// The rule that the team is said to follow.
     pub repairs: Repairs,
     /// Columns of the layout.
@@ -115,7 +115,7 @@ mod tests {
         for (robots, base) in [(2, (0, 0)), (2, (3, 1)), (3, (2, 2)), (4, (1, 3)), (9, (4, 0))] {
             let blocked = BTreeSet::from([(1, 1), (4, 3), (-1, 2)]);
             let exhibit = Exhibit {
-                clause: String::new(),
+                clause: "",
                 repairs: Repairs::With,
                 width: 6,
                 height: 4,

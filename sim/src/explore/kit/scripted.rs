@@ -7,7 +7,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
 use tautline_proofs::engine::world::World as _;
-use tautline_proofs::judge::AnyCase;
+use tautline_proofs::judge::Case;
 use tautline_proofs::kit::counterexample::{self, ANY_SPEEDS, EQUAL_SPEEDS};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
@@ -31,7 +31,7 @@ pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnosti
 }
 
 /// The run of `setup`, which has choices and is said to break `clause`, written down for the judge of KIT.
-pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn AnyCase>> {
+pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn Case>> {
     let rule = match setup.rule {
         AHEAD => Kit::AHEAD,
         RuleId::PUBLISHED => Kit::PUBLISHED,
@@ -46,13 +46,13 @@ pub(super) fn case(setup: &Setup, clause: ClauseId) -> Option<Box<dyn AnyCase>> 
     }
 }
 
-fn written_down<const ROBOTS: usize>(setup: &Setup, rule: Kit, clause: ClauseId) -> Option<Box<dyn AnyCase>> {
+fn written_down<const ROBOTS: usize>(setup: &Setup, rule: Kit, clause: ClauseId) -> Option<Box<dyn Case>> {
     let mut script = script::<ROBOTS>(setup, rule).ok()?;
     let (setting, start) = (script.system, script.state);
     let steps: Vec<Successor<ROBOTS>> = std::iter::from_fn(|| script.choose(|_| true)).collect();
     let round = if clause == ENDS { script.round()?.len() } else { 0 };
     let walls: Vec<Edge> = setup.layout.walls().collect();
-    counterexample::case(clause.as_str(), (&setting, &walls), &start, steps, round)
+    Some(counterexample::case(clause.as_str(), (&setting, &walls), &start, steps, round)?)
 }
 
 /// The world of `setup`, and its choices.

@@ -6,13 +6,13 @@ use tautline_proofs::judge::chain::{Exhibit, Move, Place, Repairs};
 use tautline_proofs::judge::floor;
 use tautline_proofs::run::Frame;
 
-use crate::explore::{ClauseId, RuleId, Setup};
+use super::{ClauseId, RuleId, Setup};
 
 /// The run of `setup` with these frames, said to break `clause`.
-pub fn exhibit(setup: &Setup, clause: &str, frames: &[Frame]) -> Exhibit {
+pub fn exhibit(setup: &Setup, clause: &'static str, frames: &[Frame]) -> Exhibit {
     let layout = &setup.layout;
     Exhibit {
-        clause: clause.to_owned(),
+        clause,
         repairs: if setup.rule == RuleId::PUBLISHED { Repairs::Without } else { Repairs::With },
         width: layout.width().into(),
         height: layout.height().into(),
@@ -33,7 +33,7 @@ pub fn of_agent(setup: &Setup, clause: ClauseId, frames: &[Frame]) -> floor::Exh
         is_done: number == frames.len(),
     };
     floor::Exhibit {
-        clause: clause.to_string(),
+        clause: clause.as_str(),
         width: layout.width().into(),
         height: layout.height().into(),
         walls: layout.walls().map(sides).collect(),
@@ -53,7 +53,7 @@ fn places(cells: &[Cell]) -> Vec<Place> {
 }
 
 /// A team move of a chain as the judge reads it.
-pub fn written_down(frame: &Frame) -> Move {
+fn written_down(frame: &Frame) -> Move {
     Move {
         is_backtrack: match frame.kind {
             Kind::Advance => false,
