@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Scratch, Search, SearchCell, Sight, Slot, Status,
-    TinyMap, View, clamped, taken_for,
+    Condition, HALF, Map, Next, Place, Robot, Rule, SIDE, Sight, Slot, Status, TinyMap, View, clamped,
+    taken_for,
 };
 use tautline_kernel::ground::{Area, Cell};
 
@@ -97,15 +97,7 @@ impl Drift {
 
     /// The robot's next action.
     fn next(&self, state: &State, oracle: &mut dyn Oracle) -> Next {
-        let (mut reached, mut queue) =
-            ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
-        let (mut rounds, mut pairs) = (0, [None]);
-        let mut scratch = Scratch {
-            search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
-            pairs: &mut pairs,
-        };
-        let view = View { others: &[], slot: Slot::Own };
-        state.robot.next(&self.rule, view, &mut scratch, oracle)
+        super::next::<1>(&state.robot, &self.rule, View { others: &[], slot: Slot::Own }, oracle)
     }
 
     /// The run that these choices make in areas of these sizes by the published rule, written down for the judge.

@@ -4,9 +4,7 @@
 use std::collections::VecDeque;
 
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::frontier::{
-    Map, Next, Other, Place, Robot, Rule, Scratch, Search, SearchCell, Sight, Slot, Status, TinyMap, View,
-};
+use tautline_kernel::frontier::{Map, Next, Other, Place, Robot, Rule, Sight, Slot, Status, TinyMap, View};
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use crate::engine::{Outcome, Stop, Tape, require};
@@ -102,13 +100,7 @@ fn next(rule: &Rule, map: TinyMap, team: &[Sighting], has_news: bool) -> Next {
     own.hears_all(&map);
     let other = |&(cell, aim): &Sighting| Other { cell, place: Place::midpoint(cell), aim };
     let others: Vec<Other> = team.iter().skip(1).map(other).collect();
-    let (mut reached, mut queue) = ([SearchCell::NEVER; CELLS], [Cell::new(0, 0); CELLS]);
-    let (mut rounds, mut pairs) = (0, [None; ROBOTS * ROBOTS]);
-    let mut scratch = Scratch {
-        search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
-        pairs: &mut pairs,
-    };
-    own.next(rule, View { others: &others, slot: Slot::Own }, &mut scratch, &mut Tape(&[]))
+    super::next::<ROBOTS>(&own, rule, View { others: &others, slot: Slot::Own }, &mut Tape(&[]))
 }
 
 /// The cell that the first of the robots is paired with, and the one that comes first for it alone.

@@ -13,8 +13,7 @@ mod merging;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Robot, Rule, Scratch, Search, SearchCell, Sight, Slot, Stance,
-    Status, TinyMap, View,
+    Condition, Map, Next, Other, Place, Robot, Rule, Sight, Slot, Stance, Status, TinyMap, View,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 
@@ -250,15 +249,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             (others[told], told) = (other, told + 1);
         }
         let view = View { others: &others[..told], slot };
-        let (mut reached, mut queue, mut rounds) =
-            ([SearchCell::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
-        let mut pairs = [[None; ROBOTS]; ROBOTS];
-        let pairs = pairs.as_flattened_mut();
-        let mut scratch = Scratch {
-            search: Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds },
-            pairs,
-        };
-        world.robots[robot].next(&self.rule, view, &mut scratch, oracle)
+        super::next::<ROBOTS>(&world.robots[robot], &self.rule, view, oracle)
     }
 
     /// The next action of `robot` if the slot were its own.
