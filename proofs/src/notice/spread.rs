@@ -189,8 +189,8 @@ impl<const NODES: usize> Spread<NODES> {
         }
     }
 
-    /// The parent of every node that knows of the event, and its hop count, are those that the observer expects.
-    fn has_nearest_parents(&self) -> Result<(), Stop> {
+    /// Requires that the parent of every node that knows of the event, and its hop count, are as the observer expects.
+    fn require_nearest_parents(&self) -> Result<(), Stop> {
         for (node, &nearest) in self.nodes.iter().zip(&self.nearest).skip(1) {
             let parent = nearest.map(|(sender, _)| NodeId(sender as u32));
             require(
@@ -203,8 +203,9 @@ impl<const NODES: usize> Spread<NODES> {
         Ok(())
     }
 
-    /// Parent by parent every node that knows of the event comes to the source, each one hop farther than the next.
-    fn is_tree(&self) -> Result<(), Stop> {
+    /// Requires that parent by parent every node that knows of the event comes to the source, each one hop farther than
+    /// the next.
+    fn require_tree(&self) -> Result<(), Stop> {
         for node in self.nodes.iter().filter(|node| node.event().is_some()) {
             let mut ancestor = node;
             for _ in 0..NODES {
@@ -281,8 +282,8 @@ impl Demand {
     ) -> Result<(), Stop> {
         let connected = || ones(links.component());
         match (self, point) {
-            (Self::Tree, _) => spread.is_tree(),
-            (Self::NearestParent, _) => spread.has_nearest_parents(),
+            (Self::Tree, _) => spread.require_tree(),
+            (Self::NearestParent, _) => spread.require_nearest_parents(),
             (Self::Once, _) => {
                 let is_once = spread.forwards.iter().all(|&forwards| forwards <= 1);
                 require(is_once, "a node forwards an event at most once")
