@@ -22,7 +22,9 @@ use super::shards::{Scope, ShardArgs};
 use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{shards, value_parser};
 use tautline_sim::draw::story;
-use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown};
+use tautline_sim::explore::hunt::{
+    Done, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, Shown,
+};
 use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
 use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
 use tautline_sim::trace::store;
@@ -103,7 +105,7 @@ pub(super) struct Hunt {
 
 /// The outcome of a hunt, and where its counterexamples stand.
 struct Answer<'a> {
-    asked: &'a Asked<'a>,
+    asked: &'a HuntRequest<'a>,
     hunted: &'a HuntReport,
     verdict: Verdict,
     /// The file of each; none for a run without end, nor for one that was left out.
@@ -168,7 +170,7 @@ impl Hunt {
             Scope::Shard(path, shard) => {
                 let (plan, format) = (Plan::read(path)?, self.format.format.plain()?);
                 shards::run(&plan, shard, format, out, |far| {
-                    let asked = Asked { budget: self.budget, ..hunted(&plan, CATALOGUE)? };
+                    let asked = HuntRequest { budget: self.budget, ..hunted(&plan, CATALOGUE)? };
                     Ok(hunt_part(&plan, &asked, shard, far)?)
                 })
             }
@@ -212,8 +214,8 @@ impl Hunt {
         self.rule.unwrap_or_else(|| self.scheme.default_rule())
     }
 
-    fn asked(&self) -> Asked<'_> {
-        Asked {
+    fn asked(&self) -> HuntRequest<'_> {
+        HuntRequest {
             scheme: self.scheme,
             rule: self.rule(),
             robots: self.robots,
@@ -235,7 +237,7 @@ impl Hunt {
 /// # Errors
 /// [`Halt`] if a counterexample is no run, or nothing can be printed.
 pub(super) fn tell(
-    (asked, hunted): (&Asked<'_>, &HuntReport),
+    (asked, hunted): (&HuntRequest<'_>, &HuntReport),
     (folder, replaceable): (&Path, &Replaceable),
     format: Format,
     out: &mut Output,
@@ -301,14 +303,14 @@ impl Answer<'_> {
 
     /// The headline: what was searched, and what follows from it.
     fn headline(&self) -> String {
-        let Asked { scheme, rule, .. } = self.asked;
+        let HuntRequest { scheme, rule, .. } = self.asked;
         let HuntReport { title, outcome, .. } = self.hunted;
         format!("{} ({rule}), {title}\n{outcome}\n", scheme.name)
     }
 
     /// The clauses that are broken, as a CI shows them; if none is, that.
     fn findings(&self) -> Result<Vec<Case>, Halt> {
-        let Asked { scheme, rule, .. } = self.asked;
+        let HuntRequest { scheme, rule, .. } = self.asked;
         let class = scheme.name.to_owned();
         let broken = self.hunted.found.iter().zip(&self.files).map(|(finding, file)| {
             let mut story = picture(finding)?;

@@ -35,7 +35,7 @@ use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::chain::hunt::{self, HuntTask, Waves};
-use tautline_sim::explore::hunt::Asked;
+use tautline_sim::explore::hunt::HuntRequest;
 use tautline_sim::explore::judge_input::exhibit;
 use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
 use tautline_sim::trace::Trace;
@@ -329,7 +329,7 @@ pub fn kept_hunt(bytes: &[u8]) {
 
 /// The file that keeps the hunt.
 fn kept_at<'a>(path: &'a Path, bounds: &Bounds) -> Checkpoint<'a, HuntTask> {
-    Checkpoint::new(Some(path), HuntTask::new(&Asked::new(&CHAIN, RuleId::PUBLISHED), bounds))
+    Checkpoint::new(Some(path), HuntTask::new(&HuntRequest::new(&CHAIN, RuleId::PUBLISHED), bounds))
 }
 
 /// The findings of a hunt that goes on from a file with these bytes.

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use serde::Serialize;
 use tautline_grids::layout::{MAX_SIDE_CELLS, Size};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_sim::explore::hunt::{Asked, Far, Finding, Hunter, Shown};
+use tautline_sim::explore::hunt::{Far, Finding, HuntRequest, Hunter, Shown};
 
 use crate::diagnostic::raised;
 use crate::explore::{robots, rule, scheme};
@@ -107,7 +107,7 @@ pub(crate) fn hunt(
     let size = size.map(|(width, height)| {
         Size::new(cells(width)?, cells(height)?).map_err(|problem| raised(py, &problem))
     });
-    let asked = Asked {
+    let asked = HuntRequest {
         scheme,
         rule,
         robots: self::robots(py, robots)?,

@@ -6,11 +6,11 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::{Plan, ShardFile, Work};
 
 use crate::explore::Catalogue;
-use crate::explore::hunt::{Asked, Deals, Dealt, HuntReport};
+use crate::explore::hunt::{Deals, Dealt, HuntReport, HuntRequest};
 
 /// The hunt that is asked for, if it can be dealt out.
-fn deals(asked: &Asked<'_>) -> Result<&'static dyn Deals, Diagnostic> {
-    let &Asked { scheme, rule, .. } = asked;
+fn deals(asked: &HuntRequest<'_>) -> Result<&'static dyn Deals, Diagnostic> {
+    let &HuntRequest { scheme, rule, .. } = asked;
     scheme.hunt(rule)?.deals().ok_or_else(|| {
         let what = format!(
             "a hunt of {} by the rule {rule} is not dealt out: most of its states are led to from every start, so each shard \
@@ -26,10 +26,10 @@ fn deals(asked: &Asked<'_>) -> Result<&'static dyn Deals, Diagnostic> {
 ///
 /// # Errors
 /// A [`Diagnostic`] if it is a plan of something else.
-pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<Asked<'static>, Diagnostic> {
+pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<HuntRequest<'static>, Diagnostic> {
     let known = |scheme: &str, rule: &str| {
         let scheme = catalogue.scheme(scheme)?;
-        Some(Asked::new(scheme, scheme.rules.iter().find(|row| row.name.as_str() == rule)?.name))
+        Some(HuntRequest::new(scheme, scheme.rules.iter().find(|row| row.name.as_str() == rule)?.name))
     };
     let found = match &plan.of {
         Work::Hunt { scheme, rule } => known(scheme, rule),
@@ -44,8 +44,8 @@ pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<Asked<'static>, Diagn
 ///
 /// # Errors
 /// A [`Diagnostic`] if it cannot be dealt out.
-pub fn deal_hunt(asked: &Asked<'_>, shards: u32) -> Result<(Work, Dealt), Diagnostic> {
-    let &Asked { scheme, rule, .. } = asked;
+pub fn deal_hunt(asked: &HuntRequest<'_>, shards: u32) -> Result<(Work, Dealt), Diagnostic> {
+    let &HuntRequest { scheme, rule, .. } = asked;
     asked.check(scheme.hunt(rule)?)?;
     let dealt = deals(asked)?.deal(asked, shards as usize)?;
     Ok((Work::Hunt { scheme: scheme.name.to_owned(), rule: rule.to_string() }, dealt))
@@ -57,7 +57,7 @@ pub fn deal_hunt(asked: &Asked<'_>, shards: u32) -> Result<(Work, Dealt), Diagno
 /// A [`Diagnostic`] if the plan has no such shard, or it was never there.
 pub fn hunt_part(
     plan: &Plan,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     shard: u32,
     far: Option<&RawValue>,
 ) -> Result<Box<dyn Part>, Diagnostic> {
@@ -69,7 +69,7 @@ pub fn hunt_part(
 ///
 /// # Errors
 /// [`Halt`] if they do not fit their plan, or one has done less than it was dealt.
-pub fn merge_hunt(plan: &Plan, asked: &Asked<'_>, shards: &[ShardFile]) -> Result<HuntReport, Halt> {
+pub fn merge_hunt(plan: &Plan, asked: &HuntRequest<'_>, shards: &[ShardFile]) -> Result<HuntReport, Halt> {
     for (number, shard) in (1..).zip(shards) {
         shard.check(hunt_part(plan, asked, number, Some(&shard.far)).map_err(Halt::from))?;
     }

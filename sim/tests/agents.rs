@@ -21,7 +21,7 @@ use tautline_sim::explore::agents::{Agents, PREMATURE};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
-use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
+use tautline_sim::explore::hunt::{HuntReport, HuntRequest, Shown};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
 
 /// More team moves than any run here has.
@@ -273,11 +273,11 @@ fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
 }
 
 fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> HuntReport {
-    let asked = Asked {
+    let asked = HuntRequest {
         robots: Some(robots),
         size: Some(Size::new(side, side).expect("a size")),
         max_misses: Some(max_misses),
-        ..Asked::new(scheme, rule)
+        ..HuntRequest::new(scheme, rule)
     };
     let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");
     rule.hunt.expect("a hunt").hunt(&asked, &mut Unwatched).expect("it can be searched")

@@ -9,18 +9,23 @@ use tautline_kernel::frontier::{Condition, Rule};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::frontier::FRONTIER;
-use tautline_sim::explore::hunt::{Asked, HuntReport};
+use tautline_sim::explore::hunt::{HuntReport, HuntRequest};
 use tautline_sim::explore::{Change, RuleId, Scene, Setup, Stopped, explore, has_double};
 use tautline_sim::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
 use tautline_sim::objects::Objects;
 use tautline_sim::options::{Options, Wheels};
 
-fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Asked<'static> {
-    Asked {
+fn asked(
+    rule: &'static str,
+    robots: u64,
+    (width, height): (u64, u64),
+    max_losses: u8,
+) -> HuntRequest<'static> {
+    HuntRequest {
         robots: Some(robots),
         size: Some(Size::new(width, height).expect("a size")),
         max_losses: Some(max_losses).filter(|&losses| losses > 0),
-        ..Asked::new(&FRONTIER, RuleId::new(rule))
+        ..HuntRequest::new(&FRONTIER, RuleId::new(rule))
     }
 }
 
@@ -238,7 +243,7 @@ fn what_does_not_fit_is_refused() {
 
 #[test]
 fn an_error_below_zero_is_none() {
-    let off = |error_cells| Asked { error_cells, ..asked("repaired", 1, (2, 1), 0) };
+    let off = |error_cells| HuntRequest { error_cells, ..asked("repaired", 1, (2, 1), 0) };
     let hunt = FRONTIER.rule(off(None).rule).and_then(|rule| rule.hunt).expect("it is hunted");
     for error in [-1.0, -0.5, -0.01, 0.3, 2.0, f64::NAN] {
         let refused = hunt.hunt(&off(Some(error)), &mut Unwatched).map(|_| ()).expect_err("no error");
@@ -252,7 +257,7 @@ fn an_error_below_zero_is_none() {
 fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
     let refused = |rule: &'static str, robots: u64| {
         let rule = RuleId::new(rule);
-        let asked = Asked { rule, robots: Some(robots), ..asked("repaired", 1, (3, 3), 0) };
+        let asked = HuntRequest { rule, robots: Some(robots), ..asked("repaired", 1, (3, 3), 0) };
         let hunt = FRONTIER.rule(rule).and_then(|rule| rule.hunt).expect("it is hunted");
         hunt.hunt(&asked, &mut Unwatched).expect_err("no hunt").to_string()
     };

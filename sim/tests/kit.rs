@@ -11,7 +11,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::{minimise::minimise, refutation};
-use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize};
+use tautline_sim::explore::hunt::{Finding, HuntReport, HuntRequest, RunSize};
 use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
@@ -229,16 +229,16 @@ fn teams_without_room_or_contact_say_so() {
     assert!(wrong(&many).unwrap_or_default().contains("9 robots are too many"), "{:?}", wrong(&many));
 }
 
-fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {
-    Asked {
+fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> HuntRequest<'static> {
+    HuntRequest {
         robots: Some(robots),
         size: Some(Size::new(columns, rows).expect("a size")),
         max_walls: Some(2),
-        ..Asked::new(&KIT, rule.into())
+        ..HuntRequest::new(&KIT, rule.into())
     }
 }
 
-fn hunted(asked: &Asked<'_>) -> Result<HuntReport, Diagnostic> {
+fn hunted(asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
     let hunt = KIT.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
     asked.check(hunt)?;
     hunt.hunt(asked, &mut Unwatched)
@@ -311,13 +311,14 @@ fn three_robots_that_start_anywhere_may_shut_each_other_in() {
 #[test]
 fn a_hunt_ends_at_its_budget_and_says_so() {
     let hunted =
-        hunted(&Asked { budget: Some(100), ..asked(RuleName::Repaired, 2, (4, 2)) }).expect("a hunt");
+        hunted(&HuntRequest { budget: Some(100), ..asked(RuleName::Repaired, 2, (4, 2)) }).expect("a hunt");
     assert!(!hunted.is_complete && hunted.found.is_empty());
 }
 
 #[test]
 fn hunts_that_cannot_be_made_say_why() {
-    let wrong = |asked: Asked<'_>| hunted(&asked).err().map(|fault| fault.to_string()).unwrap_or_default();
+    let wrong =
+        |asked: HuntRequest<'_>| hunted(&asked).err().map(|fault| fault.to_string()).unwrap_or_default();
     let one = wrong(asked(RuleName::Repaired, 2, (1, 1)));
     assert!(one.contains("one node, and no path"), "{one}");
     let many = wrong(asked(RuleName::Repaired, 9, (4, 2)));
@@ -330,7 +331,7 @@ fn hunts_that_cannot_be_made_say_why() {
         let large = wrong(asked(RuleName::Repaired, 2, size));
         assert!(large.contains("too many to search"), "{large}");
     }
-    let lost = wrong(Asked { max_losses: Some(1), ..asked(RuleName::Repaired, 2, (2, 1)) });
+    let lost = wrong(HuntRequest { max_losses: Some(1), ..asked(RuleName::Repaired, 2, (2, 1)) });
     assert!(lost.contains("`max-losses` does not bound this hunt"), "{lost}");
 }
 

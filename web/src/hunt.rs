@@ -10,7 +10,7 @@ use tautline_grids::layout::Size;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::plural::counted;
 use tautline_sim::explore::Scheme;
-use tautline_sim::explore::hunt::{Asked, Begun, Bound, Far, Finding, Hunt, HuntReport, Hunter, Shown};
+use tautline_sim::explore::hunt::{Begun, Bound, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, Shown};
 
 use crate::by_hand::{self, Hunted, Order, Search};
 use crate::clauses::sentence;
@@ -188,12 +188,12 @@ impl RowHunt {
     }
 
     /// The request, without a budget. The only option that a hunt takes is how far robots hear each other.
-    fn asked(&self) -> Result<Asked<'static>, Diagnostic> {
+    fn asked(&self) -> Result<HuntRequest<'static>, Diagnostic> {
         let Quarry { robots, size, max_walls, max_misses, max_losses, error } = self.quarry;
         let size = size.map(|[columns, rows]| Size::new(columns, rows)).transpose()?;
         let rule = self.settings.rule()?.name;
-        let asked = Asked { range_cells: self.range_cells()?, ..Asked::new(self.scheme, rule) };
-        Ok(Asked { robots, size, max_walls, max_misses, max_losses, error_cells: error, ..asked })
+        let asked = HuntRequest { range_cells: self.range_cells()?, ..HuntRequest::new(self.scheme, rule) };
+        Ok(HuntRequest { robots, size, max_walls, max_misses, max_losses, error_cells: error, ..asked })
     }
 
     fn range_cells(&self) -> Result<Option<u16>, Diagnostic> {
@@ -256,7 +256,8 @@ impl RowHunt {
             }
             How::Again(budget, last) => {
                 let far = &mut self.far;
-                let report = self.hunt.hunt(&Asked { budget: Some(*budget), ..asked }, &mut Listener(far))?;
+                let report =
+                    self.hunt.hunt(&HuntRequest { budget: Some(*budget), ..asked }, &mut Listener(far))?;
                 let more = !report.is_complete;
                 let made = *budget;
                 (*budget, *last) = (budget.saturating_mul(4), Some(report));
@@ -314,11 +315,11 @@ impl Hunt for Fixed {
         self.0.refusal(bound)
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         self.0.hunt(asked, hunter)
     }
 
-    fn begin(&self, asked: &Asked<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
         self.0.begin(asked)
     }
 }

@@ -10,7 +10,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{Asked, Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, Hunter, RUN_AGAIN};
+use super::hunt::{Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, HuntRequest, Hunter, RUN_AGAIN};
 
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
@@ -29,10 +29,10 @@ pub(super) trait Each: fmt::Debug + Sync {
     ///
     /// # Errors
     /// A [`Diagnostic`] if they are too many, or none.
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Self::Layouts, Diagnostic>;
+    fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Self::Layouts, Diagnostic>;
 
     /// How far a hunt is, in words.
-    fn so_far(&self, asked: &Asked<'_>, found: &FoundBy<Self>) -> String;
+    fn so_far(&self, asked: &HuntRequest<'_>, found: &FoundBy<Self>) -> String;
 
     /// The report of a hunt that came to its end, or did not.
     ///
@@ -40,7 +40,7 @@ pub(super) trait Each: fmt::Debug + Sync {
     /// A [`Diagnostic`] if what was found cannot be told.
     fn told(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         found: FoundBy<Self>,
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic>;
@@ -58,7 +58,7 @@ impl<E: Each> Hunt for E {
         Each::refusal(self, bound).unwrap_or_else(|| bound.refused_by(E::TAKES))
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let layouts = self.layouts(asked)?;
         let mut hears = |found: &FoundBy<E>| hunter.hears(Far::Words(self.so_far(asked, found)));
         let searched = lots::search(&layouts, asked.budget, &mut hears);
@@ -72,14 +72,14 @@ impl<E: Each> Hunt for E {
 }
 
 impl<E: Each> Deals for E {
-    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
+    fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
         Ok(Dealt { deal: Deal::write(asked, ())?, left, of: "layout", moves: 0 })
     }
 
     fn part<'a>(
         &'a self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         deal: &RawValue,
         shard: (usize, usize),
         far: Option<&RawValue>,
@@ -97,7 +97,7 @@ impl<E: Each> Deals for E {
 
     fn merge(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {

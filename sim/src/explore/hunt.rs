@@ -39,10 +39,10 @@ pub trait Hunt: fmt::Debug + Sync {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be searched so.
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
     /// The request `asked`, with the bounds within which the choices of the run of `setup` were found.
-    fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
+    fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
         let _ = setup;
         asked
     }
@@ -56,7 +56,7 @@ pub trait Hunt: fmt::Debug + Sync {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be searched so.
-    fn begin(&self, asked: &Asked<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
         let _ = asked;
         Ok(None)
     }
@@ -74,7 +74,7 @@ pub trait Begun {
     ///
     /// # Errors
     /// A [`Diagnostic`] if what was found fits into no layout.
-    fn report(&self, asked: &Asked<'_>) -> Result<HuntReport, Diagnostic>;
+    fn report(&self, asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic>;
 }
 
 impl Scheme {
@@ -95,7 +95,7 @@ pub trait Deals {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be searched so.
-    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
+    fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
 
     /// One shard of a deal, the first being 0, of so many, where it was. The scheme, the rule and the budget are
     /// `asked`, all else the deal has.
@@ -104,7 +104,7 @@ pub trait Deals {
     /// A [`Diagnostic`] if there is no such deal, or the shard was never there.
     fn part<'a>(
         &'a self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         deal: &RawValue,
         shard: (usize, usize),
         far: Option<&RawValue>,
@@ -116,7 +116,7 @@ pub trait Deals {
     /// A [`Diagnostic`] if they do not fit their deal.
     fn merge(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic>;
@@ -153,19 +153,22 @@ pub(super) struct Deal<T> {
 
 impl<T: Serialize + DeserializeOwned> Deal<T> {
     /// The deal of what is `asked`, as a plan has it.
-    pub(super) fn write(asked: &Asked<'_>, how: T) -> Result<Box<RawValue>, Diagnostic> {
-        let &Asked { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
+    pub(super) fn write(asked: &HuntRequest<'_>, how: T) -> Result<Box<RawValue>, Diagnostic> {
+        let &HuntRequest { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
         let size = asked.size.map(|size| (size.width(), size.height()));
         encode(&Self { robots, size, max_walls, max_misses, max_losses, error_cells, how })
     }
 
     /// The hunt that is dealt out, and how it is: the scheme, the rule and the budget stand in `asked`.
-    pub(super) fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, T), Diagnostic> {
+    pub(super) fn read<'a>(
+        text: &RawValue,
+        asked: &HuntRequest<'a>,
+    ) -> Result<(HuntRequest<'a>, T), Diagnostic> {
         let deal = decode(text, "plan anew")?;
         let Self { robots, size, max_walls, max_misses, max_losses, error_cells, how } = deal;
         let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
         let size = size.map_err(|problem| problem.with_remedy("plan anew"))?;
-        Ok((Asked { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked }, how))
+        Ok((HuntRequest { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked }, how))
     }
 }
 
@@ -216,7 +219,7 @@ impl Bound {
 
 /// The question that a hunt answers. Whatever is not given is the hunt's to choose.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked<'a> {
+pub struct HuntRequest<'a> {
     /// The scheme.
     pub scheme: Scheme,
     /// Its rule.
@@ -243,7 +246,7 @@ pub struct Asked<'a> {
     pub resume: Option<&'a Path>,
 }
 
-impl Asked<'_> {
+impl HuntRequest<'_> {
     /// The hunt of a scheme by a rule, everything else being its own to choose.
     pub fn new(scheme: impl Into<Scheme>, rule: RuleId) -> Self {
         Self {
@@ -482,7 +485,7 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
 /// [`Diagnostic`] if the area is too large for a layout, or the base is outside.
 pub fn setup(scheme: Scheme, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Diagnostic> {
     let (layout, starts) = layout(found)?;
-    Asked::new(scheme, rule.into()).setup(layout, starts, found.breaks.map(ClauseId::new))
+    HuntRequest::new(scheme, rule.into()).setup(layout, starts, found.breaks.map(ClauseId::new))
 }
 
 /// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in

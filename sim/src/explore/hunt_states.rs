@@ -9,7 +9,7 @@ use tautline_proofs::plural::counted;
 use super::agents::{self, PREMATURE};
 use super::catalogue::Scheme;
 use super::each::Each;
-use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
+use super::hunt::{Bound, Done, Facts, Finding, HuntReport, HuntRequest, RunSize, Shown};
 use super::rule::{RuleId, Switched};
 use super::setup::Setup;
 use tautline_grids::layout::{Layout, Size};
@@ -77,7 +77,7 @@ impl<C: Crew> Each for Traps<C> {
         Some((what.to_owned(), remedy.to_owned()))
     }
 
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Bounds<C>, Diagnostic> {
+    fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Bounds<C>, Diagnostic> {
         let size = match asked.size {
             Some(size) => size,
             None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
@@ -104,7 +104,7 @@ impl<C: Crew> Each for Traps<C> {
         })
     }
 
-    fn so_far(&self, asked: &Asked<'_>, found: &TrapReport) -> String {
+    fn so_far(&self, asked: &HuntRequest<'_>, found: &TrapReport) -> String {
         let TrapReport { layouts, states, levels, .. } = found;
         let max_misses = asked.max_misses.unwrap_or(DEFAULT_MISSES);
         format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
@@ -112,7 +112,7 @@ impl<C: Crew> Each for Traps<C> {
 
     fn told(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         found: TrapReport,
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
@@ -150,7 +150,7 @@ impl<C: Crew> Each for Traps<C> {
 }
 
 /// The run that `trap` is, as a hunt tells it.
-fn finding(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
+fn finding(asked: &HuntRequest<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
     let (clause, shown) = match trap.end {
@@ -169,6 +169,6 @@ fn finding(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
 fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Diagnostic> {
     let layout = Layout::open(trap.width as u64, trap.height as u64)?;
     let layout = layout.with_blocked(trap.blocked.iter().copied());
-    let setup = Asked::new(scheme, rule).setup(layout, trap.starts.clone(), None)?;
+    let setup = HuntRequest::new(scheme, rule).setup(layout, trap.starts.clone(), None)?;
     Ok(Setup { missed: trap.missed.clone(), ..setup })
 }

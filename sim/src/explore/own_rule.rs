@@ -17,7 +17,7 @@ use tautline_proofs::team::{Keeps, Places, Rule, Setting, Strategy};
 
 use super::hunt::setup as found_setup;
 use super::hunt::{
-    Asked, Bound, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
+    Bound, Done, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, outcome,
 };
 use super::own::Own;
 use super::run::Team;
@@ -81,7 +81,7 @@ impl<R: Rule + PartialEq + 'static> OwnRule<R> {
 
     fn finding(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         demand: usize,
         evidence: &Evidence,
         run: &Run,
@@ -110,7 +110,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
         &[]
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (mut found, mut cases, mut is_complete) = (Vec::new(), 0, true);
         let mut memory = Cache::default();
         for (number, demand) in self.setting.demands.iter().enumerate() {

@@ -7,7 +7,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::engine::states::{self, Findings, Limits, System};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, outcome};
+use super::hunt::{Done, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, outcome};
 use tautline_grids::layout::Size;
 
 /// States between two words about how far the search is.
@@ -39,7 +39,7 @@ impl Small {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it is too large.
-    pub(super) fn size(&self, asked: &Asked<'_>) -> Result<Size, Diagnostic> {
+    pub(super) fn size(&self, asked: &HuntRequest<'_>) -> Result<Size, Diagnostic> {
         let size = match asked.size {
             Some(size) => size,
             None => Size::new(self.default_size.0, self.default_size.1)?,
@@ -59,7 +59,7 @@ impl Small {
     /// A [`Diagnostic`] if there are none, too many, or too many for the area.
     pub(super) fn robots(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         most: u64,
         size: Size,
         area: &str,
@@ -129,7 +129,7 @@ pub(super) fn watched<S: System>(
     system: &S,
     starts: Vec<S::State>,
     what: &str,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
 ) -> Findings<S::Demand> {

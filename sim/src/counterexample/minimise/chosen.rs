@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
-use crate::explore::hunt::{Asked, Bound, Far, Finding, Hunter, Shown};
+use crate::explore::hunt::{Bound, Far, Finding, HuntRequest, Hunter, Shown};
 use crate::explore::{ClauseId, Setup, explore};
 use tautline_grids::layout::Size;
 
@@ -54,11 +54,11 @@ pub(super) fn minimise(
     for robots in least..=setup.robots {
         for &(columns, rows) in &sizes {
             let size = Some(Size::new(columns as u64, rows as u64).map_err(Halt::from)?);
-            let asked = Asked {
+            let asked = HuntRequest {
                 robots: Some(robots.into()),
                 size,
                 max_walls,
-                ..Asked::new(setup.scheme, setup.rule)
+                ..HuntRequest::new(setup.scheme, setup.rule)
             };
             // A size without room for the robots is none to search.
             let Ok(hunted) = hunt.hunt(&hunt.again(setup, asked), &mut watcher) else { continue };

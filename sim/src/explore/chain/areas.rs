@@ -8,13 +8,13 @@ use tautline_proofs::plural::counted;
 use super::hunt::{bounds, fault, team};
 use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown, outcome, setup,
+    Done, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, Shown, outcome, setup,
 };
 
 /// Searches all areas of at most so many cells.
 pub(super) fn hunt(
     observed: Subject,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     max_cells: u32,
     hunter: &mut dyn Hunter,
 ) -> Result<HuntReport, Diagnostic> {
@@ -32,13 +32,13 @@ pub(super) fn hunt(
 }
 
 /// Refuses what a hunt over areas does not take, if this is one.
-pub(super) fn refuse(asked: &Asked<'_>, field: &'static str, what: &str) -> Result<(), Diagnostic> {
+pub(super) fn refuse(asked: &HuntRequest<'_>, field: &'static str, what: &str) -> Result<(), Diagnostic> {
     let remedy = format!("leave `{field}` out; fewer `max-cells` or `max-walls` make it shorter");
     asked.max_cells.map_or(Ok(()), |_| Err(Diagnostic::of_field(field, what, remedy)))
 }
 
 /// The areas that are asked for.
-fn areas(observed: Subject, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
+fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
     let (robots, walls) = team(asked);
     let whole = bounds(observed, robots, walls, None)?;
     let within_reach = (whole.area.width() * whole.area.height()) as u32;
@@ -67,7 +67,7 @@ fn areas(observed: Subject, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, 
 }
 
 /// The report of a search.
-fn told(asked: &Asked<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
+fn told(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
     let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     let &Areas { max_cells, max_walls, robots, .. } = areas;
@@ -94,7 +94,7 @@ fn told(asked: &Asked<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport
     })
 }
 
-fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {
+fn quarry(asked: &HuntRequest<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {
     let run = bounds.run(found);
     let setup = setup(asked.scheme, asked.rule, &run)?;
     let (columns, rows) = (bounds.area.width(), bounds.area.height());

@@ -13,8 +13,8 @@ use tautline_proofs::plural::counted;
 
 use super::areas;
 use crate::explore::hunt::{
-    Asked, Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RUN_AGAIN,
-    RunSize, Shown, outcome, setup,
+    Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
+    RUN_AGAIN, RunSize, Shown, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
 use tautline_grids::layout::Size;
@@ -48,7 +48,7 @@ impl Hunt for Walls {
         (what.to_owned(), "give `max-walls`, or `scheme` ants, bricks or bricks-ants".to_owned())
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         if let Some(cells) = asked.max_cells {
             return areas::hunt(self.0, asked, cells, hunter);
         }
@@ -60,7 +60,7 @@ impl Hunt for Walls {
         Some(self)
     }
 
-    fn begin(&self, asked: &Asked<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
         let bounds = self.bounds(asked)?;
         Ok(Some(Box::new(BegunWalls { search: start(&bounds)?, bounds })))
     }
@@ -81,20 +81,20 @@ impl Begun for BegunWalls {
         self.search.progress()
     }
 
-    fn report(&self, asked: &Asked<'_>) -> Result<HuntReport, Diagnostic> {
+    fn report(&self, asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
         told(asked, &self.bounds, &self.search.found())
     }
 }
 
 impl Walls {
-    fn bounds(&self, asked: &Asked<'_>) -> Result<Bounds, Diagnostic> {
+    fn bounds(&self, asked: &HuntRequest<'_>) -> Result<Bounds, Diagnostic> {
         let (robots, walls) = team(asked);
         Ok(Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.size)? })
     }
 }
 
 impl Deals for Walls {
-    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
+    fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         areas::refuse(asked, "shards", "a hunt over areas is not dealt out")?;
         let search = start(&self.bounds(asked)?)?;
         let deal = search.deal(shards);
@@ -104,7 +104,7 @@ impl Deals for Walls {
 
     fn part<'a>(
         &'a self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         deal: &RawValue,
         (shard, _): (usize, usize),
         far: Option<&RawValue>,
@@ -120,7 +120,7 @@ impl Deals for Walls {
 
     fn merge(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
@@ -163,12 +163,12 @@ impl Part for Waves {
 }
 
 /// Robots and walls that are asked for.
-pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
+pub(super) fn team(asked: &HuntRequest<'_>) -> (u64, u32) {
     (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS))
 }
 
 /// The report of a search, and of each run that it found.
-fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
+fn told(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
         let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
@@ -207,7 +207,7 @@ fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntRepo
     })
 }
 
-fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Findings, Diagnostic> {
+fn search(asked: &HuntRequest<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Findings, Diagnostic> {
     let mut kept = Checkpoint::new(asked.resume, HuntTask::new(asked, bounds));
     let mut search = Waves(resume(&mut kept, bounds)?);
     // What cannot be kept is refused before it has cost anything.
@@ -337,7 +337,7 @@ impl Task for HuntTask {
 
 impl HuntTask {
     /// The hunt that is `asked`, within `bounds`.
-    pub fn new(asked: &Asked<'_>, bounds: &Bounds) -> Self {
+    pub fn new(asked: &HuntRequest<'_>, bounds: &Bounds) -> Self {
         let area = bounds.reach().unwrap_or(bounds.area);
         Self {
             format: Self::FORMAT.to_owned(),

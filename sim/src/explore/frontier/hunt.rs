@@ -17,7 +17,7 @@ use tautline_proofs::run::Scripted;
 
 pub(super) use self::rivals::Simulated;
 use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
+    Bound, Done, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, layout,
 };
 use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
@@ -49,7 +49,7 @@ fn areas(size: Size) -> Vec<(i16, i16)> {
 }
 
 /// The size and the number of robots that are asked for.
-fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Diagnostic> {
+fn bounds(asked: &HuntRequest<'_>, most: u64) -> Result<(Size, u64), Diagnostic> {
     let size = SMALL.size(asked)?;
     Ok((size, SMALL.robots(asked, most, size, &size.to_string())?))
 }
@@ -60,12 +60,12 @@ impl Hunt for Searched {
     }
 
     /// The first two choices say how many messages are lost and how many fixes are wrong at most.
-    fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
+    fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
         let Some(&[losses, wrong]) = setup.choices.first_chunk() else { return asked };
-        Asked { max_losses: Some(losses as u8), error_cells: Some(f64::from(wrong)), ..asked }
+        HuntRequest { max_losses: Some(losses as u8), error_cells: Some(f64::from(wrong)), ..asked }
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked, MOST_ROBOTS)?;
         let max_wrong = match error(asked)? {
             Off::Never => 0,
@@ -95,7 +95,7 @@ enum Off {
     Parts(u8),
 }
 
-fn error(asked: &Asked<'_>) -> Result<Off, Diagnostic> {
+fn error(asked: &HuntRequest<'_>) -> Result<Off, Diagnostic> {
     let parts = asked.error_cells.unwrap_or(0.0) * f64::from(PARTS);
     let whole =
         (0..=PARTS as u8).find(|&whole| f64::from(whole).partial_cmp(&parts).is_some_and(Ordering::is_eq));
@@ -117,7 +117,7 @@ fn drifting(
     rule: Frontier,
     size: Size,
     error: u8,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     hunter: &mut dyn Hunter,
 ) -> Result<HuntReport, Diagnostic> {
     let max_obstacles = most_obstacles(asked);
@@ -155,7 +155,7 @@ fn drifting(
 }
 
 /// Most obstacles that one run meets.
-fn most_obstacles(asked: &Asked<'_>) -> u8 {
+fn most_obstacles(asked: &HuntRequest<'_>) -> u8 {
     asked.max_walls.map_or(SMALL.most_cells as u8, |walls| walls.min(SMALL.most_cells as u32) as u8)
 }
 
@@ -163,7 +163,7 @@ fn searched<const ROBOTS: usize>(
     rule: Frontier,
     size: Size,
     max_wrong: u8,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     hunter: &mut dyn Hunter,
 ) -> Result<(Count, Vec<Finding>), Diagnostic> {
     let max_losses = asked.max_losses.unwrap_or(0);
@@ -194,7 +194,7 @@ fn searched<const ROBOTS: usize>(
 
 /// A counterexample of a search as one that can be stored, unless its run goes on for ever.
 fn finding<const ROBOTS: usize>(
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     demand: Demand,
     found: &Counterexample<ROBOTS>,
 ) -> Result<Finding, Diagnostic> {
@@ -227,9 +227,14 @@ fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
 }
 
 /// The report of a hunt.
-fn report(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
+fn report(
+    asked: &HuntRequest<'_>,
+    (size, robots): (Size, u64),
+    count: &Count,
+    found: Vec<Finding>,
+) -> HuntReport {
     let &Count { states, steps, cells, .. } = count;
-    let &Asked { max_walls, error_cells: error, .. } = asked;
+    let &HuntRequest { max_walls, error_cells: error, .. } = asked;
     let max_losses = asked.max_losses.unwrap_or(0);
     let lost = if max_losses == 0 { String::new() } else { format!(", at most {max_losses} lost") };
     let walls = max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));

@@ -13,7 +13,7 @@ use tautline_proofs::run::Scripted;
 
 use super::{EQUAL, reach};
 use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, layout,
+    Bound, Done, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, layout,
 };
 use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
@@ -54,7 +54,7 @@ impl Pass {
         self,
         rule: Kit,
         size: (i16, i16),
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
     ) -> Option<Setting<ROBOTS>> {
         let Self { speeds, starts, demand } = self;
         let setting = Setting::new(rule, size)?;
@@ -81,11 +81,11 @@ struct Broken<const ROBOTS: usize> {
 
 /// How all states of a lattice are searched.
 type SearchAll<const ROBOTS: usize> =
-    fn(Setting<ROBOTS>, &Asked<'_>, &mut Count, &mut dyn Hunter) -> Findings<Demand>;
+    fn(Setting<ROBOTS>, &HuntRequest<'_>, &mut Count, &mut dyn Hunter) -> Findings<Demand>;
 
 fn as_it_is<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
 ) -> Findings<Demand> {
@@ -94,7 +94,7 @@ fn as_it_is<const ROBOTS: usize>(
 
 fn in_one_image(
     setting: Setting<2>,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
 ) -> Findings<Demand> {
@@ -110,11 +110,11 @@ impl Hunt for Searched {
         &[Bound::Walls, Bound::Range]
     }
 
-    fn again<'a>(&self, setup: &Setup, asked: Asked<'a>) -> Asked<'a> {
-        Asked { range_cells: setup.options.range_cells, ..asked }
+    fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
+        HuntRequest { range_cells: setup.options.range_cells, ..asked }
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
+    fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
         let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
         let mut count = Count { is_complete: true, ..Count::default() };
@@ -151,7 +151,7 @@ fn lattices(size: Size) -> Vec<(i16, i16)> {
 }
 
 /// The size and the number of robots that are asked for.
-fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Diagnostic> {
+fn bounds(asked: &HuntRequest<'_>) -> Result<(Size, u64), Diagnostic> {
     let size = SMALL.size(asked)?;
     if size.cells() == 1 {
         let what = "1x1 is one node, and no path to drive";
@@ -167,7 +167,7 @@ fn searched<const ROBOTS: usize>(
     passes: &[Pass],
     search_all: SearchAll<ROBOTS>,
     size: Size,
-    asked: &Asked<'_>,
+    asked: &HuntRequest<'_>,
     count: &mut Count,
     hunter: &mut dyn Hunter,
 ) -> Result<Vec<Finding>, Diagnostic> {
@@ -205,7 +205,10 @@ fn searched<const ROBOTS: usize>(
 }
 
 /// A counterexample of a search as one that can be stored.
-fn finding<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Finding, Diagnostic> {
+fn finding<const ROBOTS: usize>(
+    asked: &HuntRequest<'_>,
+    broken: &Broken<ROBOTS>,
+) -> Result<Finding, Diagnostic> {
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());

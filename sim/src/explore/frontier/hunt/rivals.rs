@@ -8,7 +8,7 @@ use tautline_proofs::engine::lots::{self, Lots};
 use super::super::ENDS;
 use super::{SMALL, areas, bounds, report, title};
 use crate::explore::each::{Each, FoundBy};
-use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
+use crate::explore::hunt::{Bound, Finding, HuntReport, HuntRequest, RunSize, Shown};
 use crate::explore::run::{Limits, run};
 use crate::explore::states::Count;
 use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
@@ -26,9 +26,9 @@ impl Each for Simulated {
 
     const TAKES: &'static [Bound] = &[Bound::Walls];
 
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Layouts, Diagnostic> {
+    fn layouts(&self, asked: &HuntRequest<'_>) -> Result<Layouts, Diagnostic> {
         let (size, robots) = bounds(asked, SMALL.most_cells as u64)?;
-        let &Asked { scheme, rule, max_walls, .. } = asked;
+        let &HuntRequest { scheme, rule, max_walls, .. } = asked;
         Ok(Layouts {
             scheme,
             rule,
@@ -38,13 +38,13 @@ impl Each for Simulated {
         })
     }
 
-    fn so_far(&self, _: &Asked<'_>, (count, _): &FoundBy<Self>) -> String {
+    fn so_far(&self, _: &HuntRequest<'_>, (count, _): &FoundBy<Self>) -> String {
         format!("layouts {}, moves {}", count.states, count.steps)
     }
 
     fn told(
         &self,
-        asked: &Asked<'_>,
+        asked: &HuntRequest<'_>,
         (count, mut found): FoundBy<Self>,
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
@@ -188,7 +188,7 @@ impl Layouts {
     fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Diagnostic> {
         let (width, height) = blocked.area;
         let layout = Layout::open(width as u64, height as u64)?.with_blocked(blocked.cells(true));
-        let setup = Asked::new(self.scheme, self.rule).setup(layout, starts.to_vec(), None)?;
+        let setup = HuntRequest::new(self.scheme, self.rule).setup(layout, starts.to_vec(), None)?;
         Ok(Setup { limits: Limits::default(), ..setup })
     }
 }
