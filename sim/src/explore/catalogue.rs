@@ -13,7 +13,7 @@ use tautline_proofs::judge::Case;
 use tautline_proofs::run::Frame;
 
 use super::SCHEMES;
-use super::clause::{Clause, ClauseId};
+use super::clause::{Clause, ClauseId, kept};
 use super::rule::{Rule, RuleId};
 use super::setup::Setup;
 use crate::kit;
@@ -115,7 +115,7 @@ impl Scheme {
         let mut named = NAMED.lock().unwrap_or_else(PoisonError::into_inner);
         let known = named.get(name).copied();
         let row = known.unwrap_or_else(|| {
-            let row: &'static Profile = Box::leak(Box::new(Profile::named(Box::leak(name.into()))));
+            let row: &'static Profile = Box::leak(Box::new(Profile::named(kept(name))));
             named.insert(row.name, row);
             row
         });
