@@ -40,9 +40,9 @@ conditions! {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum High {
-    /// P′_{i+1}
+    /// The planned position: P′_{i+1}.
     Planned,
-    /// P_{i+1}
+    /// The present position: P_{i+1}.
     Present,
 }
 
@@ -50,9 +50,9 @@ pub enum High {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Role {
-    /// R_N
+    /// The last robot of the chain: R_N.
     Leader,
-    /// R_2 … R_{N−1}
+    /// A robot between the base and the leader: R_2 … R_{N−1}.
     Follower,
 }
 

@@ -22,15 +22,15 @@ use crate::engine::{Tape, outcomes};
 /// A demand on a team.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
-    /// FRONTIER-1
+    /// FRONTIER-1: every cell in reach is explored in the end.
     Covers,
-    /// FRONTIER-2
+    /// FRONTIER-2: robots keep apart.
     Alone,
-    /// FRONTIER-3
+    /// FRONTIER-3: runs end.
     Ends,
-    /// FRONTIER-4
+    /// FRONTIER-4: robots know when nothing is left.
     Knows,
-    /// FRONTIER-5
+    /// FRONTIER-5: repositories are true.
     Marks,
 }
 
