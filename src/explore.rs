@@ -392,8 +392,8 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
         let robot = run.setup().scheme.look.robot();
         let _ = writeln!(text, "the slowest {robot} took {} s", milliseconds / 1000);
     }
-    if let Some(faults) = &report.faults {
-        text.push_str(&failed(faults));
+    if let Some(failures) = &report.failures {
+        text.push_str(&failed(failures));
     }
     text += &objects::table(&report.objects);
     match run.setup().scheme.knowledge {
@@ -456,8 +456,8 @@ fn excuse(setup: &Setup, report: &Report) -> String {
 }
 
 /// The failures, in a line or two.
-fn failed(faults: &Failures) -> String {
-    let Failures { lost_bytes, rounds, died, taken_back, home } = *faults;
+fn failed(failures: &Failures) -> String {
+    let Failures { lost_bytes, rounds, died, taken_back, home } = *failures;
     let mut text = String::new();
     // Writing to a string cannot fail.
     if rounds > 0 {

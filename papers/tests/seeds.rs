@@ -64,7 +64,7 @@ fn run(scheme: Scheme, rule: &Rule, told: RunOption, layout: &Layout, seed: u64)
     let report = report.ok()?;
     let seen = format!(
         "{moves:?} {:?} {:?} {:?} {:?}",
-        report.violations, report.faults, report.milliseconds, report.objects
+        report.violations, report.failures, report.milliseconds, report.objects
     );
     Some((scheme.draws(&setup), seen))
 }

@@ -23,8 +23,8 @@ fn lost_bytes_delay_a_run_and_change_nothing_of_it() {
     let lossy = Options { loss: Probability::new(0.3).expect("a probability"), ..Options::USUAL };
     for seed in 0..6 {
         let (whole, lost) = (ran(REEL, 6, 0.1, seed, Options::USUAL), ran(REEL, 6, 0.1, seed, lossy.clone()));
-        let faults = lost.faults.expect("something was to fail");
-        assert!(faults.lost_bytes > 0 && faults.rounds > u64::from(lost.steps), "{faults:?}");
+        let failures = lost.failures.expect("something was to fail");
+        assert!(failures.lost_bytes > 0 && failures.rounds > u64::from(lost.steps), "{failures:?}");
         let same = |report: &Report| (report.steps, report.milestones, report.team.clone(), report.stopped);
         assert_eq!(same(&whole), same(&lost));
         assert_eq!((whole.violations, lost.violations), (vec![], vec![]));
@@ -72,12 +72,12 @@ fn deaths(density: f64, runs: u64) -> (Vec<u32>, usize) {
         let report =
             ran(REEL, 8, density, seed, Options { fail: Some(failure(robot, step)), ..Options::USUAL });
         assert_eq!(report.violations, [], "{density} {seed}");
-        let faults = report.faults.expect("something was to fail");
-        if faults.died.is_some() {
-            let moves = faults.taken_back.expect("the others re-form");
+        let failures = report.failures.expect("something was to fail");
+        if failures.died.is_some() {
+            let moves = failures.taken_back.expect("the others re-form");
             assert!(moves <= 2 * step, "{density} {seed}: {moves} team moves taken back after {step}");
             taken_back.push(moves);
-            home += usize::from(faults.home > 0);
+            home += usize::from(failures.home > 0);
         }
     }
     taken_back.sort_unstable();
@@ -115,5 +115,5 @@ fn a_failure_after_the_end_of_a_run_changes_nothing() {
     let never = ran(REEL, 8, 0.1, 3, Options::USUAL);
     assert_eq!((late.steps, late.stopped), (never.steps, never.stopped));
     assert_ne!(late.stopped, Stopped::Silent);
-    assert_eq!(late.faults.and_then(|faults| faults.died), None);
+    assert_eq!(late.failures.and_then(|failures| failures.died), None);
 }

@@ -100,7 +100,7 @@ pub trait Team {
     }
 
     /// The failures so far, in a run in which something is to fail.
-    fn faults(&self) -> Option<Failures> {
+    fn failures(&self) -> Option<Failures> {
         None
     }
 
@@ -353,7 +353,7 @@ pub struct Report {
     /// How long the run took its slowest robot, where that is known.
     pub milliseconds: Option<u64>,
     /// The failures, in a run in which something was to fail.
-    pub faults: Option<Failures>,
+    pub failures: Option<Failures>,
     /// The objects that the team has looked for.
     pub objects: Vec<ObjectReport>,
 }
@@ -388,7 +388,7 @@ impl Report {
             team: team.cells().to_vec(),
             components: Vec::new(),
             milliseconds: None,
-            faults: None,
+            failures: None,
             objects: Vec::new(),
         };
         report.note(team.cells(), team.seen(), &[]);
@@ -415,7 +415,8 @@ impl Report {
     pub(super) fn end(&mut self, stopped: Stopped, team: &dyn Team) {
         self.stopped = stopped;
         (self.team, self.components) = (team.cells().to_vec(), team.components().to_vec());
-        (self.milliseconds, self.faults, self.objects) = (team.milliseconds(), team.faults(), team.objects());
+        (self.milliseconds, self.failures, self.objects) =
+            (team.milliseconds(), team.failures(), team.objects());
     }
 }
 

@@ -126,7 +126,7 @@ impl<'a> Summary<'a> {
             cells: report.cells,
             milestones: milestones.into(),
             stopped: report.stopped,
-            faults: report.faults,
+            faults: report.failures,
             objects: &report.objects,
             violations: report.violations.iter().map(|violation: &Violation| violation.into()).collect(),
         }

@@ -92,7 +92,7 @@ pub(super) struct ChainTeam<G, const ROBOTS: usize> {
     going: Going,
     chance: Dice,
     barriers: Vec<Barrier<ROBOTS>>,
-    faults: Failures,
+    failures: Failures,
     moves: u32,
     /// Epochs before the last team move.
     epochs: u32,
@@ -123,7 +123,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
             going,
             chance: Dice::new(setup.seed, *b"faults  "),
             barriers: Vec::new(),
-            faults: Failures::default(),
+            failures: Failures::default(),
             moves: 0,
             epochs: 0,
             is_silent: false,
@@ -169,7 +169,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
 
     /// A robot, numbered from 1 as before, has died in the last team move.
     fn dies(&mut self, chain: Box<Chain<G, ROBOTS>>, mute: usize) {
-        self.faults.died = Some(self.moves);
+        self.failures.died = Some(self.moves);
         self.left.remove(mute - 1);
         self.meet();
         let is_alone = self.left.len() < 2;
@@ -224,7 +224,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
                 self.unheard = self.told(unheard);
                 return;
             }
-            self.faults.rounds += 1;
+            self.failures.rounds += 1;
             let is_waiting = |barrier: &Barrier<ROBOTS>| barrier.turn() == turn;
             let said: Vec<Option<u8>> =
                 self.barriers.iter().map(|barrier| barrier.again().filter(|_| is_waiting(barrier))).collect();
@@ -261,7 +261,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     /// A byte from one robot to another, both counted from R_2, unless it is lost.
     fn carry(&mut self, from: usize, to: usize, byte: u8, unheard: &mut Vec<usize>) -> Option<ByteEffect> {
         if self.loss.happens(&mut self.chance) {
-            self.faults.lost_bytes += 1;
+            self.failures.lost_bytes += 1;
             if !unheard.contains(&to) {
                 unheard.push(to);
             }
@@ -354,12 +354,12 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         while let Some(whole) = self.whole.take() {
             match whole {
                 Whole::Parts(reforming, Until::Contact) if reforming.is_formed() => {
-                    self.faults.taken_back = self.faults.died.map(|died| self.moves - 1 - died);
+                    self.failures.taken_back = self.failures.died.map(|died| self.moves - 1 - died);
                     self.form(reforming);
                 }
                 Whole::Parts(mut reforming, until) => match self.take_back(&mut reforming) {
                     Some(made) => {
-                        self.faults.home += u32::from(until == Until::Home);
+                        self.failures.home += u32::from(until == Until::Home);
                         self.whole = Some(Whole::Parts(reforming, until));
                         return Ok(made);
                     }
@@ -395,7 +395,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
 
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
         let mut broken = Vec::new();
-        if self.faults.died.is_none() {
+        if self.failures.died.is_none() {
             let seen = Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells));
             broken.extend(seen.map(ClauseId::from));
         } else if self.parts().iter().any(|part| is_apart(part, &frame.cells)) {
@@ -421,7 +421,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
             End::Explored | End::Exhausted | End::Endless if self.missed(layout, chart).is_empty() => {
                 Vec::new()
             }
-            End::Explored | End::Exhausted | End::Endless if self.faults.died.is_some() => vec![DEATH],
+            End::Explored | End::Exhausted | End::Endless if self.failures.died.is_some() => vec![DEATH],
             End::Explored | End::Exhausted | End::Endless => vec![Breach::Completeness.into()],
         }
     }
@@ -452,8 +452,8 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         refusals
     }
 
-    fn faults(&self) -> Option<Failures> {
-        self.is_faulty.then_some(self.faults)
+    fn failures(&self) -> Option<Failures> {
+        self.is_faulty.then_some(self.failures)
     }
 
     fn layers(&self) -> Vec<Layer> {
@@ -461,7 +461,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     }
 
     fn show(&self, before: &[Cell], scene: &mut Scene) {
-        if self.faults.died == Some(self.moves)
+        if self.failures.died == Some(self.moves)
             && let Some(robot) = (0..self.cells.len()).find(|robot| !self.left.contains(robot))
         {
             scene.note(Change::Fail { robot });
