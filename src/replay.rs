@@ -104,7 +104,7 @@ const MAX_JUDGED: usize = 1 << 22;
 pub(super) struct ReplayJson<'a> {
     #[serde(flatten)]
     run: Summary<'a>,
-    /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
+    /// The clause that the file says it is a counterexample to. Where a judge reads such a run, the judge agrees.
     counterexample_to: Option<ClauseId>,
     /// Of a scheme that this program does not know, that its rule was not run.
     #[serde(skip_serializing_if = "Option::is_none")]
