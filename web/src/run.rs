@@ -47,7 +47,7 @@ impl Run {
         let team_move = self.course.team_move(made, &*self.team);
         let mut broken = broken_of(made.broken.iter().copied());
         for (one, &clause) in broken.iter_mut().zip(&made.broken) {
-            one.told = self.setup.told(clause, &self.course.report.chart, &team_move);
+            one.told = self.setup.lines(clause, &self.course.report.chart, &team_move);
         }
         let mut delta = Delta {
             step: team_move.step,

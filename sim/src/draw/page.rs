@@ -130,7 +130,7 @@ impl<'a> Page<'a> {
             let told: Vec<(&str, Vec<String>)> = made
                 .broken
                 .iter()
-                .map(|&clause| (clause.as_str(), self.run.told(clause, &self.report.chart, made)))
+                .map(|&clause| (clause.as_str(), self.run.lines(clause, &self.report.chart, made)))
                 .collect();
             for &clause in made.broken {
                 self.clauses.insert(clause.as_str(), story::sentence(clause).unwrap_or_default());

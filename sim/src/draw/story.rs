@@ -43,7 +43,7 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
         let _ = writeln!(text, "  {who}{} at {from} {}.", robot + 1, did(made, robot));
     }
     for &clause in made.broken {
-        for line in run.told(clause, chart, made) {
+        for line in run.lines(clause, chart, made) {
             let _ = writeln!(text, "  {line}");
         }
     }
@@ -105,7 +105,7 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
                 lines: after.lines().map(str::to_owned).collect(),
             });
         }
-        for line in made.broken.iter().flat_map(|&clause| run.told(clause, &report.chart, made)) {
+        for line in made.broken.iter().flat_map(|&clause| run.lines(clause, &report.chart, made)) {
             let _ = writeln!(words, "  {line}");
         }
         Ok(())

@@ -57,7 +57,7 @@ pub static BRICKS_ANTS: Profile = Profile {
 pub(super) const MARKING: Profile = Profile {
     knowledge: Some(Knowledge::Visited),
     clauses: &[
-        Clause { told: premature, ..Clause::new(PREMATURE.as_str()) },
+        Clause { lines: premature, ..Clause::new(PREMATURE.as_str()) },
         Clause { missed: Some("Connected with a start and not visited"), ..Clause::new(UNVISITED.as_str()) },
     ],
     // Where marks decide, there is no judge.

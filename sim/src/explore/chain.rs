@@ -66,9 +66,9 @@ pub static CHAIN: Profile = Profile {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },
     clauses: &[
-        Clause { told: |_, _, made| far_apart(made), ..Clause::new(Breach::Contact.clause()) },
-        Clause { told: |_, _, made| crowded(&made.frame.cells), ..Clause::new(Breach::Crowding.clause()) },
-        Clause { told: |_, _, made| out_of_range(made), ..Clause::new(Breach::Coverage.clause()) },
+        Clause { lines: |_, _, made| far_apart(made), ..Clause::new(Breach::Contact.clause()) },
+        Clause { lines: |_, _, made| crowded(&made.frame.cells), ..Clause::new(Breach::Crowding.clause()) },
+        Clause { lines: |_, _, made| out_of_range(made), ..Clause::new(Breach::Coverage.clause()) },
         Clause::new(HEARD.as_str()),
         Clause::new(Breach::Costly.clause()),
         Clause { missed: Some("Within reach and unexplored"), ..Clause::new(Breach::Completeness.clause()) },

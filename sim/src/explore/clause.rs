@@ -104,7 +104,7 @@ pub struct Clause {
     /// Its id.
     pub id: ClauseId,
     /// How a team move breaks it, one line for each pair or cell.
-    pub told: fn(&Setup, &Survey, &TeamMove<'_>) -> Vec<String>,
+    pub lines: fn(&Setup, &Survey, &TeamMove<'_>) -> Vec<String>,
     /// If it is about the end of a run: what the cells are that are missed.
     pub missed: Option<&'static str>,
 }
@@ -112,7 +112,7 @@ pub struct Clause {
 impl Clause {
     /// The clause with this id, of which the words of the clause itself tell enough.
     pub const fn new(id: &'static str) -> Self {
-        Self { id: ClauseId::new(id), told: |_, _, _| Vec::new(), missed: None }
+        Self { id: ClauseId::new(id), lines: |_, _, _| Vec::new(), missed: None }
     }
 }
 

@@ -37,8 +37,8 @@ pub(super) trait Each: fmt::Debug + Sync {
     /// The report of a hunt that came to its end, or did not.
     ///
     /// # Errors
-    /// A [`Diagnostic`] if what was found cannot be told.
-    fn told(
+    /// A [`Diagnostic`] if what was found cannot be written down.
+    fn report(
         &self,
         asked: &HuntRequest<'_>,
         found: FoundBy<Self>,
@@ -63,7 +63,7 @@ impl<E: Each> Hunt for E {
         let mut hears = |found: &FoundBy<E>| hunter.hears(Far::Words(self.so_far(asked, found)));
         let searched = lots::search(&layouts, asked.budget, &mut hears);
         let (found, is_complete) = searched.map_err(Into::into)?;
-        self.told(asked, found, is_complete)
+        self.report(asked, found, is_complete)
     }
 
     fn deals(&self) -> Option<&dyn Deals> {
@@ -104,7 +104,7 @@ impl<E: Each> Deals for E {
         let (asked, ()) = Deal::read(deal, asked)?;
         let looks = shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
-        self.told(&asked, found, is_complete)
+        self.report(&asked, found, is_complete)
     }
 }
 

@@ -110,7 +110,7 @@ impl<C: Crew> Each for Traps<C> {
         format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
     }
 
-    fn told(
+    fn report(
         &self,
         asked: &HuntRequest<'_>,
         found: TrapReport,

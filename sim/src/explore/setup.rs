@@ -232,7 +232,7 @@ pub trait Play {
     }
 
     /// How the team move `made` breaks `clause`, one line for each pair or cell.
-    fn told(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
+    fn lines(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
         let _ = (clause, chart, made);
         Vec::new()
     }
@@ -275,8 +275,8 @@ impl Play for Setup {
         explore(self, watch)
     }
 
-    fn told(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
-        self.scheme.clause(clause).map_or_else(Vec::new, |clause| (clause.told)(self, chart, made))
+    fn lines(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
+        self.scheme.clause(clause).map_or_else(Vec::new, |clause| (clause.lines)(self, chart, made))
     }
 
     fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {

@@ -83,7 +83,7 @@ impl Small {
 }
 
 /// The report of a hunt for `robots` in layouts up to a size, within these other bounds.
-pub(super) fn told(
+pub(super) fn report(
     (size, robots, within): (Size, u64, &str),
     facts: Facts,
     (done, covered): (Done, Option<String>),

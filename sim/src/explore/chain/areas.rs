@@ -28,7 +28,7 @@ pub(super) fn hunt(
         hunter.hears(Far::Words(format!("areas of {done} of {max_cells} cells, {runs}")))
     };
     let found = search(&areas, &mut hears).map_err(|refused| fault(refused, areas.robots))?;
-    told(asked, &areas, &found)
+    report(asked, &areas, &found)
 }
 
 /// Refuses what a hunt over areas does not take, if this is one.
@@ -67,7 +67,7 @@ fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<A
 }
 
 /// The report of a search.
-fn told(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
+fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
     let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     let &Areas { max_cells, max_walls, robots, .. } = areas;

@@ -53,7 +53,7 @@ impl Hunt for Walls {
             return areas::hunt(self.0, asked, cells, hunter);
         }
         let bounds = self.bounds(asked)?;
-        told(asked, &bounds, &search(asked, &bounds, hunter)?)
+        report(asked, &bounds, &search(asked, &bounds, hunter)?)
     }
 
     fn deals(&self) -> Option<&dyn Deals> {
@@ -82,7 +82,7 @@ impl Begun for BegunWalls {
     }
 
     fn report(&self, asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
-        told(asked, &self.bounds, &self.search.found())
+        report(asked, &self.bounds, &self.search.found())
     }
 }
 
@@ -130,7 +130,7 @@ impl Deals for Walls {
             shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<Position>, _>>()?;
         let merged =
             Search::merged(&bounds, &deal, &positions).map_err(|refused| fault(refused, bounds.robots))?;
-        told(&asked, &bounds, &merged.found())
+        report(&asked, &bounds, &merged.found())
     }
 }
 
@@ -168,7 +168,7 @@ pub(super) fn team(asked: &HuntRequest<'_>) -> (u64, u32) {
 }
 
 /// The report of a search, and of each run that it found.
-fn told(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
+fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
     let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
         let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);

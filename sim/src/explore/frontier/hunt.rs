@@ -19,7 +19,7 @@ pub(super) use self::rivals::Simulated;
 use crate::explore::hunt::{
     Bound, Done, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, layout,
 };
-use crate::explore::states::{Count, Small, told, watched};
+use crate::explore::states::{self, Count, Small, watched};
 use crate::explore::{ClauseId, Setup};
 use tautline_grids::layout::{Layout, Size};
 
@@ -239,7 +239,7 @@ fn report(
     let lost = if max_losses == 0 { String::new() } else { format!(", at most {max_losses} lost") };
     let walls = max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
     let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
-    told(
+    states::report(
         (size, robots, &(walls + &lost)),
         Facts::StatesWithLosses { size: size.to_string(), states, steps, max_walls, max_losses, error },
         (Done::CellsDone(cells.map(|cells| cells as u32)), covered),

@@ -15,7 +15,7 @@ use super::{EQUAL, reach};
 use crate::explore::hunt::{
     Bound, Done, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, layout,
 };
-use crate::explore::states::{Count, Small, told, watched};
+use crate::explore::states::{Count, Small, report, watched};
 use crate::explore::{ClauseId, Setup};
 use tautline_grids::layout::Size;
 
@@ -129,7 +129,7 @@ impl Hunt for Searched {
         let range = asked.range_cells.map(|cells| format!(", a range of {}", counted(cells, "cell")));
         let within = within.unwrap_or_default() + &range.unwrap_or_default();
         let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
-        Ok(told(
+        Ok(report(
             (size, robots, &within),
             Facts::States { size: size.to_string(), states, steps, max_walls, range: asked.range_cells },
             (Done::NodesDone(cells), covered),

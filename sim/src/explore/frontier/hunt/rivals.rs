@@ -42,7 +42,7 @@ impl Each for Simulated {
         format!("layouts {}, moves {}", count.states, count.steps)
     }
 
-    fn told(
+    fn report(
         &self,
         asked: &HuntRequest<'_>,
         (count, mut found): FoundBy<Self>,
