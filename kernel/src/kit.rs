@@ -14,7 +14,6 @@ mod caravan;
 mod message;
 mod refused;
 mod rule;
-mod sets;
 mod stance;
 mod talk;
 mod team;

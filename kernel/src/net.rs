@@ -2,6 +2,7 @@
 //! how strong it is heard.
 
 mod propagation;
+pub(crate) mod sets;
 
 pub use propagation::Propagation;
 

@@ -11,11 +11,11 @@
 
 use super::alone::Way;
 use super::rule::Condition;
-use super::sets::{first_robots, robots};
 use super::stance::Stance;
 use super::team::Kit;
 use super::tether::{FAR, Formation};
 use crate::ground::{Cell, Grid, Step, Steps};
+use crate::net::sets::{Set, first_robots, robots};
 
 /// Who leads, and what for.
 struct Lead<const ROBOTS: usize> {
@@ -126,10 +126,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     fn shift(&self, ends: &[Cell], nodes: [Cell; 2]) -> Option<(usize, Step)> {
         let mut queue = [0_usize; ROBOTS];
         let (mut first, mut last) = (0, 0);
-        let mut seen = 0;
+        let mut seen: Set = 0;
         for node in nodes {
             let robot = ends.iter().position(|&end| end == node)?;
-            (queue[last], seen) = (robot, seen | 1_u16 << robot);
+            (queue[last], seen) = (robot, seen | 1 << robot);
             last += 1;
         }
         while first < last {
@@ -156,7 +156,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let beside = |node: Cell| {
             let paths = self.paths(node);
             let is_beside = |end: Cell| paths.iter().any(|step| node.after(step) == end);
-            ends.iter().enumerate().fold(0, |set, (robot, &end)| set | u16::from(is_beside(end)) << robot)
+            ends.iter().enumerate().fold(0, |set, (robot, &end)| set | Set::from(is_beside(end)) << robot)
         };
         let (mut reached, mut new) = (0, beside(free));
         while new != 0 {

@@ -2,10 +2,10 @@
 
 use super::refused::{Misuse, SetupError};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
-use super::sets::{first_robots, sets};
 use super::stance::{SEEN, Stance};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
+use crate::net::sets::{first_robots, sets};
 
 /// The most robots that a team can hold.
 pub const MAX_ROBOTS: usize = 16;

@@ -11,10 +11,10 @@ use core::cell::OnceCell;
 
 use super::around::{HERE, Places, SIDE, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
-use super::sets::{Set, first_robots, robots, sets};
 use super::stance::{Reach, Stance};
 use super::team::Kit;
 use crate::ground::{Cell, Grid, Side, Step, steps_to};
+use crate::net::sets::{Set, first_robots, robots, sets};
 
 /// More drives than there can be between two robots.
 pub(super) const FAR: u32 = 1 << 16;

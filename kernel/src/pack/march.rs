@@ -4,25 +4,13 @@
 
 use super::MAX_ROBOTS;
 use crate::ground::{Cell, neighbours};
-
-/// Sets of robots, one bit each.
-type Robots = u32;
+use crate::net::sets::{first_robots, sets};
 
 /// The robots that are joined to the first one by links, by their number among `cells`.
 pub(super) fn joined(cells: &[Cell], is_linked: impl Fn(Cell, Cell) -> bool) -> usize {
-    let (mut reached, mut left): (Robots, Robots) = (1, 1);
-    while left != 0 {
-        let from = left.trailing_zeros() as usize;
-        left &= left - 1;
-        let Some(&at) = cells.get(from) else { break };
-        for (robot, &cell) in cells.iter().enumerate().take(MAX_ROBOTS) {
-            if reached >> robot & 1 == 0 && is_linked(at, cell) {
-                reached |= 1 << robot;
-                left |= 1 << robot;
-            }
-        }
-    }
-    reached.count_ones() as usize
+    let all = first_robots(cells.len().min(MAX_ROBOTS));
+    let [with_first] = sets(all, |one, other| is_linked(cells[one], cells[other]));
+    with_first.count_ones() as usize
 }
 
 /// Whether robots in these cells are side by side: one set of cells that share sides.

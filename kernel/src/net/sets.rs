@@ -1,15 +1,15 @@
 //! Sets of robots, and which of them hang together.
 
 /// Robots, a bit for each.
-pub(super) type Set = u16;
+pub(crate) type Set = u32;
 
 /// So many robots, from the first one on.
-pub(super) const fn first_robots(robots: usize) -> Set {
-    (1_u32 << robots).wrapping_sub(1) as Set
+pub(crate) const fn first_robots(robots: usize) -> Set {
+    (1_u64 << robots).wrapping_sub(1) as Set
 }
 
 /// The sets into which `all` fall, two being together if they are `linked` directly or over others; the rest are empty.
-pub(super) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) -> bool) -> [Set; ROBOTS] {
+pub(crate) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) -> bool) -> [Set; ROBOTS] {
     let mut sets = [0; ROBOTS];
     let mut rest = all;
     for set in &mut sets {
@@ -28,12 +28,12 @@ pub(super) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) 
 }
 
 /// The numbers of the robots of a set.
-pub(super) fn robots(set: Set) -> impl Iterator<Item = usize> {
+pub(crate) fn robots(set: Set) -> impl Iterator<Item = usize> {
     let mut rest = set;
     core::iter::from_fn(move || {
         let robot = rest.trailing_zeros() as usize;
         rest &= rest.wrapping_sub(1);
-        (robot < 16).then_some(robot)
+        (robot < Set::BITS as usize).then_some(robot)
     })
 }
 
@@ -46,5 +46,6 @@ mod tests {
         let linked = |one: usize, other: usize| one.abs_diff(other) == 2;
         assert_eq!(sets::<5>(0b11111, linked), [0b10101, 0b01010, 0, 0, 0]);
         assert_eq!(sets::<5>(0b11011, linked), [0b00001, 0b01010, 0b10000, 0, 0]);
+        assert_eq!([0, 1, 32].map(first_robots), [0, 1, Set::MAX]);
     }
 }
