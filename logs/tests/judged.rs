@@ -60,6 +60,7 @@ fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
             APART,
             Ok(10),
         ),
+        ("near before one of them leaves its start", "0 0 9000; 5 8000 9000; 9 8000 20000", APART, kept),
         ("near within the tolerance", "0 0 9000; 5 4000 13000; 10 6050 9000", APART, kept),
         ("three in a cell", "0 500 1500 1200; 5 1800 1500 1500", CHAIN_2, Ok(5)),
         ("two in a cell", "0 500 1500 1200", CHAIN_2, kept),
@@ -69,6 +70,13 @@ fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
         ("all visited", "0 500; 9 2500", row(&[[0, 0], [1, 0], [2, 0]], true), kept),
         ("one not visited", "0 500; 9 1500", row(&[[0, 0], [1, 0], [2, 0]], true), Ok(9)),
         ("at its border", "0 500; 9 1950", row(&[[0, 0], [1, 0], [2, 0]], true), unknown),
+        (
+            "within it by less than the tolerance",
+            "0 500; 9 2050",
+            row(&[[0, 0], [1, 0], [2, 0]], true),
+            unknown,
+        ),
+        ("passed in a silence", "0 500; 11 2500", row(&[[0, 0], [1, 0], [2, 0]], true), unknown),
         ("visited perhaps in a silence", "0 500; 11 1500", row(&[[0, 0], [2, 0]], true), unknown),
         ("perhaps later", "0 500; 9 1500", row(&[[0, 0], [2, 0]], false), unknown),
     ]
@@ -165,6 +173,24 @@ fn a_breach_says_who_when_how_far_and_where_in_the_log() {
         moments: 2,
     };
     assert_eq!(breach, expected);
+}
+
+#[test]
+fn of_several_breaches_at_once_the_worst_is_told() {
+    let told = |rows: &str, demand: Demand| match judge(&tracks(rows, &LIMITS), &LIMITS, &demand) {
+        Ok(Verdict::Broken(Breach { robots, measured, cell, .. })) => (robots, measured, cell),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(told("0 0 3000 6500 9500", RANGE), (vec![1, 2], 3_500, None));
+    let away = "0 0 20000 40000; 5 60000 61000 63000";
+    assert_eq!(told(away, APART), (vec![0, 1], 1_000, None), "not the 2 m between the others");
+    let crowds = "0 1500 1500 3500 3500 3500 5500 5500";
+    assert_eq!(told(crowds, FRONTIER_2), (vec![2, 3, 4], 3, Some([3, 0])));
+    assert_eq!(
+        told("0 500; 9 1500", row(&[[0, 0], [2, 0], [3, 0]], true)),
+        (vec![], 2, Some([2, 0])),
+        "both cells are counted, and the first one is named"
+    );
 }
 
 #[test]

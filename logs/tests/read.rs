@@ -130,6 +130,11 @@ fn a_robot_without_a_valid_position_has_its_number_and_is_silent() {
     assert_eq!(log.names, ["r1", "r2", "r3"]);
     let tracks = Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS);
     assert_eq!(tracks.at(2, 0), Some([4_000.0, 0.0]));
+    // Also where the whole log is shorter than the gap.
+    let short = read(b"t,robot,x,y\n0,r1,0,0\n0,r2,NaN,NaN\n0.5,r1,0,0\n").expect("a log");
+    let silent = Tracks::new(&short, &Numbers::natural(&short.names), &LIMITS);
+    let robots: Vec<u32> = silent.silences().map(|silence| silence.robot).collect();
+    assert_eq!(robots, [1]);
     let silence = Silence { robot: 1, from_us: 0, to_us: 2_000_000 };
     assert!(tracks.silences().any(|other| other == silence));
     let verdict = judge(&tracks, &LIMITS, &Demand::Neighbours { range_mm: 2_549 });
