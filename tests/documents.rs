@@ -295,6 +295,77 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     }
 }
 
+/// The texts of the Rust files below a folder, with their names.
+fn sources(folder: &Path, into: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            sources(&path, into);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let name = path.file_stem().expect("a name").display().to_string();
+            into.push((name, fs::read_to_string(&path).expect("a file")));
+        }
+    }
+}
+
+/// The tests of a package that a command runs: the words by which it chooses them, and the folders where they stand.
+fn chosen_tests(command: &str) -> Option<(Vec<&str>, Vec<String>)> {
+    let (mut package, mut is_lib, mut is_all, mut chosen) = ("", false, false, Vec::new());
+    let mut words = command.split_whitespace().skip(2);
+    while let Some(word) = words.next() {
+        match word {
+            "-p" => package = words.next()?,
+            "--lib" => is_lib = true,
+            "--test" => is_all = words.next()? == "all",
+            "--manifest-path" => return None,
+            word if word.starts_with('-') => {}
+            word => chosen.extend(word.split("::").filter(|part| !part.is_empty())),
+        }
+    }
+    let folder = package.strip_prefix("tautline-").unwrap_or(".");
+    let parts = [("src", is_lib || !is_all), ("tests", is_all || !is_lib)];
+    let folders = parts.into_iter().filter(|(_, is_run)| *is_run).map(|(part, _)| format!("{folder}/{part}"));
+    Some((chosen, folders.collect()))
+}
+
+#[test]
+fn the_tests_that_the_documents_run_and_the_files_that_they_name_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut found = 0;
+    for path in documents() {
+        let text = fs::read_to_string(&path).expect("a document");
+        for (number, code) in text.split('`').enumerate() {
+            // Between ``` and ``` is one part of many lines; what is within a sentence may break over two.
+            let is_block = text.split('`').nth(number.wrapping_sub(1)).is_some_and(str::is_empty);
+            let lines = if is_block { code.to_owned() } else { code.replace('\n', " ") };
+            for line in lines.lines() {
+                let line = line.split(" #").next().unwrap_or(line);
+                let Some(at) = line.find("cargo test ").filter(|_| number > 0) else { continue };
+                let Some((chosen, folders)) = chosen_tests(&line[at..]) else { continue };
+                let mut files = Vec::new();
+                folders.iter().for_each(|folder| sources(&root.join(folder), &mut files));
+                for word in chosen {
+                    let is_named = |line: &str| {
+                        ["fn ", "mod "].iter().any(|kind| {
+                            line.split_once(kind).is_some_and(|(_, rest)| {
+                                rest.split(['(', ';', ' ']).next().is_some_and(|name| name.contains(word))
+                            })
+                        })
+                    };
+                    let is_there =
+                        files.iter().any(|(name, text)| name.contains(word) || text.lines().any(is_named));
+                    assert!(is_there, "{}: `{line}` runs no test of {folders:?}", path.display());
+                    found += 1;
+                }
+            }
+            let is_file =
+                code.ends_with(".rs") && code.contains("/tests/") && !code.contains([' ', '\n', '<']);
+            assert!(!is_file || root.join(code).exists(), "{}: there is no {code}", path.display());
+        }
+    }
+    assert!(found >= 15, "{found}");
+}
+
 /// The anchor that GitHub makes of a heading.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|&c| c.is_alphanumeric() || " -_".contains(c));
