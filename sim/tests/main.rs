@@ -9,5 +9,6 @@ mod frontier;
 mod kit;
 mod laps;
 mod minimise;
+mod noticed;
 mod own_team;
 mod pack;
