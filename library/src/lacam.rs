@@ -9,11 +9,11 @@ use crate::inheritance::{PIBT, Plan};
 use crate::planned::{Only, Planned, Planner, Tasks};
 use crate::prelude::*;
 
-/// Whether constraints are added, and whether places that are known are left out.
+/// Whether constraints are added, and whether those by which robots conflict are left out.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Lacam {
     has_constraints: bool,
-    leaves_out_known: bool,
+    leaves_out_conflicts: bool,
 }
 
 /// Where some robots go, in the order of their numbers.
@@ -44,8 +44,11 @@ impl Planner for Lacam {
                 let cells = graph.beside(here).iter().chain([&here]);
                 constraints.extend(cells.map(|&cell| [&constraint[..], &[cell]].concat()));
             }
+            if self.leaves_out_conflicts && conflicts(&now[..constraint.len()], &constraint) {
+                continue;
+            }
             let Some(next) = generated(graph, &now, goals, &constraint) else { continue };
-            if self.leaves_out_known && known.contains_key(&next) {
+            if known.contains_key(&next) {
                 continue;
             }
             known.entry(next.clone()).or_insert((Some(now), root()));
@@ -61,11 +64,8 @@ impl Planner for Lacam {
     }
 }
 
-/// The next places of all robots, if some of them go as the constraint says; `None` if that cannot be.
+/// The next places of all robots, if some of them go as the constraint says; `None` if the others cannot go then.
 fn generated(graph: &Graph, now: &[u8], goals: &[u8], constraint: &[u8]) -> Option<Vec<u8>> {
-    if conflicts(&now[..constraint.len()], constraint) {
-        return None;
-    }
     let mut next: Vec<Option<u8>> = constraint.iter().copied().map(Some).collect();
     next.resize(now.len(), None);
     let mut plan = Plan { rule: PIBT, graph, now, goals, next };
@@ -75,13 +75,16 @@ fn generated(graph: &Graph, now: &[u8], goals: &[u8], constraint: &[u8]) -> Opti
 
 const SOLVABLE: Tasks = Tasks(Teams::within(Kind::Connected, 3, 2, 3), Only::Solvable);
 
+const RULE: Lacam = Lacam { has_constraints: true, leaves_out_conflicts: true };
+
 entry! { Planned<Lacam>: "lacam", "LaCAM", "LACAM",
     "Okumura, *LaCAM: Search-Based Algorithm for Quick Multi-Agent Pathfinding*, AAAI 2023, Algorithm 1 and Theorem \
      1";
-    PUBLISHED = "published", Planned(Lacam { has_constraints: true, leaves_out_known: true });
-    BARE = "no constraints", Planned(Lacam { has_constraints: false, leaves_out_known: true });
+    PUBLISHED = "published", Planned(RULE);
+    BARE = "no constraints", Planned(Lacam { has_constraints: false, ..RULE });
+    MIXED = "any constraint", Planned(Lacam { leaves_out_conflicts: false, ..RULE });
     1: "No two robots MUST come into one cell, or change places." {
-        Holds PUBLISHED within SOLVABLE;
+        Holds PUBLISHED within SOLVABLE, not MIXED;
     }
     2: "A plan MUST be found if there is one." {
         Holds PUBLISHED within SOLVABLE, not BARE;

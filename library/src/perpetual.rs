@@ -15,6 +15,8 @@ struct Conditions {
     closes_up: bool,
     /// The robot between the gaps 0 and 2, too, goes on: two robots may move at once.
     is_hasty: bool,
+    /// A robot beside another one does not go there.
+    keeps_apart: bool,
 }
 
 impl Conditions {
@@ -34,6 +36,7 @@ impl Conditions {
                 (3, 0, large) if far(large) && self.follows => return to_near,
                 (1, large, 2) if far(large) && self.closes_up => return to_near,
                 (2, 0, large) if far(large) && self.is_hasty => return to_near,
+                (0, 2, large) if far(large) && !self.keeps_apart => return to_near,
                 _ => {}
             }
         }
@@ -71,8 +74,12 @@ const fn ring(nodes: u8, starts: Start) -> Ring {
     Ring { nodes, robots: 3, starts, moves: Moves::LookThenMove }
 }
 
+/// Gaps of 0, 2 and a large one, robot 0 in each of the three places: what holds of it in all of them holds of each robot.
 const GAPS: Start = Start::At(&[0, 1, 4]);
-const RULE: Conditions = Conditions { goes_on: true, follows: true, closes_up: true, is_hasty: false };
+const MIDDLE: Start = Start::At(&[1, 4, 0]);
+const BEHIND: Start = Start::At(&[4, 0, 1]);
+const RULE: Conditions =
+    Conditions { goes_on: true, follows: true, closes_up: true, is_hasty: false, keeps_apart: true };
 
 entry! { Conditions: "perpetual", "perpetual exploration of a ring", "RING",
     "after Blin, Milani, Potop-Butucaru, Tixeuil, *Exclusive Perpetual Ring Exploration without Chirality*, DISC \
@@ -80,12 +87,17 @@ entry! { Conditions: "perpetual", "perpetual exploration of a ring", "RING",
     PUBLISHED = "legitimate phase", RULE;
     STOPS = "does not close up", Conditions { closes_up: false, ..RULE };
     HASTY = "two at once", Conditions { is_hasty: true, ..RULE };
+    CLOSE = "goes to the next robot", Conditions { keeps_apart: false, ..RULE };
     1: "No two robots MUST come into one node, or change places." {
-        Holds PUBLISHED within ring(12, Start::Any);
+        Holds PUBLISHED within ring(12, Start::Any), not CLOSE;
     }
     2: "Every node MUST be visited again and again, by each robot." {
         Holds PUBLISHED within ring(12, GAPS), not STOPS, HASTY;
+        Holds PUBLISHED within ring(12, MIDDLE), not STOPS, HASTY;
+        Holds PUBLISHED within ring(12, BEHIND), not STOPS, HASTY;
         Holds PUBLISHED within ring(10, GAPS), not STOPS;
+        Holds PUBLISHED within ring(10, MIDDLE), not STOPS;
+        Holds PUBLISHED within ring(10, BEHIND), not STOPS;
         Refuted PUBLISHED within ring(9, GAPS);
         Refuted PUBLISHED within ring(10, Start::Any);
     }

@@ -8,6 +8,7 @@ use crate::prelude::*;
 
 /// The conditions of the rule.
 #[derive(Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a condition of the rule")]
 struct Conditions {
     /// A robot whose destination is reserved for another one may go to the waiting place.
     retreats: bool,
@@ -15,6 +16,8 @@ struct Conditions {
     gives_up: bool,
     /// A place that a waiting robot wants is for that robot.
     queues: bool,
+    /// A robot goes to a place only if it is reserved for no other one.
+    reserves: bool,
 }
 
 bound! {
@@ -59,7 +62,8 @@ impl Protocol for Conditions {
             };
             let is_free = |place: u8| {
                 let is_wanted = robots.contains(&(wait, place)) && here != wait;
-                reserved[usize::from(place)].is_none_or(|other| other == name) && !(is_wanted && self.queues)
+                let is_reserved = reserved[usize::from(place)].is_some_and(|other| other != name);
+                !(is_reserved && self.reserves || is_wanted && self.queues)
             };
             let retreats = !is_free(goal) && here != wait && is_free(wait) && self.retreats;
             let goes_on = Move::of(me, "goes on", go(goal)).when(is_free(goal));
@@ -79,7 +83,7 @@ impl Protocol for Conditions {
     }
 }
 
-const RULE: Conditions = Conditions { retreats: true, gives_up: true, queues: true };
+const RULE: Conditions = Conditions { retreats: true, gives_up: true, queues: true, reserves: true };
 
 entry! { Conditions: "rmf-swap", "two robots that swap", "SWAP",
     "the situation of [rmf_ros2 issue 503](https://github.com/open-rmf/rmf_ros2/issues/503), 2026; hold and wait: \
@@ -88,8 +92,9 @@ entry! { Conditions: "rmf-swap", "two robots that swap", "SWAP",
     RETREATS = "retreats", Conditions { queues: false, ..RULE };
     HOLDS_ON = "holds and waits", Conditions { retreats: false, ..RULE };
     KEEPS = "retreats and keeps its place", Conditions { gives_up: false, ..RULE };
+    RUSHES = "goes to any place", Conditions { reserves: false, ..RULE };
     1: "No two robots MUST be in one place." {
-        Holds QUEUES within Robots::of(3);
+        Holds QUEUES within Robots::of(3), not RUSHES;
     }
     2: "Every robot MUST come to its destination, again and again." {
         Refuted HOLDS_ON within Robots::of(2);
