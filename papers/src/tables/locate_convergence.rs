@@ -10,6 +10,7 @@ use tautline_kernel::position::{
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
+use super::sentences::below;
 use crate::chart;
 use tautline_field::position::{Anchors, PARTICLES, distances, refused};
 use tautline_field::stats::quantile;
@@ -89,6 +90,8 @@ pub struct CoursePoint {
     pub below_5_cm: Estimate,
     /// The median distance to where the robot is, in metres.
     pub error_m: f64,
+    /// Its 95 % interval.
+    pub error_interval_m: Option<[f64; 2]>,
 }
 
 /// The whole table.
@@ -185,8 +188,8 @@ impl Table for LocateConvergence {
 
     /// The paper's bounds on errors.
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        let judged = |(what, paper_m, ours_m): (String, f64, f64)| {
-            let verdict = Verdict::of(ours_m < paper_m);
+        let judged = |(what, paper_m, ours_m, interval_m): Printed| {
+            let verdict = below(interval_m, Some([paper_m; 2]));
             Judgement::new(
                 format!("an error below {paper_m} m"),
                 what,
@@ -214,18 +217,22 @@ impl Table for LocateConvergence {
     }
 }
 
-/// The paper's numbers and ours: of what, and how many metres.
-fn numbers(merged: &Summary) -> Vec<(String, f64, f64)> {
+/// A number of the paper and ours: of what, how many metres, and the 95 % interval of ours.
+type Printed = (String, f64, f64, Option<[f64; 2]>);
+
+/// The paper's numbers and ours.
+fn numbers(merged: &Summary) -> Vec<Printed> {
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);
     let numbers = |Variant { reading, course }: &Variant| {
-        let CoursePoint { optimum_m, error_m, .. } = course.after[twenty];
+        let CoursePoint { optimum_m, interval_m, error_m, error_interval_m, .. } = course.after[twenty];
+        let end = course.after[last];
         let conclusion = format!("{reading}: to the optimum, {} iterations", ITERATIONS[last]);
         [
-            (format!("{reading}: to the optimum, 20 iterations"), PAPER_M, optimum_m),
-            (conclusion, CONCLUSION_M, course.after[last].optimum_m),
-            (format!("{reading}: to the robot, 20 iterations"), PAPER_M, error_m),
+            (format!("{reading}: to the optimum, 20 iterations"), PAPER_M, optimum_m, interval_m),
+            (conclusion, CONCLUSION_M, end.optimum_m, end.interval_m),
+            (format!("{reading}: to the robot, 20 iterations"), PAPER_M, error_m, error_interval_m),
         ]
     };
     merged.variants.iter().flat_map(numbers).collect()
@@ -236,9 +243,9 @@ fn compared(merged: &Summary) -> String {
     let numbers = numbers(merged);
     Columns::of(&numbers)
         .left("metres", Fit, |(what, ..)| what)
-        .right("paper", Fit, |(_, paper_m, _)| format!("< {paper_m}"))
-        .right("ours", Fit, |(_, _, ours_m)| format!("{ours_m:.4}"))
-        .right("difference", Fit, |(_, paper_m, ours_m)| format!("{:+.4}", ours_m - paper_m))
+        .right("paper", Fit, |(_, paper_m, ..)| format!("< {paper_m}"))
+        .right("ours", Fit, |(_, _, ours_m, _)| format!("{ours_m:.4}"))
+        .right("difference", Fit, |(_, paper_m, ours_m, _)| format!("{:+.4}", ours_m - paper_m))
         .text()
 }
 
@@ -265,12 +272,14 @@ fn after(
     to_optimum.sort_by(f64::total_cmp);
     to_robot.sort_by(f64::total_cmp);
     let (optimum_m, interval_m) = quantile(&to_optimum, 0.5);
-    let below = share(&to_optimum, |&distance_m| distance_m < PAPER_M).unwrap_or(Estimate::NOTHING);
+    let (error_m, error_interval_m) = quantile(&to_robot, 0.5);
+    let is_near = share(&to_optimum, |&distance_m| distance_m < PAPER_M).unwrap_or(Estimate::NOTHING);
     Ok(CoursePoint {
         iterations: parameters.iterations,
         optimum_m: decimals(optimum_m, 1e6),
         interval_m: interval_m.map(|ends| ends.map(|end| decimals(end, 1e6))),
-        below_5_cm: rounded(below, 1e4),
-        error_m: decimals(quantile(&to_robot, 0.5).0, 1e4),
+        below_5_cm: rounded(is_near, 1e4),
+        error_m: decimals(error_m, 1e4),
+        error_interval_m: error_interval_m.map(|ends| ends.map(|end| decimals(end, 1e4))),
     })
 }

@@ -390,7 +390,7 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
                 "root mean square errors in cells, where 0.02 cm are 0.0002 of 1 m: {}",
                 measured(off, 3)
             ),
-            teams[0].1.and_then(off).map_or(Verdict::Open, |off| Verdict::of(off.mean <= 0.0002)),
+            below(teams[0].1.and_then(off).and_then(|off| off.interval), Some([0.0002; 2])),
         ));
         let [few, many] = ends(off);
         judged[2].push(Judgement::new(

@@ -182,8 +182,7 @@ impl Table for RescueTable2 {
         let (Some(ours), Some(flooding)) = (spread.schemes.first(), spread.schemes.last()) else {
             return Vec::new();
         };
-        let ends = |estimate: Estimate| estimate.interval.unwrap_or([estimate.mean; 2]);
-        let fewer = |one, other| below(Some(ends(one)), Some(ends(other)));
+        let fewer = |one: Estimate, other: Estimate| below(one.interval, other.interval);
         let mut judged = vec![Judgement::new(
             "Table 2, “broadcasting redundancy”: low, high, high",
             "k-FNF against flooding",

@@ -75,3 +75,23 @@ pub(super) fn text(judged: &[Judgement], why_none: &str) -> String {
     }
     format!("\nWhat the paper says\n{}", columns.text())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Verdict::{Fails, Holds, Open};
+    use super::*;
+
+    #[test]
+    fn a_figure_is_decided_by_its_whole_interval_and_without_one_by_nothing() {
+        let ends = |low: f64, high: f64| Some([low, high]);
+        let of = |interval| Estimate { count: 9, mean: 100.0, interval };
+        let all = [ends(91.0, 109.0), ends(111.0, 120.0), ends(80.0, 89.0), ends(95.0, 111.0), None];
+        assert_eq!(all.map(|interval| same(100.0, of(interval))), [Holds, Fails, Fails, Open, Open]);
+        let all = [ends(95.0, 100.0), ends(90.0, 94.9), ends(90.0, 100.0), None];
+        assert_eq!(all.map(|interval| at_least(95.0, of(interval))), [Holds, Fails, Open, Open]);
+        let other = ends(3.0, 4.0);
+        let all = [ends(1.0, 2.0), ends(5.0, 6.0), ends(2.0, 3.5), ends(3.5, 5.0), None];
+        assert_eq!(all.map(|one| below(one, other)), [Holds, Fails, Open, Open, Open]);
+        assert_eq!(below(other, None), Open);
+    }
+}

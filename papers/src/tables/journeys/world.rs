@@ -33,7 +33,7 @@ pub struct Sample {
     /// Those of TAN's tree.
     pub(super) tree_hops: Option<u16>,
     /// In metres, if there is a way at all.
-    shortest_m: Option<f64>,
+    pub(super) shortest_m: Option<f64>,
     /// Those who arrive, in the order of [`Way::ALL`].
     pub(super) walked: [Option<Walk>; 4],
 }

@@ -261,7 +261,11 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
         share.and_then(|share| share.explored).map_or(0.0, |explored| explored.mean)
     };
     for room in ROOMS {
-        let said = |share: &&Share| share.room == room && share.who != Contender::Chain(RuleName::Repaired);
+        let is_said = |who: Contender| match who {
+            Contender::Chain(RuleName::Published) | Contender::Rival { .. } => true,
+            Contender::Chain(RuleName::Repaired) | Contender::Reel => false,
+        };
+        let said = |share: &&Share| share.room == room && is_said(share.who);
         let shares = || rooms.iter().filter(said);
         let (all, runs): (u32, u32) =
             (shares().map(|share| share.whole).sum(), shares().map(|share| share.runs).sum());
