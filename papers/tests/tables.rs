@@ -195,6 +195,31 @@ fn sums_that_no_layouts_have_are_refused() {
 }
 
 #[test]
+fn a_repaired_team_that_breaks_a_clause_makes_the_table_say_so() {
+    let (yes, one) = (Value::from(true), Value::from(1));
+    for (id, places) in [
+        ("repair-cost", vec![("/violations/1/0", one)]),
+        // Two repaired robots are out of contact, or leave paths out.
+        ("kit-fig14", vec![("/5/is_cut", yes.clone()), ("/5/paths", Value::Array(Vec::new()))]),
+        ("kit-range", vec![("/0/is_cut", yes.clone()), ("/9/paths", Value::Array(Vec::new()))]),
+        // One repaired robot, behind the five teams of the published rule.
+        ("frontier-fig7", vec![("/5/is_double", yes), ("/5/moves", Value::Null)]),
+    ] {
+        let asked = small(find(id).expect("it is in the catalogue"));
+        let jobs = asked.jobs().expect("jobs");
+        let mut results: Vec<String> = jobs.iter().map(|job| asked.measure(job).expect("a result")).collect();
+        assert!(!asked.merge(&results).expect("a table").is_broken(), "{id}");
+        let first: Value = serde_json::from_str(&results[0]).expect("JSON");
+        for (place, broken) in places {
+            let mut first = first.clone();
+            *first.pointer_mut(place).expect("a part") = broken;
+            results[0] = first.to_string();
+            assert!(asked.merge(&results).expect("a table").is_broken(), "{id}{place}");
+        }
+    }
+}
+
+#[test]
 fn every_table_has_a_name_of_its_own() {
     let ids: BTreeSet<&str> = TABLES.iter().map(|table| table.about().id).collect();
     assert_eq!(ids.len(), TABLES.len());

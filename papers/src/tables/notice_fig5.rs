@@ -312,3 +312,34 @@ impl Table for NoticeFig5 {
         Ok(LineChart::new(title, Axis::new("nodes", ""), y, schemes.iter().enumerate().map(series)).svg())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_number_stands_beside_its_own_k_nodes_and_square_alone() {
+        let density = |settings: &Settings, nodes: usize| {
+            let sample = |component: u32, first: (u32, u32)| Sample {
+                component,
+                schemes: [vec![first], vec![(component, 50); 8]].concat(),
+            };
+            let samples = [sample(nodes as u32, (nodes as u32, 40)), sample(nodes as u32 / 2, (90, 20))];
+            settings.density(nodes, &[&samples[0], &samples[1]], settings.schemes(25_000_000))
+        };
+        let usual = Settings::default();
+        let of_paper = density(&usual, 300);
+        assert_eq!((of_paper.connected.mean, of_paper.component.mean), (0.5, 0.75));
+        let line = &of_paper.schemes[0];
+        assert_eq!((line.reach.mean, line.paper, line.difference), (0.65, Some(1.0), Some(-0.35)));
+        assert_eq!((line.reach_component.mean, line.rebroadcasts.mean), (0.8, 30.0));
+        assert!(of_paper.schemes[1..].iter().all(|line| line.paper.is_none() && line.difference.is_none()));
+        for other in [
+            density(&usual, 400),
+            density(&Settings { range_m: 30.0, ..usual.clone() }, 300),
+            density(&Settings { side_m: 200.0, ..usual }, 300),
+        ] {
+            assert!(other.schemes.iter().all(|line| line.paper.is_none()));
+        }
+    }
+}

@@ -350,6 +350,32 @@ mod tests {
     }
 
     #[test]
+    fn each_number_is_of_the_topologies_that_its_heading_says() {
+        let sample = |is_served, way_m, assigned_m, last_s, packets| Sample {
+            is_served,
+            way_m,
+            assigned_m,
+            last_s,
+            packets,
+        };
+        let samples = [
+            sample(true, (150.0, 100.0), Some((105.0, 100.0)), Some(60.0), (10, 2)),
+            sample(true, (300.0, 300.0), Some((300.0, 300.0)), Some(120.0), (20, 4)),
+            sample(true, (50.0, 50.0), None, Some(30.0), (30, 6)),
+            sample(false, (0.0, 0.0), None, None, (40, 8)),
+        ];
+        let line = Line::of(RuleName::Repaired, &samples.iter().collect::<Vec<_>>());
+        let mean = |estimate: Option<Estimate>| estimate.map(|estimate| (estimate.count, estimate.mean));
+        let shares = [line.served, line.own].map(|share| (share.ours.mean, share.difference));
+        assert_eq!(shares, [(0.75, -0.25), (0.5, -0.5)]);
+        assert_eq!(mean(line.distance_ratio), Some((3, 1.1111)), "500 m over 450 m");
+        assert_eq!(mean(line.over_best), Some((2, 1.0125)), "405 m over 400 m");
+        assert_eq!(mean(line.best), Some((2, 0.5)), "5 m farther is not the best");
+        assert_eq!(mean(line.last_s), Some((3, 70.0)));
+        assert_eq!([mean(line.notices), mean(line.control)], [Some((4, 25.0)), Some((4, 5.0))]);
+    }
+
+    #[test]
     fn greedy_assignments_are_never_better_than_the_best() {
         let settings = Settings { topologies: 20, ..Settings::default() };
         let lines = measure(&RescueFig8, &settings, &()).expect("rescues").rules;

@@ -191,3 +191,22 @@ impl Times {
 fn stopping(max_moves: u32) -> Limits {
     Limits { max_moves: NonZeroU32::new(max_moves), ..Limits::default() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_never_gets_there_is_later_than_any_and_leaves_no_mean() {
+        let times = |moves: &[Option<u32>]| {
+            let outcome =
+                |&half: &Option<u32>| Outcome { milestones: [half, None, None], explored: 1, cells: 2 };
+            let outcomes: Vec<Outcome> = moves.iter().map(outcome).collect();
+            let times = Times::of(&outcomes.iter().collect::<Vec<_>>(), Milestone::Half);
+            (times.reached, times.mean.map(|mean| mean.mean), times.median)
+        };
+        assert_eq!(times(&[Some(30), Some(10), Some(21)]), (3, Some(20.33), Some(21)));
+        assert_eq!(times(&[Some(30), None, Some(10), None, Some(20)]), (3, None, Some(30)));
+        assert_eq!(times(&[Some(30), None, Some(10), None, None]), (2, None, None));
+    }
+}
