@@ -378,13 +378,13 @@ fn clauses_are_decided_by_name() {
     LATTICE-1  published  exhaustive     81  holds    3/3
                81 offsets
                composition: machine-checked
-    CHAIN-5    published  search      25742  holds    -
+    CHAIN-5    published  search      25742  holds    1/1
                all layouts, N = 4, at most 3 walls
                composition: machine-checked in part (admitted plans)
     CHAIN-5    repaired   search      25724  holds    1/1
                all layouts, N = 4, at most 3 walls
                composition: machine-checked in part (admitted plans)
-    CHAIN-5    reel       search      26389  holds    -
+    CHAIN-5    reel       search      26389  holds    1/1
                all layouts, N = 4, at most 3 walls
                composition: machine-checked in part (admitted plans)
 
