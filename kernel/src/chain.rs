@@ -28,7 +28,7 @@ pub use message::{Damage, Message, Outcome};
 pub use plan::{Kind, Plan};
 pub use reform::{Parts, ReformError, Reformation};
 pub use rule::{Budget, Condition, Conditions, High, Move, Pursuit, Role, Rule};
-pub use settle::World;
+pub use settle::Walls;
 pub use team::{Chain, End, Intent, MoveOutcome, SetupError, area};
 pub use unfold::goes_on;
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::chain::{Chain, Damage, Intent, Kind, Message, Outcome, Plan, Pursuit, Rule, World};
+use tautline_kernel::chain::{Chain, Damage, Intent, Kind, Message, Outcome, Plan, Pursuit, Rule, Walls};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
 
@@ -25,7 +25,7 @@ fn crossed(chain: &Team, plan: &Plan<ROBOTS>, robot: usize) -> Option<Edge> {
 /// The first of the messages that cannot be true, if one cannot; that of `mute` is not read.
 fn objection(
     chain: &Team,
-    world: World,
+    walls: Walls,
     plan: &Plan<ROBOTS>,
     messages: &[u8],
     mute: Option<usize>,
@@ -36,21 +36,21 @@ fn objection(
             Ok(message) => message,
             Err(damaged) => return Some(damaged),
         };
-        let can_be = match (plan.kind, world) {
+        let can_be = match (plan.kind, walls) {
             (Kind::Advance, _) => message.outcome != Outcome::TookBack,
-            (Kind::Backtrack, World::Lasting) => message.outcome == Outcome::TookBack,
-            (Kind::Backtrack, World::Changing) => message.outcome != Outcome::Arrived,
+            (Kind::Backtrack, Walls::Lasting) => message.outcome == Outcome::TookBack,
+            (Kind::Backtrack, Walls::Changing) => message.outcome != Outcome::Arrived,
         };
         if message.step != plan.steps()[robot] || !can_be {
             return Some(Damage::OtherStep(robot + 1));
         }
         let Some(edge) = crossed(chain, plan, robot) else { continue };
-        if plan.kind == Kind::Backtrack && world == World::Lasting {
+        if plan.kind == Kind::Backtrack && walls == Walls::Lasting {
             continue;
         }
         let is_blocked = message.outcome == Outcome::Blocked;
         let is_wall = chain.grid().edge_has(EdgeMark::Wall, edge);
-        let is_open = world == World::Lasting && chain.grid().edge_has(EdgeMark::Open, edge);
+        let is_open = walls == Walls::Lasting && chain.grid().edge_has(EdgeMark::Open, edge);
         let by_another = met.iter().find(|&&(other, _)| other == edge).map(|&(_, blocked)| blocked);
         let known = if is_wall {
             Some(true)
@@ -68,13 +68,13 @@ fn objection(
 }
 
 /// `hears` is what a chain makes of messages that tell what `walls` are met, and of no others.
-fn hears(chain: &Team, world: World, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> bool {
+fn hears(chain: &Team, walls: Walls, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> bool {
     let mut heard = *chain;
     let result = match mute {
         Some(mute) => heard.hear_without(plan, messages, mute + 1),
         None => heard.hear(plan, messages),
     };
-    if let Some(damaged) = objection(chain, world, plan, messages, mute) {
+    if let Some(damaged) = objection(chain, walls, plan, messages, mute) {
         assert_eq!(result, Err(damaged), "{plan:?} {messages:?}");
         assert!(heard == *chain, "it has changed");
         return false;
@@ -101,11 +101,11 @@ fn what_is_heard_of_a_team_move_is_what_came_of_it() {
     let epochs = Rule { pursuit: Pursuit::Epochs, ..Rule::REEL };
     let (mut drawn, mut refused, mut walls_back) = (Congruence(3), 0, 0);
     for round in 0..24 {
-        let world = if round % 3 == 0 { World::Lasting } else { World::Changing };
+        let among = if round % 3 == 0 { Walls::Lasting } else { Walls::Changing };
         let rule = if round % 2 == 0 { Rule::REEL } else { epochs };
         let robots = 3 + round % 3;
         let grid = SmallGrid::new(area.around(BASE, robots as u16 - 1).expect("inside")).expect("it fits");
-        let mut chain = Team::new(rule, robots, BASE, grid).expect("a chain").in_world(world);
+        let mut chain = Team::new(rule, robots, BASE, grid).expect("a chain").among(among);
         let mut walls: BTreeSet<(Cell, usize)> = BTreeSet::new();
         let named = |edge: Edge| (edge.cell(), Step::Cross(edge.side()).place());
         for edge in area.edges() {
@@ -120,13 +120,13 @@ fn what_is_heard_of_a_team_move_is_what_came_of_it() {
                 let edge = crossed(&chain, &plan, robot);
                 let is_known_wall = edge.is_some_and(|edge| chain.grid().edge_has(EdgeMark::Wall, edge));
                 assert!(!is_known_wall, "{plan:?} goes through a known wall");
-                if world == World::Changing && drawn.pick(12) == 0 {
+                if among == Walls::Changing && drawn.pick(12) == 0 {
                     walls.extend(edge.map(named));
                 }
             }
             let before = chain;
             let messages = chain.settle(&plan, |edge| !walls.contains(&named(edge))).messages().to_vec();
-            assert!(hears(&before, world, &plan, &messages, None), "what is true is believed");
+            assert!(hears(&before, among, &plan, &messages, None), "what is true is believed");
             let mut after = before;
             after.hear(&plan, &messages).expect("true messages");
             assert!(after == chain);
@@ -134,10 +134,10 @@ fn what_is_heard_of_a_team_move_is_what_came_of_it() {
                 let mut changed = messages.clone();
                 for byte in (0..=20).chain([u8::MAX]) {
                     changed[robot - 1] = byte;
-                    refused += u32::from(!hears(&before, world, &plan, &changed, None));
+                    refused += u32::from(!hears(&before, among, &plan, &changed, None));
                 }
                 // Of a robot that has died nothing is read.
-                assert!(hears(&before, world, &plan, &changed, Some(robot)));
+                assert!(hears(&before, among, &plan, &changed, Some(robot)));
             }
             let few = before.clone().hear(&plan, &messages[1..]);
             assert_eq!(few, Err(Damage::Length { bytes: robots - 2, sent: robots - 1 }));

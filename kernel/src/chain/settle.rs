@@ -10,7 +10,7 @@ use crate::ground::{CellMark, Edge, EdgeMark, Grid, Step};
 /// Whether walls stand for ever.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum World {
+pub enum Walls {
     /// A side that was crossed stays open: the paper's.
     Lasting,
     /// A wall may appear where a robot has crossed.
@@ -18,13 +18,13 @@ pub enum World {
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
-    /// This chain in such a world. In a changing one the world is asked for every side that a robot crosses, also in a
+    /// This chain among such walls. Among changing ones the world is asked for every side that a robot crosses, also in a
     /// backtrack; a wall that is found is known from then on, and is a gain. A backtrack that meets one ends the
     /// history: the chain goes on from where it is, and takes back no earlier team move. For walls that appear the rule
     /// needs *Hold* to keep contact.
     #[must_use]
-    pub fn in_world(self, world: World) -> Self {
-        Self { world, ..self }
+    pub fn among(self, walls: Walls) -> Self {
+        Self { walls, ..self }
     }
 
     /// Carries `plan` out. `is_open` answers for every edge that is crossed without being known, once each, in
@@ -55,9 +55,9 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
             let step = if mute == Some(robot) { Step::Stay } else { plan.steps[robot] };
             let cell = self.cells[robot];
-            let outcome = match (plan.kind, step, self.world) {
+            let outcome = match (plan.kind, step, self.walls) {
                 (Kind::Advance, Step::Stay, _) => Outcome::Arrived,
-                (Kind::Backtrack, Step::Stay, _) | (Kind::Backtrack, _, World::Lasting) => Outcome::TookBack,
+                (Kind::Backtrack, Step::Stay, _) | (Kind::Backtrack, _, Walls::Lasting) => Outcome::TookBack,
                 (kind, Step::Cross(side), _) => match self.try_edge(Edge::new(cell, side), &mut is_open) {
                     Outcome::Arrived if kind == Kind::Backtrack => Outcome::TookBack,
                     outcome @ (Outcome::Arrived | Outcome::Blocked | Outcome::TookBack) => outcome,
@@ -86,7 +86,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// The outcome of crossing `edge`.
     fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {
-        if self.world == World::Lasting && self.grid.edge_has(EdgeMark::Open, edge) {
+        if self.walls == Walls::Lasting && self.grid.edge_has(EdgeMark::Open, edge) {
             return Outcome::Arrived;
         }
         if self.grid.edge_has(EdgeMark::Wall, edge) {
@@ -133,16 +133,16 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| mute != Some(robot)) {
             let Message { step, outcome } = Message::decode(byte)?;
             let is_back = outcome == Outcome::TookBack;
-            let is_shut = outcome == Outcome::Blocked && self.world == World::Changing;
+            let is_shut = outcome == Outcome::Blocked && self.walls == Walls::Changing;
             if step != plan.steps[robot] || (is_back != (plan.kind == Kind::Backtrack) && !is_shut) {
                 return Err(Damage::OtherStep(robot + 1));
             }
             outcomes[robot] = outcome;
-            let is_tried = !is_back || self.world == World::Changing;
+            let is_tried = !is_back || self.walls == Walls::Changing;
             let Some(crossed) = edge(robot).filter(|_| is_tried) else { continue };
             let known = if self.grid.edge_has(EdgeMark::Wall, crossed) {
                 Some(Outcome::Blocked)
-            } else if self.world == World::Lasting && self.grid.edge_has(EdgeMark::Open, crossed) {
+            } else if self.walls == Walls::Lasting && self.grid.edge_has(EdgeMark::Open, crossed) {
                 Some(Outcome::Arrived)
             } else {
                 (1..robot).find(|&other| edge(other) == Some(crossed)).map(|other| outcomes[other])

@@ -8,7 +8,7 @@ use super::plan::{Kind, Plan, mark_occupied, unmark_occupied};
 use super::planner::{Looks, Planner};
 use super::reel::{Next, Reel, Task, Winder};
 use super::rule::{Condition, Pursuit, Rule};
-use super::settle::World;
+use super::settle::Walls;
 use super::unfold::unfold;
 use crate::error::sentences;
 use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
@@ -114,7 +114,7 @@ pub struct Chain<G, const ROBOTS: usize> {
     /// Where the history begins.
     pub(super) past: Past,
     /// Whether walls stand for ever.
-    pub(super) world: World,
+    pub(super) walls: Walls,
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
@@ -148,7 +148,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             reel: Reel::NONE,
             refused: false,
             past: Past::Home,
-            world: World::Lasting,
+            walls: Walls::Lasting,
         })
     }
 
@@ -322,7 +322,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// Forgets the history if the team move that would be taken back next leads over a side that is known to be a wall by now.
     fn forget_what_is_shut(&mut self, log: &[u8]) {
-        let (World::Changing, Some(entry)) = (self.world, self.last_open) else { return };
+        let (Walls::Changing, Some(entry)) = (self.walls, self.last_open) else { return };
         let first = entry as usize * (self.robots - 1);
         let is_shut = |(&cell, &byte): (&Cell, &u8)| {
             let back = Message::decode(byte).map_or(Step::Stay, |message| message.made().reverse());

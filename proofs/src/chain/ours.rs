@@ -2,7 +2,7 @@
 //! follow those of [`super::clauses`] in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{CoveredBehind, Hold, SafeAhead};
-use tautline_kernel::chain::{Habit, Rule, World};
+use tautline_kernel::chain::{Habit, Rule, Walls};
 
 use super::barrier::{self, Reading};
 use super::clauses::{
@@ -133,22 +133,22 @@ const DEATH_AT_RANDOM: Check<DeathCase> = Check::new(
 );
 
 /// A chain in a world in which walls appear.
-const fn shut(observed: Subject, world: World) -> WallsCase {
-    WallsCase { observed, world, plans_in: world }
+const fn shut(observed: Subject, walls: Walls) -> WallsCase {
+    WallsCase { observed, walls, plans_among: walls }
 }
 
 const SHUT: Check<WallsCase> = Check::holds(
-    NamedRule::new("reel", shut(Subject::REEL, World::Changing)),
+    NamedRule::new("reel", shut(Subject::REEL, Walls::Changing)),
     &EveryAnswer {
         body: shut::in_few_walls,
         range: shut::few_walls,
         covers: &["a wall appears", "no wall appears"],
     },
     &[
-        NamedRule::new("crossed sides are not tried", shut(Subject::REEL, World::Lasting)),
+        NamedRule::new("crossed sides are not tried", shut(Subject::REEL, Walls::Lasting)),
         NamedRule::new(
             "the history below a wall is kept",
-            WallsCase { plans_in: World::Lasting, ..shut(Subject::REEL, World::Changing) },
+            WallsCase { plans_among: Walls::Lasting, ..shut(Subject::REEL, Walls::Changing) },
         ),
     ],
 );
@@ -162,7 +162,7 @@ const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
         covers: &["a wall appears"],
     },
     Verdict::Unrefuted,
-    &[NamedRule::new("as repaired", shut(Subject::REPAIRED, World::Changing))],
+    &[NamedRule::new("as repaired", shut(Subject::REPAIRED, Walls::Changing))],
 );
 
 /// The clauses.
@@ -360,7 +360,7 @@ mod tests {
             let stops = broken(&|seed| breaks_when_one_stops(observed, seed));
             let lost = Err(Stop::Violated("neighbours are in contact when walls have appeared"));
             let walls =
-                broken(&|seed| shut::at_random(&shut(observed, World::Changing), &mut world(seed)) == lost);
+                broken(&|seed| shut::at_random(&shut(observed, Walls::Changing), &mut world(seed)) == lost);
             [speeds, stops, walls]
         };
         assert!(breaks(Subject::REPAIRED).iter().all(|&runs| runs > 0), "{:?}", breaks(Subject::REPAIRED));

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use tautline_kernel::chain::{Chain, Intent, World};
+use tautline_kernel::chain::{Chain, Intent, Walls};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Edge, SmallGrid, Step};
 
@@ -36,13 +36,13 @@ pub(super) fn random_layouts() -> String {
     )
 }
 
-/// A chain in a world in which walls appear, and what it takes the world for.
+/// A chain among walls that appear, and what it takes them for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct WallsCase {
     pub(super) observed: Subject,
-    pub(super) world: World,
-    /// The world that it expects while it plans.
-    pub(super) plans_in: World,
+    pub(super) walls: Walls,
+    /// The walls that it reckons with while it plans.
+    pub(super) plans_among: Walls,
 }
 
 /// CHAIN-22 over all layouts with few walls.
@@ -82,13 +82,13 @@ enum SideKnowledge {
 }
 
 fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) -> bool) -> Outcome {
-    let mut chain: Chain<SmallGrid, 8> = start(&shut.observed, robots, SmallGrid::new)?.in_world(shut.world);
+    let mut chain: Chain<SmallGrid, 8> = start(&shut.observed, robots, SmallGrid::new)?.among(shut.walls);
     let (mut log, mut walls) = (Vec::new(), BTreeMap::new());
     let mut situation = "no wall appears";
     for _ in 0..MANY {
-        let mut planning = chain.in_world(shut.plans_in);
+        let mut planning = chain.among(shut.plans_among);
         let intent = planning.plan(&log).map_err(|_| NO_MESSAGE)?;
-        chain = planning.in_world(shut.world);
+        chain = planning.among(shut.walls);
         let Intent::Go(plan) = intent else { return Ok(situation) };
         require(!chain.is_refused(), "no plan is refused")?;
         let before = chain.cells().to_vec();

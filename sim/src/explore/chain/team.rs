@@ -5,7 +5,7 @@
 use std::mem::take;
 
 use tautline_kernel::chain::{
-    self, Barrier, ByteEffect, Chain, Intent, Kind, Parts, Plan, Reformation, World,
+    self, Barrier, ByteEffect, Chain, Intent, Kind, Parts, Plan, Reformation, Walls,
 };
 use tautline_kernel::choice::Oracle as _;
 use tautline_kernel::conditions::Conditional as _;
@@ -107,7 +107,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
         let cells = chain.cells().to_vec();
         let Options { loss, fail, wall, going, .. } = setup.options;
         // Where no wall appears, known sides need not be tried again.
-        let chain = if wall.is_some() { chain.in_world(World::Changing) } else { chain };
+        let chain = if wall.is_some() { chain.among(Walls::Changing) } else { chain };
         let left: Vec<usize> = (0..cells.len()).collect();
         let mut team = Self {
             is_faulty: !loss.is_never() || fail.is_some() || wall.is_some() || !going.is_usual(),
