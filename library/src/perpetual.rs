@@ -74,7 +74,8 @@ const fn ring(nodes: u8, starts: Start) -> Ring {
     Ring { nodes, robots: 3, starts, moves: Moves::LookThenMove }
 }
 
-/// Gaps of 0, 2 and a large one, robot 0 in each of the three places: what holds of it in all of them holds of each robot.
+/// Gaps of 0, 2 and a large one, robot 0 in each of the three places: what holds of it in all of them holds of each
+/// robot.
 const GAPS: Start = Start::At(&[0, 1, 4]);
 const MIDDLE: Start = Start::At(&[1, 4, 0]);
 const BEHIND: Start = Start::At(&[4, 0, 1]);

@@ -1,4 +1,5 @@
-//! The clauses of our own, as they are registered: each has an id of its own, its checks mutants, and the readings of its paper.
+//! The clauses of our own, as they are registered: each has an id of its own, its checks mutants, and the readings of
+//! its paper.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! What a run can break it does break under some rule, and whoever watches the run notices: a watcher that notices nothing
-//! keeps every clause.
+//! Each clause that a run can break is broken under some rule, and whoever watches the run notices: a watcher that
+//! notices nothing keeps every clause.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use crate::common::generated;
 use tautline_sim::explore::{Catalogue, ClauseId, Limits, RuleId, Setup, run};
 use tautline_sim::failures::{Failure, Going};
 
-/// What is told a team besides its rule, robots and layout.
+/// The settings of a team besides its rule, robots and layout.
 #[derive(Clone, Copy, Debug)]
 enum Told {
     Nothing,
@@ -25,8 +25,8 @@ enum Told {
 
 use Told::{Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRange};
 
-/// A clause, and whether the end of a run breaks it or a team move; the scheme, the rule, and the condition that it lacks,
-/// if it lacks one; the layout, the robots, the seed, and what else is told.
+/// A clause, and whether the end of a run breaks it or a team move; the scheme, the rule, and the condition that it
+/// lacks, if it lacks one; the layout, the robots, the seed, and what else is told.
 type Case = (&'static str, bool, [&'static str; 3], (&'static str, u16, u64), Told);
 
 const CASES: [Case; 21] = [
@@ -53,8 +53,8 @@ const CASES: [Case; 21] = [
     ("PACK-3", true, ["pack", "published", ""], ("cells:6x5:0.2", 3, 1), SightAndRange(3)),
 ];
 
-/// The clauses that only the runs of searches break, which have tests of their own, and one that no team is known to break
-/// in a run.
+/// The clauses that only the runs of searches break, which have tests of their own, and one that no team is known to
+/// break in a run.
 const OTHERS: [&str; 9] =
     ["CHAIN-12", "KIT-2", "KIT-7", "KIT-10", "KIT-11", "KIT-13", "KIT-14", "FRONTIER-3", "PACK-4"];
 

@@ -18,8 +18,8 @@ pub enum Walls {
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
-    /// This chain among such walls. Among changing ones the world is asked for every side that a robot crosses, also in a
-    /// backtrack; a wall that is found is known from then on, and is a gain. A backtrack that meets one ends the
+    /// This chain among such walls. Among changing ones the world is asked for every side that a robot crosses, also in
+    /// a backtrack; a wall that is found is known from then on, and is a gain. A backtrack that meets one ends the
     /// history: the chain goes on from where it is, and takes back no earlier team move. For walls that appear the rule
     /// needs *Hold* to keep contact.
     #[must_use]

@@ -144,8 +144,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
     Ok(reading.log)
 }
 
-/// Whether a record says that it ends behind its chunk, or behind all bytes that there can be: the reader does not check
-/// that. What ends behind the recording alone is cut.
+/// Whether a record says that it ends behind its chunk, or behind all bytes that there can be: the reader does not
+/// check that. What ends behind the recording alone is cut.
 fn overruns(bytes: &[u8]) -> bool {
     let mut rest = bytes.get(mcap::MAGIC.len()..).unwrap_or_default();
     while let Some((kind, length, behind)) = record(rest) {
@@ -163,8 +163,8 @@ fn overruns(bytes: &[u8]) -> bool {
     false
 }
 
-/// Whether records of a chunk that has so many bytes, or more than are there, end behind it; `None` if it ends before that
-/// can be told.
+/// Whether records of a chunk that has so many bytes, or more than are there, end behind it; `None` if it ends before
+/// that can be told.
 fn is_overrun(chunk: &[u8], length: u64) -> Option<bool> {
     // Two times, the size once it is unpacked, and a checksum; then the name of the compression.
     let rest = chunk.get(3 * 8 + 4..)?;

@@ -275,7 +275,7 @@ pub static CLAUSES: [Clause; 15] = [
                     lacking(Subject::REEL, Distinct),
                     NamedRule::new(
                         "without full cells",
-                        Subject::REEL.following(Rule::REEL.without(FullForFollower).without(FullForLeader)),
+                        Subject::REEL.without(FullForFollower).without(FullForLeader),
                     ),
                 ],
             ),

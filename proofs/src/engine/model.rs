@@ -11,7 +11,7 @@ use super::states::System;
 use super::tree::Game;
 use super::world::Turn;
 
-/// What is said where what is kept of a state leaves something of it out.
+/// The words where the bytes of a state leave something of it out.
 pub(super) const LOST: &str = "a state does not come back from its bytes";
 
 /// A system with its starts, and which demands count.

@@ -81,8 +81,8 @@ pub trait System: World {
     /// Makes `state` the one of which [`Self::write`] made these bytes.
     fn read(&self, _: &mut Self::State, _: &[u8]) {}
 
-    /// Whether what is kept of `state` leaves something of it out, as far as the system can tell: then another state may
-    /// be taken for it, and no search that meets it can be believed.
+    /// Whether what is kept of `state` leaves something of it out, as far as the system can tell: then another state
+    /// may be taken for it, and no search that meets it can be believed.
     fn is_lost(&self, _: &Self::State) -> bool {
         false
     }

@@ -16,15 +16,15 @@ pub(super) struct Subject {
     pub(super) rule: Rule,
     /// What its robots compare: another one than the published one is followed by the published rule alone.
     pub(super) metric: Metric,
-    /// What is wrong with it that no condition expresses: a mutant's.
+    /// A flaw that no condition expresses: a mutant's.
     pub(super) flaw: Option<Flaw>,
 }
 
-/// What can be wrong with a pack beside its rule.
+/// A flaw of a pack beside its rule.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Flaw {
-    /// Robots choose by what they would see alone, however far it is. They choose beside the rule, where gains are compared, and
-    /// their team moves are the rule's.
+    /// Robots choose by what they would see alone, however far it is. They choose beside the rule, where gains are
+    /// compared, and their team moves are the rule's.
     HeedsNoWay,
     /// Robots forget after each team move what they have seen.
     Forgets,

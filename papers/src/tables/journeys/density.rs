@@ -97,8 +97,8 @@ impl Density {
         }
     }
 
-    /// Whether TAN has problems with this shape: robots that hear the call do not arrive. That it has none is said where
-    /// nearly all arrive by the whole 95 % interval.
+    /// Whether TAN has problems with this shape: robots that hear the call do not arrive. That it has none is said
+    /// where nearly all arrive by the whole 95 % interval.
     pub(super) fn problems(&self) -> Option<Judgement> {
         let arrive = self.told_arrive?;
         let measured = format!(
@@ -127,8 +127,8 @@ mod tests {
         Sample { fewest_hops, tree_hops, shortest_m, walked: walked_m.map(|way| way.map(walk)) }
     }
 
-    /// In two topologies all arrive. In the third TAN's robot does not hear the call, in the fourth it loses its way, and in
-    /// the fifth no links lead to the WFR.
+    /// In two topologies all arrive. In the third TAN's robot does not hear the call, in the fourth it loses its way,
+    /// and in the fifth no links lead to the WFR.
     fn samples() -> [Sample; 5] {
         let all = |way: [f64; 4]| way.map(Some);
         let others = |metres: f64| [None, Some(metres), Some(metres), Some(metres)];

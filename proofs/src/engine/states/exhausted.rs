@@ -24,7 +24,7 @@ pub enum NoCertificate {
     Unfinished,
     /// A step was made again and led to another state.
     Unrepeatable,
-    /// What is kept of a state leaves something of it out.
+    /// The bytes of a state leave something of it out.
     Lost,
 }
 
