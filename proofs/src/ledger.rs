@@ -25,33 +25,38 @@ pub struct Room {
 }
 
 /// The rooms.
+// No static, which would be compiled with all engines into the tests of this crate, and not inlined, which would compile
+// them into every other crate.
 #[cfg(feature = "rooms")]
-pub static ROOMS: &[Room] = &[
-    Room { title: "cells and walls", clauses: &crate::ground::clauses::CLAUSES },
-    Room { title: "a recursive chain", clauses: &crate::chain::clauses::CLAUSES },
-    Room { title: "a recursive chain", clauses: &crate::chain::ours::CLAUSES },
-    Room { title: "Ants", clauses: &crate::ants::clauses::CLAUSES },
-    Room { title: "Brick&Mortar", clauses: &crate::bricks::clauses::CLAUSES },
-    Room { title: "broadcast by k-FNF", clauses: &crate::notice::clauses::CLAUSES },
-    Room { title: "who comes to whom: MRC", clauses: &crate::mrc::clauses::CLAUSES },
-    Room { title: "ways by TAN", clauses: &crate::tan::clauses::CLAUSES },
-    Room { title: "two that keep in touch", clauses: &crate::kit::clauses::CLAUSES },
-    Room { title: "positions from signals", clauses: &crate::position::clauses::CLAUSES },
-    Room { title: "frontier cells", clauses: &crate::frontier::clauses::CLAUSES },
-    Room { title: "a pack that sees", clauses: &crate::pack::clauses::CLAUSES },
-];
+#[inline(never)]
+pub fn rooms() -> &'static [Room] {
+    &[
+        Room { title: "cells and walls", clauses: &crate::ground::clauses::CLAUSES },
+        Room { title: "a recursive chain", clauses: &crate::chain::clauses::CLAUSES },
+        Room { title: "a recursive chain", clauses: &crate::chain::ours::CLAUSES },
+        Room { title: "Ants", clauses: &crate::ants::clauses::CLAUSES },
+        Room { title: "Brick&Mortar", clauses: &crate::bricks::clauses::CLAUSES },
+        Room { title: "broadcast by k-FNF", clauses: &crate::notice::clauses::CLAUSES },
+        Room { title: "who comes to whom: MRC", clauses: &crate::mrc::clauses::CLAUSES },
+        Room { title: "ways by TAN", clauses: &crate::tan::clauses::CLAUSES },
+        Room { title: "two that keep in touch", clauses: &crate::kit::clauses::CLAUSES },
+        Room { title: "positions from signals", clauses: &crate::position::clauses::CLAUSES },
+        Room { title: "frontier cells", clauses: &crate::frontier::clauses::CLAUSES },
+        Room { title: "a pack that sees", clauses: &crate::pack::clauses::CLAUSES },
+    ]
+}
 
 /// Every clause of our own.
 #[cfg(feature = "rooms")]
 pub fn clauses() -> impl Iterator<Item = &'static Clause> {
-    ROOMS.iter().flat_map(|room| room.clauses)
+    rooms().iter().flat_map(|room| room.clauses)
 }
 
 /// The name for what the clauses of `scheme` are about; its own where it is none of ours.
 #[cfg(feature = "rooms")]
 pub fn title(scheme: &'static str) -> &'static str {
     let is_its = |room: &&Room| room.clauses.iter().any(|clause| clause.scheme() == scheme);
-    ROOMS.iter().find(is_its).map_or(scheme, |room| room.title)
+    rooms().iter().find(is_its).map_or(scheme, |room| room.title)
 }
 
 /// Two clauses of one id.

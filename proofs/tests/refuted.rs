@@ -8,7 +8,7 @@ use tautline_proofs::decide::{Cache, Context, Evidence, Verdict};
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::ledger::{ROOMS, Room};
+use tautline_proofs::ledger::{Room, rooms};
 
 /// A check that is refuted.
 pub(crate) struct Refuted {
@@ -17,7 +17,7 @@ pub(crate) struct Refuted {
     pub(crate) found: Evidence,
 }
 
-static REFUTED: LazyLock<Vec<Refuted>> = LazyLock::new(|| ROOMS.par_iter().flat_map(in_room).collect());
+static REFUTED: LazyLock<Vec<Refuted>> = LazyLock::new(|| rooms().par_iter().flat_map(in_room).collect());
 
 /// Checks of a room are decided one after the other: what one has found, the next one need not search again.
 fn in_room(room: &Room) -> Vec<Refuted> {

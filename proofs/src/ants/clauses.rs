@@ -94,7 +94,7 @@ const KEEPS: EveryAnswer<Rule> = EveryAnswer {
 };
 
 /// The clauses.
-pub static CLAUSES: [Clause; 3] = [
+pub const CLAUSES: [Clause; 3] = [
     Clause {
         id: "ANTS-1",
         sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \

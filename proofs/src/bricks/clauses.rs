@@ -191,7 +191,7 @@ step_checks! { Eyes;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 15] = [
+pub const CLAUSES: [Clause; 15] = [
     Clause {
         id: "BRICKS-1",
         sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \

@@ -204,7 +204,7 @@ const DEAR: Check<Subject> = Check::refuted(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 15] = [
+pub const CLAUSES: [Clause; 15] = [
     Clause {
         id: "CHAIN-1",
         sentence: "After every team move each robot MUST be in E_C of its neighbours in the chain.",

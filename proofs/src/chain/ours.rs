@@ -166,7 +166,7 @@ const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 10] = [
+pub const CLAUSES: [Clause; 10] = [
     Clause {
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",

@@ -196,7 +196,7 @@ const OCCUPANCIES: [Reading<Occupancy>; 2] =
     holding([("circle", Occupancy::Corrected), (SIDES.name, SIDES.rule)], [0]);
 
 /// The clauses.
-pub static CLAUSES: [Clause; 12] = [
+pub const CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",

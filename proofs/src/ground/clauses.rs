@@ -26,7 +26,7 @@ step_checks! { Circles;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 2] = [
+pub const CLAUSES: [Clause; 2] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \

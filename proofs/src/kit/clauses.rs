@@ -256,7 +256,7 @@ fn words(lost: u8, doubled: u8) -> String {
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 14] = [
+pub const CLAUSES: [Clause; 14] = [
     Clause {
         id: "KIT-1",
         sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",

@@ -188,7 +188,7 @@ const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
 const TWO_FAULTS: Setting = Setting { robots: 1, faults: Faults::any(2), ..TWO };
 
 /// The clauses.
-pub static CLAUSES: [Clause; 14] = [
+pub const CLAUSES: [Clause; 14] = [
     Clause {
         id: "MRC-1",
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",

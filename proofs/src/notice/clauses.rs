@@ -68,7 +68,7 @@ step_checks! { Subject;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 6] = [
+pub const CLAUSES: [Clause; 6] = [
     Clause {
         id: "NOTICE-1",
         sentence: "At every moment the parent pointers MUST form a tree rooted at the source, each node one hop \

@@ -120,7 +120,7 @@ const fn far(demand: Demand) -> Floors {
 }
 
 /// The clauses of pack exploration.
-pub static CLAUSES: [Clause; 8] = [
+pub const CLAUSES: [Clause; 8] = [
     Clause {
         id: "PACK-1",
         sentence: "After every team move, links MUST join all robots of a pack: robots are linked if the whole cell of one is within R_c of the midpoint of the other's.",

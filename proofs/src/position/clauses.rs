@@ -115,7 +115,7 @@ const INSIDE: EveryAnswer<Way> = EveryAnswer {
 };
 
 /// The clauses.
-pub static CLAUSES: [Clause; 7] = [
+pub const CLAUSES: [Clause; 7] = [
     Clause {
         id: "POSITION-1",
         sentence: "From distances without error a way MUST return where the robot is, wherever anchors are that are not on one \

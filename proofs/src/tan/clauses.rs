@@ -55,7 +55,7 @@ const GUIDES: Check<bool> = Check::holds(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 4] = [
+pub const CLAUSES: [Clause; 4] = [
     Clause {
         id: "TAN-1",
         sentence: "A robot MUST follow only the signal of the node that it has asked, one hop nearer than itself in the \
