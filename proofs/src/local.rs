@@ -13,20 +13,22 @@
 mod certificate;
 mod invariant;
 mod kept;
+mod numbered;
 mod team;
 mod wider;
 
 use std::fmt::Debug;
-use std::hash::Hash;
 
 use tautline_kernel::ground::{Cell, Step};
 
+use self::certificate::terms;
 pub use self::invariant::Invariant;
 pub use self::kept::Kept;
+use self::numbered::{ByNumber, Numbered};
 use self::team::Team;
 use self::wider::Wider;
-use crate::decide::{Answer, Context, Decided, Evidence, Method, MethodError, RefutationPlay};
-use crate::engine::states::{self, Limits};
+use crate::decide::{Answer, Context, Decided, Evidence, Method, MethodError, RefutationPlay, Verdict};
+use crate::engine::states::{self, Limits, Room};
 use crate::engine::watchdog;
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::protocol::arrangements;
@@ -107,20 +109,37 @@ pub enum Far {
 /// A rule that is local and the same everywhere.
 pub trait Local: Sync {
     /// The state of a robot beside its cell.
-    type State: Copy + Eq + Ord + Hash + Debug;
+    type State: Copy + Ord + Debug + Sync;
     /// An act.
-    type Act: Copy + Eq + Debug;
+    type Act: Copy + Eq + Debug + Sync;
 
     /// Of how many robots at once the rule speaks.
-    const ROBOTS: usize = 2;
+    fn robots(&self) -> usize {
+        2
+    }
+
     /// The fewest robots of a team.
-    const LEAST: usize = Self::ROBOTS;
+    fn least(&self) -> usize {
+        self.robots()
+    }
+
     /// Whether a robot may be kept from going though no wall stands in its way.
-    const FAULTS: bool = false;
-    /// The subject of the verdict, in words.
-    const SUBJECT: &'static str = "the relation";
+    fn may_fail(&self) -> bool {
+        false
+    }
+
     /// How many colours cells may have. A layout gives each cell a colour below that.
-    const COLOURS: u8 = 1;
+    fn colours(&self) -> u8 {
+        1
+    }
+
+    /// The subject of the verdict, in words.
+    fn subject() -> &'static str
+    where
+        Self: Sized,
+    {
+        "the relation"
+    }
 
     /// All states.
     fn states(&self) -> Vec<Self::State>;
@@ -128,7 +147,7 @@ pub trait Local: Sync {
     /// Whatever a robot in this state can do.
     fn acts(&self, state: Self::State) -> Vec<Act<Self::State, Self::Act>>;
 
-    /// Whether [`Local::ROBOTS`] robots may plan this at once. The answer may depend on where they are from each other,
+    /// Whether [`Local::robots`] of them may plan this at once. The answer may depend on where they are from each other,
     /// and not on where they are: every answer is compared with that at one other place.
     fn admits(&self, plans: &[Plan<Self::State, Self::Act>]) -> bool;
 
@@ -148,7 +167,7 @@ pub trait Local: Sync {
 
     /// Of which tuples of so many robots the rule speaks, at least one: of all, unless it says otherwise.
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        all_tuples(robots, Self::ROBOTS)
+        all_tuples(robots, self.robots())
     }
 
     /// Whether an act is possible whatever was before. One that is possible in some pasts only is looked at as if it always
@@ -216,37 +235,56 @@ impl EveryNumber {
     ///
     /// # Errors
     /// [`MethodError`] if one does not start as its rule says, or a larger one whose start alone is looked at.
-    fn teams<R: Local>(self, rule: &R) -> Result<Vec<Team<'_, R>>, MethodError> {
-        let most = self.most_robots.max(self.most_starts).max(R::LEAST);
+    fn teams(self, rule: &dyn Numbered) -> Result<Vec<Team<'_>>, MethodError> {
+        let most = self.most_robots.max(self.most_starts).max(rule.least());
         let making = watchdog::Steps::begin();
         let team = |robots| {
             making.next();
             Team::new(rule, robots)
         };
-        let mut teams: Vec<_> = (R::LEAST..=most).map(team).collect::<Result<_, _>>()?;
-        teams.truncate((self.most_robots + 1).saturating_sub(R::LEAST));
+        let mut teams: Vec<_> = (rule.least()..=most).map(team).collect::<Result<_, _>>()?;
+        teams.truncate((self.most_robots + 1).saturating_sub(rule.least()));
         Ok(teams)
     }
 
-    /// An answer by this invariant; `way` is one that robots may go, if the question is open.
-    fn answer<R: Local, S>(
-        self,
-        invariant: &Invariant<S>,
-        found: Option<Evidence>,
-        way: Option<&[String]>,
-    ) -> Answer {
-        let note = match (&found, way) {
-            (Some(_), _) => None,
-            (None, None) => Some(invariant.to_string()),
-            (None, Some(way)) => Some(format!(
-                "places of {} robots are too coarse, and no run of up to {} robots was found; as far as these places tell, \
-                 robots may go from {}",
-                R::ROBOTS,
-                self.most_robots,
-                way.join(" to ")
-            )),
-        };
-        Answer { note, ..Answer::new(found, way.is_none(), Method::<R>::shows(&self), invariant.cases) }
+    fn decided(self, rule: &dyn Numbered, room: Room<'_>) -> Decided {
+        let (invariant, teams) = (Invariant::found(rule)?, self.teams(rule)?);
+        if invariant.holds() {
+            return Ok(invariant.answer());
+        }
+        for (more, team) in (0..).zip(&teams) {
+            let limits = Limits { most_steps: self.most_steps, room };
+            let found = states::search(team, [team.start()], limits);
+            if let Some(run) = found.broken.first() {
+                let once = [&[more], &run.steps[..]].concat();
+                let choices = Choices { once, again: Vec::new() };
+                let evidence = Evidence { choices, demand: run.demand, seen: team.story(run) };
+                return Ok(Answer::new(Some(evidence), true, Verdict::Holds, invariant.cases));
+            }
+        }
+        if let Some(wider) = Wider::of(rule, self.most_robots) {
+            let invariant = Invariant::found(&wider)?;
+            if invariant.holds() {
+                return Ok(invariant.answer());
+            }
+        }
+        let note = format!(
+            "places of {} robots are too coarse, and no run of up to {} robots was found; as far as these places tell, \
+             robots may go from {}",
+            rule.robots(),
+            self.most_robots,
+            invariant.way_out(rule)?.join(" to ")
+        );
+        Ok(Answer { note: Some(note), ..Answer::new(None, false, Verdict::Holds, invariant.cases) })
+    }
+
+    fn replayed(self, rule: &dyn Numbered, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+        let mut script = Script::new(choices);
+        let more = script.choose((self.most_robots + 1).saturating_sub(rule.least()))?;
+        let team = Team::new(rule, rule.least() + more).map_err(|_| ScriptError::Unbroken)?;
+        let (of, run) = script.play(&team, (0, team.start()), |_| true)?;
+        let seen = team.story(&run);
+        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
     }
 }
 
@@ -257,48 +295,24 @@ impl<R: Local> Method<R> for EveryNumber {
 
     fn bound(&self) -> String {
         let part = if self.part.is_empty() { String::new() } else { format!("; {}", self.part) };
-        format!("{}, every layout{part}; {}", self.teams, R::SUBJECT)
+        format!("{}, every layout{part}; {}", self.teams, R::subject())
     }
 
     /// The choices are how many robots there are beyond the fewest, and those of the steps.
     fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> Decided {
-        let (invariant, teams) = (Invariant::of(rule)?, self.teams(rule)?);
-        if invariant.holds() {
-            return Ok(self.answer::<R, _>(&invariant, None, None));
-        }
-        for (more, team) in (0..).zip(&teams) {
-            let limits = Limits { most_steps: self.most_steps, room: context.room };
-            let found = states::search(team, [team.start()], limits);
-            if let Some(run) = found.broken.first() {
-                let once = [&[more], &run.steps[..]].concat();
-                let choices = Choices { once, again: Vec::new() };
-                let evidence = Evidence { choices, demand: run.demand, seen: team.story(run) };
-                return Ok(self.answer::<R, _>(&invariant, Some(evidence), None));
-            }
-        }
-        if let Some(wider) = Wider::of(rule, self.most_robots) {
-            let invariant = Invariant::of(&wider)?;
-            if invariant.holds() {
-                return Ok(self.answer::<R, _>(&invariant, None, None));
-            }
-        }
-        Ok(self.answer::<R, _>(&invariant, None, Some(&invariant.way_out(rule)?)))
+        self.decided(&ByNumber::new(rule), context.room)
     }
 
     /// There is one where places of as many robots as the rule speaks of suffice.
     fn certificate(&self, rule: &R) -> Option<Result<String, MethodError>> {
-        match (Invariant::of(rule), self.teams(rule)) {
-            (Ok(invariant), Ok(_)) => invariant.holds().then(|| invariant.certificate(rule)),
+        let rule = ByNumber::new(rule);
+        match (Invariant::found(&rule), self.teams(&rule)) {
+            (Ok(invariant), Ok(_)) => invariant.holds().then(|| terms(&rule, &invariant)),
             (Err(error), _) | (Ok(_), Err(error)) => Some(Err(error)),
         }
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        let mut script = Script::new(choices);
-        let more = script.choose((self.most_robots + 1).saturating_sub(R::LEAST))?;
-        let team = Team::new(rule, R::LEAST + more).map_err(|_| ScriptError::Unbroken)?;
-        let (of, run) = script.play(&team, (0, team.start()), |_| true)?;
-        let seen = team.story(&run);
-        Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+        self.replayed(&ByNumber::new(rule), choices)
     }
 }

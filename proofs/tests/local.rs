@@ -34,7 +34,7 @@ pub(crate) fn decided_by<R: Local>(method: EveryNumber, rule: &R) -> (Verdict, O
         assert!(method.replay(rule, &cut).is_err(), "cut at {place}");
     }
     let Depiction::Story(story) = &evidence.seen else { panic!("a drawing") };
-    let size = (choices.once[0] + R::LEAST as u32, choices.once.len() - 1);
+    let size = (choices.once[0] + rule.least() as u32, choices.once.len() - 1);
     (answer.verdict, Some(size), story.clone())
 }
 
@@ -164,7 +164,7 @@ fn a_rule_of_ones_own_is_a_clause_like_any_other() {
 fn what_is_no_local_rule_is_refused_with_the_reason() {
     let refusal = |rule: Leash| Invariant::of(&rule).expect_err("no local rule").to_string();
     insta::assert_snapshot!(refusal(Leash { is_here_alone: true, ..LEASH }), @"the rule is not the same everywhere: it answers Cross(West) in 0,0, Cross(East) in -2,0 in another way 113 columns and 57 rows away");
-    insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }), @"robots that start so break the promise: [Robot { at: (0,0), state: 0, on: 0 }, Robot { at: (2,1), state: 0, on: 0 }]");
+    insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }), @"robots that start so break the promise: 0,0 0 | 2,1 0");
     insta::assert_snapshot!(refusal(Leash { grows: true, ..LEASH }), @"1 is none of the states of the rule");
     insta::assert_snapshot!(
         refusal(Leash { reach: 0, ..LEASH }),
@@ -190,7 +190,7 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     insta::assert_snapshot!(refusal(Slip::NoTuple), @"tuples names none of 2 robots: the promise would be about nothing");
     insta::assert_snapshot!(refusal(Slip::OneRobotTwice), @"tuples names [1, 1], which are not 2 of 2 robots");
     insta::assert_snapshot!(refusal(Slip::StartsInNoState), @"a team of 2 starts in 1, which is none of the states of the rule");
-    insta::assert_snapshot!(refusal(Slip::FifthStartsFarAway), @"a team of 5 may not start so: [Robot { at: (0,0), state: 0, on: 0 }, Robot { at: (6,9), state: 0, on: 0 }]");
+    insta::assert_snapshot!(refusal(Slip::FifthStartsFarAway), @"a team of 5 may not start so: 0,0 0 | 6,9 0");
     let reach = Invariant::of(&Leash { reach: -1, ..LEASH }).expect_err("it is refused").to_string();
     insta::assert_snapshot!(reach, @"the promise looks -1 cells far: give 0 or more");
     let fewer = EveryNumber { teams: "up to four robots", most_starts: 4, ..EveryNumber::DEFAULT };
@@ -248,7 +248,10 @@ struct Coloured(u8);
 impl Local for Coloured {
     type State = u8;
     type Act = Step;
-    const COLOURS: u8 = 2;
+
+    fn colours(&self) -> u8 {
+        2
+    }
 
     fn states(&self) -> Vec<u8> {
         LEASH.states()

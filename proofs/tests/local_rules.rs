@@ -150,7 +150,10 @@ struct Own<const COLOURS: u8> {
 impl<const COLOURS: u8> Local for Own<COLOURS> {
     type State = ();
     type Act = Step;
-    const COLOURS: u8 = COLOURS;
+
+    fn colours(&self) -> u8 {
+        COLOURS
+    }
 
     fn states(&self) -> Vec<()> {
         vec![()]
@@ -328,7 +331,10 @@ struct Flags<const LEAST: usize>;
 impl<const LEAST: usize> Local for Flags<LEAST> {
     type State = bool;
     type Act = bool;
-    const LEAST: usize = LEAST;
+
+    fn least(&self) -> usize {
+        LEAST
+    }
 
     fn states(&self) -> Vec<bool> {
         vec![false, true]

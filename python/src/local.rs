@@ -29,7 +29,7 @@ const MAX_REACH: i16 = 1_000;
 type ActAnswer<'py> = (char, List<(bool, Bound<'py, PyAny>)>);
 
 /// A state of a robot by its number, with the words that Python has for it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct State {
     number: u32,
     words: &'static str,
@@ -66,6 +66,10 @@ struct LocalScript {
     reach: i16,
     far: Far,
     is_in_a_row: bool,
+    /// Of how many robots at once it speaks.
+    robots: usize,
+    /// Whether a robot may be kept from going by more than walls.
+    may_fail: bool,
     /// Whether a robot that goes may be stopped, by a wall or a fault.
     may_be_stopped: bool,
 }
@@ -74,6 +78,7 @@ impl LocalScript {
     fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
         let name: String = attribute(rule, "name", "a name, such as \"written\"")?;
+        let may_fail: bool = attribute(rule, "may_fail", "may_fail, True or False")?;
         let is_far_fine: bool = attribute(rule, "far_is_fine", "far_is_fine, True or False")?;
         let List(listed): List<Bound<'_, PyAny>> =
             attribute(rule, "states", "states, a list of all that a robot may be in")?;
@@ -95,8 +100,9 @@ impl LocalScript {
             reach: number(rule, "reach", 0..=MAX_REACH)?,
             far: if is_far_fine { Far::Fine } else { Far::Broken },
             is_in_a_row: attribute(rule, "in_a_row", "in_a_row, True or False")?,
-            may_be_stopped: attribute(rule, "meets_walls", "meets_walls, True or False")?
-                || attribute(rule, "may_fail", "may_fail, True or False")?,
+            robots: number(rule, "robots", 2..=3)?,
+            may_fail,
+            may_be_stopped: attribute(rule, "meets_walls", "meets_walls, True or False")? || may_fail,
         };
         for state in &listed {
             let number = written.script.number(py, "states", state)?;
@@ -185,7 +191,7 @@ impl LocalScript {
         })
     }
 
-    fn start(&self, py: Python<'_>, robots: usize) -> PyResult<Vec<Robot<State>>> {
+    fn started(&self, py: Python<'_>, robots: usize) -> PyResult<Vec<Robot<State>>> {
         let answer = self.script.called(py, "start", |rule| rule.call_method1("start", (robots,)))?;
         let List(told): List<(At, Bound<'_, PyAny>)> = answer.extract().map_err(|_| {
             let what = format_args!("start returned {}", shown(&answer)).to_string();
@@ -195,56 +201,58 @@ impl LocalScript {
     }
 }
 
-/// A rule that speaks of so many robots at once; a robot may be kept from going by more than walls, or not.
-struct Posed<'a, const ROBOTS: usize, const FAULTS: bool>(&'a LocalScript);
-
-impl<const ROBOTS: usize, const FAULTS: bool> Local for Posed<'_, ROBOTS, FAULTS> {
+impl Local for LocalScript {
     type State = State;
     type Act = Letter;
 
-    const ROBOTS: usize = ROBOTS;
-    const FAULTS: bool = FAULTS;
+    fn robots(&self) -> usize {
+        self.robots
+    }
+
+    fn may_fail(&self) -> bool {
+        self.may_fail
+    }
 
     fn states(&self) -> Vec<State> {
-        self.0.states.clone()
+        self.states.clone()
     }
 
     fn acts(&self, state: State) -> Vec<Act<State, Letter>> {
-        let place = self.0.states.iter().position(|&known| known == state);
-        let acts = place.and_then(|place| self.0.acts.get()?.get(place));
+        let place = self.states.iter().position(|&known| known == state);
+        let acts = place.and_then(|place| self.acts.get()?.get(place));
         acts.cloned().unwrap_or_default()
     }
 
     fn admits(&self, plans: &[Plan<State, Letter>]) -> bool {
-        self.0.plans_say(plans)
+        self.plans_say(plans)
     }
 
     fn keeps(&self, robots: &[Robot<State>]) -> bool {
-        self.0.robots_say("keeps", &self.0.keeps, robots)
+        self.robots_say("keeps", &self.keeps, robots)
     }
 
     fn reach(&self) -> (i16, Far) {
-        (self.0.reach, self.0.far)
+        (self.reach, self.far)
     }
 
     fn may_start(&self, robots: &[Robot<State>]) -> bool {
-        self.0.robots_say("may_start", &self.0.may_start, robots)
+        self.robots_say("may_start", &self.may_start, robots)
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<State>> {
-        let start = Python::attach(|py| self.0.start(py, robots));
-        start.unwrap_or_else(|error| self.0.script.fail(error))
+        let start = Python::attach(|py| self.started(py, robots));
+        start.unwrap_or_else(|error| self.script.fail(error))
     }
 
     fn is_sure(&self, _: Letter) -> bool {
-        !self.0.may_be_stopped
+        !self.may_be_stopped
     }
 
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        if self.0.is_in_a_row {
-            (ROBOTS..=robots).map(|end| (end - ROBOTS..end).collect()).collect()
+        if self.is_in_a_row {
+            (self.robots..=robots).map(|end| (end - self.robots..end).collect()).collect()
         } else {
-            all_tuples(robots, ROBOTS)
+            all_tuples(robots, self.robots)
         }
     }
 }
@@ -285,25 +293,14 @@ pub(crate) fn decide_every_number(
     patience_s: f64,
 ) -> PyResult<EveryNumberReport> {
     let written = LocalScript::read(&rule)?;
-    let is_of_three = number(&rule, "robots", 2..=3)? == 3;
-    let may_fail: bool = attribute(&rule, "may_fail", "may_fail, True or False")?;
     written.script.work(py, patience_s, |py| {
         written.begin(py)?;
-        match (is_of_three, may_fail) {
-            (false, false) => decided(py, &Posed::<2, false>(&written), certificate),
-            (false, true) => decided(py, &Posed::<2, true>(&written), certificate),
-            (true, false) => decided(py, &Posed::<3, false>(&written), certificate),
-            (true, true) => decided(py, &Posed::<3, true>(&written), certificate),
-        }
+        decided(py, &written, certificate)
     })
 }
 
-fn decided<const ROBOTS: usize, const FAULTS: bool>(
-    py: Python<'_>,
-    rule: &Posed<'_, ROBOTS, FAULTS>,
-    with_certificate: bool,
-) -> PyResult<EveryNumberReport> {
-    let (script, method) = (&rule.0.script, EveryNumber::DEFAULT);
+fn decided(py: Python<'_>, rule: &LocalScript, with_certificate: bool) -> PyResult<EveryNumberReport> {
+    let (script, method) = (&rule.script, EveryNumber::DEFAULT);
     let refused = |why: MethodError| {
         let remedy = "let the rule speak of where robots are from each other, name all states, and start with its promise kept";
         error(py, Kind::Input, why, remedy)

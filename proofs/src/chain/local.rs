@@ -73,8 +73,14 @@ pub struct Contact<const FAULTS: bool>(pub Rule);
 impl<const FAULTS: bool> Local for Contact<FAULTS> {
     type State = ();
     type Act = Going;
-    const FAULTS: bool = FAULTS;
-    const SUBJECT: &'static str = EVERY_PLAN;
+
+    fn may_fail(&self) -> bool {
+        FAULTS
+    }
+
+    fn subject() -> &'static str {
+        EVERY_PLAN
+    }
 
     fn states(&self) -> Vec<()> {
         vec![()]
@@ -150,9 +156,18 @@ impl Crowd<2> {
 impl<const COLOURS: u8> Local for Crowd<COLOURS> {
     type State = Role;
     type Act = Step;
-    const ROBOTS: usize = 3;
-    const COLOURS: u8 = COLOURS;
-    const SUBJECT: &'static str = EVERY_PLAN;
+
+    fn robots(&self) -> usize {
+        3
+    }
+
+    fn colours(&self) -> u8 {
+        COLOURS
+    }
+
+    fn subject() -> &'static str {
+        EVERY_PLAN
+    }
 
     fn states(&self) -> Vec<Role> {
         self.roles.to_vec()
@@ -231,7 +246,10 @@ impl Local for Coverage {
     type State = Phase;
     /// The step on which a robot sets out, or `None` when it ends.
     type Act = Option<Step>;
-    const SUBJECT: &'static str = EVERY_PLAN;
+
+    fn subject() -> &'static str {
+        EVERY_PLAN
+    }
 
     fn states(&self) -> Vec<Phase> {
         [Phase::Base, Phase::Rests].into_iter().chain(Step::ALL.map(Phase::Goes)).collect()
@@ -297,8 +315,14 @@ pub struct OfThree(pub Rule);
 impl Local for OfThree {
     type State = u8;
     type Act = Going;
-    const ROBOTS: usize = 3;
-    const SUBJECT: &'static str = "the relation, and that R_2 prefers to stay";
+
+    fn robots(&self) -> usize {
+        3
+    }
+
+    fn subject() -> &'static str {
+        "the relation, and that R_2 prefers to stay"
+    }
 
     fn states(&self) -> Vec<u8> {
         vec![1, 2, 3]

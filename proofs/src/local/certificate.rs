@@ -7,7 +7,7 @@ use std::fmt::Write;
 use tautline_kernel::ground::Cell;
 
 use super::invariant::{Tuple, is_within, offsets, promised};
-use super::{ActOf, Far, Invariant, Local, RobotOf};
+use super::{Act, Far, Invariant, Numbered, Robot};
 use crate::decide::MethodError;
 
 /// A set of offsets for each sequence of kinds of robots.
@@ -74,52 +74,48 @@ impl Tree {
 }
 
 /// A rule in tables.
-struct Tables<'r, R: Local> {
-    rule: &'r R,
-    states: Vec<R::State>,
-    acts: Vec<Vec<ActOf<R>>>,
+struct Tables<'r> {
+    rule: &'r dyn Numbered,
+    states: Vec<u32>,
+    acts: Vec<Vec<Act<u32, u32>>>,
 }
 
-impl<R: Local> Tables<'_, R> {
+impl Tables<'_> {
     /// The table of a set of tuples of robots that are at most so far from the first one.
-    fn of_robots(&self, window: i16, mut has: impl FnMut(&Tuple<R::State>) -> bool) -> Tree {
-        let colours = usize::from(R::COLOURS);
-        let robot = |kind: usize, at| RobotOf::<R> {
-            at,
-            state: self.states[kind / colours],
-            on: (kind % colours) as u8,
-        };
+    fn of_robots(&self, window: i16, mut has: impl FnMut(&Tuple) -> bool) -> Tree {
+        let colours = usize::from(self.rule.colours());
+        let robot =
+            |kind: usize, at| Robot { at, state: self.states[kind / colours], on: (kind % colours) as u8 };
         let mut leaf = |kinds: &[usize]| {
-            let places = offsets(window, R::ROBOTS - 1);
+            let places = offsets(window, self.rule.robots() - 1);
             let tuple =
                 |cells: &Vec<_>| kinds.iter().zip(cells).map(|(&kind, &at)| robot(kind, at)).collect();
             Tree::Leaf(places.iter().map(|cells| has(&tuple(cells))).collect())
         };
-        Tree::of(self.states.len() * colours, R::ROBOTS, &mut Vec::new(), &mut leaf)
+        Tree::of(self.states.len() * colours, self.rule.robots(), &mut Vec::new(), &mut leaf)
     }
 
     /// The table of plans. Where no robots are that are as far as `kept` from each other, everything is admitted.
-    fn of_plans(&self, window: i16, kept: &[Tuple<R::State>]) -> Tree {
-        let colours = usize::from(R::COLOURS);
+    fn of_plans(&self, window: i16, kept: &[Tuple]) -> Tree {
+        let colours = usize::from(self.rule.colours());
         let most = self.acts.iter().map(Vec::len).max().unwrap_or(0);
-        let places = offsets(window, R::ROBOTS - 1);
+        let places = offsets(window, self.rule.robots() - 1);
         let mut leaf = |kinds: &[usize]| {
             let of_state = |&kind: &usize| kind / colours / colours / most;
-            let acts: Option<Vec<&ActOf<R>>> = kinds
+            let acts: Option<Vec<&Act<u32, u32>>> = kinds
                 .iter()
                 .map(|kind| self.acts[of_state(kind)].get(kind / colours / colours % most))
                 .collect();
             let Some(acts) = acts else { return Tree::Leaf(Vec::new()) };
-            let states: Vec<R::State> = kinds.iter().map(|kind| self.states[of_state(kind)]).collect();
-            let is_met =
-                |tuple: &Tuple<R::State>| tuple.iter().map(|robot| robot.state).eq(states.iter().copied());
+            let states: Vec<u32> = kinds.iter().map(|kind| self.states[of_state(kind)]).collect();
+            let is_met = |tuple: &Tuple| tuple.iter().map(|robot| robot.state).eq(states.iter().copied());
             if self.rule.reach().1 == Far::Broken && !kept.iter().any(is_met) {
                 return Tree::All;
             }
             let admits = |cells: &Vec<_>| {
                 let plans =
                     kinds.iter().zip(&acts).zip(&states).zip(cells).map(|(((kind, act), &state), &at)| {
-                        let robot = RobotOf::<R> { at, state, on: (kind / colours % colours) as u8 };
+                        let robot = Robot { at, state, on: (kind / colours % colours) as u8 };
                         robot.plans(act, (kind % colours) as u8)
                     });
                 self.rule.admits(&plans.collect::<Vec<_>>())
@@ -127,22 +123,27 @@ impl<R: Local> Tables<'_, R> {
             Tree::Leaf(places.iter().map(admits).collect())
         };
         let kinds = self.states.len() * most * colours * colours;
-        Tree::of(kinds, R::ROBOTS, &mut Vec::new(), &mut leaf)
+        Tree::of(kinds, self.rule.robots(), &mut Vec::new(), &mut leaf)
     }
 
     /// The acts of each state: where each leads, and what may come of it.
     fn moves(&self) -> Result<String, MethodError> {
-        let number = |state: &R::State| {
+        let number = |state: &u32| {
             let place = self.states.iter().position(|known| known == state);
-            place.ok_or_else(|| MethodError::new(format_args!("{state:?} is none of the states of the rule")))
+            place.ok_or_else(|| {
+                MethodError::new(format_args!(
+                    "{} is none of the states of the rule",
+                    self.rule.state_words(*state)
+                ))
+            })
         };
-        let of_act = |act: &ActOf<R>| {
+        let of_act = |act: &Act<u32, u32>| {
             let Cell { x, y } = Cell::new(0, 0).after(act.step);
-            let end = |(goes, state): &(bool, R::State)| Ok(format!("({goes}, {}%nat)", number(state)?));
+            let end = |(goes, state): &(bool, u32)| Ok(format!("({goes}, {}%nat)", number(state)?));
             let ends: Result<Vec<String>, MethodError> = act.ends.iter().map(end).collect();
             Ok(format!("(({x}, {y}), [{}])", ends?.join("; ")))
         };
-        let of_state = |acts: &Vec<ActOf<R>>| {
+        let of_state = |acts: &Vec<Act<u32, u32>>| {
             let acts: Result<Vec<String>, MethodError> = acts.iter().map(of_act).collect();
             Ok(format!("[{}]", acts?.join(";\n  ")))
         };
@@ -155,16 +156,17 @@ impl<R: Local> Tables<'_, R> {
 const MOST_ENTRIES: usize = 2_000_000;
 
 /// The rule, the invariant, and the theorem that it is one, in Rocq's words.
-pub(super) fn terms<R: Local>(rule: &R, invariant: &Invariant<R::State>) -> Result<String, MethodError> {
+pub(super) fn terms(rule: &dyn Numbered, invariant: &Invariant) -> Result<String, MethodError> {
     let states = rule.states();
     let acts: Vec<_> = states.iter().map(|&state| rule.acts(state)).collect();
     let tables = Tables { rule, states, acts };
     let (reach, far) = rule.reach();
     let width = if far == Far::Fine { invariant.window + 2 } else { invariant.window };
-    let colours = usize::from(R::COLOURS).pow(2);
+    let colours = usize::from(rule.colours()).pow(2);
     let plans = tables.acts.iter().map(Vec::len).sum::<usize>() * colours;
     let sides = (2 * width as usize + 1).pow(2);
-    let entries = plans.pow(R::ROBOTS as u32).saturating_mul(sides.saturating_pow(R::ROBOTS as u32 - 1));
+    let entries =
+        plans.pow(rule.robots() as u32).saturating_mul(sides.saturating_pow(rule.robots() as u32 - 1));
     if entries > MOST_ENTRIES {
         let why = format!("a certificate would have {entries} entries, more than {MOST_ENTRIES}");
         return Err(MethodError::new(why));
@@ -174,8 +176,8 @@ pub(super) fn terms<R: Local>(rule: &R, invariant: &Invariant<R::State>) -> Resu
          Import ListNotations.\nLocal Open Scope Z_scope.\n\n\
          Definition rule_ : rule := {{|\n robots := {}; colours := {}; reach := {reach}; far := {}; width := {width};\n \
          moves :=\n {}",
-        R::ROBOTS,
-        R::COLOURS,
+        rule.robots(),
+        rule.colours(),
         far == Far::Fine,
         tables.moves()?
     );
@@ -195,7 +197,7 @@ pub(super) fn terms<R: Local>(rule: &R, invariant: &Invariant<R::State>) -> Resu
     );
     text += " |}.\n\nDefinition certificate_ : certificate := {| window := ";
     let _ = write!(text, "{}; kept :=\n ", invariant.window);
-    let is_kept = |tuple: &Tuple<R::State>| invariant.kept.binary_search(tuple).is_ok();
+    let is_kept = |tuple: &Tuple| invariant.kept.binary_search(tuple).is_ok();
     tables.of_robots(invariant.window, is_kept).write(&mut text);
     // Computed once, at `Qed`: the tactic `vm_compute` would do so before.
     text += " |}.\n\nTheorem accepted : accepts rule_ certificate_ = true.\nProof. vm_cast_no_check (eq_refl true). Qed.\n\n\

@@ -7,8 +7,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use tautline_kernel::ground::{Cell, Step};
 
 use super::certificate::terms;
-use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
-use crate::decide::MethodError;
+use super::{Act, ByNumber, Far, Local, Numbered, Plan, Robot};
+use crate::decide::{Answer, MethodError, Verdict};
 use crate::engine::watchdog;
 use crate::protocol::combinations;
 
@@ -23,30 +23,35 @@ const MOST_WIDER_PLACES: usize = 100_000;
 const AFAR: i16 = 2;
 
 /// Robots of which a rule speaks at once, the first one in cell (0, 0).
-pub(super) type Tuple<S> = Vec<Robot<S>>;
+pub(super) type Tuple = Vec<Robot<u32>>;
 
 /// A set of relative places that no admitted step of a rule leaves.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Invariant<S> {
+pub struct Invariant {
     /// How many columns and rows robots are at most from the first one.
     pub window: i16,
     /// How many relative places there are, and how many of them keep the promise.
     pub places: (usize, usize),
     /// The relative places that no admitted step leaves, sorted.
-    pub kept: Vec<Tuple<S>>,
+    pub kept: Vec<Tuple>,
     /// Steps of tuples that were looked at.
     pub cases: u64,
     /// Whether robots that come from afar, or that start, may be in a place that is not kept.
     is_left: bool,
 }
 
-impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
+impl Invariant {
     /// The set of `rule`: the first that holds of those that look as far as the promise and a little farther.
     ///
     /// # Errors
     /// [`MethodError`] if the rule is not the same everywhere, has no state or one that is none of its states, an act
     /// without an outcome or one that no wall stops, looks too far, may start with a broken promise, or may not start.
-    pub fn of<R: Local<State = S>>(rule: &R) -> Result<Self, MethodError> {
+    pub fn of<R: Local>(rule: &R) -> Result<Self, MethodError> {
+        Self::found(&ByNumber::new(rule))
+    }
+
+    /// The set of a rule by numbers: see [`Self::of`].
+    pub(super) fn found(rule: &dyn Numbered) -> Result<Self, MethodError> {
         let (reach, far) = rule.reach();
         MethodError::unless(reach >= 0, format_args!("the promise looks {reach} cells far: give 0 or more"))?;
         MethodError::unless(
@@ -68,8 +73,8 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
     ///
     /// # Errors
     /// [`MethodError`] if the file would be too large, or if an act of the rule ends in none of its states.
-    pub fn certificate<R: Local<State = S>>(&self, rule: &R) -> Result<String, MethodError> {
-        terms(rule, self)
+    pub fn certificate<R: Local>(&self, rule: &R) -> Result<String, MethodError> {
+        terms(&ByNumber::new(rule), self)
     }
 
     /// Whether the promise holds of every number of robots.
@@ -77,13 +82,18 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         !self.is_left
     }
 
+    /// The answer that the promise holds.
+    pub(super) fn answer(&self) -> Answer {
+        Answer { note: Some(self.to_string()), ..Answer::new(None, true, Verdict::Holds, self.cases) }
+    }
+
     /// A shortest way of the robots of which the rule speaks from a start to where they break the promise, each place in
     /// words: what others do to them plays no part, so that no team need go so. Empty if there is none.
-    pub(super) fn way_out<R: Local<State = S>>(&self, rule: &R) -> Result<Vec<String>, MethodError> {
+    pub(super) fn way_out(&self, rule: &dyn Numbered) -> Result<Vec<String>, MethodError> {
         let steps = Steps::of(rule)?;
         let starts = tuples(rule, self.window)?.into_iter().filter(|tuple| rule.may_start(tuple));
-        let mut ways: Vec<(Tuple<S>, Option<usize>)> = starts.map(|tuple| (tuple, None)).collect();
-        let mut known: FxHashSet<Tuple<S>> = ways.iter().map(|(tuple, _)| tuple.clone()).collect();
+        let mut ways: Vec<(Tuple, Option<usize>)> = starts.map(|tuple| (tuple, None)).collect();
+        let mut known: FxHashSet<Tuple> = ways.iter().map(|(tuple, _)| tuple.clone()).collect();
         let mut last = 0;
         while last < ways.len() && promised(rule, &ways[last].0) {
             let tuple = ways[last].0.clone();
@@ -97,28 +107,30 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
         }
         let before = |&place: &usize| ways[place].1;
         let places = iter::successors(ways.get(last).map(|_| last), before);
-        let mut way: Vec<String> = places.map(|place| words(&ways[place].0)).collect();
+        let mut way: Vec<String> = places.map(|place| words(rule, &ways[place].0)).collect();
         way.reverse();
         Ok(way)
     }
 
-    fn within<R: Local<State = S>>(rule: &R, window: i16) -> Result<Self, MethodError> {
+    fn within(rule: &dyn Numbered, window: i16) -> Result<Self, MethodError> {
         let is_fine = rule.reach().1 == Far::Fine;
         let all = tuples(rule, window)?;
-        let is_near = |tuple: &[Robot<S>]| is_within(tuple, window);
-        let mut kept: FxHashSet<Tuple<S>> =
-            all.iter().filter(|tuple| promised(rule, tuple)).cloned().collect();
+        let is_near = |tuple: &[Robot<u32>]| is_within(tuple, window);
+        let mut kept: FxHashSet<Tuple> = all.iter().filter(|tuple| promised(rule, tuple)).cloned().collect();
         let (places, mut cases) = ((all.len(), kept.len()), 0);
-        let starts: Vec<&Tuple<S>> = all.iter().filter(|tuple| rule.may_start(tuple)).collect();
+        let starts: Vec<&Tuple> = all.iter().filter(|tuple| rule.may_start(tuple)).collect();
         if starts.is_empty() && !is_fine {
             return Err(MethodError::new("no robots may start: the promise would be about nothing"));
         }
         if let Some(start) = starts.iter().find(|&&start| !kept.contains(start)) {
-            return Err(MethodError::new(format_args!("robots that start so break the promise: {start:?}")));
+            return Err(MethodError::new(format_args!(
+                "robots that start so break the promise: {}",
+                words(rule, start)
+            )));
         }
         // Each tuple is looked at once more when one to which it leads is gone.
-        let mut before: FxHashMap<Tuple<S>, Vec<Tuple<S>>> = FxHashMap::default();
-        let mut gone: Vec<Tuple<S>> = Vec::new();
+        let mut before: FxHashMap<Tuple, Vec<Tuple>> = FxHashMap::default();
+        let mut gone: Vec<Tuple> = Vec::new();
         let making = watchdog::Steps::begin();
         let steps = Steps::of(rule)?;
         for tuple in all.iter().filter(|tuple| kept.contains(*tuple)) {
@@ -151,13 +163,13 @@ impl<S: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug> Invariant<S> {
                 })?;
             }
         }
-        let mut kept: Vec<Tuple<S>> = kept.into_iter().collect();
+        let mut kept: Vec<Tuple> = kept.into_iter().collect();
         kept.sort_unstable();
         Ok(Self { window, places, kept, cases, is_left })
     }
 }
 
-impl<S> fmt::Display for Invariant<S> {
+impl fmt::Display for Invariant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { window, places: (all, safe), kept, .. } = self;
         let far = match window {
@@ -175,8 +187,8 @@ impl<S> fmt::Display for Invariant<S> {
 }
 
 /// Where robots are, in words: their cells, and their states if there are several.
-fn words<S: fmt::Debug>(tuple: &[Robot<S>]) -> String {
-    let word = |robot: &Robot<S>| match format!("{:?}", robot.state).as_str() {
+pub(super) fn words(rule: &dyn Numbered, tuple: &[Robot<u32>]) -> String {
+    let word = |robot: &Robot<u32>| match rule.state_words(robot.state).as_str() {
         "()" => format!("{}", robot.at),
         state => format!("{} {state}", robot.at),
     };
@@ -184,37 +196,37 @@ fn words<S: fmt::Debug>(tuple: &[Robot<S>]) -> String {
 }
 
 /// Whether robots keep the promise, however far they are from each other.
-pub(super) fn promised<R: Local>(rule: &R, robots: &[RobotOf<R>]) -> bool {
+pub(super) fn promised(rule: &dyn Numbered, robots: &[Robot<u32>]) -> bool {
     let (reach, far) = rule.reach();
     if is_within(robots, reach) { rule.keeps(robots) } else { far == Far::Fine }
 }
 
 /// Whether all are at most so many columns and rows from the first one, which is in cell (0, 0).
-pub(super) fn is_within<S>(robots: &[Robot<S>], window: i16) -> bool {
+pub(super) fn is_within(robots: &[Robot<u32>], window: i16) -> bool {
     robots.iter().all(|robot| robot.at.x.abs() <= window && robot.at.y.abs() <= window)
 }
 
 /// The robots as seen from the cell of the first one.
-pub(super) fn relative<S: Copy>(robots: &[Robot<S>]) -> Tuple<S> {
+pub(super) fn relative(robots: &[Robot<u32>]) -> Tuple {
     let Some(&Robot { at: from, .. }) = robots.first() else { return Vec::new() };
     moved(robots, (-from.x, -from.y))
 }
 
-fn moved<S: Copy>(robots: &[Robot<S>], (columns, rows): (i16, i16)) -> Tuple<S> {
+fn moved(robots: &[Robot<u32>], (columns, rows): (i16, i16)) -> Tuple {
     let by = |at: Cell| Cell::new(at.x + columns, at.y + rows);
     robots.iter().map(|&robot| Robot { at: by(robot.at), ..robot }).collect()
 }
 
 /// How many tuples of robots there are within a window, whatever colours they see; `None` if too many to count.
-fn places<R: Local>(rule: &R, window: i16) -> Option<usize> {
-    let of_first = rule.states().len() * usize::from(R::COLOURS);
+fn places(rule: &dyn Numbered, window: i16) -> Option<usize> {
+    let of_first = rule.states().len() * usize::from(rule.colours());
     let side = 2 * window as usize + 1;
     let of_one = side.checked_mul(side)?.checked_mul(of_first)?;
-    (1..R::ROBOTS).try_fold(of_first, |count, _| count.checked_mul(of_one))
+    (1..rule.robots()).try_fold(of_first, |count, _| count.checked_mul(of_one))
 }
 
 /// Every tuple of robots within a window.
-fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, MethodError> {
+fn tuples(rule: &dyn Numbered, window: i16) -> Result<Vec<Tuple>, MethodError> {
     let (states, count) = (rule.states(), places(rule, window));
     if count.is_none_or(|count| count > MOST_PLACES) {
         let count = count.map_or_else(|| "too many".to_owned(), |count| count.to_string());
@@ -226,11 +238,11 @@ fn tuples<R: Local>(rule: &R, window: i16) -> Result<Vec<Tuple<R::State>>, Metho
     let cells = |state| {
         (-window..=window)
             .flat_map(move |x| (-window..=window).map(move |y| Robot::new(Cell::new(x, y), state)))
-            .flat_map(|robot| (0..R::COLOURS).map(move |on| Robot { on, ..robot }))
+            .flat_map(|robot| (0..rule.colours()).map(move |on| Robot { on, ..robot }))
     };
     let first = states.iter().flat_map(|&state| cells(state)).filter(|robot| robot.at == Cell::new(0, 0));
-    let others: Vec<RobotOf<R>> = states.iter().flat_map(|&state| cells(state)).collect();
-    let all = combinations(iter::once(first.collect()).chain(iter::repeat_n(others, R::ROBOTS - 1)));
+    let others: Vec<Robot<u32>> = states.iter().flat_map(|&state| cells(state)).collect();
+    let all = combinations(iter::once(first.collect()).chain(iter::repeat_n(others, rule.robots() - 1)));
     Ok(all.filter(|tuple| agree(tuple.iter().map(|robot| (robot.at, robot.on)))).collect())
 }
 
@@ -257,29 +269,30 @@ pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)>) -> bool {
 const ELSEWHERE: (i16, i16) = (113, 57);
 
 /// The acts of robots by a rule.
-struct Steps<'r, R: Local> {
-    rule: &'r R,
-    acts: FxHashMap<R::State, Vec<ActOf<R>>>,
+struct Steps<'r> {
+    rule: &'r dyn Numbered,
+    acts: FxHashMap<u32, Vec<Act<u32, u32>>>,
 }
 
-impl<'r, R: Local> Steps<'r, R> {
+impl<'r> Steps<'r> {
     /// # Errors
     /// [`MethodError`] if an act has no outcome, or only such as a wall forbids, or one in no state of the rule.
-    fn of(rule: &'r R) -> Result<Self, MethodError> {
+    fn of(rule: &'r dyn Numbered) -> Result<Self, MethodError> {
         let acts: FxHashMap<_, Vec<_>> =
             rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
         for (state, act) in acts.iter().flat_map(|(state, acts)| acts.iter().map(move |act| (state, act))) {
-            let what = || format!("{:?} in state {state:?}", act.act);
+            let what = || format!("{} in state {}", rule.act_words(act.act), rule.state_words(*state));
             MethodError::unless(
                 !act.ends.is_empty(),
                 format_args!("{} has no outcome: name at least one, or leave the act out", what()),
             )?;
             if let Some((_, next)) = act.ends.iter().find(|(_, next)| !acts.contains_key(next)) {
-                return Err(MethodError::new(format_args!("{next:?} is none of the states of the rule")));
+                let next = rule.state_words(*next);
+                return Err(MethodError::new(format_args!("{next} is none of the states of the rule")));
             }
             let may_stay = act.step == Step::Stay || act.ends.iter().any(|&(goes, _)| !goes);
             MethodError::unless(
-                may_stay || act.needs_open && !R::FAULTS || rule.is_sure(act.act),
+                may_stay || act.needs_open && !rule.may_fail() || rule.is_sure(act.act),
                 format_args!(
                     "{} crosses a side that may be a wall: name an outcome in which the robot stays, or say that \
                      the act is_sure",
@@ -294,18 +307,18 @@ impl<'r, R: Local> Steps<'r, R> {
     /// there are; within a window those alone that may be within it.
     fn each(
         &self,
-        tuple: &[RobotOf<R>],
+        tuple: &[Robot<u32>],
         window: Option<i16>,
-        visit: &mut dyn FnMut(Tuple<R::State>),
+        visit: &mut dyn FnMut(Tuple),
     ) -> Result<u64, MethodError> {
         let mut cases = 0;
         for picked in combinations(tuple.iter().map(|robot| self.acts[&robot.state].iter().collect())) {
             let is_far = window.is_some_and(|window| !come_near(tuple, &picked, window));
             // Colours multiply the cases.
-            if is_far && R::COLOURS > 1 {
+            if is_far && self.rule.colours() > 1 {
                 continue;
             }
-            for aims in colours_of_goals::<R>(tuple, &picked) {
+            for aims in colours_of_goals(self.rule.colours(), tuple, &picked) {
                 if !self.admits(tuple, &picked, &aims)? {
                     continue;
                 }
@@ -325,8 +338,13 @@ impl<'r, R: Local> Steps<'r, R> {
     }
 
     /// Whether the rule admits these acts of a tuple.
-    fn admits(&self, tuple: &[RobotOf<R>], picked: &[&ActOf<R>], aims: &[u8]) -> Result<bool, MethodError> {
-        let plan = |robots: &[RobotOf<R>]| -> Vec<_> {
+    fn admits(
+        &self,
+        tuple: &[Robot<u32>],
+        picked: &[&Act<u32, u32>],
+        aims: &[u8],
+    ) -> Result<bool, MethodError> {
+        let plan = |robots: &[Robot<u32>]| -> Vec<_> {
             let acts = picked.iter().zip(aims);
             robots.iter().zip(acts).map(|(robot, (act, &aims))| robot.plans(act, aims)).collect()
         };
@@ -335,7 +353,7 @@ impl<'r, R: Local> Steps<'r, R> {
         if self.rule.admits(&plan(&moved(tuple, ELSEWHERE))) == is_admitted {
             return Ok(is_admitted);
         }
-        let word = |plan: &Plan<R::State, R::Act>| format!("{:?} in {}", plan.act, plan.robot.at);
+        let word = |plan: &Plan<u32, u32>| format!("{} in {}", self.rule.act_words(plan.act), plan.robot.at);
         let words: Vec<String> = plans.iter().map(word).collect();
         let (columns, rows) = ELSEWHERE;
         let why = format!(
@@ -347,7 +365,7 @@ impl<'r, R: Local> Steps<'r, R> {
 }
 
 /// Whether robots that do this may be within a window then.
-fn come_near<S: Copy, A: Copy>(tuple: &[Robot<S>], picked: &[&Act<S, A>], window: i16) -> bool {
+fn come_near(tuple: &[Robot<u32>], picked: &[&Act<u32, u32>], window: i16) -> bool {
     let ends = |robot: usize| {
         let act = picked[robot];
         act.ends.iter().map(move |&end| tuple[robot].after((act.step, 0), end).at)
@@ -358,13 +376,13 @@ fn come_near<S: Copy, A: Copy>(tuple: &[Robot<S>], picked: &[&Act<S, A>], window
 }
 
 /// Which colours the cells may have to which these acts lead.
-fn colours_of_goals<R: Local>(tuple: &[RobotOf<R>], picked: &[&ActOf<R>]) -> Vec<Vec<u8>> {
-    if R::COLOURS == 1 {
+fn colours_of_goals(colours: u8, tuple: &[Robot<u32>], picked: &[&Act<u32, u32>]) -> Vec<Vec<u8>> {
+    if colours == 1 {
         return vec![vec![0; tuple.len()]];
     }
     let all = combinations(tuple.iter().zip(picked).map(|(robot, act)| match act.step {
         Step::Stay => vec![robot.on],
-        Step::Cross(_) => (0..R::COLOURS).collect(),
+        Step::Cross(_) => (0..colours).collect(),
     }));
     let may_be = |aims: &Vec<u8>| {
         let goals =

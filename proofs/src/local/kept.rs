@@ -51,11 +51,26 @@ impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> Kept<R, P> {
 impl<R: Local, P: Sync> Local for Kept<R, P> {
     type State = R::State;
     type Act = R::Act;
-    const ROBOTS: usize = R::ROBOTS;
-    const LEAST: usize = R::LEAST;
-    const FAULTS: bool = R::FAULTS;
-    const COLOURS: u8 = R::COLOURS;
-    const SUBJECT: &'static str = "what runs, each plan kept to the relation";
+
+    fn robots(&self) -> usize {
+        self.rule.robots()
+    }
+
+    fn least(&self) -> usize {
+        self.rule.least()
+    }
+
+    fn may_fail(&self) -> bool {
+        self.rule.may_fail()
+    }
+
+    fn colours(&self) -> u8 {
+        self.rule.colours()
+    }
+
+    fn subject() -> &'static str {
+        "what runs, each plan kept to the relation"
+    }
 
     fn states(&self) -> Vec<R::State> {
         self.rule.states()

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::invariant::{agree, promised};
+use super::invariant::{agree, promised, words};
 use super::wider::seen;
-use super::{ActOf, Local, Robot, RobotOf};
+use super::{Act, Numbered, Robot};
 use crate::decide::{Depiction, MethodError};
 use crate::engine::states::{Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
@@ -17,7 +17,7 @@ use crate::protocol::{beside, combinations};
 const PROMISE: &str = "the promise is kept by all robots of which the rule speaks";
 
 /// Robots, and what they have met of the layout.
-pub(super) type Start<S> = (Vec<Robot<S>>, Layout);
+pub(super) type Start = (Vec<Robot<u32>>, Layout);
 
 /// A layout as far as robots have met it.
 #[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
@@ -44,82 +44,76 @@ impl Layout {
 }
 
 /// An act, and the colour of the cell to which it leads.
-type Aimed<'a, R> = (&'a ActOf<R>, u8);
+type Aimed<'a> = (&'a Act<u32, u32>, u8);
 
 /// So many robots that follow a rule.
-pub(super) struct Team<'r, R: Local> {
-    rule: &'r R,
+pub(super) struct Team<'r> {
+    rule: &'r dyn Numbered,
     tuples: Vec<Vec<usize>>,
-    start: Vec<RobotOf<R>>,
+    start: Vec<Robot<u32>>,
 }
 
 /// The acts of all robots in words, and what comes of them.
-type Next<S> = (String, Start<S>);
+type Next = (String, Start);
 
-impl<'r, R: Local> Team<'r, R> {
+impl<'r> Team<'r> {
     /// # Errors
     /// [`MethodError`] if the team does not start as the rule says.
-    pub(super) fn new(rule: &'r R, robots: usize) -> Result<Self, MethodError> {
+    pub(super) fn new(rule: &'r dyn Numbered, robots: usize) -> Result<Self, MethodError> {
         let team = Self { rule, tuples: rule.tuples(robots), start: rule.start(robots) };
         if team.start.len() != robots {
             let why = format!("{} robots start where {robots} should", team.start.len());
             return Err(MethodError::new(why));
         }
-        let is_coloured = team.start.iter().all(|robot| robot.on < R::COLOURS);
+        let is_coloured = team.start.iter().all(|robot| robot.on < rule.colours());
         if !is_coloured || !agree(team.start.iter().map(|robot| (robot.at, robot.on))) {
             let why = format!(
                 "a team of {robots} starts in cells that have no colour below {}, or two",
-                R::COLOURS
+                rule.colours()
             );
             return Err(MethodError::new(why));
         }
-        let states = rule.states();
-        if let Some(robot) = team.start.iter().find(|robot| !states.contains(&robot.state)) {
-            let why = format!(
-                "a team of {robots} starts in {:?}, which is none of the states of the rule",
-                robot.state
-            );
+        if let Some(stray) = rule.stray(robots) {
+            let why =
+                format!("a team of {robots} starts in {stray}, which is none of the states of the rule");
             return Err(MethodError::new(why));
         }
         let is_none = |tuple: &&Vec<usize>| {
             let is_wrong =
                 |(place, robot): (usize, &usize)| *robot >= robots || tuple[..place].contains(robot);
-            tuple.len() != R::ROBOTS || tuple.iter().enumerate().any(is_wrong)
+            tuple.len() != rule.robots() || tuple.iter().enumerate().any(is_wrong)
         };
         if let Some(tuple) = team.tuples.iter().find(is_none) {
-            let why = format!("tuples names {tuple:?}, which are not {} of {robots} robots", R::ROBOTS);
+            let why = format!("tuples names {tuple:?}, which are not {} of {robots} robots", rule.robots());
             return Err(MethodError::new(why));
         }
-        if team.tuples.is_empty() && robots >= R::ROBOTS {
+        if team.tuples.is_empty() && robots >= rule.robots() {
             let why = format!("tuples names none of {robots} robots: the promise would be about nothing");
             return Err(MethodError::new(why));
         }
-        let may_not = |tuple: &Vec<RobotOf<R>>| !rule.may_start(tuple) || !promised(rule, tuple);
+        let may_not = |tuple: &Vec<Robot<u32>>| !rule.may_start(tuple) || !promised(rule, tuple);
         match team.tuples.iter().map(|tuple| seen(tuple, &team.start)).find(may_not) {
             Some(tuple) => {
-                Err(MethodError::new(format_args!("a team of {robots} may not start so: {tuple:?}")))
+                let start = words(rule, &tuple);
+                Err(MethodError::new(format_args!("a team of {robots} may not start so: {start}")))
             }
             None => Ok(team),
         }
     }
 
-    pub(super) fn start(&self) -> Start<R::State> {
+    pub(super) fn start(&self) -> Start {
         let mut layout = Layout::default();
-        for robot in self.start.iter().filter(|_| R::COLOURS > 1) {
+        for robot in self.start.iter().filter(|_| self.rule.colours() > 1) {
             layout.put_colour(robot.at, robot.on);
         }
         (self.start.clone(), layout)
     }
 
     /// Every plan of all robots that the rule admits, each robot's act one of `acts`.
-    fn plans<'a>(
-        &self,
-        (robots, layout): &Start<R::State>,
-        acts: &'a [Vec<ActOf<R>>],
-    ) -> Vec<Vec<Aimed<'a, R>>> {
+    fn plans<'a>(&self, (robots, layout): &Start, acts: &'a [Vec<Act<u32, u32>>]) -> Vec<Vec<Aimed<'a>>> {
         let mut all = vec![Vec::new()];
         for (me, (robot, acts)) in robots.iter().zip(acts).enumerate() {
-            let is_possible = |act: &&ActOf<R>| match act.step {
+            let is_possible = |act: &&Act<u32, u32>| match act.step {
                 _ if !self.rule.is_always_possible(act.act) => false,
                 Step::Stay => true,
                 Step::Cross(side) => {
@@ -128,15 +122,15 @@ impl<'r, R: Local> Team<'r, R> {
                 }
             };
             let possible: Vec<_> = acts.iter().filter(is_possible).collect();
-            let with = |plan: Vec<Aimed<'a, R>>| {
-                let aimed = |&act: &&'a ActOf<R>| {
+            let with = |plan: Vec<Aimed<'a>>| {
+                let aimed = |&act: &&'a Act<u32, u32>| {
                     let goal = robot.at.after(act.step);
                     let before = robots
                         .iter()
                         .zip(&plan)
                         .find(|(robot, before)| robot.at.after(before.0.step) == goal);
                     let known = before.map(|(_, &(_, aims))| aims).or_else(|| layout.colour(goal));
-                    let colours = known.map_or(0..R::COLOURS, |known| known..known + 1);
+                    let colours = known.map_or(0..self.rule.colours(), |known| known..known + 1);
                     colours.map(move |aims| (act, aims)).collect::<Vec<_>>()
                 };
                 let next = possible.iter().flat_map(aimed).map(|act| [&plan[..], &[act]].concat());
@@ -148,7 +142,7 @@ impl<'r, R: Local> Team<'r, R> {
     }
 
     /// Whether the rule admits the plans of the first robots, `last` the last of them, in every tuple that has it.
-    fn admits(&self, robots: &[RobotOf<R>], plan: &[Aimed<'_, R>], last: usize) -> bool {
+    fn admits(&self, robots: &[Robot<u32>], plan: &[Aimed<'_>], last: usize) -> bool {
         let is_due = |tuple: &&Vec<usize>| tuple.contains(&last) && tuple.iter().all(|&robot| robot <= last);
         self.tuples.iter().filter(is_due).all(|tuple| {
             let plans: Vec<_> =
@@ -158,16 +152,16 @@ impl<'r, R: Local> Team<'r, R> {
     }
 
     /// Whatever comes of a plan, by the edges and by what robots do.
-    fn outcomes((robots, layout): &Start<R::State>, plan: &[Aimed<'_, R>]) -> Vec<Start<R::State>> {
+    fn outcomes(&self, (robots, layout): &Start, plan: &[Aimed<'_>]) -> Vec<Start> {
         let mut outcomes = Vec::new();
         'ends: for ends in combinations(plan.iter().map(|(act, _)| act.ends.clone())) {
             let (mut after, mut met) = (Vec::new(), layout.clone());
             for ((robot, &(act, aims)), end) in robots.iter().zip(plan).zip(ends) {
                 if let Step::Cross(side) = act.step {
-                    if R::COLOURS > 1 {
+                    if self.rule.colours() > 1 {
                         met.put_colour(robot.at.after(act.step), aims);
                     }
-                    if end.0 || !R::FAULTS {
+                    if end.0 || !self.rule.may_fail() {
                         let edge = Edge::new(robot.at, side);
                         match met.edges.binary_search_by_key(&edge, |&(edge, _)| edge) {
                             Ok(place) if met.edges[place].1 != end.0 => continue 'ends,
@@ -186,46 +180,47 @@ impl<'r, R: Local> Team<'r, R> {
     /// The run, drawn.
     pub(super) fn story(&self, run: &Run<&'static str>) -> Depiction {
         let start = self.start();
-        let mut frames = vec![("start".to_owned(), draw(&start))];
-        frames.extend(run.played(self, start).map(|(_, step)| (step.event, draw(&step.state))));
+        let mut frames = vec![("start".to_owned(), self.draw(&start))];
+        frames.extend(run.played(self, start).map(|(_, step)| (step.event, self.draw(&step.state))));
         Depiction::Story(beside(&frames))
     }
+
+    /// The cells that robots are in, robots by number, and below them their states, if there is more than one, and walls.
+    fn draw(&self, (robots, layout): &Start) -> String {
+        let (columns, rows) = (robots.iter().map(|robot| robot.at.x), robots.iter().map(|robot| robot.at.y));
+        let span = |of: &mut dyn Iterator<Item = i16>| {
+            of.fold((0, 0), |(low, high), at| (at.min(low), at.max(high)))
+        };
+        let ((left, right), (top, bottom)) = (span(&mut columns.into_iter()), span(&mut rows.into_iter()));
+        let here = |cell: Cell| -> String {
+            let names = robots.iter().zip('0'..).filter(|(robot, _)| robot.at == cell);
+            names.map(|(_, name)| name).collect()
+        };
+        let mut text = String::new();
+        for y in top..=bottom {
+            let row: Vec<String> =
+                (left..=right).map(|x| format!("{:.<1$}", here(Cell::new(x, y)), robots.len())).collect();
+            text += &row.join(" ");
+            text.push('\n');
+        }
+        let states: Vec<String> = robots.iter().map(|robot| self.rule.state_words(robot.state)).collect();
+        if states.iter().any(|state| state != "()") {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{}", states.join(", "));
+        }
+        for (cell, colour) in layout.colours.iter().filter(|&&(_, colour)| colour > 0) {
+            let _ = writeln!(text, "colour {colour} in {cell}");
+        }
+        for (edge, _) in layout.edges.iter().filter(|(_, is_open)| !is_open) {
+            let _ = writeln!(text, "wall {}|{}", edge.cell(), edge.cell().beyond(edge.side()));
+        }
+        text
+    }
 }
 
-/// The cells that robots are in, robots by number, and below them their states, if there is more than one, and walls.
-fn draw<S: std::fmt::Debug>((robots, layout): &Start<S>) -> String {
-    let (columns, rows) = (robots.iter().map(|robot| robot.at.x), robots.iter().map(|robot| robot.at.y));
-    let span =
-        |of: &mut dyn Iterator<Item = i16>| of.fold((0, 0), |(low, high), at| (at.min(low), at.max(high)));
-    let ((left, right), (top, bottom)) = (span(&mut columns.into_iter()), span(&mut rows.into_iter()));
-    let here = |cell: Cell| -> String {
-        let names = robots.iter().zip('0'..).filter(|(robot, _)| robot.at == cell);
-        names.map(|(_, name)| name).collect()
-    };
-    let mut text = String::new();
-    for y in top..=bottom {
-        let row: Vec<String> =
-            (left..=right).map(|x| format!("{:.<1$}", here(Cell::new(x, y)), robots.len())).collect();
-        text += &row.join(" ");
-        text.push('\n');
-    }
-    let states: Vec<String> = robots.iter().map(|robot| format!("{:?}", robot.state)).collect();
-    if states.iter().any(|state| state != "()") {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}", states.join(", "));
-    }
-    for (cell, colour) in layout.colours.iter().filter(|&&(_, colour)| colour > 0) {
-        let _ = writeln!(text, "colour {colour} in {cell}");
-    }
-    for (edge, _) in layout.edges.iter().filter(|(_, is_open)| !is_open) {
-        let _ = writeln!(text, "wall {}|{}", edge.cell(), edge.cell().beyond(edge.side()));
-    }
-    text
-}
-
-impl<R: Local> World for Team<'_, R> {
-    type State = Start<R::State>;
-    type Plan = Vec<Next<R::State>>;
+impl World for Team<'_> {
+    type State = Start;
+    type Plan = Vec<Next>;
     type Event = String;
     type Demand = &'static str;
 
@@ -233,9 +228,9 @@ impl<R: Local> World for Team<'_, R> {
         let acts: Vec<_> = state.0.iter().map(|robot| self.rule.acts(robot.state)).collect();
         let mut all = Vec::new();
         for plan in self.plans(state, &acts) {
-            let words: Vec<String> = plan.iter().map(|(act, _)| format!("{:?}", act.act)).collect();
+            let words: Vec<String> = plan.iter().map(|(act, _)| self.rule.act_words(act.act)).collect();
             let words = words.join(", ");
-            all.extend(Self::outcomes(state, &plan).into_iter().map(|next| (words.clone(), next)));
+            all.extend(self.outcomes(state, &plan).into_iter().map(|next| (words.clone(), next)));
         }
         any_of(all)
     }
@@ -258,8 +253,8 @@ impl<R: Local> World for Team<'_, R> {
     }
 }
 
-impl<R: Local> System for Team<'_, R> {
-    type Part = Start<R::State>;
+impl System for Team<'_> {
+    type Part = Start;
 
     fn part(&self, state: &Self::State, _: usize) -> Self::Part {
         state.clone()

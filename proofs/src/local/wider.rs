@@ -2,21 +2,21 @@
 //! robot does to two others may break a promise of two that all three together keep.
 
 use super::invariant::{promised, relative};
-use super::{Act, Far, Local, Plan, Robot, RobotOf, all_tuples};
+use super::{Act, Far, Local, Numbered, Plan, Robot, all_tuples};
 
 /// One robot more than `rule` speaks of.
-pub(super) struct Wider<'r, R: Local> {
-    rule: &'r R,
+pub(super) struct Wider<'r> {
+    rule: &'r dyn Numbered,
     /// The tuples of which the rule speaks among these robots.
     parts: Vec<Vec<usize>>,
 }
 
-impl<'r, R: Local> Wider<'r, R> {
+impl<'r> Wider<'r> {
     /// `None` where a team may have no more robots than the rule speaks of, where robots that are far apart are not
     /// asked about, or where a tuple of a team of up to `most` robots is in no tuple of one robot more.
-    pub(super) fn of(rule: &'r R, most: usize) -> Option<Self> {
-        let wider = Self { rule, parts: rule.tuples(R::ROBOTS + 1) };
-        let is_due = R::LEAST > R::ROBOTS && rule.reach().1 == Far::Broken && !wider.parts.is_empty();
+    pub(super) fn of(rule: &'r dyn Numbered, most: usize) -> Option<Self> {
+        let wider = Self { rule, parts: rule.tuples(rule.robots() + 1) };
+        let is_due = rule.least() > rule.robots() && rule.reach().1 == Far::Broken && !wider.parts.is_empty();
         let covers = |robots: usize| {
             let within = wider.tuples(robots);
             let has = |wide: &Vec<usize>, narrow: &Vec<usize>| {
@@ -27,45 +27,71 @@ impl<'r, R: Local> Wider<'r, R> {
             };
             rule.tuples(robots).iter().all(|narrow| within.iter().any(|wide| has(wide, narrow)))
         };
-        (is_due && (R::LEAST..=most.max(R::LEAST)).all(covers)).then_some(wider)
+        (is_due && (rule.least()..=most.max(rule.least())).all(covers)).then_some(wider)
     }
 }
 
-impl<R: Local> Local for Wider<'_, R> {
-    type State = R::State;
-    type Act = R::Act;
-    const ROBOTS: usize = R::ROBOTS + 1;
-    const LEAST: usize = R::LEAST;
-    const FAULTS: bool = R::FAULTS;
-    const COLOURS: u8 = R::COLOURS;
+impl Numbered for Wider<'_> {
+    fn state_words(&self, state: u32) -> String {
+        self.rule.state_words(state)
+    }
 
-    fn states(&self) -> Vec<R::State> {
+    fn act_words(&self, act: u32) -> String {
+        self.rule.act_words(act)
+    }
+
+    fn stray(&self, robots: usize) -> Option<String> {
+        self.rule.stray(robots)
+    }
+}
+
+impl Local for Wider<'_> {
+    type State = u32;
+    type Act = u32;
+
+    fn robots(&self) -> usize {
+        self.rule.robots() + 1
+    }
+
+    fn least(&self) -> usize {
+        self.rule.least()
+    }
+
+    fn may_fail(&self) -> bool {
+        self.rule.may_fail()
+    }
+
+    fn colours(&self) -> u8 {
+        self.rule.colours()
+    }
+
+    fn states(&self) -> Vec<u32> {
         self.rule.states()
     }
 
-    fn acts(&self, state: R::State) -> Vec<Act<R::State, R::Act>> {
+    fn acts(&self, state: u32) -> Vec<Act<u32, u32>> {
         self.rule.acts(state)
     }
 
-    fn admits(&self, plans: &[Plan<R::State, R::Act>]) -> bool {
+    fn admits(&self, plans: &[Plan<u32, u32>]) -> bool {
         let of = |part: &Vec<usize>| part.iter().map(|&robot| plans[robot]).collect::<Vec<_>>();
         self.parts.iter().all(|part| self.rule.admits(&of(part)))
     }
 
-    fn keeps(&self, robots: &[RobotOf<R>]) -> bool {
+    fn keeps(&self, robots: &[Robot<u32>]) -> bool {
         self.parts.iter().all(|part| promised(self.rule, &seen(part, robots)))
     }
 
     /// Each part is within the reach of the rule, and parts have robots in common.
     fn reach(&self) -> (i16, Far) {
-        (self.rule.reach().0 * R::ROBOTS as i16, Far::Broken)
+        (self.rule.reach().0 * self.rule.robots() as i16, Far::Broken)
     }
 
-    fn may_start(&self, robots: &[RobotOf<R>]) -> bool {
+    fn may_start(&self, robots: &[Robot<u32>]) -> bool {
         self.parts.iter().all(|part| self.rule.may_start(&seen(part, robots)))
     }
 
-    fn start(&self, robots: usize) -> Vec<RobotOf<R>> {
+    fn start(&self, robots: usize) -> Vec<Robot<u32>> {
         self.rule.start(robots)
     }
 
@@ -75,14 +101,14 @@ impl<R: Local> Local for Wider<'_, R> {
         let is_bound = |wide: &Vec<usize>| {
             self.parts.iter().all(|part| bound.contains(&part.iter().map(|&robot| wide[robot]).collect()))
         };
-        all_tuples(robots, Self::ROBOTS).into_iter().filter(is_bound).collect()
+        all_tuples(robots, self.robots()).into_iter().filter(is_bound).collect()
     }
 
-    fn is_always_possible(&self, act: R::Act) -> bool {
+    fn is_always_possible(&self, act: u32) -> bool {
         self.rule.is_always_possible(act)
     }
 
-    fn is_sure(&self, act: R::Act) -> bool {
+    fn is_sure(&self, act: u32) -> bool {
         self.rule.is_sure(act)
     }
 
@@ -92,6 +118,6 @@ impl<R: Local> Local for Wider<'_, R> {
 }
 
 /// The robots of a tuple as seen from the first of them.
-pub(super) fn seen<S: Copy>(tuple: &[usize], robots: &[Robot<S>]) -> Vec<Robot<S>> {
+pub(super) fn seen(tuple: &[usize], robots: &[Robot<u32>]) -> Vec<Robot<u32>> {
     relative(&tuple.iter().map(|&robot| robots[robot]).collect::<Vec<_>>())
 }
