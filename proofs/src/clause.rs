@@ -204,6 +204,18 @@ impl Decision {
         Self { verdict, cases, given_up, counterexample, killed, survived, readings, note }
     }
 
+    /// The decision that `answer` makes about a check's own rule, and about the variants by their numbers.
+    fn made(
+        variants: Vec<Variant>,
+        answer: &mut dyn FnMut(Option<usize>, Until) -> Decided,
+    ) -> Result<Self, MethodError> {
+        let mut decision = Self::of(answer(None, Until::Exhausted)?);
+        for (number, variant) in variants.into_iter().enumerate() {
+            decision.add(variant, answer(Some(number), Until::Violation)?);
+        }
+        Ok(decision)
+    }
+
     /// Adds the answer about a variant.
     pub fn add(&mut self, variant: Variant, answer: Answer) {
         match (variant, answer.verdict) {
@@ -312,11 +324,7 @@ pub trait AnyCheck: Sync {
     /// [`MethodError`] if its method cannot begin.
     fn decide(&self, memory: &mut Cache, watch: Watch<'_>) -> Result<Decision, MethodError> {
         let mut context = Context { memory, watch, room: MemoryLimit::any() };
-        let mut decision = Decision::of(self.decide_rule(None, Until::Exhausted, &mut context)?);
-        for (number, variant) in self.variants().into_iter().enumerate() {
-            decision.add(variant, self.decide_rule(Some(number), Until::Violation, &mut context)?);
-        }
-        Ok(decision)
+        Decision::made(self.variants(), &mut |variant, until| self.decide_rule(variant, until, &mut context))
     }
 
     /// Plays `choices` by the rule of the check.

@@ -390,7 +390,7 @@ impl<R: Sync> Method<R> for EveryAnswer<R> {
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        replay(self.body, rule, choices)
+        replay(&mut |oracle| (self.body)(rule, oracle), choices)
     }
 }
 
@@ -413,15 +413,18 @@ impl<R: Sync> Method<R> for RandomAnswers<R> {
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        replay(self.body, rule, choices)
+        replay(&mut |oracle| (self.body)(rule, oracle), choices)
     }
 }
 
 /// Makes the choices of a violation of a body again.
-fn replay<R>(body: Body<R>, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+fn replay(
+    body: &mut dyn FnMut(&mut dyn Oracle) -> Outcome,
+    choices: &Choices,
+) -> Result<RefutationPlay, ScriptError> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);
-    let outcome = body(rule, &mut replay);
+    let outcome = body(&mut replay);
     let of = replay.asked().to_vec();
     let misfit = (0..).zip(of.iter().zip(&answers)).find(|&(_, (of, answer))| answer >= of);
     if let Some((at, (&of, _))) = misfit {

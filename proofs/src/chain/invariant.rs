@@ -398,7 +398,10 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         if self.planned.is_cut_short() {
             return Ok(());
         }
-        let reel = PlainReel::new(self.planned.grid(), self.planned.cells());
+        let grid = self.planned.grid();
+        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
+        let is_explored = |cell| grid.has(CellMark::Explored, cell);
+        let reel = PlainReel::new((grid.area(), &is_open, &is_explored), self.planned.cells());
         if let Some(touched) = reel.touch() {
             return require(self.steps == touched, "the leader touches as the procedure says");
         }
@@ -448,8 +451,8 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         let (grid, team) = (self.planned.grid(), self.planned.cells());
         let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
         let is_explored = |cell| grid.has(CellMark::Explored, cell);
-        walk(grid.area(), team[0], team.len() - 1, is_open, is_explored)
-            .map_or(Vec::new(), |(cells, _)| cells)
+        let walk = walk((grid.area(), &is_open, &is_explored), team[0], team.len() - 1);
+        walk.map_or(Vec::new(), |(cells, _)| cells)
     }
 
     /// The budget of the rule that the team claims to follow.

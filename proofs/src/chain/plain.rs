@@ -344,7 +344,7 @@ impl PlainChain {
     fn walk(&self) -> Option<(Vec<Cell>, Vec<usize>)> {
         let is_open = |edge| !self.marks(edge).wall;
         let is_explored = |cell| self.index(cell).is_none_or(|index| self.explored[index]);
-        walk(self.area, self.cells[0], self.cells.len() - 1, is_open, is_explored)
+        walk((self.area, &is_open, &is_explored), self.cells[0], self.cells.len() - 1)
     }
 
     /// The steps of all robots that unfold the chain further.

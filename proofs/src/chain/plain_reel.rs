@@ -1,10 +1,10 @@
 //! The choices of the reel as SPEC.md writes them down: every robot with every cell, every step with every other, lists
-//! that grow, a flood fill for each distance. Of the kernel it reads the map, and nothing of its rule. CHAIN-25
-//! compares the two.
+//! that grow, a flood fill for each distance. It is told of the map, and knows nothing of the kernel's rule. CHAIN-25 compares
+//! the two.
 
 use std::collections::VecDeque;
 
-use tautline_kernel::ground::{Cell, CellMark, Edge, EdgeMark, Grid, Side, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use super::environment::{in_covered, in_safe};
 use super::plain_walk::{walk, way};
@@ -12,9 +12,12 @@ use super::plain_walk::{walk, way};
 /// Rehearsals of approaches that one choice may take.
 const REHEARSALS: usize = 64;
 
+/// A map: its area, whether an edge is not known to be a wall, and whether a cell is explored.
+pub(super) type Map<'a> = (Area, &'a dyn Fn(Edge) -> bool, &'a dyn Fn(Cell) -> bool);
+
 /// The robots, base first, on the map.
-pub(super) struct PlainReel<'a, G> {
-    grid: &'a G,
+pub(super) struct PlainReel<'a> {
+    map: Map<'a>,
     team: Vec<Cell>,
 }
 
@@ -24,9 +27,9 @@ type Rehearsal = Vec<Vec<Step>>;
 /// The cost of a robot's step; none, if it is not to be made.
 type Cost<'a> = &'a dyn Fn(usize, Step) -> Option<i32>;
 
-impl<'a, G: Grid> PlainReel<'a, G> {
-    pub(super) fn new(grid: &'a G, team: &[Cell]) -> Self {
-        Self { grid, team: team.to_vec() }
+impl<'a> PlainReel<'a> {
+    pub(super) fn new(map: Map<'a>, team: &[Cell]) -> Self {
+        Self { map, team: team.to_vec() }
     }
 
     const fn leader(&self) -> usize {
@@ -34,11 +37,11 @@ impl<'a, G: Grid> PlainReel<'a, G> {
     }
 
     fn is_open(&self, edge: Edge) -> bool {
-        !self.grid.edge_has(EdgeMark::Wall, edge)
+        self.map.1(edge)
     }
 
     fn is_explored(&self, cell: Cell) -> bool {
-        self.grid.has(CellMark::Explored, cell)
+        self.map.2(cell)
     }
 
     /// How far the cells are from one, over sides not known to be walls; the nearest first.
@@ -275,10 +278,8 @@ impl<'a, G: Grid> PlainReel<'a, G> {
         let (first, own) = self.own();
         let mut best: Option<Rehearsal> = None;
         for robot in (first..self.leader()).rev() {
-            let (links, is_open) = (self.leader() - robot, |edge| self.is_open(edge));
-            let branch =
-                walk(self.grid.area(), self.team[robot], links, is_open, |cell| self.is_explored(cell));
-            let Some(branch) = branch else { continue };
+            let (links, from) = (self.leader() - robot, self.team[robot]);
+            let Some(branch) = walk(self.map, from, links) else { continue };
             let most = best.as_ref().map_or(16 * self.team.len(), |best| best.len() - 1);
             best = self.draw_in(first, &own, robot - first, &branch, most).or(best);
         }

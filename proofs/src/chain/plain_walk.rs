@@ -2,21 +2,21 @@
 //! unexplored one.
 
 use rustc_hash::FxHashSet;
-use tautline_kernel::ground::{Area, Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
-/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of `area`, as a list of its cells and
+use super::plain_reel::Map;
+
+/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of the map, as a list of its cells and
 /// the places of its stops among them. Of equally near cells the first in row order; going back from it, stops beyond
 /// a side before those beyond a corner, in direction order.
-pub(crate) fn walk(
-    area: Area,
+pub(super) fn walk(
+    (area, is_open, is_explored): Map<'_>,
     base: Cell,
     most: usize,
-    is_open: impl Fn(Edge) -> bool,
-    is_explored: impl Fn(Cell) -> bool,
 ) -> Option<(Vec<Cell>, Vec<usize>)> {
     // East, south, west, north, and the corners between them, from east over south round to east again.
     let around = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
-    let way = |from, offset: (i16, i16)| way(&is_open, from, offset);
+    let way = |from, offset: (i16, i16)| way(is_open, from, offset);
     let mut layers = vec![vec![base]];
     let mut met = FxHashSet::from_iter([base]);
     let target = loop {
@@ -59,7 +59,7 @@ pub(crate) fn walk(
 
 /// The cells from one to another that is this far away, over one side or two in the order of directions, the first left
 /// out; none, if no way is open.
-pub(super) fn way(is_open: &impl Fn(Edge) -> bool, from: Cell, (dx, dy): (i16, i16)) -> Option<Vec<Cell>> {
+pub(super) fn way(is_open: &dyn Fn(Edge) -> bool, from: Cell, (dx, dy): (i16, i16)) -> Option<Vec<Cell>> {
     let horizontal = if dx > 0 { Side::East } else { Side::West };
     let vertical = if dy > 0 { Side::South } else { Side::North };
     let sides =

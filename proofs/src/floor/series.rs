@@ -205,25 +205,29 @@ impl<D: Copy> Floors<D> {
         self.first.into_iter().chain(self.series.iter().copied())
     }
 
+    /// All series with their numbers. What is wrong with a mutant is sought in small areas first.
+    fn in_order(&self, until: Until) -> Vec<(u32, Series)> {
+        let mut series: Vec<(u32, Series)> = (0..).zip(self.all()).collect();
+        if until == Until::Violation {
+            series.sort_by_key(|(_, series)| (series.patience, series.area.cells()));
+        }
+        series
+    }
+
     /// These floors with the demands of all clauses that are about them, if these are several.
     fn together(&self) -> Option<Self> {
         self.is_shared.then_some(Self { demand: Demand::All, ..*self })
     }
 
     /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are
-    /// the numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in
-    /// small areas first.
+    /// the numbers of the series, the plan and the start, then the steps.
     fn explore<S: Demands<Own = D>>(
         &self,
         subject: &Subject<S>,
         (limits, until): (Limits<'_>, Until),
     ) -> Report {
         let mut report = Report::new();
-        let mut series: Vec<(u32, Series)> = (0..).zip(self.all()).collect();
-        if until == Until::Violation {
-            series.sort_by_key(|(_, series)| (series.patience, series.area.cells()));
-        }
-        for (number, series) in series {
+        for (number, series) in self.in_order(until) {
             if report.add(number, &series.teams(subject, self.demand), (limits, until)) {
                 break;
             }

@@ -267,8 +267,7 @@ impl<S: Demands> Team<S> {
             let (known, new) = (|cell| mark(&before, cell), |cell| mark(&made.state, cell));
             let changed = self.plan.cells().filter(|&cell| has_marks && new(cell) != known(cell));
             let written = |cell| Some(judge::Write { at: place(cell), mark: new(cell)? });
-            let mut writes: Vec<judge::Write> = changed.filter_map(written).collect();
-            writes.sort_unstable_by_key(|write| write.at);
+            let writes = judge::Write::in_order(changed.filter_map(written).collect());
             let is_shut = known(body.cell).is_some_and(|mark| mark != judge::Mark::Explored);
             let is_missed = has_marks && body.cell != from && (is_shut || new(body.cell) < known(body.cell));
             let side = match step {

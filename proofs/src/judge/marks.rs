@@ -28,6 +28,14 @@ pub struct Write {
     pub mark: Mark,
 }
 
+impl Write {
+    /// The writes of a turn in the order of their cells.
+    pub(crate) fn in_order(mut writes: Vec<Self>) -> Vec<Self> {
+        writes.sort_unstable_by_key(|write| write.at);
+        writes
+    }
+}
+
 /// The fate of an agent in its turn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {

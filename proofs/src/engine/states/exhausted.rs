@@ -9,6 +9,7 @@ use std::ops::{ControlFlow, Range};
 use rustc_hash::FxHashMap;
 use tautline_certificates::{Counts, Model, Refusal, check_states, put};
 
+use super::graph::Graph;
 use super::limits::{Limits, MemoryLimit, MemoryShare};
 use super::rounds::{NONE, TooLarge};
 use super::search::{Search, search};
@@ -122,7 +123,7 @@ impl<S: System> Search<'_, S> {
             self.shown = Some(state);
         }
         links.first.push(links.to.len());
-        let ranks = bits(all_owed).map(|owed| self.ranks(owed, &awake));
+        let ranks = bits(all_owed).map(|owed| ranks(&self.graph, owed, &awake));
         Ok(links.section(all_owed, &ranks.collect::<Result<Vec<_>, TooLarge>>()?))
     }
 
@@ -134,43 +135,42 @@ impl<S: System> Search<'_, S> {
         }
         self.known.find(self.system, state).ok_or(NoCertificate::Unrepeatable)
     }
+}
 
-    /// The rank of each node in which `owed` is owed. Of a component of several steps it is its level, the longest way
-    /// through components to the last ones, and who is awake throughout and does not act.
-    fn ranks(&self, owed: Bits, awake: &[Bits]) -> Result<Vec<u32>, TooLarge> {
-        let graph = &self.graph;
-        let part = graph.components(owed, &mut MemoryShare::new(MemoryLimit::any()))?;
-        let mut nodes: Vec<usize> = (0..part.len()).filter(|&node| part[node] != NONE).collect();
-        // Steps lead to components that were numbered before, from above.
-        nodes.sort_unstable_by_key(|&node| Reverse(part[node]));
-        let mut ranks = vec![0; part.len()];
-        for component in nodes.chunk_by(|&one, &other| part[one] == part[other]) {
-            let (mut level, mut acting, mut is_awake, mut has_steps) = (0, 0, Bits::MAX, false);
-            for &node in component {
-                is_awake &= awake[node];
-                for arc in graph.arcs(node).filter(|arc| part[arc.to as usize] != NONE) {
-                    let to = arc.to as usize;
-                    if part[to] == part[node] {
-                        (acting, has_steps) = (acting | arc.acting, true);
-                    } else {
-                        level = level.max(1 + ranks[to] / RANKS);
-                    }
+/// The rank of each node of a graph in which `owed` is owed. Of a component of several steps it is its level, the longest way
+/// through components to the last ones, and who is awake throughout and does not act.
+fn ranks(graph: &Graph, owed: Bits, awake: &[Bits]) -> Result<Vec<u32>, TooLarge> {
+    let part = graph.components(owed, &mut MemoryShare::new(MemoryLimit::any()))?;
+    let mut nodes: Vec<usize> = (0..part.len()).filter(|&node| part[node] != NONE).collect();
+    // Steps lead to components that were numbered before, from above.
+    nodes.sort_unstable_by_key(|&node| Reverse(part[node]));
+    let mut ranks = vec![0; part.len()];
+    for component in nodes.chunk_by(|&one, &other| part[one] == part[other]) {
+        let (mut level, mut acting, mut is_awake, mut has_steps) = (0, 0, Bits::MAX, false);
+        for &node in component {
+            is_awake &= awake[node];
+            for arc in graph.arcs(node).filter(|arc| part[arc.to as usize] != NONE) {
+                let to = arc.to as usize;
+                if part[to] == part[node] {
+                    (acting, has_steps) = (acting | arc.acting, true);
+                } else {
+                    level = level.max(1 + ranks[to] / RANKS);
                 }
             }
-            let idle = if has_steps { (is_awake & !acting).trailing_zeros() } else { 0 };
-            for &node in component {
-                ranks[node] = level * RANKS + idle;
-            }
         }
-        let mut all: Vec<u32> = ranks.clone();
-        all.sort_unstable();
-        all.dedup();
-        let dense: FxHashMap<u32, u32> = all.into_iter().zip(0..).collect();
-        for rank in &mut ranks {
-            *rank = dense[rank];
+        let idle = if has_steps { (is_awake & !acting).trailing_zeros() } else { 0 };
+        for &node in component {
+            ranks[node] = level * RANKS + idle;
         }
-        Ok(ranks)
     }
+    let mut all: Vec<u32> = ranks.clone();
+    all.sort_unstable();
+    all.dedup();
+    let dense: FxHashMap<u32, u32> = all.into_iter().zip(0..).collect();
+    for rank in &mut ranks {
+        *rank = dense[rank];
+    }
+    Ok(ranks)
 }
 
 /// Ranks of one level.

@@ -97,7 +97,7 @@ impl<G: Game> Tree<G> {
         }
         self.lanes.clear();
         deal.count = self.count.clone();
-        parts.sort_by_key(|&(left, walls, _)| (Reverse(left), walls));
+        largest_first(&mut parts);
         deal.shards.iter_mut().for_each(|ways| ways.resize(last + 1, Vec::new()));
         let mut least: BinaryHeap<Reverse<(u64, usize)>> =
             (0..shards).map(|shard| Reverse((0, shard))).collect();
@@ -179,4 +179,9 @@ impl<G: Game> Tree<G> {
         }
         Ok(())
     }
+}
+
+/// Brings parts in order: those with most left first, and of equals those with fewer walls.
+fn largest_first(parts: &mut [(u64, usize, Place)]) {
+    parts.sort_by_key(|&(left, walls, _)| (Reverse(left), walls));
 }
