@@ -6,21 +6,18 @@ use tautline_io::text_table::{Column, TextTable, Width};
 use super::estimates::{percent, text};
 
 /// Lines, and the columns in which they are told.
-pub(super) struct Columns<'a, L> {
+pub(super) struct Columns<L> {
     title: Option<String>,
     lines: Vec<L>,
     gap: usize,
-    /// The heading of each column, its width, and its cells.
-    cells: Vec<(String, Column, Cell<'a, L>)>,
+    /// The heading of each column, its width, and its cells, one for each line.
+    columns: Vec<(String, Column, Vec<String>)>,
 }
 
-/// The text of a line's cell in a column.
-type Cell<'a, L> = Box<dyn Fn(L) -> String + 'a>;
-
-impl<'a, L: Copy + 'a> Columns<'a, L> {
+impl<L: Copy> Columns<L> {
     /// A row for each of `lines`, and no column yet.
     pub(super) fn of(lines: impl IntoIterator<Item = L>) -> Self {
-        Self { title: None, lines: lines.into_iter().collect(), gap: 2, cells: Vec::new() }
+        Self { title: None, lines: lines.into_iter().collect(), gap: 2, columns: Vec::new() }
     }
 
     /// A line above the table, after an empty one.
@@ -38,9 +35,9 @@ impl<'a, L: Copy + 'a> Columns<'a, L> {
         self,
         heading: impl Into<String>,
         width: impl Into<Width>,
-        cell: impl Fn(L) -> D + 'a,
+        cell: impl Fn(L) -> D,
     ) -> Self {
-        self.column(heading.into(), Column::left(width.into()), Box::new(move |line| cell(line).to_string()))
+        self.column(heading.into(), Column::left(width.into()), &|line| cell(line).to_string())
     }
 
     /// A column of numbers.
@@ -48,9 +45,9 @@ impl<'a, L: Copy + 'a> Columns<'a, L> {
         self,
         heading: impl Into<String>,
         width: impl Into<Width>,
-        cell: impl Fn(L) -> D + 'a,
+        cell: impl Fn(L) -> D,
     ) -> Self {
-        self.column(heading.into(), Column::right(width.into()), Box::new(move |line| cell(line).to_string()))
+        self.column(heading.into(), Column::right(width.into()), &|line| cell(line).to_string())
     }
 
     /// A column of estimates with so many decimals.
@@ -59,7 +56,7 @@ impl<'a, L: Copy + 'a> Columns<'a, L> {
         heading: impl Into<String>,
         width: impl Into<Width>,
         decimals: usize,
-        cell: impl Fn(L) -> E + 'a,
+        cell: impl Fn(L) -> E,
     ) -> Self {
         self.right(heading, width, move |line| text(cell(line), decimals))
     }
@@ -70,27 +67,28 @@ impl<'a, L: Copy + 'a> Columns<'a, L> {
         heading: impl Into<String>,
         width: impl Into<Width>,
         decimals: usize,
-        cell: impl Fn(L) -> E + 'a,
+        cell: impl Fn(L) -> E,
     ) -> Self {
         self.right(heading, width, move |line| percent(cell(line), decimals))
     }
 
-    fn column(mut self, heading: String, column: Column, cell: Cell<'a, L>) -> Self {
-        self.cells.push((heading, column.after(self.gap), cell));
+    fn column(mut self, heading: String, column: Column, cell: &dyn Fn(L) -> String) -> Self {
+        let cells = self.lines.iter().map(|&line| cell(line)).collect();
+        self.columns.push((heading, column.after(self.gap), cells));
         self
     }
 
     /// The whole table. Where no column has a heading, there is no row of them.
     pub(super) fn text(&self) -> String {
-        let mut table = TextTable::new(self.cells.iter().map(|&(_, column, _)| column));
+        let mut table = TextTable::new(self.columns.iter().map(|&(_, column, _)| column));
         if let Some(title) = &self.title {
             table.title(title);
         }
-        if self.cells.iter().any(|(heading, ..)| !heading.is_empty()) {
-            table.row(self.cells.iter().map(|(heading, ..)| heading));
+        if self.columns.iter().any(|(heading, ..)| !heading.is_empty()) {
+            table.row(self.columns.iter().map(|(heading, ..)| heading));
         }
-        for &line in &self.lines {
-            table.row(self.cells.iter().map(|(.., cell)| cell(line)));
+        for line in 0..self.lines.len() {
+            table.row(self.columns.iter().map(|(.., cells)| &cells[line]));
         }
         table.text()
     }
