@@ -262,13 +262,16 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         world.robots[robot].waits() && matches!(self.would(world, robot), Next::Tries { .. })
     }
 
+    fn does_any_wait(&self, world: &World<ROBOTS>) -> bool {
+        (0..ROBOTS).any(|robot| self.waits(world, robot))
+    }
+
     /// Whether a slot may be over.
     fn ticks(&self, world: &World<ROBOTS>) -> bool {
         let owner = usize::from(world.slot);
-        let is_due = self.waits(world, owner) && !world.has_tried;
-        (0..ROBOTS).any(|robot| self.waits(world, robot))
-            && !is_due
-            && world.moving() & (world.old | 1 << owner) == 0
+        world.moving() & (world.old | 1 << owner) == 0
+            && (world.has_tried || !self.waits(world, owner))
+            && self.does_any_wait(world)
     }
 
     /// Each side and cell for which `robot` may decide now; none unless it can go somewhere.
@@ -371,7 +374,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                         missed |= self.tell(&mut after, other, (cell, Status::Unexplored), to, oracle);
                     }
                 }
-                let waited = (0..ROBOTS).any(|robot| self.waits(world, robot));
+                let waited = self.does_any_wait(world);
                 if after.robots[robot].waits() && !waited {
                     after.slot = oracle.pick(ROBOTS as u32) as u8;
                     after.has_tried = usize::from(after.slot) == robot;
@@ -459,8 +462,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         if self.is_wanted(Demand::Marks) && !world.robots.iter().all(is_right) {
             breaks.push(Demand::Marks);
         }
-        if !(0..ROBOTS).any(|robot| self.waits(world, robot)) {
-            (world.slot, world.old, world.has_tried) = (0, 0, false);
+        let first = (0, 0, false);
+        if (world.slot, world.old, world.has_tried) != first && !self.does_any_wait(world) {
+            (world.slot, world.old, world.has_tried) = first;
         }
     }
 
