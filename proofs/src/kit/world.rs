@@ -260,8 +260,10 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// Whether a new path is within reach of a team that stands.
     fn is_owed(&self, world: &World<ROBOTS>) -> bool {
-        let map = self.found(world);
-        self.findings(&map).distance(Self::ends(world), u8::MAX).is_some()
+        let (map, ends) = (self.found(world), Self::ends(world));
+        let found = self.findings(&map);
+        // A robot comes to no path but those that are left over, and whether one is takes less time to find.
+        found.is_left_over(ends) && found.distance(ends, u8::MAX).is_some()
     }
 
     /// Whether this is looked at, and promised to so many robots that start so.
