@@ -25,4 +25,4 @@ pub use refused::{Misuse, SetupError};
 pub use rule::{Answers, Condition, Conditions, Fallback, Filter, Records, Rule, Runs};
 pub use stance::{Reach, Stance, touch};
 pub use talk::{Letter, NUMBERS, Outbox, Phase, Talk};
-pub use team::{Kit, MAX_ROBOTS, Next, Robot, Sight};
+pub use team::{Crew, Kit, MAX_ROBOTS, Next, Robot, Sight};

@@ -79,6 +79,15 @@ pub struct Robot {
     pub is_new: bool,
 }
 
+/// All that a team is but its rule and its records.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Crew<const ROBOTS: usize> {
+    robots: [Robot; ROBOTS],
+    entered: u8,
+    turn: u8,
+}
+
 /// A team of at most `ROBOTS` robots on a map of at most `NODES` nodes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -179,6 +188,17 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     #[must_use]
     pub fn with_turn(self, robot: u8) -> Self {
         Self { turn: robot, ..self }
+    }
+
+    /// Its robots, those of them that have entered, and the turn.
+    pub const fn crew(&self) -> Crew<ROBOTS> {
+        Crew { robots: self.robots, entered: self.entered, turn: self.turn }
+    }
+
+    /// This team, of as many robots, with another crew, as it was kept.
+    #[must_use]
+    pub fn with_crew(self, Crew { robots, entered, turn }: Crew<ROBOTS>) -> Self {
+        Self { robots, entered, turn, ..self }
     }
 
     /// Whether `robot` knows that it is done.

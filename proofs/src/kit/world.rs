@@ -5,11 +5,9 @@
 mod broken;
 mod turns;
 
-use std::hash::{Hash, Hasher};
-
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
-use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance};
+use tautline_kernel::kit::{Condition, Crew, Kit, Next, Rule, Sight, Stance};
 
 use super::plain::Findings;
 use crate::engine::states::{self, Bits, Places, System};
@@ -285,25 +283,12 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 }
 
 /// A part of a world.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Part<const ROBOTS: usize> {
     /// A record, or the truth.
     Map(TinyGrid),
-    /// All but the maps.
-    Rest(Box<World<ROBOTS>>),
-}
-
-/// The maps of the rest are blank, and say nothing.
-impl<const ROBOTS: usize> Hash for Part<ROBOTS> {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        match self {
-            Self::Map(map) => map.hash(state),
-            Self::Rest(rest) => {
-                let World { team, walls, fresh, first, .. } = &**rest;
-                (team.robots(), team.turn(), walls, fresh, first).hash(state);
-            }
-        }
-    }
+    /// All but the maps: the crew, the number of walls, who drives a new path, and who has left first.
+    Rest(Crew<ROBOTS>, [u8; 3]),
 }
 
 /// The situations that occur.
@@ -359,7 +344,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         match place.checked_sub(ROBOTS) {
             None => Part::Map(state.team.records()[place]),
             Some(0) => Part::Map(state.truth),
-            Some(_) => Part::Rest(Box::new(self.bare(state))),
+            Some(_) => Part::Rest(state.team.crew(), [state.walls, state.fresh, state.first]),
         }
     }
 
@@ -377,10 +362,9 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
                 let record = |robot| if robot == place { *map } else { team.records()[robot] };
                 state.team = team.with_records(record);
             }
-            Part::Rest(rest) => {
-                let World { team, truth, .. } = *state;
-                *state =
-                    World { team: rest.team.with_records(|robot| team.records()[robot]), truth, ..**rest };
+            Part::Rest(crew, [walls, fresh, first]) => {
+                state.team = state.team.with_crew(*crew);
+                (state.walls, state.fresh, state.first) = (*walls, *fresh, *first);
             }
         }
     }
@@ -404,13 +388,5 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn is_enough(&self, _: Demand) -> bool {
         self.demand.is_some()
-    }
-}
-
-impl<const ROBOTS: usize> Setting<ROBOTS> {
-    /// `world` without its maps.
-    fn bare(&self, world: &World<ROBOTS>) -> World<ROBOTS> {
-        let blank = TinyGrid::new(self.area).unwrap_or(world.truth);
-        World { team: world.team.with_records(|_| blank), truth: blank, ..*world }
     }
 }
