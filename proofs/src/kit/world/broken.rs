@@ -18,8 +18,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         };
         let sides =
             |node| Steps::ALL.filter(|step| matches!(step, Step::Cross(side) if is_covered(node, side)));
-        let is_right = |robot| self.area.cells().all(|node| world.team.covered(robot, node) == sides(node));
-        if (0..ROBOTS).all(is_right) { Vec::new() } else { vec![Demand::Marks] }
+        let is_right = |node| {
+            let sides = sides(node);
+            (0..ROBOTS).all(|robot| world.team.covered(robot, node) == sides)
+        };
+        if self.area.cells().all(is_right) { Vec::new() } else { vec![Demand::Marks] }
     }
 
     /// The demand broken by an arrival.
