@@ -73,6 +73,7 @@ impl TinyMap {
     }
 
     /// The bit of a cell, by its number; none outside the area.
+    #[inline]
     const fn bit(&self, cell: Cell) -> u64 {
         match self.area.place(cell) {
             Some(place) => 1 << place,
@@ -86,6 +87,7 @@ impl Map for TinyMap {
         self.area
     }
 
+    #[inline]
     fn status(&self, cell: Cell) -> Status {
         let bit = self.bit(cell);
         match (self.explored & bit, self.obstacles & bit) {

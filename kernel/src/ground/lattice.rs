@@ -179,6 +179,7 @@ pub struct Edge {
 
 impl Edge {
     /// The edge on this `side` of `cell`.
+    #[inline]
     pub const fn new(cell: Cell, side: Side) -> Self {
         // From a cell to the western or northern one of the two.
         const OFFSETS: [(i16, i16); 4] = [(0, 0), (0, 0), (-1, 0), (0, -1)];
