@@ -229,9 +229,6 @@ impl System for Space {
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
         let Turn { before, after, event: &action, .. } = *turn;
-        if !self.is_bound(turn) {
-            return 0;
-        }
         let is_touched = |actor: Actor| after.touched() & Places::from(bit(actor)) != 0;
         actors(|actor| is_touched(actor) && has_turned(before, action, after, actor))
             | arriving(before, action)
