@@ -151,6 +151,12 @@ impl Odometer {
         self.digits[..self.position].iter().map(|digit| digit.value).collect()
     }
 
+    /// Goes to the first combination of a body that may ask for other ones.
+    pub(super) fn begin(&mut self) {
+        self.digits.clear();
+        self.position = 0;
+    }
+
     /// Goes to the next combination; false after the last.
     pub(super) fn advance(&mut self) -> bool {
         self.digits.truncate(self.position);

@@ -92,32 +92,27 @@ pub trait System: World {
     fn each_step<B>(
         &self,
         state: &Self::State,
+        scratch: &mut Scratch<Self::State>,
         mut take: impl FnMut(Step<Self, &mut Self::State>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let mut planned = state.clone();
-        let Some(plan) = self.plan(&mut planned, &[]) else { return ControlFlow::Continue(()) };
-        let (mut answers, mut log) = (Odometer::default(), Vec::new());
+        let Scratch { states, answers, log } = scratch;
+        let [planned, after] = states.get_or_insert_with(|| [state.clone(), state.clone()]);
+        planned.clone_from(state);
+        let Some(plan) = self.plan(planned, &[]) else { return ControlFlow::Continue(()) };
+        answers.begin();
         let may_be_endless = self.broken_by_endless_runs().is_some();
-        let mut after = planned.clone();
         loop {
-            let event = self.settle(&mut after, &plan, &mut log, &mut answers);
-            let turn = Turn {
-                before: state,
-                planned: &planned,
-                after: &after,
-                plan: &plan,
-                event: &event,
-                sent: &log,
-            };
+            after.clone_from(planned);
+            log.clear();
+            let event = self.settle(after, &plan, log, answers);
+            let turn = Turn { before: state, planned, after, plan: &plan, event: &event, sent: log };
             let (occurs, is_bound) = (self.occurs(&turn), self.is_bound(&turn));
             let acting = if is_bound && may_be_endless { self.acting(&turn) } else { 0 };
             let breaks = self.broken_by(&turn);
-            take(Step { state: &mut after, event, occurs, acting, is_bound, breaks })?;
+            take(Step { state: after, event, occurs, acting, is_bound, breaks })?;
             if !answers.advance() {
                 return ControlFlow::Continue(());
             }
-            after.clone_from(&planned);
-            log.clear();
         }
     }
 
@@ -155,6 +150,20 @@ pub trait System: World {
     }
 }
 
+/// The memory in which steps are made, state by state.
+pub struct Scratch<T> {
+    /// The state once the step is planned, and after it.
+    states: Option<[T; 2]>,
+    answers: Odometer,
+    log: Vec<u8>,
+}
+
+impl<T> Default for Scratch<T> {
+    fn default() -> Self {
+        Self { states: None, answers: Odometer::default(), log: Vec::new() }
+    }
+}
+
 /// A step to another state.
 pub struct Step<S: System + ?Sized, T = <S as World>::State> {
     /// The state to which it leads.
@@ -174,7 +183,7 @@ pub struct Step<S: System + ?Sized, T = <S as World>::State> {
 /// Every step of `system` from `state`, in the order of [`System::each_step`].
 pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = Step<S>> {
     let mut all = Vec::new();
-    let _: ControlFlow<()> = system.each_step(state, |step| {
+    let _: ControlFlow<()> = system.each_step(state, &mut Scratch::default(), |step| {
         let Step { state, event, occurs, acting, is_bound, breaks } = step;
         all.push(Step { state: state.clone(), event, occurs, acting, is_bound, breaks });
         ControlFlow::Continue(())

@@ -19,7 +19,7 @@ pub(crate) struct Sensors<D> {
 }
 
 /// A small floor, and the agents on it, of which each remembers an `M` and decides an `A`.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(PartialEq, Eq, Hash, Debug)]
 pub(crate) struct State<D, M, A> {
     pub(crate) sensors: Sensors<D>,
     pub(crate) bodies: Vec<Body<M, A>>,
@@ -27,6 +27,19 @@ pub(crate) struct State<D, M, A> {
     pub(crate) misses: u8,
     /// The agent that acted last, and how many times in a row; kept only where that is bounded.
     pub(crate) streak: (u8, u8),
+}
+
+impl<D: Clone, M: Clone, A: Clone> Clone for State<D, M, A> {
+    fn clone(&self) -> Self {
+        Self { sensors: self.sensors.clone(), bodies: self.bodies.clone(), ..*self }
+    }
+
+    /// Keeps the memory of the agents: searches spend much of their time on copies.
+    fn clone_from(&mut self, Self { sensors, bodies, misses, streak }: &Self) {
+        self.sensors.clone_from(sensors);
+        self.bodies.clone_from(bodies);
+        (self.misses, self.streak) = (*misses, *streak);
+    }
 }
 
 /// The state of agents of this scheme.

@@ -8,7 +8,7 @@ use tautline_kernel::choice::Oracle;
 
 use super::{Compact, Demand, Move, Protocol, Surroundings, When, beside};
 use crate::decide::{Depiction, Evidence, MethodError};
-use crate::engine::states::{self, Bits, Ending, Findings, Limits, Step, System, Unsound};
+use crate::engine::states::{self, Bits, Ending, Findings, Limits, Scratch, Step, System, Unsound};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 
 /// A protocol in its surroundings, of whose demands one is looked at.
@@ -110,6 +110,7 @@ impl<P: Protocol> System for Playing<P> {
     fn each_step<B>(
         &self,
         state: &P::State,
+        _: &mut Scratch<P::State>,
         mut take: impl FnMut(Step<Self, &mut P::State>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         self.moves(state).into_iter().enumerate().try_for_each(|(number, Move { actors, words, mut to })| {

@@ -13,7 +13,7 @@ use super::graph::Graph;
 use super::limits::{Limits, MemoryLimit, MemoryShare};
 use super::rounds::{NONE, TooLarge};
 use super::search::{Search, search};
-use super::{Bits, System};
+use super::{Bits, Scratch, System};
 use crate::engine::model::{LOST, Started};
 
 /// Why there is no certificate.
@@ -108,14 +108,14 @@ impl<S: System> Search<'_, S> {
         for mut state in starts {
             links.add(self.node(&mut state)?);
         }
-        let (mut all_owed, mut awake) = (0, Vec::new());
+        let (mut all_owed, mut awake, mut scratch) = (0, Vec::new(), Scratch::default());
         for node in 0..self.graph.len() {
             links.first.push(links.to.len());
             let state = self.state(node).ok_or(NoCertificate::Unrepeatable)?;
             let (owed, is_awake) = duties(&state);
             all_owed |= owed;
             awake.push(is_awake);
-            let flow = self.system.each_step(&state, |step| {
+            let flow = self.system.each_step(&state, &mut scratch, |step| {
                 let added = self.node(step.state).map(|node| links.add(node));
                 added.map_or_else(ControlFlow::Break, ControlFlow::Continue)
             });

@@ -6,7 +6,7 @@ use std::ops::{ControlFlow, Range};
 
 use super::known::{Queue, StateTable};
 use super::search::Search;
-use super::{Bits, Findings, Limits, Step, System};
+use super::{Bits, Findings, Limits, Scratch, Step, System};
 use crate::engine::threads;
 use crate::engine::watchdog::Steps;
 
@@ -116,6 +116,7 @@ pub(super) fn chunk<S: System>(
 ) -> Chunk<S::Demand> {
     let making = Steps::begin();
     let mut chunk = Chunk { queue: Queue::default(), steps: Vec::new(), nodes: Vec::new() };
+    let mut scratch = Scratch::default();
     let is_enough = |breaks: &[S::Demand]| breaks.iter().any(|&demand| system.is_enough(demand));
     for node in nodes {
         making.next();
@@ -123,7 +124,7 @@ pub(super) fn chunk<S: System>(
             break;
         }
         let (before, mut is_still) = (chunk.steps.len(), true);
-        let mut flow = system.each_step(state, |step| {
+        let mut flow = system.each_step(state, &mut scratch, |step| {
             making.next();
             let Step { state: to, occurs, acting, is_bound, breaks, .. } = step;
             system.make_canonical(to);
