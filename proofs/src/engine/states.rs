@@ -88,7 +88,7 @@ pub trait System: World {
     }
 
     /// Makes every step from `state`, one for each combination of answers, always in the same order. The next one is
-    /// made in the place of the state to which the last one leads.
+    /// made in the place of the state to which the last one leads: in `scratch`, which may come from other states.
     fn each_step<B>(
         &self,
         state: &Self::State,
