@@ -11,13 +11,13 @@ pub(super) struct Columns<L> {
     lines: Vec<L>,
     gap: usize,
     /// The heading of each column, its width, and its cells, one for each line.
-    columns: Vec<(String, Column, Vec<String>)>,
+    cells: Vec<(String, Column, Vec<String>)>,
 }
 
 impl<L: Copy> Columns<L> {
     /// A row for each of `lines`, and no column yet.
     pub(super) fn of(lines: impl IntoIterator<Item = L>) -> Self {
-        Self { title: None, lines: lines.into_iter().collect(), gap: 2, columns: Vec::new() }
+        Self { title: None, lines: lines.into_iter().collect(), gap: 2, cells: Vec::new() }
     }
 
     /// A line above the table, after an empty one.
@@ -74,21 +74,21 @@ impl<L: Copy> Columns<L> {
 
     fn column(mut self, heading: String, column: Column, cell: &dyn Fn(L) -> String) -> Self {
         let cells = self.lines.iter().map(|&line| cell(line)).collect();
-        self.columns.push((heading, column.after(self.gap), cells));
+        self.cells.push((heading, column.after(self.gap), cells));
         self
     }
 
     /// The whole table. Where no column has a heading, there is no row of them.
     pub(super) fn text(&self) -> String {
-        let mut table = TextTable::new(self.columns.iter().map(|&(_, column, _)| column));
+        let mut table = TextTable::new(self.cells.iter().map(|&(_, column, _)| column));
         if let Some(title) = &self.title {
             table.title(title);
         }
-        if self.columns.iter().any(|(heading, ..)| !heading.is_empty()) {
-            table.row(self.columns.iter().map(|(heading, ..)| heading));
+        if self.cells.iter().any(|(heading, ..)| !heading.is_empty()) {
+            table.row(self.cells.iter().map(|(heading, ..)| heading));
         }
         for line in 0..self.lines.len() {
-            table.row(self.columns.iter().map(|(.., cells)| &cells[line]));
+            table.row(self.cells.iter().map(|(.., cells)| &cells[line]));
         }
         table.text()
     }
