@@ -25,8 +25,8 @@ pub struct Room {
 }
 
 /// The rooms.
-// No static, which would be compiled with all engines into the tests of this crate, and not inlined, which would compile
-// them into every other crate.
+// No static: that would be compiled with all engines into the tests of this crate. Nor inlined: that would compile them
+// into other crates.
 #[cfg(feature = "rooms")]
 #[inline(never)]
 pub fn rooms() -> &'static [Room] {

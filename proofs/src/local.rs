@@ -147,8 +147,8 @@ pub trait Local: Sync {
     /// Whatever a robot in this state can do.
     fn acts(&self, state: Self::State) -> Vec<Act<Self::State, Self::Act>>;
 
-    /// Whether [`Local::robots`] of them may plan this at once. The answer may depend on where they are from each other,
-    /// and not on where they are: every answer is compared with that at one other place.
+    /// Whether as many robots as the rule speaks of may plan this at once. The answer may depend on where they are from
+    /// each other, and not on where they are: every answer is compared with that at one other place.
     fn admits(&self, plans: &[Plan<Self::State, Self::Act>]) -> bool;
 
     /// The promise, of robots that are at most [`Local::reach`] columns and rows from the first one.

@@ -58,6 +58,8 @@ struct Leash {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Slip {
     None,
+    NoRobot,
+    NoColour,
     NoState,
     NoOutcome,
     NoWall,
@@ -83,6 +85,14 @@ fn apart(one: Cell, other: Cell) -> i16 {
 impl Local for Leash {
     type State = u8;
     type Act = Step;
+
+    fn robots(&self) -> usize {
+        if self.slip == Slip::NoRobot { 0 } else { 2 }
+    }
+
+    fn colours(&self) -> u8 {
+        u8::from(self.slip != Slip::NoColour)
+    }
 
     fn states(&self) -> Vec<u8> {
         if self.slip == Slip::NoState { Vec::new() } else { vec![0] }
@@ -184,6 +194,8 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
         assert_eq!(certificate.expect_err("no certificate either").to_string(), refusal);
         refusal
     };
+    insta::assert_snapshot!(refusal(Slip::NoRobot), @"the rule speaks of no robot: the promise would be about nothing");
+    insta::assert_snapshot!(refusal(Slip::NoColour), @"the rule gives cells no colour: the promise would be about nothing");
     insta::assert_snapshot!(refusal(Slip::NoState), @"the rule names no state: the promise would be about nothing");
     insta::assert_snapshot!(refusal(Slip::NoOutcome), @"Cross(East) in state 0 has no outcome: name at least one, or leave the act out");
     insta::assert_snapshot!(refusal(Slip::NoWall), @"Cross(East) in state 0 crosses a side that may be a wall: name an outcome in which the robot stays, or say that the act is_sure");

@@ -1,6 +1,6 @@
 //! The choices of the reel as SPEC.md writes them down: every robot with every cell, every step with every other, lists
-//! that grow, a flood fill for each distance. It is told of the map, and knows nothing of the kernel's rule. CHAIN-25 compares
-//! the two.
+//! that grow, a flood fill for each distance. It is told of the map, and knows nothing of the kernel's rule. CHAIN-25
+//! compares the two.
 
 use std::collections::VecDeque;
 

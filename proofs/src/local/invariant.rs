@@ -32,7 +32,7 @@ pub struct Invariant {
     pub window: i16,
     /// How many relative places there are, and how many of them keep the promise.
     pub places: (usize, usize),
-    /// The relative places that no admitted step leaves, sorted.
+    /// The relative places that no admitted step leaves, sorted; a state is its place among all states in order.
     pub kept: Vec<Tuple>,
     /// Steps of tuples that were looked at.
     pub cases: u64,
@@ -44,8 +44,9 @@ impl Invariant {
     /// The set of `rule`: the first that holds of those that look as far as the promise and a little farther.
     ///
     /// # Errors
-    /// [`MethodError`] if the rule is not the same everywhere, has no state or one that is none of its states, an act
-    /// without an outcome or one that no wall stops, looks too far, may start with a broken promise, or may not start.
+    /// [`MethodError`] if the rule is not the same everywhere, speaks of no robot, has no colour, no state or one that is
+    /// none of its states, an act without an outcome or one that no wall stops, looks too far, may start with a broken
+    /// promise, or may not start.
     pub fn of<R: Local>(rule: &R) -> Result<Self, MethodError> {
         Self::found(&ByNumber::new(rule))
     }
@@ -54,10 +55,14 @@ impl Invariant {
     pub(super) fn found(rule: &dyn Numbered) -> Result<Self, MethodError> {
         let (reach, far) = rule.reach();
         MethodError::unless(reach >= 0, format_args!("the promise looks {reach} cells far: give 0 or more"))?;
-        MethodError::unless(
-            !rule.states().is_empty(),
-            "the rule names no state: the promise would be about nothing",
-        )?;
+        for (is_there, what) in [
+            (rule.robots() > 0, "speaks of no robot"),
+            (rule.colours() > 0, "gives cells no colour"),
+            (!rule.states().is_empty(), "names no state"),
+        ] {
+            let why = format_args!("the rule {what}: the promise would be about nothing");
+            MethodError::unless(is_there, why)?;
+        }
         let mut found = Self::within(rule, reach)?;
         let widest = if far == Far::Fine { reach + WIDER } else { reach };
         for window in reach + 1..=widest {

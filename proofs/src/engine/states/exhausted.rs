@@ -137,8 +137,8 @@ impl<S: System> Search<'_, S> {
     }
 }
 
-/// The rank of each node of a graph in which `owed` is owed. Of a component of several steps it is its level, the longest way
-/// through components to the last ones, and who is awake throughout and does not act.
+/// The rank of each node of a graph in which `owed` is owed. Of a component of several steps it is its level, the
+/// longest way through components to the last ones, and who is awake throughout and does not act.
 fn ranks(graph: &Graph, owed: Bits, awake: &[Bits]) -> Result<Vec<u32>, TooLarge> {
     let part = graph.components(owed, &mut MemoryShare::new(MemoryLimit::any()))?;
     let mut nodes: Vec<usize> = (0..part.len()).filter(|&node| part[node] != NONE).collect();
