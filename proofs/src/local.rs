@@ -10,6 +10,15 @@
 //! to it. That the finite check is
 //! enough is proved in `proofs/rocq/Local.v`.
 
+/// Functions of a rule that has another one, `self.rule`, and answers as that does.
+macro_rules! as_its_rule {
+    ($($name:ident($($argument:ident: $type:ty)?) -> $answer:ty;)*) => {$(
+        fn $name(&self $(, $argument: $type)?) -> $answer {
+            self.rule.$name($($argument)?)
+        }
+    )*};
+}
+
 mod certificate;
 mod invariant;
 mod kept;

@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step}
 use super::breach::Breach;
 use super::environment::{in_covered, in_safe};
 use super::observed::Subject;
-use super::plain_reel::PlainReel;
+use super::plain_reel::{Map, PlainReel};
 use super::plain_walk::walk;
 use crate::engine::{Stop, require};
 
@@ -398,11 +398,8 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         if self.planned.is_cut_short() {
             return Ok(());
         }
-        let grid = self.planned.grid();
-        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
-        let is_explored = |cell| grid.has(CellMark::Explored, cell);
-        let reel = PlainReel::new((grid.area(), &is_open, &is_explored), self.planned.cells());
-        if let Some(touched) = reel.touch() {
+        let team = self.planned.cells();
+        if let Some(touched) = self.on_map(|map| PlainReel::new(map, team).touch()) {
             return require(self.steps == touched, "the leader touches as the procedure says");
         }
         let (take_back, _) = Self::take_back(self.before);
@@ -411,7 +408,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         if goes_on && !self.before.gained() {
             return Ok(());
         }
-        let Some(task) = reel.task() else {
+        let Some(task) = self.on_map(|map| PlainReel::new(map, team).task()) else {
             return require(
                 self.plan.kind == Kind::Backtrack,
                 "nothing is begun where the procedure finds nothing",
@@ -448,11 +445,16 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
     /// The cells of the walk from the base to the nearest unexplored cell, by links; none if it is out of reach. It
     /// stays as it is until something is gained.
     fn walk(&self) -> Vec<Cell> {
-        let (grid, team) = (self.planned.grid(), self.planned.cells());
-        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
-        let is_explored = |cell| grid.has(CellMark::Explored, cell);
-        let walk = walk((grid.area(), &is_open, &is_explored), team[0], team.len() - 1);
+        let team = self.planned.cells();
+        let walk = self.on_map(|map| walk(map, team[0], team.len() - 1));
         walk.map_or(Vec::new(), |(cells, _)| cells)
+    }
+
+    /// Asks something of the map of the planned move.
+    fn on_map<T>(&self, ask: impl FnOnce(Map<'_>) -> T) -> T {
+        let grid = self.planned.grid();
+        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
+        ask((grid.area(), &is_open, &|cell| grid.has(CellMark::Explored, cell)))
     }
 
     /// The budget of the rule that the team claims to follow.

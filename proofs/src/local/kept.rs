@@ -3,7 +3,7 @@
 
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
+use super::{ActOf, Far, Local, Plan, RobotOf};
 
 /// A planner, and the rule to which it is kept. It returns an act for each robot.
 #[derive(Clone, Copy, Debug)]
@@ -52,67 +52,25 @@ impl<R: Local, P: Sync> Local for Kept<R, P> {
     type State = R::State;
     type Act = R::Act;
 
-    fn robots(&self) -> usize {
-        self.rule.robots()
-    }
-
-    fn least(&self) -> usize {
-        self.rule.least()
-    }
-
-    fn may_fail(&self) -> bool {
-        self.rule.may_fail()
-    }
-
-    fn colours(&self) -> u8 {
-        self.rule.colours()
-    }
-
     fn subject() -> &'static str {
         "what runs, each plan kept to the relation"
     }
 
-    fn states(&self) -> Vec<R::State> {
-        self.rule.states()
-    }
-
-    fn acts(&self, state: R::State) -> Vec<Act<R::State, R::Act>> {
-        self.rule.acts(state)
-    }
-
-    fn admits(&self, plans: &[Plan<R::State, R::Act>]) -> bool {
-        self.rule.admits(plans)
-    }
-
-    fn keeps(&self, robots: &[Robot<R::State>]) -> bool {
-        self.rule.keeps(robots)
-    }
-
-    fn reach(&self) -> (i16, Far) {
-        self.rule.reach()
-    }
-
-    fn may_start(&self, robots: &[Robot<R::State>]) -> bool {
-        self.rule.may_start(robots)
-    }
-
-    fn start(&self, robots: usize) -> Vec<Robot<R::State>> {
-        self.rule.start(robots)
-    }
-
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        self.rule.tuples(robots)
-    }
-
-    fn is_always_possible(&self, act: R::Act) -> bool {
-        self.rule.is_always_possible(act)
-    }
-
-    fn is_sure(&self, act: R::Act) -> bool {
-        self.rule.is_sure(act)
-    }
-
-    fn is_fixed(&self, robot: usize) -> bool {
-        self.rule.is_fixed(robot)
+    as_its_rule! {
+        robots() -> usize;
+        least() -> usize;
+        may_fail() -> bool;
+        colours() -> u8;
+        states() -> Vec<R::State>;
+        acts(state: R::State) -> Vec<ActOf<R>>;
+        admits(plans: &[Plan<R::State, R::Act>]) -> bool;
+        keeps(robots: &[RobotOf<R>]) -> bool;
+        reach() -> (i16, Far);
+        may_start(robots: &[RobotOf<R>]) -> bool;
+        start(robots: usize) -> Vec<RobotOf<R>>;
+        tuples(robots: usize) -> Vec<Vec<usize>>;
+        is_always_possible(act: R::Act) -> bool;
+        is_sure(act: R::Act) -> bool;
+        is_fixed(robot: usize) -> bool;
     }
 }

@@ -98,20 +98,14 @@ impl<R: Local> Local for ByNumber<'_, R> {
     type State = u32;
     type Act = u32;
 
-    fn robots(&self) -> usize {
-        self.rule.robots()
-    }
-
-    fn least(&self) -> usize {
-        self.rule.least()
-    }
-
-    fn may_fail(&self) -> bool {
-        self.rule.may_fail()
-    }
-
-    fn colours(&self) -> u8 {
-        self.rule.colours()
+    as_its_rule! {
+        robots() -> usize;
+        least() -> usize;
+        may_fail() -> bool;
+        colours() -> u8;
+        reach() -> (i16, Far);
+        tuples(robots: usize) -> Vec<Vec<usize>>;
+        is_fixed(robot: usize) -> bool;
     }
 
     fn states(&self) -> Vec<u32> {
@@ -136,10 +130,6 @@ impl<R: Local> Local for ByNumber<'_, R> {
         self.rule.keeps(&self.robots(robots))
     }
 
-    fn reach(&self) -> (i16, Far) {
-        self.rule.reach()
-    }
-
     fn may_start(&self, robots: &[Robot<u32>]) -> bool {
         self.rule.may_start(&self.robots(robots))
     }
@@ -149,19 +139,11 @@ impl<R: Local> Local for ByNumber<'_, R> {
         self.rule.start(robots).iter().map(number).collect()
     }
 
-    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        self.rule.tuples(robots)
-    }
-
     fn is_always_possible(&self, act: u32) -> bool {
         self.rule.is_always_possible(self.acts[act as usize])
     }
 
     fn is_sure(&self, act: u32) -> bool {
         self.rule.is_sure(self.acts[act as usize])
-    }
-
-    fn is_fixed(&self, robot: usize) -> bool {
-        self.rule.is_fixed(robot)
     }
 }

@@ -73,7 +73,9 @@ impl<'r> Team<'r> {
             );
             return Err(MethodError::new(why));
         }
-        if let Some(stray) = rule.stray(robots) {
+        let states = rule.states();
+        let is_named = team.start.iter().all(|robot| states.contains(&robot.state));
+        if !is_named && let Some(stray) = rule.stray(robots) {
             let why =
                 format!("a team of {robots} starts in {stray}, which is none of the states of the rule");
             return Err(MethodError::new(why));

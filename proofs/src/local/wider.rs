@@ -32,16 +32,10 @@ impl<'r> Wider<'r> {
 }
 
 impl Numbered for Wider<'_> {
-    fn state_words(&self, state: u32) -> String {
-        self.rule.state_words(state)
-    }
-
-    fn act_words(&self, act: u32) -> String {
-        self.rule.act_words(act)
-    }
-
-    fn stray(&self, robots: usize) -> Option<String> {
-        self.rule.stray(robots)
+    as_its_rule! {
+        state_words(state: u32) -> String;
+        act_words(act: u32) -> String;
+        stray(robots: usize) -> Option<String>;
     }
 }
 
@@ -53,24 +47,16 @@ impl Local for Wider<'_> {
         self.rule.robots() + 1
     }
 
-    fn least(&self) -> usize {
-        self.rule.least()
-    }
-
-    fn may_fail(&self) -> bool {
-        self.rule.may_fail()
-    }
-
-    fn colours(&self) -> u8 {
-        self.rule.colours()
-    }
-
-    fn states(&self) -> Vec<u32> {
-        self.rule.states()
-    }
-
-    fn acts(&self, state: u32) -> Vec<Act<u32, u32>> {
-        self.rule.acts(state)
+    as_its_rule! {
+        least() -> usize;
+        may_fail() -> bool;
+        colours() -> u8;
+        states() -> Vec<u32>;
+        acts(state: u32) -> Vec<Act<u32, u32>>;
+        start(robots: usize) -> Vec<Robot<u32>>;
+        is_always_possible(act: u32) -> bool;
+        is_sure(act: u32) -> bool;
+        is_fixed(robot: usize) -> bool;
     }
 
     fn admits(&self, plans: &[Plan<u32, u32>]) -> bool {
@@ -91,10 +77,6 @@ impl Local for Wider<'_> {
         self.parts.iter().all(|part| self.rule.may_start(&seen(part, robots)))
     }
 
-    fn start(&self, robots: usize) -> Vec<Robot<u32>> {
-        self.rule.start(robots)
-    }
-
     /// Every tuple that is bound as the first robots of a team are.
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
         let bound = self.rule.tuples(robots);
@@ -102,18 +84,6 @@ impl Local for Wider<'_> {
             self.parts.iter().all(|part| bound.contains(&part.iter().map(|&robot| wide[robot]).collect()))
         };
         all_tuples(robots, self.robots()).into_iter().filter(is_bound).collect()
-    }
-
-    fn is_always_possible(&self, act: u32) -> bool {
-        self.rule.is_always_possible(act)
-    }
-
-    fn is_sure(&self, act: u32) -> bool {
-        self.rule.is_sure(act)
-    }
-
-    fn is_fixed(&self, robot: usize) -> bool {
-        self.rule.is_fixed(robot)
     }
 }
 
