@@ -192,7 +192,7 @@ impl Minimise {
             return Err(Diagnostic::in_file(&self.file, what, "leave --clause out").into());
         }
         let room = MemoryLimit::of(MOST_BYTES, 1);
-        let limits = Limits { most_steps: MOST_STEPS, room: room.room() };
+        let limits = Limits { room: room.room(), ..Limits::steps(MOST_STEPS) };
         let bar = progress::spinner("minimising");
         let shorter = check.shorten(&evidence.choices, limits);
         bar.finish_and_clear();

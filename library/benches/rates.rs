@@ -40,7 +40,8 @@ fn peak() -> u64 {
 fn search(who: &str, states: u8) {
     let (rule, ring) = (Rule::Published, Machines::of(8, states));
     let count = if who == "ours" {
-        Keeps::<Rule>(ring, 1).search(&rule, Limits::NONE).expect("there is a ring").states
+        let alone = Limits { workers: Some(1), ..Limits::NONE };
+        Keeps::<Rule>(ring, 1).search(&rule, alone).expect("there is a ring").states
     } else {
         let model = Counted(rule, ring);
         model.checker().threads(1).spawn_bfs().join().unique_state_count() as u64

@@ -54,7 +54,9 @@ fn stateright_counts_the_same_states_of_three_rules() {
 fn any_number_of_workers_finds_the_same() {
     fn same<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, demand: usize) -> bool {
         let by = |workers| {
-            Keeps::<P>(bound(), demand).search_together(rule, Limits::NONE, workers).expect("a search")
+            Keeps::<P>(bound(), demand)
+                .search(rule, Limits { workers: Some(workers), ..Limits::NONE })
+                .expect("a search")
         };
         let alone = by(1);
         assert!([3, 8].into_iter().all(|workers| by(workers) == alone));

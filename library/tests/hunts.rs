@@ -30,7 +30,7 @@ fn random_runs_break_only_promises_that_are_refuted_and_are_made_as_short_as_fro
         assert_eq!(check.replay(&evidence.choices).expect("a refutation").evidence, evidence);
         let room = MemoryLimit::unbounded();
         let shortened = |most_steps| {
-            let limits = Limits { most_steps, room: room.room() };
+            let limits = Limits { room: room.room(), ..Limits::steps(most_steps) };
             check.shorten(&evidence.choices, limits).expect("a run").expect("it can be shortened")
         };
         let (shortest, is_shortest) = shortened(u64::MAX);

@@ -44,8 +44,8 @@ fn is_the_same<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, demand: usiz
     for workers in [1, 3] {
         let (folder, bytes) = (folder(), whole.bytes * percent / 100);
         let room = room(bytes, &folder);
-        let limits = Limits { room: room.room(), ..Limits::NONE };
-        let some = keeps().search_together(rule, limits, workers).expect("a search");
+        let limits = Limits { room: room.room(), workers: Some(workers), ..Limits::NONE };
+        let some = keeps().search(rule, limits).expect("a search");
         assert!(some.bytes > bytes / 2 && some.bytes <= bytes, "{} of {bytes}", some.bytes);
         assert_eq!((files(&folder), room.was_too_small(), room.fault()), (vec![], false, None));
         assert_eq!(found(some), found(whole.clone()), "{workers} workers");
@@ -112,7 +112,8 @@ impl Protocol for Writes {
 const WRITES: Writes = Writes { forbidden: &[9], most: 9 };
 
 fn written(rule: &Writes, limits: Limits<'_>, workers: usize) -> Findings<&'static str> {
-    Keeps::<Writes>(Words::of(3), 0).search_together(rule, limits, workers).expect("a search")
+    let limits = Limits { workers: Some(workers), ..limits };
+    Keeps::<Writes>(Words::of(3), 0).search(rule, limits).expect("a search")
 }
 
 /// Words are of many lengths.
@@ -124,7 +125,8 @@ fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() 
         assert_eq!((whole.states > 28_000, whole.broken.is_empty()), (true, rule.forbidden.len() == 1));
         let by = |most_steps, workers| {
             let room = room(whole.bytes / 3, &folder);
-            let some = written(&rule, Limits { most_steps, room: room.asked("words") }, workers);
+            let some =
+                written(&rule, Limits { room: room.asked("words"), ..Limits::steps(most_steps) }, workers);
             (some, room.fault())
         };
         for most_steps in [3, 5, 8].map(|tenths| whole.steps * tenths / 10) {
@@ -145,7 +147,7 @@ fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() 
 fn killed() -> (TempDir, u64) {
     let (bytes, folder) = (written(&WRITES, Limits::NONE, 1).bytes / 3, folder());
     let room = room(bytes, &folder);
-    written(&WRITES, Limits { most_steps: 50_000, room: room.asked("words") }, 1);
+    written(&WRITES, Limits { room: room.asked("words"), ..Limits::steps(50_000) }, 1);
     (folder, bytes)
 }
 
@@ -279,7 +281,7 @@ fn states_that_are_kept_in_parts_go_to_disk_too_and_leave_nothing_there() {
     let (whole, folder) = (search(&Counters, [[0, 0]], Limits::NONE), folder());
     assert_eq!((whole.states, whole.broken.len()), (27_000, 2));
     let room = room(whole.bytes / 2, &folder);
-    let limits = |most_steps| Limits { most_steps, room: room.asked("counters") };
+    let limits = |most_steps| Limits { room: room.asked("counters"), ..Limits::steps(most_steps) };
     let cut = search(&Counters, [[0, 0]], limits(40_000));
     assert_eq!((cut.is_whole, cut.steps, files(&folder)), (false, 40_000, vec![]));
     assert_eq!(found(search(&Counters, [[0, 0]], limits(u64::MAX))), found(whole));
@@ -324,7 +326,7 @@ fn compared<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, percent: u64) {
     };
     let keeps = || Keeps::<P>(bound(), 0);
     let begun = Instant::now();
-    let whole = keeps().search_together(rule, Limits::NONE, 2).expect("a search");
+    let whole = keeps().search(rule, Limits { workers: Some(2), ..Limits::NONE }).expect("a search");
     tell(&whole, begun, 0);
     let (folder, begun) = (folder(), Instant::now());
     let room = room(whole.bytes * percent / 100, &folder);
@@ -337,7 +339,7 @@ fn compared<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, percent: u64) {
                 thread::sleep(Duration::from_millis(20));
             }
         });
-        let some = keeps().search_together(rule, Limits { room: room.room(), ..Limits::NONE }, 2);
+        let some = keeps().search(rule, Limits { room: room.room(), workers: Some(2), ..Limits::NONE });
         is_over.store(true, Ordering::Relaxed);
         some.expect("a search")
     });

@@ -5,13 +5,15 @@
 #[path = "../tests/common/rescue.rs"]
 mod model;
 
+use std::collections::{HashSet, VecDeque};
+use std::hash::Hash;
 use std::hint::black_box;
 use std::time::Instant;
 
 use stateright::{Checker, Model, Property};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::Rule;
-use tautline_proofs::engine::states::{Bits, Findings, Limits, System, search};
+use tautline_proofs::engine::states::{Bits, Findings, Limits, MOST_AT_ONCE, System, pieces, search};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::mrc::space::{self, Until};
 use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Served, Setting};
@@ -164,13 +166,43 @@ fn rate((states, seconds): (u64, f64)) -> f64 {
     1e-6 * states as f64 / seconds
 }
 
+/// The number of steps from each state, breadth first.
+fn steps_from_each<M: Model<State: Hash + Eq + Clone>>(model: &M) -> Vec<u64> {
+    let (mut known, mut ahead, mut steps) = (HashSet::new(), VecDeque::from(model.init_states()), Vec::new());
+    known.extend(ahead.iter().cloned());
+    while let Some(state) = ahead.pop_front() {
+        let next = model.next_states(&state);
+        steps.push(next.len() as u64);
+        ahead.extend(next.into_iter().filter(|state| known.insert(state.clone())));
+    }
+    steps
+}
+
+/// The percentage of their time that so many workers wait for one another, if a state takes as long as it has steps.
+#[expect(clippy::cast_precision_loss, reason = "a percentage")]
+fn waits(steps: &[u64], workers: usize) -> f64 {
+    let span = |states: &[u64]| {
+        let mut made = vec![0; workers];
+        for piece in pieces(0..states.len(), workers) {
+            // Whoever is done first takes it.
+            if let Some(own) = made.iter_mut().min() {
+                *own += states[piece].iter().sum::<u64>();
+            }
+        }
+        made.into_iter().max().unwrap_or(0)
+    };
+    let spans: u64 = steps.chunks(MOST_AT_ONCE).map(span).sum();
+    100.0 * (1.0 - steps.iter().sum::<u64>() as f64 / (spans * workers as u64) as f64)
+}
+
 fn main() {
     // A bench is also built and run as a test, which asks for nothing.
     if !std::env::args().any(|argument| argument == "--bench") {
         return;
     }
-    let ants = || search(&Ants, [Floor::START], Limits::NONE);
-    let rescue = || space::search(&SETTING, Until::Exhausted, Limits::NONE);
+    let by = |workers| Limits { workers: Some(workers), ..Limits::NONE };
+    let ants = || search(&Ants, [Floor::START], by(1));
+    let rescue = || space::search(&SETTING, Until::Exhausted, by(1));
     let model = || Rescue(SETTING, Demand::ALL.to_vec());
     let rows = [
         (
@@ -195,6 +227,14 @@ fn main() {
         let (mine, other) = (rate(ours), rate(theirs));
         let each = bytes / ours.0;
         println!("  {name:6} {:>9} {mine:>6.2} {other:>11.2} {:>6.1} {each:>6}", ours.0, mine / other);
+    }
+    let (_, alone) = timed(|| rescue().states);
+    let (_, together) = timed(|| space::search(&SETTING, Until::Exhausted, by(2)).states);
+    println!("\nMRC takes two workers {:.2} times as long as one", together / alone);
+    println!("\nHow much of their time 2, 8, 32 and 128 workers wait for one another, counted in steps");
+    for (name, steps) in [("ants", steps_from_each(&Ants)), ("mrc", steps_from_each(&model()))] {
+        let percentages = [2, 8, 32, 128].map(|workers| format!("{:.1} %", waits(&steps, workers)));
+        println!("  {name:6} {}", percentages.join(", "));
     }
     let Findings { states, steps, .. } = ants();
     println!(

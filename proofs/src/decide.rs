@@ -489,7 +489,7 @@ where
     fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> Decided {
         let system = (self.system)(rule);
         states::repeats(&system, (self.starts)(&system)).map_err(MethodError::new)?;
-        let limits = Limits { most_steps: self.most_steps.into(), room: context.room };
+        let limits = Limits { room: context.room, ..Limits::steps(self.most_steps.into()) };
         let found = states::search(&system, (self.starts)(&system), limits);
         let evidence = found.broken.first().map(|run| Evidence {
             choices: run.choices(),

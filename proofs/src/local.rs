@@ -262,7 +262,7 @@ impl EveryNumber {
             return Ok(invariant.answer());
         }
         for (more, team) in (0..).zip(&teams) {
-            let limits = Limits { most_steps: self.most_steps, room };
+            let limits = Limits { room, ..Limits::steps(self.most_steps) };
             let found = states::search(team, [team.start()], limits);
             if let Some(run) = found.broken.first() {
                 let once = [&[more], &run.steps[..]].concat();

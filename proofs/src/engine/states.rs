@@ -8,10 +8,12 @@
 //! Besides, of each state the one is kept from which it was first found, and where endless runs are looked for, the
 //! steps that are bound to be made. A run is given by the numbers of its steps, each among all steps from its state.
 
+mod code;
 mod exhausted;
 mod graph;
 mod known;
 mod limits;
+mod queue;
 mod rounds;
 mod search;
 mod spill;
@@ -28,7 +30,7 @@ pub use exhausted::{AnySystem, NoCertificate};
 pub use limits::{Limits, MemoryLimit, Room};
 pub use search::{search, watched};
 pub use spill::{Create, HEAD, PART, Spill, SpillError, SpillFault, WHOLE};
-pub use together::search_together;
+pub use together::{MOST as MOST_AT_ONCE, pieces};
 pub use walk::{walk, without_detours};
 
 use super::bodies::Odometer;
@@ -48,10 +50,10 @@ pub fn places(differing: impl IntoIterator<Item = bool>) -> Places {
 }
 
 /// A world whose ways merge: its states are searched.
-pub trait System: World {
+pub trait System: World<State: Send, Demand: Send> + Sync {
     /// A part of a state. The fewer different parts there are, the less memory a search takes; the whole state may be
     /// one part, or be kept in bytes of its own.
-    type Part: Clone + Eq + Hash;
+    type Part: Clone + Eq + Hash + Send + Sync;
 
     /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others
     /// unless there is more to tell.

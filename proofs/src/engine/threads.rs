@@ -1,18 +1,19 @@
 //! Work that is shared out among threads. All of them work on the task of the one that shares it out, which waits
 //! meanwhile and works on none.
 
+use std::iter;
 use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use rayon::prelude::*;
 
-use super::watchdog::Task;
+use super::watchdog::{self, Task};
 
 /// The answers about all of these, in their order, by the threads of the pool.
 pub fn each<T: Send, A: Send>(all: impl IntoIterator<Item = T>, answer: impl Fn(T) -> A + Sync) -> Vec<A> {
-    shared_out(all, answer, in_pool)
+    shared_out(all, answer, &in_pool)
 }
 
 /// The answers of [`each`], or an error: after the first one no other answer is begun.
@@ -31,16 +32,29 @@ pub fn try_each<T: Send, A: Send, E: Send>(
     answers.into_iter().flatten().collect()
 }
 
-/// The results of all of these, in their order, each in a thread of its own.
-pub fn each_in_its_own<A: Send>(all: impl IntoIterator<Item = impl FnOnce() -> A + Send>) -> Vec<A> {
-    shared_out(all, |work| work(), in_threads)
+/// The answers about all of these, in their order, by so many threads that work on nothing else meanwhile. One thread is
+/// this one.
+pub fn each_by<T: Send, A: Send>(
+    workers: usize,
+    all: impl IntoIterator<Item = T>,
+    answer: impl Fn(T) -> A + Sync,
+) -> Vec<A> {
+    if workers == 1 {
+        return all.into_iter().map(answer).collect();
+    }
+    shared_out(all, answer, &|count, work| in_threads(workers, count, work))
+}
+
+/// The threads of the pool that work on nothing, this one not counted.
+pub fn idle() -> usize {
+    rayon::current_num_threads().saturating_sub(watchdog::at_work().max(1))
 }
 
 /// The answers about all of these, in their order. What shares them out knows no types of theirs, and is compiled once.
 fn shared_out<T: Send, A: Send>(
     all: impl IntoIterator<Item = T>,
     answer: impl Fn(T) -> A + Sync,
-    share_out: fn(usize, &(dyn Fn(usize) + Sync)),
+    share_out: &dyn Fn(usize, Work<'_>),
 ) -> Vec<A> {
     let all: Vec<_> = all.into_iter().map(|one| Mutex::new((Some(one), None))).collect();
     share_out(all.len(), &|place| {
@@ -52,26 +66,30 @@ fn shared_out<T: Send, A: Send>(
     all.into_iter().filter_map(|one| one.into_inner().unwrap_or_else(PoisonError::into_inner).1).collect()
 }
 
-fn in_pool(count: usize, work: &(dyn Fn(usize) + Sync)) {
+/// The work on the one in a place.
+type Work<'a> = &'a (dyn Fn(usize) + Sync);
+
+fn in_pool(count: usize, work: Work<'_>) {
     let task = Task::current();
-    let _waiting = Task::NONE.enter();
+    let _waiting = Task::wait();
     (0..count).into_par_iter().with_max_len(1).for_each(|place| {
         let _working = task.enter();
         work(place);
     });
 }
 
-fn in_threads(count: usize, work: &(dyn Fn(usize) + Sync)) {
-    let task = Task::current();
+fn in_threads(workers: usize, count: usize, work: Work<'_>) {
+    let (task, next) = (Task::current(), &AtomicUsize::new(0));
     thread::scope(|scope| {
-        let begun = (0..count).map(|place| {
+        let begun = (0..workers.min(count)).map(|_| {
             scope.spawn(move || {
                 let _working = task.enter();
-                work(place);
+                let places = iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+                places.take_while(|&place| place < count).for_each(work);
             })
         });
         let running: Vec<_> = begun.collect();
-        let _waiting = Task::NONE.enter();
+        let _waiting = Task::wait();
         for one in running {
             one.join().unwrap_or_else(|panic| resume_unwind(panic));
         }
@@ -80,7 +98,6 @@ fn in_threads(count: usize, work: &(dyn Fn(usize) + Sync)) {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::AtomicUsize;
     use std::time::{Duration, Instant};
 
     use super::*;
@@ -93,7 +110,7 @@ mod tests {
             let both = |number: &u32| (number + 1, Task::current());
             let wanted: Vec<_> = all.iter().map(|number| (number + 1, task)).collect();
             assert_eq!(each(&all, both), wanted);
-            assert_eq!(each_in_its_own(all.iter().map(|number| move || both(number))), wanted);
+            assert_eq!(each_by(3, &all, both), wanted);
             assert_eq!(Task::current(), task);
         }
     }
@@ -123,7 +140,7 @@ mod tests {
         };
         for task in Task::several(1) {
             let _working = task.enter();
-            let rests = each_in_its_own([rest, rest]);
+            let rests = each_by(2, [rest, rest], |rest| rest());
             let (spent, both) = (task.spent(), rests[0] + rests[1]);
             assert!(both <= spent && spent < both + rests[0].max(rests[1]), "{spent:?} of {rests:?}");
         }

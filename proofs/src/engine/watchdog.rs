@@ -12,7 +12,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
@@ -87,6 +87,16 @@ thread_local! {
     };
     /// When this thread took up what it works on, if that or what it did before is a task.
     static SINCE: Cell<Option<Instant>> = const { Cell::new(None) };
+    /// Whether it is one of those that work.
+    static IS_AT_WORK: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Threads that work on something, whatever its task.
+static AT_WORK: AtomicUsize = AtomicUsize::new(0);
+
+/// How many threads work on something that they have entered.
+pub fn at_work() -> usize {
+    AT_WORK.load(Ordering::Relaxed)
 }
 
 /// Work whose steps are counted together: a job of the ledger, say, on whatever threads.
@@ -112,11 +122,22 @@ impl Task {
     /// other work meanwhile: it is outside of its step then, and inside again when it comes back.
     #[must_use]
     pub fn enter(self) -> WorkGuard {
+        self.take_up(true)
+    }
+
+    /// Lets this thread wait for others until what is returned is dropped.
+    #[must_use]
+    pub fn wait() -> WorkGuard {
+        Self::NONE.take_up(false)
+    }
+
+    fn take_up(self, is_at_work: bool) -> WorkGuard {
         let pulse = OWN.with(Arc::clone);
         let was_inside = pulse.is_inside();
         pulse.leave();
         let before = pulse.take_up(self);
-        WorkGuard { pulse, before, was_inside, of_this_thread: PhantomData }
+        let was_at_work = go_to_work(is_at_work);
+        WorkGuard { pulse, before, was_inside, was_at_work, of_this_thread: PhantomData }
     }
 
     /// The time that threads have spent on it, added up, since this was asked last. That of a thread that works on it
@@ -127,16 +148,29 @@ impl Task {
     }
 }
 
+/// Lets this thread be one of those that work, or none. Whether it was is returned.
+fn go_to_work(is_at_work: bool) -> bool {
+    let was_at_work = IS_AT_WORK.replace(is_at_work);
+    match (was_at_work, is_at_work) {
+        (false, true) => AT_WORK.fetch_add(1, Ordering::Relaxed),
+        (true, false) => AT_WORK.fetch_sub(1, Ordering::Relaxed),
+        _ => 0,
+    };
+    was_at_work
+}
+
 /// The time in which a thread works on a task.
 pub struct WorkGuard {
     pulse: Arc<Pulse>,
     before: Task,
     was_inside: bool,
+    was_at_work: bool,
     of_this_thread: PhantomData<Cell<()>>,
 }
 
 impl Drop for WorkGuard {
     fn drop(&mut self) {
+        go_to_work(self.was_at_work);
         self.pulse.take_up(self.before);
         self.pulse.go_back(self.was_inside);
     }

@@ -53,7 +53,7 @@ impl Method<Subject> for Within {
             Until::Exhausted => space::Until::Exhausted,
             Until::Violation => space::Until::Broken(demand),
         };
-        let limits = Limits { most_steps: MOST_STEPS, room: context.room };
+        let limits = Limits { room: context.room, ..Limits::steps(MOST_STEPS) };
         let found: Result<&space::Findings, MethodError> = context
             .memory
             .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, limits)));

@@ -2,7 +2,6 @@
 //! state of one is a state of another: so a check can be divided, and counts are the same however it is.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tautline_kernel::choice::Oracle;
 
@@ -42,20 +41,7 @@ impl<P: Protocol> Keeps<P> {
     /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function of
     /// their state, the states not of their bytes, or states that are taken for one not alike.
     pub fn search(&self, rule: &P, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
-        self.search_together(rule, limits, 1)
-    }
-
-    /// Searches as [`Self::search`] does on so many threads, with the same findings.
-    ///
-    /// # Errors
-    /// [`MethodError`] as of [`Self::search`].
-    pub fn search_together(
-        &self,
-        rule: &P,
-        limits: Limits<'_>,
-        workers: usize,
-    ) -> Result<Findings<&'static str>, MethodError> {
-        searched(&self.playing(rule)?, Portion::WHOLE, Until::Exhausted, limits, workers)
+        searched(&self.playing(rule)?, Portion::WHOLE, Until::Exhausted, limits)
     }
 }
 
@@ -87,7 +73,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
     ) -> Decided {
         let all = self.playing(rule)?;
         let limits = Limits { room: context.room, ..Limits::NONE };
-        let found = searched(&all, portion, until, limits, rayon::current_num_threads())?;
+        let found = searched(&all, portion, until, limits)?;
         let evidence = found.broken.first().and_then(|run| evidence(&all, run));
         let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
         Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
@@ -145,7 +131,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         let all = self.playing(rule)?;
         let (_, run) = play(&all, choices).map_err(MethodError::new)?;
         let Some((playing, start)) = starts(&all).nth(run.start) else { return Ok(None) };
-        let found = states::search_together(playing, [start.clone()], limits, rayon::current_num_threads());
+        let found = states::search(playing, [start.clone()], limits);
         let shortest = found.broken.into_iter().next();
         let shortest =
             shortest.map(|found| playing.unfolded(&start, states::Run { start: run.start, ..found }));
@@ -197,18 +183,20 @@ fn searched<P: Protocol>(
     portion: Portion,
     until: Until,
     limits: Limits<'_>,
-    workers: usize,
 ) -> Result<Findings<&'static str>, MethodError> {
     is_sound(all)?;
     let mut whole = Findings::NONE;
     // The surroundings of the run that is the shortest so far, and the run.
     let mut shortest: Option<(usize, Run)> = None;
     let own: Vec<usize> = portion.of(0..all.len()).collect();
-    let (at_once, each) = if own.len() == 1 { (1, workers) } else { (workers, 1) };
+    let (at_once, workers) = match own.len() {
+        1 => (1, limits.workers),
+        _ => (limits.workers.unwrap_or_else(rayon::current_num_threads), Some(1)),
+    };
     'all: for places in own.chunks(64 * at_once) {
-        let limits = Limits { most_steps: limits.most_steps - whole.steps, ..limits };
-        let found = each_of(places, at_once, |place| {
-            all[place].search(Limits { room: limits.room.of_search(place), ..limits }, each)
+        let limits = Limits { most_steps: limits.most_steps - whole.steps, workers, ..limits };
+        let found = threads::each_by(at_once, places, |&place| {
+            all[place].search(Limits { room: limits.room.of_search(place), ..limits })
         });
         for (&place, found) in places.iter().zip(found) {
             let mut found = found?;
@@ -226,23 +214,4 @@ fn searched<P: Protocol>(
     let before = |place| all[..place].iter().map(|playing| playing.starts().count()).sum::<usize>();
     let counted = shortest.map(|(place, run)| Run { start: before(place) + run.start, ..run });
     Ok(Findings { broken: counted.into_iter().collect(), ..whole })
-}
-
-/// The answers about these, in their order, by so many threads.
-fn each_of<T: Send>(places: &[usize], workers: usize, answer: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    if workers == 1 {
-        return places.iter().map(|&place| answer(place)).collect();
-    }
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut own = Vec::new();
-        while let Some(&place) = places.get(next.fetch_add(1, Ordering::Relaxed)) {
-            own.push((place, answer(place)));
-        }
-        own
-    };
-    let mut answers: Vec<_> =
-        threads::each_in_its_own((0..workers).map(|_| work)).into_iter().flatten().collect();
-    answers.sort_unstable_by_key(|(place, _)| *place);
-    answers.into_iter().map(|(_, answer)| answer).collect()
 }

@@ -243,13 +243,9 @@ impl<P: Protocol> Playing<P> {
     ///
     /// # Errors
     /// [`MethodError`] if a state did not come back from its bytes.
-    pub(super) fn search(
-        &self,
-        limits: Limits<'_>,
-        workers: usize,
-    ) -> Result<Findings<&'static str>, MethodError> {
+    pub(super) fn search(&self, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         self.starts_come_back()?;
-        let mut found = states::search_together(self, self.starts(), limits, workers);
+        let mut found = states::search(self, self.starts(), limits);
         if let Some(state) = self.lost.get() {
             return Err(self.why_lost(state));
         }

@@ -111,16 +111,16 @@ impl<S: System> Search<'_, S> {
         let (mut all_owed, mut awake, mut scratch) = (0, Vec::new(), Scratch::default());
         for node in 0..self.graph.len() {
             links.first.push(links.to.len());
-            let state = self.state(node).ok_or(NoCertificate::Unrepeatable)?;
-            let (owed, is_awake) = duties(&state);
+            let shown = self.show(node).ok_or(NoCertificate::Unrepeatable)?;
+            let (owed, is_awake) = duties(&shown.state);
             all_owed |= owed;
             awake.push(is_awake);
-            let flow = self.system.each_step(&state, &mut scratch, |step| {
+            let flow = self.system.each_step(&shown.state, &mut scratch, |step| {
                 let added = self.node(step.state).map(|node| links.add(node));
                 added.map_or_else(ControlFlow::Break, ControlFlow::Continue)
             });
             flow.break_value().map_or(Ok(()), Err)?;
-            self.shown = Some(state);
+            self.shown = Some(shown);
         }
         links.first.push(links.to.len());
         let ranks = bits(all_owed).map(|owed| ranks(&self.graph, owed, &awake));

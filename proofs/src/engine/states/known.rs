@@ -1,103 +1,75 @@
 //! The states that are known, each as the numbers of its parts: the last ones in memory, those before perhaps on disk.
 
-use std::hash::{BuildHasher, Hash, Hasher};
-use std::hint::black_box;
+use std::hash::Hash;
 use std::mem;
 use std::ops::Range;
 
-use rustc_hash::FxBuildHasher;
-
-use super::spill::{Disk, SpillError, Wanted};
+use super::code::{Code, HashOfState, number, widened, width_of};
+use super::queue::Queue;
+use super::spill::{Disk, SpillError};
 use super::tables::{Codes, Slots};
 use super::{Places, System};
 
-/// The parts that were met, each once.
-struct Parts<P> {
+/// Parts that were met, each once.
+pub(super) struct Parts<P> {
     slots: Slots,
-    parts: Vec<P>,
+    pub(super) parts: Vec<P>,
 }
 
-impl<P: Eq + Hash> Parts<P> {
-    fn number(&mut self, part: P) -> u32 {
-        let Self { slots, parts } = self;
-        let hash = folded(FxBuildHasher.hash_one(&part));
-        slots.find(hash, |number| parts[number as usize] == part).unwrap_or_else(|| {
-            let number = parts.len() as u32;
-            slots.insert(hash, number);
-            parts.push(part);
+impl<P: Clone + Eq> Parts<P> {
+    pub(super) fn new() -> Self {
+        Self { slots: Slots::default(), parts: Vec::new() }
+    }
+
+    /// The number of a part with this hash, if it was met.
+    pub(super) fn find(&self, hash: HashOfState, part: &P) -> Option<u32> {
+        self.slots.find(hash, |number| self.parts[number as usize] == *part)
+    }
+
+    /// The number of a part with this hash.
+    pub(super) fn number(&mut self, hash: HashOfState, part: &P) -> u32 {
+        self.find(hash, part).unwrap_or_else(|| {
+            let number = self.parts.len() as u32;
+            self.slots.insert(hash, number);
+            self.parts.push(part.clone());
             number
         })
     }
 }
 
-/// The hash of a state.
-pub(super) type HashOfState = u32;
-
-/// A state by the numbers of its parts, most of which are also those of the states before and after it, or in bytes of
-/// its own.
-#[derive(Default)]
-struct Code {
-    bytes: Vec<u8>,
-    hash: HashOfState,
-}
-
-impl Code {
-    /// The state of so many parts whose numbers, of `width` bytes, are all 0.
-    fn zero(places: usize, width: usize) -> Self {
-        Self {
-            bytes: vec![0; places * width],
-            hash: (0..places).fold(0, |hash, place| hash ^ hash_at(place, 0)),
-        }
-    }
-
-    /// Makes `number` the one in this place.
-    fn put(&mut self, place: usize, width: usize, number: u32) {
-        let bytes = &mut self.bytes[place * width..(place + 1) * width];
-        self.hash ^= hash_at(place, self::number(bytes)) ^ hash_at(place, number);
-        bytes.iter_mut().zip(number.to_le_bytes()).for_each(|(byte, of)| *byte = of);
-    }
-
-    fn set_to(&mut self, other: &Self) {
-        self.bytes.clone_from(&other.bytes);
-        self.hash = other.hash;
-    }
+/// A state that is shown, and the numbers of its parts: of the next one only the parts are put that they do not share.
+#[derive(Clone)]
+pub(super) struct Shown<T> {
+    pub(super) state: T,
+    pub(super) code: Code,
 }
 
 /// States by the numbers of their parts, of which each takes as many bytes as the largest needs; or, where states have
 /// no parts, in bytes of their own.
 pub(super) struct StateTable<P> {
-    parts: Parts<P>,
+    pub(super) parts: Parts<P>,
     /// Bytes of a number.
-    width: usize,
+    pub(super) width: usize,
     /// Parts of a state.
-    places: usize,
-    codes: Codes,
+    pub(super) places: usize,
+    pub(super) codes: Codes,
     /// The states in memory by their hashes.
-    nodes: Slots,
+    pub(super) nodes: Slots,
     /// The states on disk, and how many they are.
     pub(super) disk: Option<Disk>,
-    on_disk: usize,
-    /// States that are looked up together, so that the memory answers for all of them at once.
-    queue: Queue,
-    /// The state that is shown; at first none, and all numbers are 0.
-    shown: Code,
-    /// The state in the making.
-    made: Code,
+    pub(super) on_disk: usize,
 }
 
 impl<P: Clone + Eq + Hash> StateTable<P> {
     pub(super) fn new() -> Self {
         Self {
-            parts: Parts { slots: Slots::default(), parts: Vec::new() },
+            parts: Parts::new(),
             width: 1,
             places: 0,
             codes: Codes::default(),
             nodes: Slots::default(),
             disk: None,
             on_disk: 0,
-            queue: Queue::default(),
-            shown: Code::default(),
-            made: Code::default(),
         }
     }
 
@@ -128,8 +100,8 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
 
     /// Writes the states in memory to disk, with these numbers, and empties it. False if they cannot be written.
     pub(super) fn spill(&mut self, numbers: impl Iterator<Item = u64>) -> bool {
-        while self.places > 0 && self.width < size_of::<u32>() {
-            self.widen();
+        if self.places > 0 {
+            self.widen(size_of::<u32>());
         }
         let Some(disk) = &mut self.disk else { return false };
         let sorted = mem::take(&mut self.nodes).into_sorted();
@@ -164,107 +136,90 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
     /// Looks on disk for the states of queues that are not in memory, by so many workers. False if it cannot be read.
     pub(super) fn look_up_on_disk<'a>(
         &mut self,
-        queues: impl Iterator<Item = &'a mut Queue>,
+        queues: impl Iterator<Item = &'a mut Queue<P>>,
         workers: usize,
-    ) -> bool {
+    ) -> bool
+    where
+        P: 'a,
+    {
         let Some(disk) = &mut self.disk else { return true };
         disk.look_up(queues.flat_map(Queue::unknown).collect(), workers)
     }
 
-    /// Makes of `state`, which was shown last, the state of a node: only the parts that they do not share are put.
-    /// False if it cannot be read.
+    /// Shows the state of a node; nothing if it cannot be read.
     pub(super) fn show<S: System<Part = P>>(
         &mut self,
         system: &S,
         node: usize,
-        state: &mut S::State,
-    ) -> bool {
-        if !self.load(node..node + 1) {
-            return false;
-        }
-        let mut shown = mem::take(&mut self.shown);
-        let (code, width) = (self.code(node).unwrap_or_default(), self.width);
+        shown: &mut Shown<S::State>,
+    ) -> Option<()> {
+        self.load(node..node + 1).then(|| self.show_loaded(system, node, shown))?
+    }
+
+    /// Shows the state of a node that is loaded.
+    pub(super) fn show_loaded<S: System<Part = P>>(
+        &self,
+        system: &S,
+        node: usize,
+        Shown { state, code: shown }: &mut Shown<S::State>,
+    ) -> Option<()> {
+        let code = self.code(node)?;
         if self.places == 0 {
             system.read(state, code);
+            return Some(());
         }
-        for place in 0..self.places {
-            let number_in = |bytes: &[u8]| number(&bytes[place * width..(place + 1) * width]);
-            let number = number_in(code);
-            if number != number_in(&shown.bytes) {
-                system.put(state, place, &self.parts.parts[number as usize]);
-                shown.put(place, width, number);
+        shown.widen(self.width);
+        for (place, number) in code.chunks_exact(self.width).map(number).enumerate() {
+            match shown.at(place) {
+                Some(before) if before == number => continue,
+                Some(_) => shown.put(place, number),
+                None => shown.push(number),
             }
+            system.put(state, place, &self.parts.parts[number as usize]);
         }
-        self.shown = shown;
-        true
+        Some(())
     }
 
-    /// Makes the state in the making, whose parts are all put, the one that is shown.
-    pub(super) fn show_last(&mut self) {
-        self.shown.set_to(&self.made);
+    /// Takes the next new parts of the states of a queue.
+    pub(super) fn take_parts(&mut self, queue: &mut Queue<P>, count: usize) {
+        queue.renumber(count, &mut self.parts);
+        self.widen(width_of(self.parts.parts.len() as u32));
     }
 
-    /// Puts `state` into the queue. It has the parts of the state that is shown, but for those that are `differing`.
-    pub(super) fn queue<S: System<Part = P>>(&mut self, system: &S, state: &S::State, differing: Places) {
-        self.take_apart(system, state, differing);
-        self.queue.push(&self.made);
-    }
-
-    /// The bytes that the queue takes.
-    pub(super) const fn queued_bytes(&self) -> u64 {
-        self.queue.bytes() as u64
-    }
-
-    /// The states that were put into the queue, looked up in memory.
-    pub(super) fn queued(&mut self) -> Queue {
-        let mut queue = mem::take(&mut self.queue);
-        self.look_up(&mut queue);
-        queue
-    }
-
-    /// Looks for the states of a queue among those in memory.
-    pub(super) fn look_up(&self, queue: &mut Queue) {
-        let Self { nodes, codes, on_disk, .. } = self;
-        // No look waits for the one before it: first into the table, then among the codes.
-        black_box(queue.states.iter().fold(0, |all, state| all ^ nodes.slot(state.hash)));
-        for state in &mut queue.states {
-            state.node = nodes.first(state.hash);
-        }
-        let mut first = 0;
-        for state in &mut queue.states {
-            let code = &queue.bytes[first..state.end];
-            first = state.end;
-            state.node = state.node.filter(|&node| codes.entry(node as usize - on_disk) == code);
-        }
-    }
-
-    /// Meets the next state of a queue in which all were looked up: its number, and whether it is new.
-    pub(super) fn meet_next(&mut self, queue: &mut Queue) -> (u32, bool) {
-        let Self { nodes, codes, on_disk, .. } = self;
-        let state = &queue.states[queue.met];
-        let code = &queue.bytes[queue.first..state.end];
-        (queue.met, queue.first) = (queue.met + 1, state.end);
-        let is_it = |node: u32| codes.entry(node as usize - *on_disk) == code;
+    /// Meets the next state of a queue in which all were looked up and whose parts are taken: its number, and whether it
+    /// is new.
+    pub(super) fn meet_next(&mut self, queue: &mut Queue<P>) -> (u32, bool) {
+        let Self { nodes, codes, on_disk, width, .. } = self;
+        let (hash, code, found) = queue.next(*width);
         // Since it was looked up, it may have been met.
-        let known = state.node.or_else(|| nodes.find(state.hash, is_it));
+        let known = found.or_else(|| nodes.find(hash, |node| codes.entry(node as usize - *on_disk) == code));
         let node = known.unwrap_or_else(|| {
             let node = (*on_disk + codes.length) as u32;
-            nodes.insert(state.hash, node);
+            nodes.insert(hash, node);
             codes.push(code);
             node
         });
         (node, known.is_none())
     }
 
-    /// Makes `state`, which has no parts, that of a node that is loaded.
-    pub(super) fn read<S: System<Part = P>>(&self, system: &S, node: usize, state: &mut S::State) -> bool {
-        self.code(node).map(|code| system.read(state, code)).is_some()
-    }
-
     /// Whether `state` is that of a node.
     pub(super) fn is_at<S: System<Part = P>>(&mut self, system: &S, state: &S::State, node: usize) -> bool {
-        self.take_apart(system, state, Places::MAX);
-        self.load(node..node + 1) && self.code(node) == Some(&self.made.bytes)
+        let queue = self.queue_of(system, state);
+        self.load(node..node + 1) && self.code(node) == Some(queue.first_code())
+    }
+
+    /// The number of `state`, if it is in memory.
+    pub(super) fn find<S: System<Part = P>>(&self, system: &S, state: &S::State) -> Option<u32> {
+        let mut queue = self.queue_of(system, state);
+        queue.look_up(self);
+        queue.found().next().flatten()
+    }
+
+    /// A queue with `state` alone.
+    fn queue_of<S: System<Part = P>>(&self, system: &S, state: &S::State) -> Queue<P> {
+        let mut queue = Queue::for_table(self);
+        queue.put((system, self), &Code::default(), state, Places::MAX);
+        queue
     }
 
     /// Whether states are kept in bytes of their own.
@@ -272,148 +227,16 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.places == 0
     }
 
-    /// The number of `state`, if it is in memory.
-    pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
-        self.take_apart(system, state, Places::MAX);
-        let Self { nodes, codes, made, on_disk, .. } = self;
-        nodes.find(made.hash, |node| codes.entry(node as usize - *on_disk) == made.bytes)
-    }
-
-    /// Makes `state` the one in the making.
-    fn take_apart<S: System<Part = P>>(&mut self, system: &S, state: &S::State, differing: Places) {
-        if self.len() == 0 {
-            self.places = system.places(state);
-            self.shown = Code::zero(self.places, self.width);
-        }
-        if self.places == 0 {
-            self.made.bytes.clear();
-            system.write(state, &mut self.made.bytes);
-            self.made.hash = hash_of(&self.made.bytes);
+    /// Writes all numbers with at least so many bytes.
+    fn widen(&mut self, width: usize) {
+        if width <= self.width {
             return;
         }
-        assert_eq!(system.places(state), self.places, "all states of a system have the same number of parts");
-        while self.parts.parts.len() + self.places > 1 << (8 * self.width) {
-            self.widen();
-        }
-        let Self { parts, places, width, shown, made, .. } = self;
-        made.set_to(shown);
-        let differs = |place: usize| place >= Places::BITS as usize || differing >> place & 1 == 1;
-        for place in (0..*places).filter(|&place| differs(place)) {
-            made.put(place, *width, parts.number(system.part(state, place)));
-        }
-        debug_assert!(
-            (0..*places).all(|place| {
-                let number = number(&made.bytes[place * *width..(place + 1) * *width]);
-                parts.parts[number as usize] == system.part(state, place)
-            }),
-            "it does differ"
-        );
-    }
-
-    /// Writes all numbers with a byte more.
-    fn widen(&mut self) {
-        let (mut codes, mut code) = (Codes::default(), Vec::new());
+        let mut codes = Codes::default();
         for node in 0..self.codes.length {
-            code.clear();
-            code.extend(widened(self.codes.entry(node), self.width));
-            codes.push(&code);
+            codes.push(&widened(self.codes.entry(node), self.width, width));
         }
-        self.codes = codes;
-        self.shown.bytes = widened(&self.shown.bytes, self.width).collect();
-        self.queue.bytes = widened(&self.queue.bytes, self.width).collect();
-        for state in &mut self.queue.states {
-            state.end += state.end / self.width;
-        }
-        self.width += 1;
-    }
-}
-
-/// The numbers of `code`, which are of `width` bytes, each with a byte more.
-fn widened(code: &[u8], width: usize) -> impl Iterator<Item = u8> {
-    code.chunks_exact(width).flat_map(|number| number.iter().copied().chain([0]))
-}
-
-fn number(bytes: &[u8]) -> u32 {
-    match *bytes {
-        [a] => u32::from(a),
-        [a, b] => u32::from_le_bytes([a, b, 0, 0]),
-        [a, b, c] => u32::from_le_bytes([a, b, c, 0]),
-        _ => bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte)),
-    }
-}
-
-/// The share of a place in the hash of a state, so that where one part changes, one share does (Zobrist 1970):
-/// splitmix64 (Steele, Lea and Flood 2014) of place and number.
-const fn hash_at(place: usize, number: u32) -> HashOfState {
-    let mixed = ((place as u64 + 1) << u32::BITS | number as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (mixed >> u32::BITS) as HashOfState
-}
-
-/// The hash of bytes.
-pub(super) fn hash_of(bytes: &[u8]) -> HashOfState {
-    let mut hasher = FxBuildHasher.build_hasher();
-    hasher.write(bytes);
-    folded(hasher.finish())
-}
-
-/// The bits of a hash that depend on all of it.
-const fn folded(hash: u64) -> HashOfState {
-    (hash.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> u32::BITS) as HashOfState
-}
-
-/// States that wait to be looked up.
-#[derive(Default)]
-pub(super) struct Queue {
-    /// Their codes, one after the other.
-    bytes: Vec<u8>,
-    states: Vec<Queued>,
-    /// How many were met, and where the code of the next one begins.
-    met: usize,
-    first: usize,
-}
-
-struct Queued {
-    hash: HashOfState,
-    /// Where its code ends.
-    end: usize,
-    /// Its number, if it is known.
-    node: Option<u32>,
-}
-
-impl Queue {
-    fn push(&mut self, code: &Code) {
-        self.bytes.extend_from_slice(&code.bytes);
-        self.states.push(Queued { hash: code.hash, end: self.bytes.len(), node: None });
-    }
-
-    /// Puts a state without parts into it.
-    pub(super) fn write<S: System>(&mut self, system: &S, state: &S::State) {
-        let first = self.bytes.len();
-        system.write(state, &mut self.bytes);
-        let hash = hash_of(&self.bytes[first..]);
-        self.states.push(Queued { hash, end: self.bytes.len(), node: None });
-    }
-
-    /// The numbers of the states, of those that were found.
-    pub(super) fn found(&self) -> impl Iterator<Item = Option<u32>> {
-        self.states.iter().map(|state| state.node)
-    }
-
-    /// The states that were not found, to be looked for on disk.
-    fn unknown(&mut self) -> impl Iterator<Item = Wanted<'_>> {
-        let (bytes, mut first) = (&self.bytes, 0);
-        let all = self.states.iter_mut().map(move |state| {
-            let code = &bytes[mem::replace(&mut first, state.end)..state.end];
-            Wanted { hash: state.hash, code, node: &mut state.node }
-        });
-        all.filter(|wanted| wanted.node.is_none())
-    }
-
-    /// The bytes that it takes while its states are looked for on disk.
-    pub(super) const fn bytes(&self) -> usize {
-        self.bytes.len() + self.states.len() * (size_of::<Queued>() + size_of::<Wanted<'_>>())
+        (self.codes, self.width) = (codes, width);
     }
 }
 
@@ -460,54 +283,90 @@ mod tests {
         }
     }
 
-    fn meet(known: &mut StateTable<u32>, state: &[u32; 3], differing: Places) -> (u32, bool) {
-        known.queue(&Triples, state, differing);
-        let mut queue = known.queued();
-        known.meet_next(&mut queue)
+    /// The table, and the state that is shown.
+    struct Known(StateTable<u32>, Shown<[u32; 3]>);
+
+    impl Known {
+        fn new() -> Self {
+            let table = StateTable { places: 3, ..StateTable::new() };
+            Self(table, Shown { state: [0; 3], code: Code::default() })
+        }
+
+        fn meet(&mut self, states: &[[u32; 3]], differing: Places) -> Vec<(u32, bool)> {
+            let Self(table, shown) = self;
+            let mut queue = Queue::for_table(table);
+            for state in states {
+                queue.put((&Triples, table), &shown.code, state, differing);
+            }
+            queue.look_up(table);
+            let count = queue.new_parts();
+            table.take_parts(&mut queue, count);
+            states.iter().map(|_| table.meet_next(&mut queue)).collect()
+        }
+
+        fn show(&mut self, node: u32) {
+            self.0.show(&Triples, node as usize, &mut self.1).expect("it is in memory");
+        }
     }
 
-    /// The second one needs numbers of two bytes.
+    /// The parts of the last one need numbers of two bytes.
     #[test]
     fn states_that_are_looked_up_together_are_met_in_their_order() {
-        let mut known = StateTable::new();
-        meet(&mut known, &[0, 0, 0], Places::MAX);
-        known.show_last();
-        let states = [[1, 2, 3], [4, 5, 6], [1, 2, 3], [0, 0, 0]];
-        for part in 7..260 {
-            known.parts.number(part);
+        let mut known = Known::new();
+        known.meet(&[[0, 0, 0]], Places::MAX);
+        let many: Vec<_> = (0..84).map(|state| [3 * state + 1, 3 * state + 2, 3 * state + 3]).collect();
+        known.meet(&many, Places::MAX);
+        let met =
+            known.meet(&[[1, 2, 3], [254, 0, 255], [254, 0, 255], [0, 0, 0], [256, 0, 257]], Places::MAX);
+        assert_eq!(known.0.width, 2);
+        assert_eq!(met, [(1, false), (85, true), (85, false), (0, false), (86, true)]);
+    }
+
+    /// The second queue was begun before the parts of the first one were taken, and has one of them.
+    #[test]
+    fn parts_that_two_queues_have_numbered_are_one() {
+        let Known(mut table, shown) = Known::new();
+        let mut queues = [[[1, 2, 3], [1, 2, 2]], [[4, 2, 1], [3, 2, 1]]].map(|states| {
+            let mut queue = Queue::for_table(&table);
+            for state in &states {
+                queue.put((&Triples, &table), &shown.code, state, Places::MAX);
+            }
+            queue.look_up(&table);
+            queue
+        });
+        for queue in &mut queues {
+            let count = queue.new_parts();
+            table.take_parts(queue, count);
+            let met = [(); 2].map(|()| table.meet_next(queue).1);
+            assert_eq!(met, [true, true]);
         }
-        for state in states {
-            known.queue(&Triples, &state, Places::MAX);
-        }
-        let mut queue = known.queued();
-        let met = states.map(|_| known.meet_next(&mut queue));
-        assert_eq!(known.width, 2);
-        assert_eq!(met, [(1, true), (2, true), (1, false), (0, false)]);
+        assert_eq!(table.parts.parts, [1, 2, 3, 4]);
+        let known =
+            [[1, 2, 3], [1, 2, 2], [4, 2, 1], [3, 2, 1], [2, 2, 2]].map(|state| table.find(&Triples, &state));
+        assert_eq!(known, [Some(0), Some(1), Some(2), Some(3), None]);
     }
 
     /// More parts than one and two bytes can number; each state shares one part with the one before.
     #[test]
     fn states_stay_apart_and_come_back_when_their_numbers_grow() {
         const STATES: u32 = 70_000;
-        let mut known = StateTable::new();
+        let mut known = Known::new();
         let parts = |state: u32| [state, state + 1, 7];
         for state in 0..STATES {
-            let differing = if state == 0 { Places::MAX } else { 0b011 };
-            assert_eq!(meet(&mut known, &parts(state), differing), (state, true));
-            known.show_last();
+            assert_eq!(known.meet(&[parts(state)], 0b011), [(state, true)]);
+            known.show(state);
         }
-        assert_eq!(known.width, 3);
-        let mut shown = parts(STATES - 1);
+        assert_eq!(known.0.width, 3);
         for state in (0..STATES).step_by(97) {
-            known.show(&Triples, state as usize, &mut shown);
-            assert_eq!(shown, parts(state));
-            assert_eq!(meet(&mut known, &parts(state + 1), 0b011), (state + 1, false));
-            assert_eq!(meet(&mut known, &[state, 7, 7], 0b010), (known.len() as u32 - 1, true));
+            known.show(state);
+            assert_eq!(known.1.state, parts(state));
+            assert_eq!(known.meet(&[parts(state + 1)], 0b011), [(state + 1, false)]);
+            assert_eq!(known.meet(&[[state, 7, 7]], 0b010), [(known.0.len() as u32 - 1, true)]);
         }
-        assert_eq!(known.find(&Triples, &[1, 1, 7]), None);
+        assert_eq!(known.0.find(&Triples, &[1, 1, 7]), None);
         // The part that both share is not put.
-        shown[2] = 0;
-        known.show(&Triples, 5, &mut shown);
-        assert_eq!(shown, [5, 6, 0]);
+        known.1.state[2] = 0;
+        known.show(5);
+        assert_eq!(known.1.state, [5, 6, 0]);
     }
 }

@@ -1,4 +1,4 @@
-//! How far a search over states may go. Searches that run beside each other share the memory that they may take: small
+//! How far a search over states may go, and on how many threads. Searches that run beside each other share the memory that they may take: small
 //! ones take it as they come, and of those that grow only one at a time is large. What one search may take does not
 //! depend on how many there are, so neither does what it finds. A large search for which memory does not suffice goes on
 //! in a folder ([`Spill`]), if there is one.
@@ -15,6 +15,8 @@ pub struct Limits<'a> {
     pub most_steps: u64,
     /// The memory that it may take.
     pub room: Room<'a>,
+    /// The threads that it takes, of which nothing depends that it finds; as many as are idle, unless it is said.
+    pub workers: Option<usize>,
 }
 
 impl Limits<'static> {
@@ -23,7 +25,7 @@ impl Limits<'static> {
 
     /// At most so many steps, in any memory.
     pub const fn steps(most_steps: u64) -> Self {
-        Self { most_steps, room: MemoryLimit::any() }
+        Self { most_steps, room: MemoryLimit::any(), workers: None }
     }
 }
 

@@ -4,14 +4,16 @@
 use std::ops::{ControlFlow, Range};
 use std::{io, iter, mem};
 
+use super::code::Code;
 use super::graph::{Arc, Graph};
-use super::known::{Queue, StateTable};
+use super::known::{Shown, StateTable};
 use super::limits::{Limits, MemoryShare, Room};
+use super::queue::Queue;
 use super::rounds::{Round, TooLarge};
 use super::spill::{Disk, Numbers};
-use super::together::{self, Chunk};
+use super::together::{self, Chunk, Expanded};
 use super::{Bits, END, Ending, Findings, Places, Run, System, TRIED, steps};
-use crate::engine::world::World;
+use crate::engine::threads;
 
 /// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
 pub fn search<S: System>(
@@ -57,18 +59,9 @@ enum How {
     Round(Vec<u32>),
 }
 
-/// A way to make the steps from many nodes by several workers; the state is any.
-type ShareOut<S> = fn(
-    (&S, &StateTable<<S as System>::Part>),
-    &<S as World>::State,
-    Range<usize>,
-    usize,
-) -> Vec<Chunk<<S as World>::Demand>>;
-
 pub(super) struct Search<'a, S: System> {
     pub(super) system: &'a S,
-    /// How many workers there are, and how they share the steps.
-    pub(super) share_out: Option<(usize, ShareOut<S>)>,
+    workers: Option<usize>,
     pub(super) known: StateTable<S::Part>,
     pub(super) graph: Graph,
     /// Starts that were met.
@@ -77,8 +70,7 @@ pub(super) struct Search<'a, S: System> {
     steps: u64,
     /// The bytes of steps that are made and not taken yet, where states are on disk.
     making: u64,
-    /// The state that is shown: of the next one only what differs is put.
-    pub(super) shown: Option<Box<S::State>>,
+    pub(super) shown: Option<Box<Shown<S::State>>>,
     room: Room<'a>,
     taken: MemoryShare<'a>,
     /// The situations that occurred, a bit for each.
@@ -94,7 +86,7 @@ impl<'a, S: System> Search<'a, S> {
     pub(super) fn new(system: &'a S, limits: Limits<'a>) -> Self {
         Self {
             system,
-            share_out: None,
+            workers: limits.workers,
             known: StateTable::new(),
             graph: Graph::new(system.broken_by_endless_runs().is_some()),
             begun: 0,
@@ -119,6 +111,7 @@ impl<'a, S: System> Search<'a, S> {
     ) -> Findings<S::Demand> {
         let mut starts = starts.peekable();
         if let Some(first) = starts.peek() {
+            self.known.places = self.system.places(first);
             self.take_up(first);
         }
         let mut stop = self.meet_starts(starts.skip(self.begun as usize)).break_value();
@@ -159,22 +152,23 @@ impl<'a, S: System> Search<'a, S> {
             if !self.taken.hold(self.bytes() + 2 * most) {
                 self.spill()?;
             }
-            let mut queued = 0;
-            while queued < BETWEEN || self.known.queued_bytes() < most {
+            let (mut queue, mut queued) = (Queue::for_table(&self.known), 0);
+            while queued < BETWEEN || (queue.bytes() as u64) < most {
                 let Some(mut state) = starts.next() else { break };
                 self.system.make_canonical(&mut state);
-                self.known.queue(self.system, &state, Places::MAX);
-                self.shown = Some(Box::new(state));
+                queue.put((self.system, &self.known), &Code::default(), &state, Places::MAX);
+                self.shown = Some(Box::new(Shown { state, code: Code::default() }));
                 queued += 1;
             }
             if queued == 0 {
                 return ControlFlow::Continue(());
             }
-            self.known.show_last();
-            let mut queue = self.known.queued();
+            queue.look_up(&self.known);
             if !self.known.look_up_on_disk(iter::once(&mut queue), self.workers()) {
                 return ControlFlow::Break(Stop::Unfinished);
             }
+            let new_parts = queue.new_parts();
+            self.known.take_parts(&mut queue, new_parts);
             for _ in 0..queued {
                 if self.known.meet_next(&mut queue).1 {
                     self.graph.add_start(self.begun);
@@ -185,13 +179,14 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     fn workers(&self) -> usize {
-        self.share_out.map_or(1, |(workers, _)| workers)
+        self.workers.unwrap_or_else(|| 1 + threads::idle())
     }
 
-    /// The state of a node. It is to be given back as what is shown.
-    pub(super) fn state(&mut self, node: usize) -> Option<Box<S::State>> {
-        let mut state = self.shown.take()?;
-        self.known.show(self.system, node, &mut state).then_some(state)
+    /// The state of a node, to be given back as what is shown.
+    pub(super) fn show(&mut self, node: usize) -> Option<Box<Shown<S::State>>> {
+        let mut shown = self.shown.take()?;
+        self.known.show(self.system, node, &mut shown)?;
+        Some(shown)
     }
 
     /// Makes all steps from all nodes.
@@ -214,15 +209,16 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     /// The steps from the next nodes: if states are on disk, from as many as there is memory for.
-    fn make_steps(&mut self) -> ControlFlow<Stop, Vec<Chunk<S::Demand>>> {
+    fn make_steps(&mut self) -> ControlFlow<Stop, Vec<Chunk<S>>> {
         if self.known.fault().is_some() {
             return ControlFlow::Break(Stop::Unfinished);
         }
         let (mut chunks, mut next) = (Vec::new(), self.looked_at);
         self.making = 0;
         loop {
-            let nodes = next..self.known.len().min(next + self.at_once(next));
-            let made = self.make_steps_from(nodes.clone())?;
+            let workers = self.workers();
+            let nodes = next..self.known.len().min(next + self.at_once(next, workers));
+            let made = self.make_steps_from(nodes.clone(), workers)?;
             next += made.iter().map(|chunk| chunk.nodes.len()).sum::<usize>();
             if self.known.disk.is_none() {
                 return ControlFlow::Continue(made);
@@ -244,32 +240,27 @@ impl<'a, S: System> Search<'a, S> {
         ControlFlow::Continue(chunks)
     }
 
-    /// The number of nodes from this one on whose steps are made at once.
-    fn at_once(&self, next: usize) -> usize {
+    /// The number of nodes from this one on whose steps so many workers make at once.
+    fn at_once(&self, next: usize, workers: usize) -> usize {
+        if workers == 1 || self.known.len() - next < together::FEWEST {
+            return BETWEEN;
+        }
         // They take a quarter of the memory for steps, if those from one state take 1 KiB.
         let most = if self.known.disk.is_some() { self.for_steps() >> 12 } else { u64::MAX };
-        match self.share_out {
-            Some(_) if self.known.is_bytes() && self.known.len() - next >= together::FEWEST => {
-                (together::MOST as u64).min(most.max(BETWEEN as u64)) as usize
-            }
-            _ => BETWEEN,
-        }
+        (together::MOST as u64).min(most.max(BETWEEN as u64)) as usize
     }
 
-    fn make_steps_from(&mut self, nodes: Range<usize>) -> ControlFlow<Stop, Vec<Chunk<S::Demand>>> {
-        let Some(mut state) = self.shown.take().filter(|_| self.known.load(nodes.clone())) else {
+    fn make_steps_from(&mut self, nodes: Range<usize>, workers: usize) -> ControlFlow<Stop, Vec<Chunk<S>>> {
+        let Some(mut shown) = self.shown.take().filter(|_| self.known.load(nodes.clone())) else {
             return ControlFlow::Break(Stop::Unfinished);
         };
-        let chunks = match self.share_out {
-            Some((workers, share_out)) if nodes.len() >= together::FEWEST => {
-                share_out((self.system, &self.known), &state, nodes, workers)
-            }
-            _ => {
-                let chunk = together::chunk(self.system, &mut self.known, nodes, &mut state);
-                vec![Chunk { queue: self.known.queued(), ..chunk }]
-            }
+        let of = (self.system, &self.known);
+        let chunks = if workers > 1 && nodes.len() >= together::FEWEST {
+            together::share_out(of, &shown, nodes, workers)
+        } else {
+            vec![together::chunk(of, nodes, &mut shown)]
         };
-        self.shown = Some(state);
+        self.shown = Some(shown);
         ControlFlow::Continue(chunks)
     }
 
@@ -342,7 +333,7 @@ impl<'a, S: System> Search<'a, S> {
         let mut state = start.clone();
         self.system.make_canonical(&mut state);
         let is_first = self.known.is_at(self.system, &state, 0);
-        self.shown = Some(Box::new(state));
+        self.shown = Some(Box::new(Shown { state, code: Code::default() }));
         let ends = [0..self.looked_at.min(TRIED), self.looked_at.saturating_sub(TRIED)..self.looked_at];
         is_first && ends.into_iter().all(|nodes| self.finds_again(nodes))
     }
@@ -351,7 +342,7 @@ impl<'a, S: System> Search<'a, S> {
     /// their order, and to others that were found before.
     fn finds_again(&mut self, nodes: Range<usize>) -> bool {
         let mut found = self.graph.found_from(&nodes);
-        let ControlFlow::Continue(mut chunks) = self.make_steps_from(nodes) else { return false };
+        let ControlFlow::Continue(mut chunks) = self.make_steps_from(nodes, 1) else { return false };
         if !self.known.look_up_on_disk(chunks.iter_mut().map(|chunk| &mut chunk.queue), self.workers()) {
             return false;
         }
@@ -380,14 +371,15 @@ impl<'a, S: System> Search<'a, S> {
     /// Takes the steps from the next nodes, which a worker has made.
     fn take(
         &mut self,
-        chunk: Chunk<S::Demand>,
+        chunk: Chunk<S>,
         most_steps: u64,
         watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> ControlFlow<Stop> {
         let Chunk { mut queue, steps, nodes } = chunk;
         let mut steps = steps.into_iter();
-        for (count, owed, at_end) in nodes {
+        for Expanded { steps: count, new_parts, owed, at_end } in nodes {
             self.may_go_on(watch)?;
+            self.known.take_parts(&mut queue, new_parts);
             let node = self.looked_at;
             self.looked_at += 1;
             self.graph.go_on(|| owed);
@@ -411,7 +403,7 @@ impl<'a, S: System> Search<'a, S> {
         &mut self,
         node: usize,
         most_steps: u64,
-        queue: &mut Queue,
+        queue: &mut Queue<S::Part>,
         (occurs, acting): (u64, Option<Bits>),
     ) -> ControlFlow<Stop> {
         if self.steps == most_steps || self.graph.is_full() {
@@ -458,13 +450,13 @@ impl<'a, S: System> Search<'a, S> {
         let (start, way) = self.graph.way(node);
         let mut numbers = Vec::new();
         for pair in way.windows(2) {
-            let Some(state) = self.state(pair[0]) else { break };
-            let number = steps(self.system, &state).position(|mut step| {
+            let Some(shown) = self.show(pair[0]) else { break };
+            let number = steps(self.system, &shown.state).position(|mut step| {
                 self.system.make_canonical(&mut step.state);
                 self.known.is_at(self.system, &step.state, pair[1])
             });
             numbers.extend(number.map(|number| number as u32));
-            self.shown = Some(state);
+            self.shown = Some(shown);
         }
         (start, numbers)
     }
@@ -473,12 +465,12 @@ impl<'a, S: System> Search<'a, S> {
     fn numbers(&mut self, mut node: usize, round: &[u32]) -> Vec<u32> {
         let mut numbers = Vec::new();
         for &bound in round {
-            let (Some(state), Some(arc)) = (self.state(node), self.graph.arc(node, bound)) else { break };
-            let numbered = (0..).zip(steps(self.system, &state));
+            let (Some(shown), Some(arc)) = (self.show(node), self.graph.arc(node, bound)) else { break };
+            let numbered = (0..).zip(steps(self.system, &shown.state));
             let mut bound_ones = numbered.filter(|(_, step)| step.is_bound).map(|(number, _)| number);
             numbers.extend(bound_ones.nth(bound as usize));
             drop(bound_ones);
-            self.shown = Some(state);
+            self.shown = Some(shown);
             node = arc.to as usize;
         }
         numbers
@@ -509,11 +501,12 @@ impl<'a, S: System> Search<'a, S> {
         let bytes = self.bytes();
         let Self { system, known, graph, shown, taken, .. } = self;
         taken.hold(bytes);
-        let mut awake = |node: usize| -> Bits {
-            let Some(state) = shown else { return 0 };
-            if known.show(*system, node, state) { system.awake(state) } else { 0 }
+        let mut awake = |node: usize| {
+            let shown = shown.as_mut()?;
+            known.show(*system, node, shown)?;
+            Some(system.awake(&shown.state))
         };
-        graph.first_round(&mut awake, taken)
+        graph.first_round(&mut |node| awake(node).unwrap_or_default(), taken)
     }
 }
 

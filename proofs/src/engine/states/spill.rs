@@ -290,7 +290,7 @@ impl Disk {
             segments.iter().find_map(failed)
         };
         let each = wanted.len().div_ceil(workers).max(1);
-        let failed = threads::each_in_its_own(wanted.chunks_mut(each).map(|part| move || sweep(part)));
+        let failed = threads::each_by(workers, wanted.chunks_mut(each), sweep);
         if let Some((path, error)) = failed.into_iter().flatten().next() {
             self.fails(path, SpillFault::of_reading(&error));
         }

@@ -1,6 +1,6 @@
 //! Tables that a search keeps its states in: things in the order in which they came, and numbers by hashes.
 
-use super::known::HashOfState;
+use super::code::HashOfState;
 
 /// Things in the order in which they came, in pieces, so that none is ever moved.
 pub(super) struct Pile<T> {

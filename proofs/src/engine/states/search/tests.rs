@@ -4,7 +4,7 @@ use tautline_kernel::choice::Oracle;
 
 use super::super::{Bits, MemoryLimit};
 use super::*;
-use crate::engine::world::Turn;
+use crate::engine::world::{Turn, World};
 
 /// An arc of a graph that one can look at: where it leads, and who acts.
 type SketchArc = (usize, Bits);
@@ -245,4 +245,73 @@ fn the_steps_of_a_round_are_numbered_among_all_steps() {
     const FAULTY: &[&[SketchArc]] = &[&[(2, 0), (1, 1)], &[(2, 0), (2, 0), (0, 1)], &[]];
     let round = broken(&Graphic { arcs: FAULTY, owing: &[0, 1], ..GRAPH });
     assert_eq!(round.map(|run| run.ending), Some(Ending::Round(vec![1, 2])));
+}
+
+/// A binary tree in an array. One part of a node is its own, others are those of many, and from each leaf a step leads
+/// back to the middle.
+struct Heap {
+    nodes: u32,
+    forbidden: u32,
+    is_enough: bool,
+}
+
+impl World for Heap {
+    type State = [u32; 3];
+    type Plan = [u32; 2];
+    type Event = ();
+    type Demand = &'static str;
+
+    fn plan(&self, &mut [node, ..]: &mut [u32; 3], _: &[u8]) -> Option<[u32; 2]> {
+        Some([1, 2].map(|child| (2 * node + child) % self.nodes))
+    }
+
+    fn settle(&self, state: &mut [u32; 3], children: &[u32; 2], _: &mut Vec<u8>, world: &mut impl Oracle) {
+        let node = children[world.pick(2) as usize];
+        *state = [node, self.nodes + node % 5_000, node % 7];
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        if turn.after[0] == self.forbidden { vec![STEP] } else { Vec::new() }
+    }
+}
+
+impl System for Heap {
+    type Part = u32;
+
+    fn places(&self, _: &[u32; 3]) -> usize {
+        3
+    }
+
+    fn part(&self, state: &[u32; 3], place: usize) -> u32 {
+        state[place]
+    }
+
+    fn differing(&self, from: &[u32; 3], to: &[u32; 3]) -> Places {
+        super::super::places(from.iter().zip(to).map(|(from, to)| from != to))
+    }
+
+    fn put(&self, state: &mut [u32; 3], place: usize, &part: &u32) {
+        state[place] = part;
+    }
+
+    fn is_enough(&self, _: &'static str) -> bool {
+        self.is_enough
+    }
+}
+
+/// Workers number the same new parts each for itself, and more of them than one and two bytes can number.
+#[test]
+fn any_number_of_workers_finds_the_same_in_the_same_memory() {
+    const ALL: u64 = u64::MAX;
+    let cases = [(50_000, false, ALL, 80_000), (50_000, true, ALL, 50_001), (99, false, 60_001, 60_002)];
+    for (forbidden, is_enough, most_steps, states) in cases {
+        let heap = Heap { nodes: 80_000, forbidden, is_enough };
+        let by = |workers| {
+            let limits = Limits { workers: Some(workers), ..Limits::steps(most_steps) };
+            search(&heap, [[0, heap.nodes, 0]], limits)
+        };
+        let alone = by(1);
+        assert_eq!((alone.states, alone.broken.len()), (states, 1));
+        assert!([2, 3, 8].into_iter().all(|workers| by(workers) == alone), "{alone:?}");
+    }
 }

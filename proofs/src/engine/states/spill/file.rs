@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use tautline_certificates::{put, take};
 
-use super::super::known::{HashOfState, hash_of};
+use super::super::code::{HashOfState, hash_of};
 use super::super::tables::Codes;
 
 /// How each file begins.
