@@ -36,10 +36,10 @@ struct Solver<'a, const ROBOTS: usize> {
     team: &'a [Cell],
     wishes: &'a [Wish; ROBOTS],
     apart: Apart,
-    /// The steps of each robot that its present neighbours, walls and full cells leave.
+    /// The steps of each robot that its present neighbours, walls and full cells leave, and then also the robots behind it.
     left: [Steps; ROBOTS],
-    /// By robot and place of its step: the least that it and all behind it cost.
-    least: [[Option<i32>; Step::ALL.len()]; ROBOTS],
+    /// By robot and place of a step that is left: the least that it and all behind it cost.
+    least: [[i32; Step::ALL.len()]; ROBOTS],
 }
 
 /// The steps of the robots in `team`, base first, that `rule` admits and that cost least by `wishes` and `apart`; `None` if
@@ -53,19 +53,18 @@ pub(super) fn solve<G: Grid, const ROBOTS: usize>(
     apart: Apart,
 ) -> Option<[Step; ROBOTS]> {
     let left = [Steps::only(Step::Stay); ROBOTS];
-    let mut solver = Solver { rule, team, wishes, apart, left, least: [[None; Step::ALL.len()]; ROBOTS] };
+    let mut solver = Solver { rule, team, wishes, apart, left, least: [[0; Step::ALL.len()]; ROBOTS] };
     mark_occupied(grid, team);
-    solver.leave(grid);
+    let is_left = solver.leave(grid);
     unmark_occupied(grid, team);
-    solver.cost();
-    solver.choose(grid)
+    if is_left && solver.cost() { solver.choose(grid) } else { None }
 }
 
 impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
-    /// Leaves the steps that nobody else's steps matter to.
-    fn leave(&mut self, grid: &impl Grid) {
+    /// Leaves the steps that nobody else's steps matter to; false if a robot has none.
+    fn leave(&mut self, grid: &impl Grid) -> bool {
         let leader = self.team.len() - 1;
-        for robot in 1..=leader {
+        (1..=leader).all(|robot| {
             let (at, behind) = (self.team[robot], self.team[robot - 1]);
             let role = if robot == leader { Role::Leader } else { Role::Follower };
             let mut steps = self.rule.steps_behind(at, behind);
@@ -74,7 +73,8 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
             }
             steps = steps.and(self.wishes[robot].steps).minus(grid.sides(EdgeMark::Wall, at));
             self.left[robot] = self.rule.may_enter(grid, role, at, steps);
-        }
+            !self.left[robot].is_empty()
+        })
     }
 
     /// The steps of the robot behind `robot` that agree with its `step`.
@@ -90,24 +90,27 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         }
     }
 
-    /// The cost of `step` of the robot behind `robot`, and of all behind it, if `robot` does its `own`.
-    fn behind(&self, robot: usize, own: Step, step: Step) -> Option<i32> {
-        let at = self.team[robot - 1];
-        let together = neighbouring_steps(self.team[robot].after(own), at).has(step);
-        let apart = if together { 0 } else { self.apart.0 };
-        self.least[robot - 1][step.place()].map(|least| least + apart)
+    /// The cost of a step of the robot behind `robot`, and of all behind it, if `robot` does its `own`.
+    fn behind(&self, robot: usize, own: Step) -> impl Fn(Step) -> i32 {
+        let together = neighbouring_steps(self.team[robot].after(own), self.team[robot - 1]);
+        let (least, apart) = (self.least[robot - 1], self.apart.0);
+        move |step| least[step.place()] + if together.has(step) { 0 } else { apart }
     }
 
-    fn cost(&mut self) {
-        self.least[0][Step::Stay.place()] = Some(0);
-        for robot in 1..self.team.len() {
+    /// Finds the least costs, and leaves the steps that have one; false if a robot has none.
+    fn cost(&mut self) -> bool {
+        (1..self.team.len()).all(|robot| {
             for step in self.left[robot].iter() {
-                let agreeing = self.agreeing(robot, step).iter();
-                let least = agreeing.filter_map(|behind| self.behind(robot, step, behind)).min();
-                self.least[robot][step.place()] =
-                    least.map(|least| least + self.wishes[robot].cost[step.place()]);
+                let least = self.agreeing(robot, step).iter().map(self.behind(robot, step)).min();
+                match least {
+                    Some(least) => {
+                        self.least[robot][step.place()] = least + self.wishes[robot].cost[step.place()];
+                    }
+                    None => self.left[robot] = self.left[robot].without(step),
+                }
             }
-        }
+            !self.left[robot].is_empty()
+        })
     }
 
     /// The cheapest steps from the leader backwards, each with a planned cell of its own.
@@ -130,11 +133,10 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
                 if robot == leader {
                     self.least[leader][step.place()]
                 } else {
-                    self.behind(robot + 1, steps[robot + 1], step)
+                    self.behind(robot + 1, steps[robot + 1])(step)
                 }
             };
-            let costs = fit.iter().filter_map(|step| cost(step).map(|cost| (cost, step.place(), step)));
-            if let Some((_, _, step)) = costs.min_by_key(|&(cost, place, _)| (cost, place)) {
+            if let Some(step) = fit.iter().min_by_key(|&step| cost(step)) {
                 left -= 1;
                 tried[robot] = tried[robot].with(step);
                 steps[robot] = step;

@@ -303,7 +303,7 @@ impl<P: Plane> Grid for BitGrid<P> {
             let found = ring.and(&unexplored);
             if last.is_none_or(|(last, _)| distance >= last) && found != P::NONE {
                 let is_in = |cell| self.area.locate(cell).is_some_and(|(column, row)| found.has(column, row));
-                let mut cells = self.area.cells();
+                let mut cells = self.area.around(from, distance as u16)?.cells();
                 if let Some(cell) = cells.find(|&cell| is_in(cell) && is_behind(distance, cell)) {
                     return Some((distance, cell));
                 }

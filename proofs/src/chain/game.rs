@@ -152,7 +152,8 @@ where
     }
 
     fn longest_run(&self) -> u32 {
-        MOVES_OF_A_CELL * self.start.grid().area().cells().count() as u32
+        let area = self.start.grid().area();
+        MOVES_OF_A_CELL * (area.width() * area.height()) as u32
     }
 
     fn start(&self) -> Self::State {
