@@ -259,7 +259,16 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// Whether `robot` waits for its slot.
     fn waits(&self, world: &World<ROBOTS>, robot: usize) -> bool {
-        world.robots[robot].waits() && matches!(self.would(world, robot), Next::Tries { .. })
+        let would = || {
+            if self.rule.has(Condition::Route) && self.rule.has(Condition::Lapse) {
+                // What the others have told decides where it would go, and not whether.
+                let alone = View { others: &[], slot: Slot::Own };
+                super::next::<ROBOTS>(&world.robots[robot], &self.rule, alone, &mut Tape(&[]))
+            } else {
+                self.would(world, robot)
+            }
+        };
+        world.robots[robot].waits() && matches!(would(), Next::Tries { .. })
     }
 
     fn does_any_wait(&self, world: &World<ROBOTS>) -> bool {
