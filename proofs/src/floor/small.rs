@@ -209,16 +209,16 @@ pub(crate) struct Misses<'a, W> {
     world: &'a mut W,
     count: &'a mut u8,
     most: u8,
-    /// How many questions were asked.
+    /// How many questions were asked, at most 32.
     pub(crate) asked: u32,
-    /// The numbers of the questions that were answered yes, counted from 1.
-    pub(crate) missed: Vec<u32>,
+    /// The questions that were answered yes: a bit for each, the first lowest.
+    pub(crate) missed: u32,
 }
 
 impl<'a, W> Misses<'a, W> {
     /// Nothing was asked of `world`; `count` of `most` sensors are missed.
     pub(crate) const fn new(world: &'a mut W, count: &'a mut u8, most: u8) -> Self {
-        Self { world, count, most, asked: 0, missed: Vec::new() }
+        Self { world, count, most, asked: 0, missed: 0 }
     }
 }
 
@@ -228,10 +228,10 @@ impl<W: Oracle> Oracle for Misses<'_, W> {
     }
 
     fn mishap(&mut self) -> bool {
-        self.asked += 1;
         let is_missed = *self.count < self.most && self.world.flip();
         *self.count += u8::from(is_missed);
-        self.missed.extend(is_missed.then_some(self.asked));
+        self.missed |= u32::from(is_missed) << self.asked;
+        self.asked += 1;
         is_missed
     }
 }

@@ -6,10 +6,10 @@ use std::fmt;
 use std::slice;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::Mark;
+use tautline_kernel::floor::{Mark, Ring, Scan};
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::crew::{BodyOf, Scheme, SensorData, Sight, View, unseen};
+use super::crew::{BodyOf, Scheme, SensorData, Sight, View};
 use super::plans::{Area, FloorPlan};
 use super::series::{Conditions, Given};
 use super::small::{Misses, PartOf, Small, StateOf};
@@ -145,8 +145,8 @@ pub(crate) struct Action {
     pub(crate) agent: usize,
     /// Where it goes.
     step: Step,
-    /// The cells of the sensors that it misses.
-    unseen: Vec<Cell>,
+    /// The cells around that read as unexplored to it, if it misses sensors.
+    unread: Ring,
     /// Whether it fails instead of acting.
     fails: bool,
     /// The words of the demand that its decision breaks.
@@ -299,7 +299,11 @@ impl<S: Demands> Team<S> {
     pub(crate) fn course(&self, mut state: StateOf<S>, run: &Run<&str>) -> Course {
         let mut turns = Vec::new();
         for (before, made) in run.played(self, state.clone()) {
-            let Action { agent, step, unseen, .. } = made.event;
+            let Action { agent, step, unread, .. } = made.event;
+            let place = |cell| self.plan.place(cell);
+            let mark = |cell| place(cell).map_or(Mark::Unexplored, |place| before.sensors.all[place].mark());
+            let scan = Scan { unexplored: unread, ..Scan::default() };
+            let unseen = scan.misread(mark, before.bodies[agent].cell).collect();
             let is_done = !made.state.bodies[agent].is_awake();
             turns.push(Turn { before: self.scene(&before), agent, step, is_done, unseen });
             state = made.state;
@@ -352,7 +356,7 @@ impl<S: Demands> World for Team<S> {
         world: &mut impl Oracle,
     ) -> Action {
         let (agent, fails) = picked(ready, world);
-        let mut action = Action { agent, step: Step::Stay, unseen: Vec::new(), fails, breaks: None };
+        let mut action = Action { agent, step: Step::Stay, unread: Ring::default(), fails, breaks: None };
         if let Some(most) = self.series.max_streak {
             let again = if state.streak.0 == agent as u8 { state.streak.1 } else { 0 };
             state.streak = (agent as u8, most.min(again + 1));
@@ -372,8 +376,8 @@ impl<S: Demands> World for Team<S> {
             floor.dark = self.dark & !self.plan.place(body.cell).map_or(0, |place| 1 << place);
             let view = S::Sensor::look(&floor, body.cell, &mut world);
             floor.dark = 0;
-            if !world.missed.is_empty() || self.dark != 0 {
-                action.unseen = unseen(&floor, &view, body.cell).collect();
+            if world.missed != 0 || self.dark != 0 {
+                action.unread = S::Sensor::scan(&view).unexplored;
             }
             let act = self.scheme.decide(&mut body.memory, &view);
             action.breaks = self.own().iter().find_map(|&own| S::broken_by_act(own, &view, &act));

@@ -209,8 +209,8 @@ struct TeamMove {
     is_early: bool,
     /// How many questions were asked in it.
     asked: u32,
-    /// The numbers of those that were answered yes, counted from 1.
-    missed: Vec<u32>,
+    /// Those that were answered yes: a bit for each, the first lowest.
+    missed: u32,
 }
 
 impl<S: Scheme> Floors<S> {
@@ -273,8 +273,10 @@ impl<S: Scheme> Floors<S> {
         let starts = starts[run.start].clone();
         let (mut asked, mut missed) = (0, Vec::new());
         for (_, made) in run.played(self, self.start(&starts)).take(run.steps.len()) {
-            missed.extend(made.event.missed.iter().map(|question| asked + question));
-            asked += made.event.asked;
+            let made = made.event;
+            let is_missed = |question: &u32| made.missed >> question & 1 == 1;
+            missed.extend((0..made.asked).filter(is_missed).map(|question| asked + question + 1));
+            asked += made.asked;
         }
         let area = (0..self.plan.width * self.plan.height).map(|place| self.plan.cell(place as usize));
         Trap {
