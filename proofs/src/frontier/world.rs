@@ -259,16 +259,22 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// Whether `robot` waits for its slot.
     fn waits(&self, world: &World<ROBOTS>, robot: usize) -> bool {
-        let would = || {
-            if self.rule.has(Condition::Route) && self.rule.has(Condition::Lapse) {
-                // What the others have told decides where it would go, and not whether.
-                let alone = View { others: &[], slot: Slot::Own };
-                super::next::<ROBOTS>(&world.robots[robot], &self.rule, alone, &mut Tape(&[]))
-            } else {
-                self.would(world, robot)
-            }
-        };
-        world.robots[robot].waits() && matches!(would(), Next::Tries { .. })
+        let tries = |next| matches!(next, Next::Tries { .. });
+        if !world.robots[robot].waits() {
+            return false;
+        }
+        if !self.rule.has(Condition::Route) || !self.rule.has(Condition::Lapse) {
+            return tries(self.would(world, robot));
+        }
+        // What the others have told decides where it would go, and not whether.
+        let alone = View { others: &[], slot: Slot::Own };
+        let does_try = tries(super::next::<ROBOTS>(&world.robots[robot], &self.rule, alone, &mut Tape(&[])));
+        debug_assert_eq!(
+            does_try,
+            tries(self.would(world, robot)),
+            "it is not the others who keep it from trying"
+        );
+        does_try
     }
 
     fn does_any_wait(&self, world: &World<ROBOTS>) -> bool {

@@ -42,19 +42,36 @@ struct Queued {
 }
 
 impl<P: Clone + Eq + Hash> Queue<P> {
-    /// An empty one.
-    pub(super) fn for_table(table: &StateTable<P>) -> Self {
+    /// An empty one, for no table yet.
+    pub(super) fn new() -> Self {
         Self {
             bytes: Vec::new(),
             states: Vec::new(),
             met: 0,
             first: 0,
-            places: table.places,
-            had: table.parts.parts.len(),
+            places: 0,
+            had: 0,
             new: Parts::new(),
             numbers: Vec::new(),
             is_renumbered: false,
             made: Code::default(),
+        }
+    }
+
+    /// An empty one.
+    pub(super) fn for_table(table: &StateTable<P>) -> Self {
+        let mut queue = Self::new();
+        queue.begin(table);
+        queue
+    }
+
+    /// Makes it an empty one for this table.
+    pub(super) fn begin(&mut self, table: &StateTable<P>) {
+        (self.bytes.clear(), self.states.clear(), self.numbers.clear());
+        (self.met, self.first, self.is_renumbered) = (0, 0, false);
+        (self.places, self.had) = (table.places, table.parts.parts.len());
+        if self.new_parts() > 0 {
+            self.new = Parts::new();
         }
     }
 

@@ -71,6 +71,8 @@ pub(super) struct Search<'a, S: System> {
     /// The bytes of steps that are made and not taken yet, where states are on disk.
     making: u64,
     pub(super) shown: Option<Box<Shown<S::State>>>,
+    /// A chunk that was taken.
+    spare: Chunk<S>,
     room: Room<'a>,
     taken: MemoryShare<'a>,
     /// The situations that occurred, a bit for each.
@@ -94,6 +96,7 @@ impl<'a, S: System> Search<'a, S> {
             steps: 0,
             making: 0,
             shown: None,
+            spare: Chunk::new(),
             room: limits.room,
             taken: MemoryShare::new(limits.room),
             occurred: 0,
@@ -258,7 +261,9 @@ impl<'a, S: System> Search<'a, S> {
         let chunks = if workers > 1 && nodes.len() >= together::FEWEST {
             together::share_out(of, &shown, nodes, workers)
         } else {
-            vec![together::chunk(of, nodes, &mut shown)]
+            let mut chunk = mem::replace(&mut self.spare, Chunk::new());
+            chunk.fill(of, nodes, &mut shown);
+            vec![chunk]
         };
         self.shown = Some(shown);
         ControlFlow::Continue(chunks)
@@ -371,20 +376,20 @@ impl<'a, S: System> Search<'a, S> {
     /// Takes the steps from the next nodes, which a worker has made.
     fn take(
         &mut self,
-        chunk: Chunk<S>,
+        mut chunk: Chunk<S>,
         most_steps: u64,
         watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> ControlFlow<Stop> {
-        let Chunk { mut queue, steps, nodes } = chunk;
-        let mut steps = steps.into_iter();
-        for Expanded { steps: count, new_parts, owed, at_end } in nodes {
+        let Chunk { queue, steps, nodes, .. } = &mut chunk;
+        let mut steps = steps.drain(..);
+        for Expanded { steps: count, new_parts, owed, at_end } in nodes.drain(..) {
             self.may_go_on(watch)?;
-            self.known.take_parts(&mut queue, new_parts);
+            self.known.take_parts(queue, new_parts);
             let node = self.looked_at;
             self.looked_at += 1;
             self.graph.go_on(|| owed);
             for (number, (occurs, acting, breaks)) in (0..).zip(steps.by_ref().take(count)) {
-                self.step(node, most_steps, &mut queue, (occurs, acting))?;
+                self.step(node, most_steps, queue, (occurs, acting))?;
                 for demand in breaks {
                     self.note(Violation { demand, node, how: How::Step(number) })?;
                 }
@@ -394,6 +399,8 @@ impl<'a, S: System> Search<'a, S> {
                 self.note(Violation { demand, node, how: How::Still })?;
             }
         }
+        drop(steps);
+        self.spare = chunk;
         ControlFlow::Continue(())
     }
 

@@ -16,12 +16,13 @@ pub(super) const FEWEST: usize = 1 << 10;
 /// The most states that are shared out at a time.
 pub const MOST: usize = 1 << 14;
 
-/// The steps from states that follow one another, and where they lead.
+/// The steps from states that follow one another, and where they lead; in memory that is kept from chunk to chunk.
 pub(super) struct Chunk<S: System> {
     pub(super) queue: Queue<S::Part>,
     /// Of each step the situations that it is, who acts if it is bound to be made, and the demands that it breaks.
     pub(super) steps: Vec<(u64, Option<Bits>, Vec<S::Demand>)>,
     pub(super) nodes: Vec<Expanded<S::Demand>>,
+    scratch: Scratch<S::State>,
 }
 
 /// A state from which all steps were made.
@@ -35,6 +36,58 @@ pub(super) struct Expanded<D> {
 }
 
 impl<S: System> Chunk<S> {
+    /// No steps.
+    pub(super) fn new() -> Self {
+        Self { queue: Queue::new(), steps: Vec::new(), nodes: Vec::new(), scratch: Scratch::default() }
+    }
+
+    /// Makes the steps from these nodes in the place of all others, up to one that breaks enough.
+    pub(super) fn fill(
+        &mut self,
+        (system, known): (&S, &StateTable<S::Part>),
+        range: Range<usize>,
+        shown: &mut Shown<S::State>,
+    ) {
+        let making = Steps::begin();
+        let Self { queue, steps, nodes, scratch } = self;
+        queue.begin(known);
+        (steps.clear(), nodes.clear());
+        let is_enough = |breaks: &[S::Demand]| breaks.iter().any(|&demand| system.is_enough(demand));
+        for node in range {
+            making.next();
+            if known.show_loaded(system, node, shown).is_none() {
+                break;
+            }
+            let Shown { state, code } = &*shown;
+            let (steps_before, parts_before, mut is_still) = (steps.len(), queue.new_parts(), true);
+            let mut flow = system.each_step(state, scratch, |step| {
+                making.next();
+                let Step { state: to, occurs, acting, is_bound, breaks, .. } = step;
+                system.make_canonical(to);
+                queue.put((system, known), code, to, system.differing(state, to));
+                is_still &= !is_bound;
+                let flow =
+                    if is_enough(&breaks) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+                steps.push((occurs, is_bound.then_some(acting), breaks));
+                flow
+            });
+            let at_end = is_still.then(|| system.broken_at_end(state, &[]));
+            if at_end.as_deref().is_some_and(is_enough) {
+                flow = ControlFlow::Break(());
+            }
+            nodes.push(Expanded {
+                steps: steps.len() - steps_before,
+                new_parts: queue.new_parts() - parts_before,
+                owed: system.owed(state),
+                at_end,
+            });
+            if flow.is_break() {
+                break;
+            }
+        }
+        queue.look_up(known);
+    }
+
     /// The bytes that it takes while its states are looked for on disk.
     pub(super) fn bytes(&self) -> u64 {
         (self.queue.bytes() + size_of_val(&self.steps[..]) + size_of_val(&self.nodes[..])) as u64
@@ -57,50 +110,9 @@ pub(super) fn share_out<S: System>(
     workers: usize,
 ) -> Vec<Chunk<S>> {
     let pieces = pieces(nodes, workers).map(|nodes| (nodes, shown.clone()));
-    threads::each_by(workers, pieces, |(nodes, mut shown)| chunk(of, nodes, &mut shown))
-}
-
-/// The steps from these nodes, up to one that breaks enough.
-pub(super) fn chunk<S: System>(
-    (system, known): (&S, &StateTable<S::Part>),
-    nodes: Range<usize>,
-    shown: &mut Shown<S::State>,
-) -> Chunk<S> {
-    let making = Steps::begin();
-    let mut chunk = Chunk { queue: Queue::for_table(known), steps: Vec::new(), nodes: Vec::new() };
-    let mut scratch = Scratch::default();
-    let is_enough = |breaks: &[S::Demand]| breaks.iter().any(|&demand| system.is_enough(demand));
-    for node in nodes {
-        making.next();
-        if known.show_loaded(system, node, shown).is_none() {
-            break;
-        }
-        let Shown { state, code } = &*shown;
-        let (steps, new_parts, mut is_still) = (chunk.steps.len(), chunk.queue.new_parts(), true);
-        let mut flow = system.each_step(state, &mut scratch, |step| {
-            making.next();
-            let Step { state: to, occurs, acting, is_bound, breaks, .. } = step;
-            system.make_canonical(to);
-            chunk.queue.put((system, known), code, to, system.differing(state, to));
-            is_still &= !is_bound;
-            let flow = if is_enough(&breaks) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            chunk.steps.push((occurs, is_bound.then_some(acting), breaks));
-            flow
-        });
-        let at_end = is_still.then(|| system.broken_at_end(state, &[]));
-        if at_end.as_deref().is_some_and(is_enough) {
-            flow = ControlFlow::Break(());
-        }
-        chunk.nodes.push(Expanded {
-            steps: chunk.steps.len() - steps,
-            new_parts: chunk.queue.new_parts() - new_parts,
-            owed: system.owed(state),
-            at_end,
-        });
-        if flow.is_break() {
-            break;
-        }
-    }
-    chunk.queue.look_up(known);
-    chunk
+    threads::each_by(workers, pieces, |(nodes, mut shown)| {
+        let mut chunk = Chunk::new();
+        chunk.fill(of, nodes, &mut shown);
+        chunk
+    })
 }
