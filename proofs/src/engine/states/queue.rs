@@ -67,7 +67,9 @@ impl<P: Clone + Eq + Hash> Queue<P> {
 
     /// Makes it an empty one for this table.
     pub(super) fn begin(&mut self, table: &StateTable<P>) {
-        (self.bytes.clear(), self.states.clear(), self.numbers.clear());
+        self.bytes.clear();
+        self.states.clear();
+        self.numbers.clear();
         (self.met, self.first, self.is_renumbered) = (0, 0, false);
         (self.places, self.had) = (table.places, table.parts.parts.len());
         if self.new_parts() > 0 {

@@ -51,7 +51,8 @@ impl<S: System> Chunk<S> {
         let making = Steps::begin();
         let Self { queue, steps, nodes, scratch } = self;
         queue.begin(known);
-        (steps.clear(), nodes.clear());
+        steps.clear();
+        nodes.clear();
         let is_enough = |breaks: &[S::Demand]| breaks.iter().any(|&demand| system.is_enough(demand));
         for node in range {
             making.next();
