@@ -205,14 +205,14 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
     /// Whether `state` is that of a node.
     pub(super) fn is_at<S: System<Part = P>>(&mut self, system: &S, state: &S::State, node: usize) -> bool {
         let queue = self.queue_of(system, state);
-        self.load(node..node + 1) && self.code(node) == Some(queue.first_code())
+        self.load(node..node + 1) && self.code(node) == queue.front().map(|(_, code)| code)
     }
 
     /// The number of `state`, if it is in memory.
     pub(super) fn find<S: System<Part = P>>(&self, system: &S, state: &S::State) -> Option<u32> {
-        let mut queue = self.queue_of(system, state);
-        queue.look_up(self);
-        queue.found().next().flatten()
+        let queue = self.queue_of(system, state);
+        let (hash, code) = queue.front()?;
+        self.nodes.find(hash, |node| self.codes.entry(node as usize - self.on_disk) == code)
     }
 
     /// A queue with `state` alone.
@@ -344,6 +344,22 @@ mod tests {
         let known =
             [[1, 2, 3], [1, 2, 2], [4, 2, 1], [3, 2, 1], [2, 2, 2]].map(|state| table.find(&Triples, &state));
         assert_eq!(known, [Some(0), Some(1), Some(2), Some(3), None]);
+    }
+
+    /// Among so many states some have the hash of another one.
+    #[test]
+    fn states_with_one_hash_are_found_each_for_itself() {
+        let mut known = Known::new();
+        let states: Vec<_> = (0..200_000).map(|state| [state, state / 2, state % 7]).collect();
+        known.meet(&states, Places::MAX);
+        let Known(table, _) = known;
+        let mut collisions = 0;
+        for (node, state) in (0..).zip(&states) {
+            let hash = table.queue_of(&Triples, state).front().map(|(hash, _)| hash);
+            collisions += u32::from(hash.and_then(|hash| table.nodes.first(hash)) != Some(node));
+            assert_eq!(table.find(&Triples, state), Some(node));
+        }
+        assert!(collisions > 0);
     }
 
     /// More parts than one and two bytes can number; each state shares one part with the one before.

@@ -182,9 +182,9 @@ impl<P: Clone + Eq + Hash> Queue<P> {
         self.states.iter().map(|state| state.node)
     }
 
-    /// The code of the first state.
-    pub(super) fn first_code(&self) -> &[u8] {
-        &self.bytes[..self.states.first().map_or(0, |state| state.end)]
+    /// The hash and the code of the first state.
+    pub(super) fn front(&self) -> Option<(HashOfState, &[u8])> {
+        self.states.first().map(|state| (state.hash, &self.bytes[..state.end]))
     }
 
     /// The bytes that it takes while its states are looked for on disk.
