@@ -5,6 +5,7 @@
 #[path = "../tests/common/model.rs"]
 mod model;
 
+use std::num::NonZeroUsize;
 use std::process::Command;
 use std::{env, fs};
 
@@ -40,7 +41,7 @@ fn peak() -> u64 {
 fn search(who: &str, states: u8) {
     let (rule, ring) = (Rule::Published, Machines::of(8, states));
     let count = if who == "ours" {
-        let alone = Limits { workers: Some(1), ..Limits::NONE };
+        let alone = Limits { workers: NonZeroUsize::new(1), ..Limits::NONE };
         Keeps::<Rule>(ring, 1).search(&rule, alone).expect("there is a ring").states
     } else {
         let model = Counted(rule, ring);

@@ -1,6 +1,7 @@
 //! The search over states counts the states that other model checkers count: stateright, which shares the moves of a
 //! rule and no engine, and SPIN, whose models in `spin` share nothing.
 
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -55,7 +56,7 @@ fn any_number_of_workers_finds_the_same() {
     fn same<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, demand: usize) -> bool {
         let by = |workers| {
             Keeps::<P>(bound(), demand)
-                .search(rule, Limits { workers: Some(workers), ..Limits::NONE })
+                .search(rule, Limits { workers: NonZeroUsize::new(workers), ..Limits::NONE })
                 .expect("a search")
         };
         let alone = by(1);

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -44,7 +45,7 @@ fn is_the_same<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, demand: usiz
     for workers in [1, 3] {
         let (folder, bytes) = (folder(), whole.bytes * percent / 100);
         let room = room(bytes, &folder);
-        let limits = Limits { room: room.room(), workers: Some(workers), ..Limits::NONE };
+        let limits = Limits { room: room.room(), workers: NonZeroUsize::new(workers), ..Limits::NONE };
         let some = keeps().search(rule, limits).expect("a search");
         assert!(some.bytes > bytes / 2 && some.bytes <= bytes, "{} of {bytes}", some.bytes);
         assert_eq!((files(&folder), room.was_too_small(), room.fault()), (vec![], false, None));
@@ -112,7 +113,7 @@ impl Protocol for Writes {
 const WRITES: Writes = Writes { forbidden: &[9], most: 9 };
 
 fn written(rule: &Writes, limits: Limits<'_>, workers: usize) -> Findings<&'static str> {
-    let limits = Limits { workers: Some(workers), ..limits };
+    let limits = Limits { workers: NonZeroUsize::new(workers), ..limits };
     Keeps::<Writes>(Words::of(3), 0).search(rule, limits).expect("a search")
 }
 
@@ -326,7 +327,8 @@ fn compared<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, percent: u64) {
     };
     let keeps = || Keeps::<P>(bound(), 0);
     let begun = Instant::now();
-    let whole = keeps().search(rule, Limits { workers: Some(2), ..Limits::NONE }).expect("a search");
+    let whole =
+        keeps().search(rule, Limits { workers: NonZeroUsize::new(2), ..Limits::NONE }).expect("a search");
     tell(&whole, begun, 0);
     let (folder, begun) = (folder(), Instant::now());
     let room = room(whole.bytes * percent / 100, &folder);
@@ -339,7 +341,8 @@ fn compared<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, percent: u64) {
                 thread::sleep(Duration::from_millis(20));
             }
         });
-        let some = keeps().search(rule, Limits { room: room.room(), workers: Some(2), ..Limits::NONE });
+        let some =
+            keeps().search(rule, Limits { room: room.room(), workers: NonZeroUsize::new(2), ..Limits::NONE });
         is_over.store(true, Ordering::Relaxed);
         some.expect("a search")
     });

@@ -8,6 +8,7 @@ mod model;
 use std::collections::{HashSet, VecDeque};
 use std::hash::Hash;
 use std::hint::black_box;
+use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use stateright::{Checker, Model, Property};
@@ -200,7 +201,7 @@ fn main() {
     if !std::env::args().any(|argument| argument == "--bench") {
         return;
     }
-    let by = |workers| Limits { workers: Some(workers), ..Limits::NONE };
+    let by = |workers| Limits { workers: NonZeroUsize::new(workers), ..Limits::NONE };
     let ants = || search(&Ants, [Floor::START], by(1));
     let rescue = || space::search(&SETTING, Until::Exhausted, by(1));
     let model = || Rescue(SETTING, Demand::ALL.to_vec());

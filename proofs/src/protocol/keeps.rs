@@ -1,6 +1,7 @@
 //! A check that a protocol keeps a demand within its bound. Each of the surroundings is searched by itself, since no
 //! state of one is a state of another: so a check can be divided, and counts are the same however it is.
 
+use std::num::NonZeroUsize;
 use std::sync::OnceLock;
 
 use tautline_kernel::choice::Oracle;
@@ -191,7 +192,9 @@ fn searched<P: Protocol>(
     let own: Vec<usize> = portion.of(0..all.len()).collect();
     let (at_once, workers) = match own.len() {
         1 => (1, limits.workers),
-        _ => (limits.workers.unwrap_or_else(rayon::current_num_threads), Some(1)),
+        _ => {
+            (limits.workers.map_or_else(rayon::current_num_threads, NonZeroUsize::get), NonZeroUsize::new(1))
+        }
     };
     'all: for places in own.chunks(64 * at_once) {
         let limits = Limits { most_steps: limits.most_steps - whole.steps, workers, ..limits };

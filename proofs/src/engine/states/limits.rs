@@ -3,6 +3,7 @@
 //! depend on how many there are, so neither does what it finds. A large search for which memory does not suffice goes on
 //! in a folder ([`Spill`]), if there is one.
 
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -16,7 +17,7 @@ pub struct Limits<'a> {
     /// The memory that it may take.
     pub room: Room<'a>,
     /// The threads that it takes, of which nothing depends that it finds; as many as are idle, unless it is said.
-    pub workers: Option<usize>,
+    pub workers: Option<NonZeroUsize>,
 }
 
 impl Limits<'static> {

@@ -1,6 +1,7 @@
 //! The search itself: it makes all steps from each state in the order in which they were met, and keeps of each demand
 //! the first run that breaks it.
 
+use std::num::NonZeroUsize;
 use std::ops::{ControlFlow, Range};
 use std::{io, iter, mem};
 
@@ -61,7 +62,7 @@ enum How {
 
 pub(super) struct Search<'a, S: System> {
     pub(super) system: &'a S,
-    workers: Option<usize>,
+    workers: Option<NonZeroUsize>,
     pub(super) known: StateTable<S::Part>,
     pub(super) graph: Graph,
     /// Starts that were met.
@@ -182,7 +183,7 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     fn workers(&self) -> usize {
-        self.workers.unwrap_or_else(|| 1 + threads::idle())
+        self.workers.map_or_else(|| 1 + threads::idle(), NonZeroUsize::get)
     }
 
     /// The state of a node, to be given back as what is shown.

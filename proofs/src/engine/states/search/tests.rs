@@ -307,7 +307,7 @@ fn any_number_of_workers_finds_the_same_in_the_same_memory() {
     for (forbidden, is_enough, most_steps, states) in cases {
         let heap = Heap { nodes: 80_000, forbidden, is_enough };
         let by = |workers| {
-            let limits = Limits { workers: Some(workers), ..Limits::steps(most_steps) };
+            let limits = Limits { workers: NonZeroUsize::new(workers), ..Limits::steps(most_steps) };
             search(&heap, [[0, heap.nodes, 0]], limits)
         };
         let alone = by(1);
