@@ -7,6 +7,7 @@
 
 mod bound;
 mod compact;
+mod erased;
 mod exploration;
 mod film;
 mod keeps;

@@ -160,6 +160,14 @@ pub struct Scratch<T> {
     log: Vec<u8>,
 }
 
+impl<T: Clone> Scratch<T> {
+    /// The memory for the state to which a step leads: a copy of `state`, or whatever was there last.
+    pub(crate) fn after(&mut self, state: &T) -> &mut T {
+        let [_, after] = self.states.get_or_insert_with(|| [state.clone(), state.clone()]);
+        after
+    }
+}
+
 impl<T> Default for Scratch<T> {
     fn default() -> Self {
         Self { states: None, answers: Odometer::default(), log: Vec::new() }

@@ -2,10 +2,10 @@
 //! state of one is a state of another: so a check can be divided, and counts are the same however it is.
 
 use std::num::NonZeroUsize;
-use std::sync::OnceLock;
 
 use tautline_kernel::choice::Oracle;
 
+use super::erased::Packed;
 use super::playing::Playing;
 use super::{Bound, Protocol};
 use crate::decide::{
@@ -28,12 +28,14 @@ pub struct Keeps<P: Protocol>(
 type Run = states::Run<&'static str>;
 
 impl<P: Protocol> Keeps<P> {
-    /// The protocol in each of its surroundings.
-    fn playing(&self, rule: &P) -> Result<Vec<Playing<P>>, MethodError> {
+    /// The protocol in each of its surroundings. Whether every state that is met is tried to come back from its bytes, or
+    /// few are outside debug builds.
+    fn playing(&self, rule: &P, tries_all: bool) -> Result<Vec<Playing>, MethodError> {
         let none = || MethodError::new(format_args!("there is no demand {}", self.1));
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
+        let how = (demand, tries_all || cfg!(debug_assertions));
         let each = self.0.each()?.into_iter();
-        Ok(each.map(|here| Playing { rule: rule.clone(), here, demand, lost: OnceLock::new() }).collect())
+        Ok(each.map(|here| Playing::new(rule.clone(), here, how)).collect())
     }
 
     /// The states, and the shortest run that breaks the demand if there is one.
@@ -42,7 +44,7 @@ impl<P: Protocol> Keeps<P> {
     /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function of
     /// their state, the states not of their bytes, or states that are taken for one not alike.
     pub fn search(&self, rule: &P, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
-        searched(&self.playing(rule)?, Portion::WHOLE, Until::Exhausted, limits)
+        searched(&self.playing(rule, false)?, Portion::WHOLE, Until::Exhausted, limits)
     }
 }
 
@@ -72,55 +74,22 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         until: Until,
         context: &mut Context<'_, '_>,
     ) -> Decided {
-        let all = self.playing(rule)?;
         let limits = Limits { room: context.room, ..Limits::NONE };
-        let found = searched(&all, portion, until, limits)?;
-        let evidence = found.broken.first().and_then(|run| evidence(&all, run));
-        let is_covered = P::COVERS.iter().all(|words| found.covered.contains(words));
-        Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
+        answered((&self.playing(rule, false)?, P::COVERS), portion, (until, limits), self.shows())
     }
 
     /// Surroundings without a start are left out, unless there are no others.
     fn systems(&self, rule: &P) -> Result<Systems, MethodError> {
-        let mut all = self.playing(rule)?;
-        is_sound(&all)?;
-        all.iter().try_for_each(Playing::starts_come_back)?;
-        let has_start = |playing: &Playing<P>| playing.starts().next().is_some();
-        if all.iter().any(has_start) {
-            all.retain(has_start);
-        }
-        let of = |playing| -> Box<dyn AnySystem> {
-            Box::new(Started::new(playing, |playing: &Playing<P>| playing.starts().collect()))
-        };
-        Ok(all.into_iter().map(of).collect())
+        systems(self.playing(rule, true)?)
     }
 
     fn replay(&self, rule: &P, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
-        let all = self.playing(rule).map_err(|_| ScriptError::Unbroken)?;
-        let (of, run) = play(&all, choices)?;
-        Ok(RefutationPlay { of, evidence: evidence(&all, &run).ok_or(ScriptError::Unbroken)? })
+        replayed(&self.playing(rule, false).map_err(|_| ScriptError::Unbroken)?, choices)
     }
 
     /// A hunt over no start is open.
     fn hunt(&self, rule: &P, runs: &RandomRuns) -> Result<Option<Answer>, MethodError> {
-        let all = self.playing(rule)?;
-        is_sound(&all)?;
-        let starts: Vec<_> = starts(&all).collect();
-        if starts.is_empty() {
-            return Ok(Some(Answer::open()));
-        }
-        let made = |oracle: &mut dyn Oracle| {
-            let number = oracle.pick(starts.len() as u32) as usize;
-            let (playing, start) = &starts[number];
-            states::walk(*playing, (number, start.clone()), runs.most_moves, oracle)
-        };
-        let tally = sample(runs.runs, runs.seed, |oracle| match made(oracle) {
-            Some(run) => Err(Stop::Violated(run.demand)),
-            None => Ok("a run"),
-        });
-        let again = tally.violation.as_ref().and_then(|(choices, _)| made(&mut Replay::new(choices)));
-        let evidence = again.map(|run| starts[run.start].0.evidence(&starts[run.start].1, &run));
-        Ok(Some(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases)))
+        hunted(&self.playing(rule, false)?, runs).map(Some)
     }
 
     fn shorten(
@@ -129,34 +98,92 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         choices: &Choices,
         limits: Limits<'_>,
     ) -> Result<Option<(Choices, bool)>, MethodError> {
-        let all = self.playing(rule)?;
-        let (_, run) = play(&all, choices).map_err(MethodError::new)?;
-        let Some((playing, start)) = starts(&all).nth(run.start) else { return Ok(None) };
-        let found = states::search(playing, [start.clone()], limits);
-        let shortest = found.broken.into_iter().next();
-        let shortest =
-            shortest.map(|found| playing.unfolded(&start, states::Run { start: run.start, ..found }));
-        Ok(Some(match shortest {
-            Some(run) => (run.choices(), true),
-            None => (states::without_detours(playing, &start, &run).choices(), false),
-        }))
+        shortened(&self.playing(rule, false)?, choices, limits)
     }
 }
 
 /// Every start, each in its surroundings.
-fn starts<P: Protocol>(all: &[Playing<P>]) -> impl Iterator<Item = (&Playing<P>, P::State)> {
+fn starts(all: &[Playing]) -> impl Iterator<Item = (&Playing, Packed)> {
     all.iter().flat_map(|playing| playing.starts().map(move |start| (playing, start)))
 }
 
 /// From how many each of these choices is made, and the run that they make.
-fn play<P: Protocol>(all: &[Playing<P>], choices: &Choices) -> Result<(Vec<u32>, Run), ScriptError> {
+fn play(all: &[Playing], choices: &Choices) -> Result<(Vec<u32>, Run), ScriptError> {
     let mut script = Script::new(choices);
     let number = script.choose(starts(all).count())?;
     let (playing, start) = starts(all).nth(number).ok_or(ScriptError::Unbroken)?;
     script.play(playing, (number, start), |_| true)
 }
 
-fn evidence<P: Protocol>(all: &[Playing<P>], run: &Run) -> Option<Evidence> {
+/// The answer of a search to a check that is to show `shown` and meet each of `covers`.
+fn answered(
+    (all, covers): (&[Playing], &[&str]),
+    portion: Portion,
+    (until, limits): (Until, Limits<'_>),
+    shown: Verdict,
+) -> Decided {
+    let found = searched(all, portion, until, limits)?;
+    let evidence = found.broken.first().and_then(|run| evidence(all, run));
+    let is_covered = covers.iter().all(|words| found.covered.contains(words));
+    Ok(Answer::new(evidence, found.is_whole && is_covered, shown, found.states))
+}
+
+fn replayed(all: &[Playing], choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+    let (of, run) = play(all, choices)?;
+    Ok(RefutationPlay { of, evidence: evidence(all, &run).ok_or(ScriptError::Unbroken)? })
+}
+
+/// Those that have a start, each with its starts; all, if none has one.
+fn systems(mut all: Vec<Playing>) -> Result<Systems, MethodError> {
+    is_sound(&all)?;
+    all.iter().try_for_each(Playing::starts_come_back)?;
+    let has_start = |playing: &Playing| playing.starts().next().is_some();
+    if all.iter().any(has_start) {
+        all.retain(has_start);
+    }
+    let of = |playing| -> Box<dyn AnySystem> {
+        Box::new(Started::new(playing, |playing: &Playing| playing.starts().collect()))
+    };
+    Ok(all.into_iter().map(of).collect())
+}
+
+/// The findings of random runs.
+fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
+    is_sound(all)?;
+    let starts: Vec<_> = starts(all).collect();
+    if starts.is_empty() {
+        return Ok(Answer::open());
+    }
+    let made = |oracle: &mut dyn Oracle| {
+        let number = oracle.pick(starts.len() as u32) as usize;
+        let (playing, start) = &starts[number];
+        states::walk(*playing, (number, start.clone()), runs.most_moves, oracle)
+    };
+    let tally = sample(runs.runs, runs.seed, |oracle| match made(oracle) {
+        Some(run) => Err(Stop::Violated(run.demand)),
+        None => Ok("a run"),
+    });
+    let again = tally.violation.as_ref().and_then(|(choices, _)| made(&mut Replay::new(choices)));
+    let evidence = again.map(|run| starts[run.start].0.evidence(&starts[run.start].1, &run));
+    Ok(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases))
+}
+
+/// A shortest run from the start of another one, or that one without its detours; and whether it is a shortest one.
+fn shortened(
+    all: &[Playing],
+    choices: &Choices,
+    limits: Limits<'_>,
+) -> Result<Option<(Choices, bool)>, MethodError> {
+    let (_, run) = play(all, choices).map_err(MethodError::new)?;
+    let Some((playing, start)) = starts(all).nth(run.start) else { return Ok(None) };
+    let shortest = states::search(playing, [start.clone()], limits).broken.into_iter().next();
+    Ok(Some(match shortest {
+        Some(found) => (playing.unfolded(&start, Run { start: run.start, ..found }).choices(), true),
+        None => (states::without_detours(playing, &start, &run).choices(), false),
+    }))
+}
+
+fn evidence(all: &[Playing], run: &Run) -> Option<Evidence> {
     let (playing, start) = starts(all).nth(run.start)?;
     Some(playing.evidence(&start, run))
 }
@@ -165,7 +192,7 @@ fn evidence<P: Protocol>(all: &[Playing<P>], run: &Run) -> Option<Evidence> {
 ///
 /// # Errors
 /// [`MethodError`] if it cannot.
-fn is_sound<P: Protocol>(all: &[Playing<P>]) -> Result<(), MethodError> {
+fn is_sound(all: &[Playing]) -> Result<(), MethodError> {
     let mut left = states::TRIED;
     for playing in all {
         playing.is_sound()?;
@@ -179,8 +206,8 @@ fn is_sound<P: Protocol>(all: &[Playing<P>]) -> Result<(), MethodError> {
 
 /// The findings of a search that can be believed: of all surroundings in a portion, or up to the first in which the
 /// demand is broken. The run is a shortest one, in the first of them that has one.
-fn searched<P: Protocol>(
-    all: &[Playing<P>],
+fn searched(
+    all: &[Playing],
     portion: Portion,
     until: Until,
     limits: Limits<'_>,

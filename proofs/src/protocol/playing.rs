@@ -1,184 +1,167 @@
 //! A protocol in one of its surroundings, as a system whose states are searched.
 
 use std::mem;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Deref};
 use std::sync::OnceLock;
 
 use tautline_kernel::choice::Oracle;
 
-use super::{Compact, Demand, Move, Protocol, Surroundings, When, beside};
+use super::erased::{Erased, Made, Packed, Typed};
+use super::{Demand, Protocol, Surroundings, beside};
 use crate::decide::{Depiction, Evidence, MethodError};
-use crate::engine::states::{self, Bits, Ending, Findings, Limits, Scratch, Step, System, Unsound};
+use crate::engine::states::{self, Bits, Ending, Findings, Limits, Run, Scratch, Step, System, Unsound};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 
 /// A protocol in its surroundings, of whose demands one is looked at.
-pub(super) struct Playing<P: Protocol> {
-    pub(super) rule: P,
-    pub(super) here: Surroundings<P>,
-    pub(super) demand: &'static Demand<P>,
-    /// A state that did not come back from its bytes.
-    pub(super) lost: OnceLock<P::State>,
+pub(super) struct Playing(Box<dyn Erased>);
+
+impl Deref for Playing {
+    type Target = dyn Erased;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.0
+    }
 }
 
-impl<P: Protocol> World for Playing<P> {
-    type State = P::State;
-    type Plan = Vec<Move<P::State>>;
-    /// The actors, and the move in words.
-    type Event = (Bits, &'static str);
+impl World for Playing {
+    type State = Packed;
+    type Plan = Vec<(Made, Packed)>;
+    type Event = Made;
     type Demand = &'static str;
 
-    fn plan(&self, state: &mut P::State, _: &[u8]) -> Option<Self::Plan> {
-        any_of(self.moves(state))
+    fn plan(&self, state: &mut Packed, _: &[u8]) -> Option<Self::Plan> {
+        let mut moves = Vec::new();
+        self.each_move(&state.bytes, &mut Packed::default(), &mut |made, to| {
+            moves.push((made, mem::take(to)));
+            ControlFlow::Continue(())
+        });
+        any_of(moves)
     }
 
     fn settle(
         &self,
-        state: &mut P::State,
+        state: &mut Packed,
         moves: &Self::Plan,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Self::Event {
-        let Move { actors, words, to } = picked(moves, world);
+    ) -> Made {
+        let (made, to) = picked(moves, world);
         *state = to;
-        (actors, words)
+        made
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
-        self.broken_between(turn.before, turn.after)
+        self.broken(turn.event.is_broken)
     }
 
-    fn broken_at_end(&self, state: &P::State, _: &[u8]) -> Vec<&'static str> {
-        let is_broken = match self.demand.when {
-            When::Always(_) => false,
-            When::AtTheEnd(is_so) | When::Eventually(is_so) => !is_so(&self.rule, &self.here, state),
-            When::AgainAndAgain(owed) => owed(&self.rule, &self.here, state) != 0,
-        };
-        is_broken.then_some(self.demand.words).into_iter().collect()
+    fn broken_at_end(&self, state: &Packed, _: &[u8]) -> Vec<&'static str> {
+        self.broken(self.is_broken_at_end(&state.bytes))
     }
 
     fn covers(&self) -> Vec<&'static str> {
-        P::COVERS.to_vec()
+        Erased::covers(&*self.0).to_vec()
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        bit(P::COVERS, turn.event.1)
+        bit(Erased::covers(&*self.0), turn.event.words)
     }
 }
 
-impl<P: Protocol> System for Playing<P> {
+impl System for Playing {
     /// A state has no parts.
     type Part = ();
 
-    fn places(&self, _: &P::State) -> usize {
+    fn places(&self, _: &Packed) -> usize {
         0
     }
 
-    fn part(&self, _: &P::State, _: usize) {}
+    fn part(&self, _: &Packed, _: usize) {}
 
-    fn put(&self, _: &mut P::State, _: usize, (): &()) {}
+    fn put(&self, _: &mut Packed, _: usize, (): &()) {}
 
-    fn write(&self, state: &P::State, to: &mut Vec<u8>) {
-        state.write(to);
+    fn write(&self, state: &Packed, to: &mut Vec<u8>) {
+        to.extend_from_slice(&state.bytes);
     }
 
-    fn read(&self, state: &mut P::State, mut bytes: &[u8]) {
-        *state = P::State::read(&mut bytes);
+    fn read(&self, state: &mut Packed, bytes: &[u8]) {
+        state.bytes.clear();
+        state.bytes.extend_from_slice(bytes);
+        (state.canonical, state.is_lost) = (None, false);
     }
 
-    fn make_canonical(&self, state: &mut P::State) {
-        let all = self.rule.alike(&self.here, state);
-        if all.is_empty() {
-            return;
-        }
-        let (mut least, mut image) = (bytes(state), Vec::new());
-        for other in all {
-            image.clear();
-            other.write(&mut image);
-            if image < least {
-                mem::swap(&mut image, &mut least);
-                *state = other;
-            }
+    fn make_canonical(&self, state: &mut Packed) {
+        if let Some(canonical) = state.canonical.take() {
+            state.bytes = canonical;
         }
     }
 
-    fn is_lost(&self, state: &P::State) -> bool {
-        is_lost(state)
+    fn is_lost(&self, state: &Packed) -> bool {
+        state.is_lost
     }
 
-    /// Takes the moves as they are, without a copy of each. The state to which the first one leads is read again from
-    /// its bytes; in a debug build each is.
+    /// Takes the moves as they are, without a copy of each.
     fn each_step<B>(
         &self,
-        state: &P::State,
-        _: &mut Scratch<P::State>,
-        mut take: impl FnMut(Step<Self, &mut P::State>) -> ControlFlow<B>,
+        state: &Packed,
+        scratch: &mut Scratch<Packed>,
+        mut take: impl FnMut(Step<Self, &mut Packed>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        self.moves(state).into_iter().enumerate().try_for_each(|(number, Move { actors, words, mut to })| {
-            if (number == 0 || cfg!(debug_assertions)) && is_lost(&to) {
-                self.lost.get_or_init(|| to.clone());
-            }
-            let breaks = self.broken_between(state, &to);
-            let (occurs, is_bound) = (bit(P::COVERS, words), actors != 0);
-            let event = (actors, words);
-            take(Step { state: &mut to, event, occurs, acting: actors, is_bound, breaks })
-        })
+        let (covers, mut flow) = (Erased::covers(&*self.0), ControlFlow::Continue(()));
+        self.each_move(&state.bytes, scratch.after(state), &mut |event, state| {
+            let (occurs, acting) = (bit(covers, event.words), event.actors);
+            let breaks = self.broken(event.is_broken);
+            flow = take(Step { state, event, occurs, acting, is_bound: acting != 0, breaks });
+            if flow.is_break() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        flow
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
-        turn.event.0
+        turn.event.actors
     }
 
     fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
-        turn.event.0 != 0
+        turn.event.actors != 0
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {
-        matches!(self.demand.when, When::Eventually(_) | When::AgainAndAgain(_)).then_some(self.demand.words)
+        self.may_be_endless().then(|| self.demand())
     }
 
-    fn owed(&self, state: &P::State) -> Bits {
-        match self.demand.when {
-            When::AgainAndAgain(owed) => owed(&self.rule, &self.here, state),
-            When::Always(_) | When::AtTheEnd(_) | When::Eventually(_) => 1,
-        }
+    fn owed(&self, state: &Packed) -> Bits {
+        self.0.owed(&state.bytes)
     }
 
-    fn awake(&self, state: &P::State) -> Bits {
-        self.rule.moves(&self.here, state).iter().fold(0, |set, next| set | next.actors)
+    fn awake(&self, state: &Packed) -> Bits {
+        self.0.awake(&state.bytes)
     }
 }
 
-impl<P: Protocol> Playing<P> {
-    pub(super) fn starts(&self) -> impl Iterator<Item = P::State> {
-        self.rule.starts(&self.here).into_iter()
+impl Playing {
+    pub(super) fn new<P: Protocol>(
+        rule: P,
+        here: Surroundings<P>,
+        (demand, tries_all): (&'static Demand<P>, bool),
+    ) -> Self {
+        Self(Box::new(Typed { rule, here, demand, tries_all, lost: OnceLock::new() }))
     }
 
-    /// The moves from a state: none once the demand is met.
-    fn moves(&self, state: &P::State) -> Vec<Move<P::State>> {
-        let is_met =
-            matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.rule, &self.here, state));
-        if is_met { Vec::new() } else { self.rule.moves(&self.here, state) }
+    fn broken(&self, is_broken: bool) -> Vec<&'static str> {
+        is_broken.then(|| self.demand()).into_iter().collect()
     }
 
-    fn broken_between(&self, before: &P::State, after: &P::State) -> Vec<&'static str> {
-        let is_broken = match self.demand.when {
-            When::Always(is_kept) => !is_kept(&self.rule, &self.here, before, after),
-            When::AtTheEnd(_) | When::Eventually(_) | When::AgainAndAgain(_) => false,
-        };
-        is_broken.then_some(self.demand.words).into_iter().collect()
-    }
-
-    fn canonical(&self, mut state: P::State) -> P::State {
+    fn canonical(&self, mut state: Packed) -> Packed {
         self.make_canonical(&mut state);
         state
     }
 
     /// All that must be the same of states that are taken for one: what their moves are and lead to, and what is owed.
-    fn outlook(&self, state: &P::State) -> impl Eq + use<P> {
-        let of = |step: Step<Self>| (step.event, step.breaks, bytes(&self.canonical(step.state)));
+    fn outlook(&self, state: &Packed) -> impl Eq + use<> {
+        let of = |step: Step<Self>| (step.event, self.canonical(step.state).bytes);
         let mut moves: Vec<_> = states::steps(self, state).map(of).collect();
         moves.sort_unstable();
-        (bytes(&self.canonical(state.clone())), moves, self.owed(state), self.broken_at_end(state, &[]))
+        let home = self.canonical(state.clone()).bytes;
+        (home, moves, self.0.owed(&state.bytes), self.is_broken_at_end(&state.bytes))
     }
 
     /// Whether the first few states and those that they are taken for one with are alike.
@@ -187,9 +170,9 @@ impl<P: Protocol> Playing<P> {
     /// [`MethodError`] with two that are not.
     fn is_symmetric(&self) -> Result<(), MethodError> {
         for state in states::first_states(self, self.starts()) {
-            let mut others = self.rule.alike(&self.here, &state).into_iter();
+            let mut others = self.alike(&state.bytes).into_iter();
             if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
-                let [state, other] = [&state, &other].map(|state| self.rule.words(state));
+                let [state, other] = [&state, &other].map(|state| self.words(&state.bytes));
                 let reason =
                     format_args!("the states {state} and {other} are taken for one, and are not alike");
                 return Err(MethodError::new(reason));
@@ -199,19 +182,13 @@ impl<P: Protocol> Playing<P> {
     }
 
     /// The run from `start` itself that a search has found among states of which each stands for those like it.
-    pub(super) fn unfolded(
-        &self,
-        start: &P::State,
-        run: states::Run<&'static str>,
-    ) -> states::Run<&'static str> {
+    pub(super) fn unfolded(&self, start: &Packed, run: Run<&'static str>) -> Run<&'static str> {
         let (mut seen, mut state) = (self.canonical(start.clone()), start.clone());
         let mut follow = |&number: &u32| {
             let step = states::steps(self, &seen).nth(number as usize)?;
             seen = self.canonical(step.state);
             let is_it = |(_, own): &(u32, Step<Self>)| {
-                own.event == step.event
-                    && own.breaks == step.breaks
-                    && self.canonical(own.state.clone()) == seen
+                own.event == step.event && self.canonical(own.state.clone()).bytes == seen.bytes
             };
             let (number, own) = (0..).zip(states::steps(self, &state)).find(is_it)?;
             state = own.state;
@@ -222,7 +199,7 @@ impl<P: Protocol> Playing<P> {
             Ending::Round(round) => Ending::Round(round.iter().map_while(follow).collect()),
             ending @ (Ending::There | Ending::Still) => ending,
         };
-        states::Run { steps, ending, ..run }
+        Run { steps, ending, ..run }
     }
 
     /// Whether what is found can be believed, as far as the first few states tell.
@@ -233,7 +210,9 @@ impl<P: Protocol> Playing<P> {
         let sound = states::repeats(self, self.starts());
         if !matches!(sound, Err(Unsound::Unrepeatable | Unsound::TooManyCovers)) {
             // Which states do not come back, or are not alike, is said in the words of the rule.
-            self.comes_back()?;
+            self.starts_come_back()?;
+            let mut first = states::first_states(self, self.starts());
+            came_back(first.find_map(|state| self.lost_after(&state.bytes)))?;
             self.is_symmetric()?;
         }
         sound.map_err(MethodError::new)
@@ -246,9 +225,7 @@ impl<P: Protocol> Playing<P> {
     pub(super) fn search(&self, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         self.starts_come_back()?;
         let mut found = states::search(self, self.starts(), limits);
-        if let Some(state) = self.lost.get() {
-            return Err(self.why_lost(state));
-        }
+        came_back(self.lost().map(str::to_owned))?;
         for run in &mut found.broken {
             if let Some(start) = self.starts().nth(run.start) {
                 *run = self.unfolded(&start, run.clone());
@@ -262,40 +239,25 @@ impl<P: Protocol> Playing<P> {
     /// # Errors
     /// [`MethodError`] if one does not: two starts might be taken for one.
     pub(super) fn starts_come_back(&self) -> Result<(), MethodError> {
-        self.starts().find(is_lost).map_or(Ok(()), |state| Err(self.why_lost(&state)))
+        came_back(self.lost_start())
     }
 
-    /// Whether the first few states come back from their bytes.
-    ///
-    /// # Errors
-    /// [`MethodError`] if one does not: two states might be taken for one.
-    fn comes_back(&self) -> Result<(), MethodError> {
-        states::first_states(self, self.starts())
-            .find(is_lost)
-            .map_or(Ok(()), |state| Err(self.why_lost(&state)))
-    }
-
-    fn why_lost(&self, state: &P::State) -> MethodError {
-        let state = self.rule.words(state);
-        MethodError::new(format_args!("the state {state} does not come back from its bytes"))
-    }
-
-    pub(super) fn evidence(&self, start: &P::State, run: &states::Run<&'static str>) -> Evidence {
+    pub(super) fn evidence(&self, start: &Packed, run: &Run<&'static str>) -> Evidence {
         Evidence { choices: run.choices(), demand: run.demand, seen: self.story(start, run) }
     }
 
     /// The run, drawn state by state.
-    fn story(&self, start: &P::State, run: &states::Run<&'static str>) -> Depiction {
-        let mut frames = vec![("start".to_owned(), self.rule.draw(&self.here, start))];
+    fn story(&self, start: &Packed, run: &Run<&'static str>) -> Depiction {
+        let mut frames = vec![("start".to_owned(), self.draw(&start.bytes))];
         for (place, (_, step)) in run.played(self, start.clone()).enumerate() {
-            let (actors, words) = step.event;
+            let Made { actors, words, .. } = step.event;
             let again = if place == run.steps.len() { "again: " } else { "" };
             let title = if actors.is_power_of_two() {
                 format!("{again}{} {words}", actors.trailing_zeros())
             } else {
                 format!("{again}{words}")
             };
-            frames.push((title, self.rule.draw(&self.here, &step.state)));
+            frames.push((title, self.draw(&step.state.bytes)));
         }
         let end = match run.ending {
             Ending::There => "",
@@ -306,13 +268,9 @@ impl<P: Protocol> Playing<P> {
     }
 }
 
-/// Whether a state does not come back from its bytes.
-fn is_lost<S: Compact + Eq>(state: &S) -> bool {
-    S::read(&mut &bytes(state)[..]) != *state
-}
-
-fn bytes(state: &impl Compact) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    state.write(&mut bytes);
-    bytes
+/// # Errors
+/// [`MethodError`] if a state did not come back from its bytes: these are the words for it.
+fn came_back(lost: Option<String>) -> Result<(), MethodError> {
+    let why = |state| MethodError::new(format_args!("the state {state} does not come back from its bytes"));
+    lost.map_or(Ok(()), |state| Err(why(state)))
 }

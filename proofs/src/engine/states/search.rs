@@ -161,7 +161,7 @@ impl<'a, S: System> Search<'a, S> {
                 let Some(mut state) = starts.next() else { break };
                 self.system.make_canonical(&mut state);
                 queue.put((self.system, &self.known), &Code::default(), &state, Places::MAX);
-                self.shown = Some(Box::new(Shown { state, code: Code::default() }));
+                self.shown.get_or_insert_with(|| Box::new(Shown { state, code: Code::default() }));
                 queued += 1;
             }
             if queued == 0 {

@@ -1,0 +1,213 @@
+//! The face of a protocol whose types are not known, in one of its surroundings: states are bytes. What is asked of it is
+//! the same for all protocols, so that whatever searches or plays one is compiled once for all of them.
+
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
+use super::{Compact, Demand, Protocol, Surroundings, When};
+use crate::engine::states::Bits;
+
+/// A state by its bytes.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub(super) struct Packed {
+    pub(super) bytes: Vec<u8>,
+    /// The bytes of the one that stands for those like it, if that is another one.
+    pub(super) canonical: Option<Vec<u8>>,
+    /// Whether another state is read from the bytes, as far as that was tried.
+    pub(super) is_lost: bool,
+}
+
+/// A move as it is told.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Made {
+    pub(super) actors: Bits,
+    pub(super) words: &'static str,
+    /// Whether it breaks the demand.
+    pub(super) is_broken: bool,
+}
+
+/// A protocol of any types, of whose demands one is looked at. States are given by their bytes.
+pub(super) trait Erased: Sync {
+    /// The demand in words.
+    fn demand(&self) -> &'static str;
+
+    /// Whether it may be broken by a run without end.
+    fn may_be_endless(&self) -> bool;
+
+    /// The moves that must occur, in words.
+    fn covers(&self) -> &'static [&'static str];
+
+    /// The states in which runs begin.
+    fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_>;
+
+    /// Every move from a state, each with the one to which it leads, made in the memory of `to`: none once the demand is
+    /// met.
+    fn each_move(
+        &self,
+        state: &[u8],
+        to: &mut Packed,
+        take: &mut dyn FnMut(Made, &mut Packed) -> ControlFlow<()>,
+    );
+
+    /// The actors of all moves that are possible in a state.
+    fn awake(&self, state: &[u8]) -> Bits;
+
+    /// What is owed in a state.
+    fn owed(&self, state: &[u8]) -> Bits;
+
+    /// Whether a run breaks the demand that ends in a state.
+    fn is_broken_at_end(&self, state: &[u8]) -> bool;
+
+    /// The states that are taken for one with a state.
+    fn alike(&self, state: &[u8]) -> Vec<Packed>;
+
+    /// A drawing of a state.
+    fn draw(&self, state: &[u8]) -> String;
+
+    /// The words for a state.
+    fn words(&self, state: &[u8]) -> String;
+
+    /// The words for the first start that does not come back from its bytes.
+    fn lost_start(&self) -> Option<String>;
+
+    /// The words for the first state that does not, of those to which moves from a state lead.
+    fn lost_after(&self, state: &[u8]) -> Option<String>;
+
+    /// The words for one that was met and does not.
+    fn lost(&self) -> Option<&str>;
+}
+
+/// A protocol in its surroundings, of whose demands one is looked at.
+pub(super) struct Typed<P: Protocol> {
+    pub(super) rule: P,
+    pub(super) here: Surroundings<P>,
+    pub(super) demand: &'static Demand<P>,
+    /// Whether every state that is met is read again from its bytes, and not only the first one to which a state leads.
+    pub(super) tries_all: bool,
+    /// The words for a state that was met and does not come back from its bytes.
+    pub(super) lost: OnceLock<String>,
+}
+
+impl<P: Protocol> Typed<P> {
+    fn packed(&self, state: &P::State) -> Packed {
+        let mut packed = Packed { bytes: Vec::with_capacity(SOME), ..Packed::default() };
+        self.pack(state, &mut packed);
+        packed
+    }
+
+    fn pack(&self, state: &P::State, to: &mut Packed) {
+        to.bytes.clear();
+        state.write(&mut to.bytes);
+        let least = self.rule.alike(&self.here, state).iter().map(bytes).min();
+        to.canonical = least.filter(|least| *least < to.bytes);
+        to.is_lost = false;
+    }
+}
+
+impl<P: Protocol> Erased for Typed<P> {
+    fn demand(&self) -> &'static str {
+        self.demand.words
+    }
+
+    fn may_be_endless(&self) -> bool {
+        matches!(self.demand.when, When::Eventually(_) | When::AgainAndAgain(_))
+    }
+
+    fn covers(&self) -> &'static [&'static str] {
+        P::COVERS
+    }
+
+    fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_> {
+        Box::new(self.rule.starts(&self.here).into_iter().map(|state| self.packed(&state)))
+    }
+
+    fn each_move(
+        &self,
+        state: &[u8],
+        to: &mut Packed,
+        take: &mut dyn FnMut(Made, &mut Packed) -> ControlFlow<()>,
+    ) {
+        let (before, here) = (&read::<P>(state), &self.here);
+        if matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.rule, here, before)) {
+            return;
+        }
+        for (number, made) in self.rule.moves(here, before).iter().enumerate() {
+            self.pack(&made.to, to);
+            if (number == 0 || self.tries_all) && read::<P>(&to.bytes) != made.to {
+                to.is_lost = true;
+                self.lost.get_or_init(|| self.rule.words(&made.to));
+            }
+            let is_broken = match self.demand.when {
+                When::Always(is_kept) => !is_kept(&self.rule, here, before, &made.to),
+                When::AtTheEnd(_) | When::Eventually(_) | When::AgainAndAgain(_) => false,
+            };
+            if take(Made { actors: made.actors, words: made.words, is_broken }, to).is_break() {
+                return;
+            }
+        }
+    }
+
+    fn awake(&self, state: &[u8]) -> Bits {
+        self.rule.moves(&self.here, &read::<P>(state)).iter().fold(0, |set, next| set | next.actors)
+    }
+
+    fn owed(&self, state: &[u8]) -> Bits {
+        match self.demand.when {
+            When::AgainAndAgain(owed) => owed(&self.rule, &self.here, &read::<P>(state)),
+            When::Always(_) | When::AtTheEnd(_) | When::Eventually(_) => 1,
+        }
+    }
+
+    fn is_broken_at_end(&self, state: &[u8]) -> bool {
+        let state = || read::<P>(state);
+        match self.demand.when {
+            When::Always(_) => false,
+            When::AtTheEnd(is_so) | When::Eventually(is_so) => !is_so(&self.rule, &self.here, &state()),
+            When::AgainAndAgain(owed) => owed(&self.rule, &self.here, &state()) != 0,
+        }
+    }
+
+    fn alike(&self, state: &[u8]) -> Vec<Packed> {
+        self.rule.alike(&self.here, &read::<P>(state)).iter().map(|other| self.packed(other)).collect()
+    }
+
+    fn draw(&self, state: &[u8]) -> String {
+        self.rule.draw(&self.here, &read::<P>(state))
+    }
+
+    fn words(&self, state: &[u8]) -> String {
+        self.rule.words(&read::<P>(state))
+    }
+
+    fn lost_start(&self) -> Option<String> {
+        let lost = self.rule.starts(&self.here).into_iter().find(is_lost::<P>);
+        lost.map(|state| self.rule.words(&state))
+    }
+
+    fn lost_after(&self, state: &[u8]) -> Option<String> {
+        let made = self.rule.moves(&self.here, &read::<P>(state)).into_iter();
+        made.map(|made| made.to).find(is_lost::<P>).map(|state| self.rule.words(&state))
+    }
+
+    fn lost(&self) -> Option<&str> {
+        self.lost.get().map(String::as_str)
+    }
+}
+
+/// The bytes of which most states have no more.
+const SOME: usize = 32;
+
+fn bytes(state: &impl Compact) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(SOME);
+    state.write(&mut bytes);
+    bytes
+}
+
+fn read<P: Protocol>(mut bytes: &[u8]) -> P::State {
+    P::State::read(&mut bytes)
+}
+
+/// Whether a state does not come back from its bytes.
+fn is_lost<P: Protocol>(state: &P::State) -> bool {
+    read::<P>(&bytes(state)) != *state
+}
