@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 use tautline_library::{dijkstra, gathering, ricart};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
-use tautline_proofs::decide::Verdict;
+use tautline_proofs::decide::{Method, RandomRuns, Verdict};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger;
 use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring};
@@ -122,6 +122,17 @@ impl Protocol for Grows {
 #[test]
 fn a_state_that_is_lost_deep_in_a_search_is_refused() {
     let refused = refused(&Grows::Beyond, Starts::of(1), 0);
+    assert!(refused.ends_with("does not come back from its bytes"), "{refused}");
+}
+
+#[test]
+fn a_hunt_that_meets_a_state_that_is_lost_is_refused() {
+    let hunt = |rule, most_moves| {
+        let runs = RandomRuns { runs: 20, seed: 7, most_moves };
+        Keeps::<Grows>(Starts::of(1), 0).hunt(&rule, &runs).map(|found| found.expect("an answer").verdict)
+    };
+    assert_eq!(hunt(Grows::UpTo900, 2000), Ok(Verdict::Unrefuted));
+    let refused = hunt(Grows::Beyond, 2000).expect_err("it is refused").to_string();
     assert!(refused.ends_with("does not come back from its bytes"), "{refused}");
 }
 

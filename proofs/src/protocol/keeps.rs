@@ -89,7 +89,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
 
     /// A hunt over no start is open.
     fn hunt(&self, rule: &P, runs: &RandomRuns) -> Result<Option<Answer>, MethodError> {
-        hunted(&self.playing(rule, false)?, runs).map(Some)
+        hunted(&self.playing(rule, true)?, runs).map(Some)
     }
 
     fn shorten(
@@ -150,6 +150,7 @@ fn systems(mut all: Vec<Playing>) -> Result<Systems, MethodError> {
 /// The findings of random runs.
 fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
     is_sound(all)?;
+    all.iter().try_for_each(Playing::starts_come_back)?;
     let starts: Vec<_> = starts(all).collect();
     if starts.is_empty() {
         return Ok(Answer::open());
@@ -163,6 +164,7 @@ fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
         Some(run) => Err(Stop::Violated(run.demand)),
         None => Ok("a run"),
     });
+    all.iter().try_for_each(Playing::states_came_back)?;
     let again = tally.violation.as_ref().and_then(|(choices, _)| made(&mut Replay::new(choices)));
     let evidence = again.map(|run| starts[run.start].0.evidence(&starts[run.start].1, &run));
     Ok(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases))
@@ -177,6 +179,7 @@ fn shortened(
     let (_, run) = play(all, choices).map_err(MethodError::new)?;
     let Some((playing, start)) = starts(all).nth(run.start) else { return Ok(None) };
     let shortest = states::search(playing, [start.clone()], limits).broken.into_iter().next();
+    playing.states_came_back()?;
     Ok(Some(match shortest {
         Some(found) => (playing.unfolded(&start, Run { start: run.start, ..found }).choices(), true),
         None => (states::without_detours(playing, &start, &run).choices(), false),

@@ -225,7 +225,7 @@ impl Playing {
     pub(super) fn search(&self, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         self.starts_come_back()?;
         let mut found = states::search(self, self.starts(), limits);
-        came_back(self.lost().map(str::to_owned))?;
+        self.states_came_back()?;
         for run in &mut found.broken {
             if let Some(start) = self.starts().nth(run.start) {
                 *run = self.unfolded(&start, run.clone());
@@ -240,6 +240,14 @@ impl Playing {
     /// [`MethodError`] if one does not: two starts might be taken for one.
     pub(super) fn starts_come_back(&self) -> Result<(), MethodError> {
         came_back(self.lost_start())
+    }
+
+    /// Whether all states that were met and tried came back from their bytes.
+    ///
+    /// # Errors
+    /// [`MethodError`] if one did not: another one was gone on from in its place.
+    pub(super) fn states_came_back(&self) -> Result<(), MethodError> {
+        came_back(self.lost().map(str::to_owned))
     }
 
     pub(super) fn evidence(&self, start: &Packed, run: &Run<&'static str>) -> Evidence {
