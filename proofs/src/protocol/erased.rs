@@ -37,7 +37,7 @@ pub(super) trait Erased: Sync {
     /// The moves that must occur, in words.
     fn covers(&self) -> &'static [&'static str];
 
-    /// The states in which runs begin.
+    /// The states in which runs begin, each tried whether it comes back from its bytes.
     fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_>;
 
     /// Every move from a state, each with the one to which it leads, made in the memory of `to`: none once the demand is
@@ -67,13 +67,10 @@ pub(super) trait Erased: Sync {
     /// The words for a state.
     fn words(&self, state: &[u8]) -> String;
 
-    /// The words for the first start that does not come back from its bytes.
-    fn lost_start(&self) -> Option<String>;
-
-    /// The words for the first state that does not, of those to which moves from a state lead.
+    /// The words for the first state that does not come back from its bytes, of those to which moves from a state lead.
     fn lost_after(&self, state: &[u8]) -> Option<String>;
 
-    /// The words for one that was met and does not.
+    /// The words for one that was tried and does not.
     fn lost(&self) -> Option<&str>;
 }
 
@@ -102,6 +99,14 @@ impl<P: Protocol> Typed<P> {
         to.canonical = least.filter(|least| *least < to.bytes);
         to.is_lost = false;
     }
+
+    /// Tries whether a state comes back from its bytes.
+    fn try_to_read(&self, state: &P::State, packed: &mut Packed) {
+        packed.is_lost = read::<P>(&packed.bytes) != *state;
+        if packed.is_lost {
+            self.lost.get_or_init(|| self.rule.words(state));
+        }
+    }
 }
 
 impl<P: Protocol> Erased for Typed<P> {
@@ -118,7 +123,12 @@ impl<P: Protocol> Erased for Typed<P> {
     }
 
     fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_> {
-        Box::new(self.rule.starts(&self.here).into_iter().map(|state| self.packed(&state)))
+        let packed = |state| {
+            let mut packed = self.packed(&state);
+            self.try_to_read(&state, &mut packed);
+            packed
+        };
+        Box::new(self.rule.starts(&self.here).into_iter().map(packed))
     }
 
     fn each_move(
@@ -133,9 +143,8 @@ impl<P: Protocol> Erased for Typed<P> {
         }
         for (number, made) in self.rule.moves(here, before).iter().enumerate() {
             self.pack(&made.to, to);
-            if (number == 0 || self.tries_all) && read::<P>(&to.bytes) != made.to {
-                to.is_lost = true;
-                self.lost.get_or_init(|| self.rule.words(&made.to));
+            if number == 0 || self.tries_all {
+                self.try_to_read(&made.to, to);
             }
             let is_broken = match self.demand.when {
                 When::Always(is_kept) => !is_kept(&self.rule, here, before, &made.to),
@@ -179,14 +188,10 @@ impl<P: Protocol> Erased for Typed<P> {
         self.rule.words(&read::<P>(state))
     }
 
-    fn lost_start(&self) -> Option<String> {
-        let lost = self.rule.starts(&self.here).into_iter().find(is_lost::<P>);
-        lost.map(|state| self.rule.words(&state))
-    }
-
     fn lost_after(&self, state: &[u8]) -> Option<String> {
-        let made = self.rule.moves(&self.here, &read::<P>(state)).into_iter();
-        made.map(|made| made.to).find(is_lost::<P>).map(|state| self.rule.words(&state))
+        let moves = self.rule.moves(&self.here, &read::<P>(state));
+        let lost = moves.iter().find(|made| read::<P>(&bytes(&made.to)) != made.to);
+        lost.map(|made| self.rule.words(&made.to))
     }
 
     fn lost(&self) -> Option<&str> {
@@ -205,9 +210,4 @@ fn bytes(state: &impl Compact) -> Vec<u8> {
 
 fn read<P: Protocol>(mut bytes: &[u8]) -> P::State {
     P::State::read(&mut bytes)
-}
-
-/// Whether a state does not come back from its bytes.
-fn is_lost<P: Protocol>(state: &P::State) -> bool {
-    read::<P>(&bytes(state)) != *state
 }

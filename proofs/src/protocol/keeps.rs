@@ -150,7 +150,6 @@ fn systems(mut all: Vec<Playing>) -> Result<Systems, MethodError> {
 /// The findings of random runs.
 fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
     is_sound(all)?;
-    all.iter().try_for_each(Playing::starts_come_back)?;
     let starts: Vec<_> = starts(all).collect();
     if starts.is_empty() {
         return Ok(Answer::open());

@@ -147,7 +147,7 @@ impl Playing {
     }
 
     fn broken(&self, is_broken: bool) -> Vec<&'static str> {
-        is_broken.then(|| self.demand()).into_iter().collect()
+        if is_broken { vec![self.demand()] } else { Vec::new() }
     }
 
     fn canonical(&self, mut state: Packed) -> Packed {
@@ -210,7 +210,7 @@ impl Playing {
         let sound = states::repeats(self, self.starts());
         if !matches!(sound, Err(Unsound::Unrepeatable | Unsound::TooManyCovers)) {
             // Which states do not come back, or are not alike, is said in the words of the rule.
-            self.starts_come_back()?;
+            self.states_came_back()?;
             let mut first = states::first_states(self, self.starts());
             came_back(first.find_map(|state| self.lost_after(&state.bytes)))?;
             self.is_symmetric()?;
@@ -223,7 +223,6 @@ impl Playing {
     /// # Errors
     /// [`MethodError`] if a state did not come back from its bytes.
     pub(super) fn search(&self, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
-        self.starts_come_back()?;
         let mut found = states::search(self, self.starts(), limits);
         self.states_came_back()?;
         for run in &mut found.broken {
@@ -239,7 +238,8 @@ impl Playing {
     /// # Errors
     /// [`MethodError`] if one does not: two starts might be taken for one.
     pub(super) fn starts_come_back(&self) -> Result<(), MethodError> {
-        came_back(self.lost_start())
+        self.starts().for_each(drop);
+        self.states_came_back()
     }
 
     /// Whether all states that were met and tried came back from their bytes.
