@@ -28,8 +28,8 @@ pub struct Keeps<P: Protocol>(
 type Run = states::Run<&'static str>;
 
 impl<P: Protocol> Keeps<P> {
-    /// The protocol in each of its surroundings. Whether every state that is met is tried to come back from its bytes, or
-    /// few are outside debug builds.
+    /// The protocol in each of its surroundings. With `tries_all`, and in debug builds, each state that is met is tried
+    /// whether it comes back from its bytes; else starts are, and the first state to which each leads.
     fn playing(&self, rule: &P, tries_all: bool) -> Result<Vec<Playing>, MethodError> {
         let none = || MethodError::new(format_args!("there is no demand {}", self.1));
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
@@ -78,7 +78,6 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         answered((&self.playing(rule, false)?, P::COVERS), portion, (until, limits), self.shows())
     }
 
-    /// Surroundings without a start are left out, unless there are no others.
     fn systems(&self, rule: &P) -> Result<Systems, MethodError> {
         systems(self.playing(rule, true)?)
     }
@@ -133,7 +132,7 @@ fn replayed(all: &[Playing], choices: &Choices) -> Result<RefutationPlay, Script
     Ok(RefutationPlay { of, evidence: evidence(all, &run).ok_or(ScriptError::Unbroken)? })
 }
 
-/// Those that have a start, each with its starts; all, if none has one.
+/// Those that have a start, each with its starts; all of them, if none has one.
 fn systems(mut all: Vec<Playing>) -> Result<Systems, MethodError> {
     is_sound(&all)?;
     all.iter().try_for_each(Playing::starts_come_back)?;
