@@ -1,6 +1,5 @@
-//! The page of a rule of one's own. A crate that is built as a `cdylib` names its scheme by [`page!`](crate::page), and
-//! `web/build --rule FOLDER` makes the page of it: the rule stands first among the schemes, is drawn, run, decided by
-//! hand and hunted as ours are.
+//! The page of a rule of one's own. A crate names its scheme by [`page!`](crate::page), and `web/build --rule FOLDER`
+//! makes the page of it: the rule stands first among the schemes, is drawn, run, decided by hand and hunted as ours are.
 
 use std::sync::OnceLock;
 
@@ -49,7 +48,7 @@ pub(crate) fn catalogue() -> Catalogue {
     PAGE.get().map_or(Catalogue::OWN, |&(_, catalogue)| catalogue)
 }
 
-/// Makes a `cdylib` the engine behind the page of this [`OwnPage`].
+/// Makes the library of a crate the engine behind the page of this [`OwnPage`].
 #[macro_export]
 macro_rules! page {
     ($page:expr) => {
