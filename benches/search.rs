@@ -57,8 +57,8 @@ enum Copies {
     AtForks,
 }
 
-/// The runs of [`search_within`], depth first over plain chains: each team move is made for every way in which some of the
-/// edges that nobody knows are walls.
+/// The runs of [`search_within`], depth first over plain chains: each team move is made for every way in which some of
+/// the edges that nobody knows are walls.
 fn search_naively(bounds: &Bounds, copies: Copies) -> SearchWork {
     let chain = PlainChain::new(Rule::PUBLISHED, bounds.robots, bounds.base, bounds.area);
     let mut searched = SearchWork::default();

@@ -1,5 +1,5 @@
-//! The followers of the tutorial, however many: each robot follows the next one, and none is left behind, for every number
-//! of robots and every layout. And a rule that looks as local and is not: it knows where a fence is.
+//! The followers of the tutorial, however many: each robot follows the next one, and none is left behind, for every
+//! number of robots and every layout. And a rule that looks as local and is not: it knows where a fence is.
 
 use std::error::Error;
 

@@ -184,7 +184,7 @@ enum Draw {
     Order,
     /// Every team move.
     Moves,
-    /// What robots have mapped; objects are drawn in a picture of it.
+    /// The map that robots have made; objects are drawn in a picture of it.
     Map,
 }
 

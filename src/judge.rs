@@ -28,7 +28,8 @@ Examples:
   tautline judge log.csv --clauses FRONTIER-1,FRONTIER-2 --map floor.yaml --cell 0.5 --radius 0.2
 
 LOG is a table (CSV) with columns time, robot, x and y, lines of JSON with these fields or like messages of ROS, or a \
-recording of ROS 2 in MCAP. Names end with units that are not seconds and metres: t_ms, x_mm. docs/judge.md shows all of it.";
+recording of ROS 2 in MCAP. Names end with units that are not seconds and metres: t_ms, x_mm. docs/judge.md shows all \
+of it.";
 
 /// The longest log that is read.
 const MOST_BYTES: u64 = 1 << 30;

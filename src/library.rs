@@ -46,8 +46,8 @@ pub(super) struct Library {
     /// Decide the larger bounds, which take minutes and gigabytes. Some rules have none.
     #[arg(long)]
     larger: bool,
-    /// Hunt: in place of all states, make at most N random runs for each check, until one breaks its promise. Of mutants
-    /// none are made.
+    /// Hunt: in place of all states, make at most N random runs for each check, until one breaks its promise. Of
+    /// mutants none are made.
     #[arg(long, value_name = "N", value_parser = number::<u64>)]
     #[arg(conflicts_with_all = ["html", "certificate", "memory", "spill", "patience"])]
     runs: Option<u64>,
@@ -66,7 +66,8 @@ pub(super) struct Library {
     shards: Option<u32>,
     /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
     #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
-    #[arg(conflicts_with_all = ["rules", "larger", "runs", "out", "html", "certificate", "memory", "spill", "patience", "force"])]
+    #[arg(conflicts_with_all = ["rules", "larger", "runs", "out", "html", "certificate"])]
+    #[arg(conflicts_with_all = ["memory", "spill", "patience", "force"])]
     shard: Option<u32>,
     #[command(flatten)]
     how: Deciding,

@@ -33,17 +33,18 @@ Examples:
   tautline locate measurements.csv --noise-db 2 --format json
   tautline locate levels.csv --power-dbm -40 --exponent 2.7
 
-FILE holds measurements: its first line is fix,x_m,y_m,range_m, and each other line has one distance, with the name of the \
-position that it belongs to, the place of the anchor, and the metres measured. With --power-dbm the last column is level_dbm, the strength with which the anchor is heard.
+FILE holds measurements: its first line is fix,x_m,y_m,range_m, and each other line has one distance, with the name of \
+the position that it belongs to, the place of the anchor, and the metres measured. With --power-dbm the last column is \
+level_dbm, the strength with which the anchor is heard.
 
-What the JSON says: error_m is how far positions are from where the robot is, optimum_m how far they are from where the \
-distances miss least, each with median, p95 and rms and the 95 % interval of these; crlb_rms_m is the Cramér-Rao bound, below \
-which no unbiased way comes; spread_m are the singular values of the anchors' places; two, weak, outside and unsettled \
-count positions of which there were two, that the anchors tell badly, that the distances put outside the rectangle, and of which the \
-steps did not end; advice is what --advice prints.
+What the JSON says: error_m is how far positions are from where the robot is, optimum_m how far they are from where \
+the distances miss least, each with median, p95 and rms and the 95 % interval of these; crlb_rms_m is the Cramér-Rao \
+bound, below which no unbiased way comes; spread_m are the singular values of the anchors' places; two, weak, outside \
+and unsettled count positions of which there were two, that the anchors tell badly, that the distances put outside the \
+rectangle, and of which the steps did not end; advice is what --advice prints.
 
-Advice: a robot may believe each fix if its error is below a quarter of a cell, and correct its place within a cell that it \
-counts by moves if the error is below half a cell. It is about the 99th percentile of the errors.";
+Advice: a robot may believe each fix if its error is below a quarter of a cell, and correct its place within a cell \
+that it counts by moves if the error is below half a cell. It is about the 99th percentile of the errors.";
 
 /// Tell how exact positions are that the strength of anchors' signals tells, or find the positions of measurements.
 ///

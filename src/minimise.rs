@@ -32,10 +32,10 @@ Examples:
 
 /// Shrink a run that breaks a clause until nothing of it can go, and store what is left.
 ///
-/// Of the minimal run no robot, column, row, blocked cell, wall or missed sensor can go: taken alone, without any one of
-/// them the clause is not broken. It ends with the team move that breaks it. Where a search has chosen what happens in
-/// which order, every smaller team and layout is searched. Of a run over states, as `library` stores it, a shortest one
-/// from the same start is left.
+/// Of the minimal run no robot, column, row, blocked cell, wall or missed sensor can go: taken alone, without any one
+/// of them the clause is not broken. It ends with the team move that breaks it. Where a search has chosen what happens
+/// in which order, every smaller team and layout is searched. Of a run over states, as `library` stores it, a shortest
+/// one from the same start is left.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Minimise {
@@ -108,7 +108,8 @@ impl ShortenedJson {
             "More states are led to than may be looked at: nothing but detours was taken out."
         };
         format!(
-            "{clause} as {rule}: {name}\n{}\n               before   after\nmoves        {:>8}{:>8}\nfor ever     {:>8}{:>8}\n\n\
+            "{clause} as {rule}: {name}\n{}\n               before   after\nmoves        {:>8}{:>8}\nfor ever     \
+                {:>8}{:>8}\n\n\
              {why}\n\n",
             indented(2, bound),
             before.moves,

@@ -65,8 +65,8 @@ const PATIENCE: NonZeroU32 = NonZeroU32::new(PATIENCE_S).expect("it is above 0")
 
 /// Decide the clauses of SPEC.md within their bounds, and print the verdicts.
 ///
-/// Without a clause one screen tells how many verdicts there are of each kind. With one, or with `--verbose`, each check
-/// has its line in a ledger, and each counterexample is drawn.
+/// Without a clause one screen tells how many verdicts there are of each kind. With one, or with `--verbose`, each
+/// check has its line in a ledger, and each counterexample is drawn.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Prove {
@@ -86,9 +86,9 @@ pub(super) struct Deciding {
     /// Store a page with all of it: sentences, verdicts, what they rest on, and counterexamples that play.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Store a certificate for each check that holds as a file in DIR: of a search over all states or all layouts one that
-    /// `tautline check` checks, of a proof for every number of robots one that Rocq checks. DIR is made if it is not
-    /// there.
+    /// Store a certificate for each check that holds as a file in DIR: of a search over all states or all layouts one
+    /// that `tautline check` checks, of a proof for every number of robots one that Rocq checks. DIR is made if it is
+    /// not there.
     #[arg(long, value_name = "DIR")]
     certificate: Option<PathBuf>,
     /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice
@@ -380,7 +380,8 @@ fn cut_off(room: &MemoryLimit) -> Option<String> {
     }
     room.was_too_small().then(|| {
         format!(
-            "A search over states would have taken more than {} KiB: its check is open, or its mutant was not rejected.\n\
+            "A search over states would have taken more than {} KiB: its check is open, or its mutant was not \
+                rejected.\n\
              Give more with --memory: one search gets three quarters of it; or give it a folder with --spill.\n",
             room.most() >> 10
         )
@@ -395,8 +396,8 @@ fn is_undecided(row: &Row) -> bool {
 fn unfinished(rows: &[Row], room: &MemoryLimit) -> String {
     let mut text = cut_off(room).unwrap_or_default();
     if rows.iter().any(is_undecided) {
-        text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, or it \
-                 needs more time: give more with --patience.\n";
+        text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, \
+                 or it needs more time: give more with --patience.\n";
     }
     text
 }

@@ -42,12 +42,12 @@ Examples:
 
 What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the first call \
 for each event at a WFR; assignments counts all WFRs and events of all seeds, and the events that were served_once, \
-served_more_often, never (a robot that lives is connected with the WFR and has heard of the event), unheard (connected, \
-but the broadcast has not reached it), cut_off (not connected) and still_to_come (the one before was not served); robots_failed counts the robots that failed \
-on their way to a WFR, before the last arrival of all but not on their way, and after it; \
-distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call for \
-an event to the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % \
-interval.
+served_more_often, never (a robot that lives is connected with the WFR and has heard of the event), unheard \
+(connected, but the broadcast has not reached it), cut_off (not connected) and still_to_come (the one before was not \
+served); robots_failed counts the robots that failed on their way to a WFR, before the last arrival of all but not on \
+their way, and after it; distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the \
+time from the first call for an event to the robot; violations the clauses broken, in how many rescues, and where \
+first. Each mean has its 95 % interval.
 
 A rescue ends when nothing more happens, or after six hours for each event: who then still waits for a robot counts as \
 never served.

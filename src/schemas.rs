@@ -97,8 +97,8 @@ fn each_schema_is_that_of_the_type_that_is_printed() {
         let committed = fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
         assert!(
             committed == fresh,
-            "what is printed is not as docs/schemas/{name}.json says. If that is meant, write it anew with\n    {RENEW}\nand \
-             let schema_version grow if a field has gone or changed"
+            "what is printed is not as docs/schemas/{name}.json says. If that is meant, write it anew with\n    \
+             {RENEW}\nand let schema_version grow if a field has gone or changed"
         );
     }
     assert_eq!(fs::read_dir(folder).expect("a folder").count(), schemas.len(), "a schema of nothing");

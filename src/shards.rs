@@ -191,12 +191,14 @@ pub(super) struct Merge {
     plan: PathBuf,
     /// The files of its shards. Without one, those beside the plan.
     files: Vec<PathBuf>,
-    /// The folder for the counterexamples. Without it those of a hunt are stored here, and those of the library are not.
+    /// The folder for the counterexamples. Without it those of a hunt are stored here, and those of the library are
+    /// not.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
     #[cfg_attr(not(feature = "papers"), arg(skip))]
-    #[cfg_attr(feature = "papers", arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2, value_parser = value_parser!(PathBuf)))]
+    #[cfg_attr(feature = "papers", arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2))]
+    #[cfg_attr(feature = "papers", arg(value_parser = value_parser!(PathBuf)))]
     pictures: Vec<PathBuf>,
     /// Store the values of a table as comma-separated values.
     #[cfg_attr(not(feature = "papers"), arg(skip))]

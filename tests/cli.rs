@@ -164,7 +164,8 @@ fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
     let hunt = ["hunt", "--scheme", "bricks", "--max-misses", "2"];
     assert_snapshot!("trap", printed(folder, &hunt, 1));
     let found = json(folder, &hunt, 1);
-    assert_snapshot!(found["counterexamples"], @r#"[{"clause":"BRICKS-4","columns":3,"file":"bricks-4-repaired-n1.jsonl","misses":1,"rows":3,"steps":5}]"#);
+    assert_snapshot!(found["counterexamples"],
+        @r#"[{"clause":"BRICKS-4","columns":3,"file":"bricks-4-repaired-n1.jsonl","misses":1,"rows":3,"steps":5}]"#);
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/bricks-4-repaired-n1.jsonl");
     let stored = fs::read_to_string(folder.join("bricks-4-repaired-n1.jsonl")).expect("a run");
     assert_eq!(stored, fs::read_to_string(kept).expect("a run"), "the page draws another one");
@@ -195,7 +196,8 @@ fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
 fn ants_and_the_robust_rule_are_not_trapped() {
     let folder = folder();
     let folder = folder.path();
-    assert_snapshot!(printed(folder, &["hunt", "--scheme", "bricks-ants", "--max-misses", "2", "--size", "3x3"], 0), @r#"
+    assert_snapshot!(printed(folder, &["hunt", "--scheme", "bricks-ants", "--max-misses", "2", "--size", "3x3"], 0),
+        @r#"
     bricks-ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 169999 states, 196963 team moves
     No agent is trapped in any layout within this bound.
     "#);
@@ -802,10 +804,12 @@ fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
     let explore = |scheme: &'static str| [&["explore", "ring", "--scheme", scheme], &starts[..]].concat();
     assert_snapshot!("agents_in_two_parts", printed(folder, &explore("bricks"), 0));
     let bricks = json(folder, &explore("bricks"), 0);
-    assert_snapshot!(bricks["components"], @r#"[{"cells":8,"explored":8,"robots":2,"terminated":true,"visited":8},{"cells":3,"explored":3,"robots":1,"terminated":true,"visited":3}]"#);
+    assert_snapshot!(bricks["components"],
+        @r#"[{"cells":8,"explored":8,"robots":2,"terminated":true,"visited":8},{"cells":3,"explored":3,"robots":1,"terminated":true,"visited":3}]"#);
     assert_eq!((&bricks["cells"], &bricks["visited"]), (&11.into(), &11.into()));
     let ants = json(folder, &explore("ants"), 0);
-    assert_snapshot!(ants["components"], @r#"[{"cells":8,"explored":8,"robots":2},{"cells":3,"explored":3,"robots":1}]"#);
+    assert_snapshot!(ants["components"],
+        @r#"[{"cells":8,"explored":8,"robots":2},{"cells":3,"explored":3,"robots":1}]"#);
     assert_eq!((ants.get("visited"), ants.get("terminated")), (None, None), "ants never know");
     let one_part = json(folder, &["explore", "ring", "--scheme", "bricks", "--start", "3,0"], 0);
     assert_eq!((&one_part["cells"], one_part.get("components")), (&3.into(), None));
@@ -1017,8 +1021,10 @@ fn rescues_are_counted_and_judged() {
     let shadows = ["--seeds", "0..19", "--shadowing-db", "4", "--exponent", "3", "--noise-db", "1"];
     assert_snapshot!("rescues_under_shadows", printed(folder, &[&RESCUE[..], &shadows].concat(), 0));
     let counted = json(folder, &published, 1);
-    assert_snapshot!(counted["assignments"], @r#"{"cut_off":0,"events":60,"never":13,"served_more_often":0,"served_once":47,"still_to_come":0,"unheard":0,"wfrs":60}"#);
-    assert_snapshot!(counted["violations"], @r#"[{"at_s":0.094795064,"clause":"MRC-1","event":1,"rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","event":1,"rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","event":1,"rescues":12,"seed":0,"wfr":2}]"#);
+    assert_snapshot!(counted["assignments"],
+        @r#"{"cut_off":0,"events":60,"never":13,"served_more_often":0,"served_once":47,"still_to_come":0,"unheard":0,"wfrs":60}"#);
+    assert_snapshot!(counted["violations"],
+        @r#"[{"at_s":0.094795064,"clause":"MRC-1","event":1,"rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","event":1,"rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","event":1,"rescues":12,"seed":0,"wfr":2}]"#);
     assert_eq!(counted.get("events"), None);
     let thrice = [&RESCUE[..], &["--seeds", "0..9", "--events", "3"]].concat();
     assert_eq!(json(folder, &thrice, 0)["assignments"]["served_once"], 90);
@@ -1296,7 +1302,8 @@ fn where_no_thread_can_be_started_the_work_is_done_without() {
     let table = ["reproduce", "repair-cost", "--runs", "2"];
     let output = alone(folder.path(), &table).output().expect("prlimit runs");
     let errors = String::from_utf8(output.stderr).expect("text");
-    assert_snapshot!(errors.lines().next().unwrap_or_default(), @" WARN the system starts no thread: Ctrl-C will end the work at once");
+    assert_snapshot!(errors.lines().next().unwrap_or_default(),
+        @" WARN the system starts no thread: Ctrl-C will end the work at once");
     assert!(errors.contains("the system starts no more threads: 1 instead of "), "{errors}");
     assert_eq!(output.status.code(), Some(0), "{errors}");
     let told = String::from_utf8(output.stdout).expect("text");
@@ -1400,7 +1407,8 @@ fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
     };
     fs::write(folder.join("ring.txt"), RING).expect("a file");
     fs::write(folder.join("two.map"), "type octile\nheight 1\nwidth 3\nmap\n.@.\n").expect("a file");
-    let map = "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    let map = "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: \
+        0.2\n";
     fs::write(folder.join("ros.yaml"), map).expect("a file");
     fs::write(folder.join("map.pgm"), b"P5 2 1 255 \xff\x00").expect("a file");
     for name in ["ring.txt", "two.map", "ros.yaml"] {

@@ -105,7 +105,8 @@ fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
     assert!(page.contains("\neE\t{\"broken\":[[\"PAIR-1\",[]]]}\n"), "{page}");
     assert!(fs::read_to_string(folder.join("run.svg")).expect("a picture").contains("breaks PAIR-1"));
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--format", "json"], 1);
-    assert_snapshot!(told, @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}]}"#);
+    assert_snapshot!(told,
+        @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}]}"#);
 }
 
 #[test]

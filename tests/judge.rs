@@ -94,7 +94,10 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
     judged(folder, "units.csv --clauses CHAIN-3 --map open:12x3", 1);
     let (told, _) = judged(folder, "field.csv --clauses FRONTIER-1 --map open:12x1", 1);
     assert!(told.contains("nobody was in 3 cells, the first is (9,0)"), "{told}");
-    let wall = "tautline layout 1\n+--+--+--+--+--+--+--+--+--+--+--+--+\n|  |                                |\n+--+--+--+--+--+--+--+--+--+--+--+--+\n";
+    let wall = "tautline layout 1\n\
+                +--+--+--+--+--+--+--+--+--+--+--+--+\n\
+                |  |                                |\n\
+                +--+--+--+--+--+--+--+--+--+--+--+--+\n";
     fs::write(folder.join("wall.txt"), wall).expect("a file");
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-2 --map wall.txt", 0);
     assert!(told.contains("a step through a wall of the map, first in line"), "{told}");
@@ -107,7 +110,8 @@ fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
     let folder = folder.path();
     let image = format!("P2\n20 6\n255\n{}{}", "255 ".repeat(100), "0 ".repeat(20));
     fs::write(folder.join("floor.pgm"), image).expect("a file");
-    let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\nnegate: \
+        0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
     fs::write(folder.join("floor.yaml"), yaml).expect("a file");
     // Ten columns from x = -1 on, of which robots reach 1 to 9; two of three rows are free, from y = 0 on.
     let (told, _) =

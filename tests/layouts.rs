@@ -107,8 +107,10 @@ fn the_default_base_is_the_free_cell_nearest_the_centre() {
 #[test]
 fn a_base_must_be_inside_and_free() {
     let mut layout = drawing(DRAWING);
-    assert_snapshot!(layout.place_base(Cell::new(2, 1)).expect_err("blocked"), @"the base 2,1 is on a blocked cell; the nearest free cell is 2,0; put the base on 2,0");
-    assert_snapshot!(layout.place_base(Cell::new(3, 0)).expect_err("outside"), @"the base 3,0 is outside the 3x2 cells; columns go from 0 to 2, rows from 0 to 1");
+    assert_snapshot!(layout.place_base(Cell::new(2, 1)).expect_err("blocked"),
+        @"the base 2,1 is on a blocked cell; the nearest free cell is 2,0; put the base on 2,0");
+    assert_snapshot!(layout.place_base(Cell::new(3, 0)).expect_err("outside"),
+        @"the base 3,0 is outside the 3x2 cells; columns go from 0 to 2, rows from 0 to 1");
     assert_eq!(layout.place_base(Cell::new(0, 1)), Ok(()));
     layout.block(Cell::new(0, 1));
     assert_eq!(layout.base(), None);
@@ -205,29 +207,54 @@ fn a_bad_drawing_is_refused_at_its_place() {
         assert!(DRAWING.contains(from));
         refused("a.txt", DRAWING.replacen(from, to, 1))
     };
-    assert_snapshot!(bad("layout 1", "layout 2"), @"a.txt:1:17: this is version 2, this program reads version 1; write the drawing again with this program");
-    assert_snapshot!(bad("tautline layout 1\n", ""), @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml");
-    assert_snapshot!(bad("robots 4", "robots 257"), @r#"a.txt:2:8: "257" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
-    assert_snapshot!(bad("robots 4", "robots 0"), @r#"a.txt:2:8: "0" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
-    assert_snapshot!(bad("robots 4", "robot 4"), @"a.txt:2:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
-    assert_snapshot!(bad("+--+--+--+\n", ""), @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
-    assert_snapshot!(bad("|     |  |", "|     |  | "), @"a.txt:4:1: this row ends after character 11, not 10; make all rows equally long");
-    assert_snapshot!(bad("|     |  |", "|     |"), @"a.txt:4:1: this row ends after character 7, not 10; make all rows equally long");
-    assert_snapshot!(bad("##", "#?"), @r##"a.txt:6:8: the symbol "#?" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"##);
-    assert_snapshot!(bad("##", "é "), @r#"a.txt:6:8: the symbol "é" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"#);
-    assert_snapshot!(bad("##|", "##x"), @r#"a.txt:6:10: the symbol "x" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"#);
-    assert_snapshot!(bad("+  +--+  +", "+  +--+ -+"), @r#"a.txt:5:8: the symbol " -" is unknown; a line between two rows is made of `+` corners, each followed by `--` (a wall) or two spaces"#);
-    assert_snapshot!(bad("+  +--+  +", "+  *--+  +"), @r#"a.txt:5:4: the symbol "*" is unknown; a line between two rows is made of `+` corners, each followed by `--` (a wall) or two spaces"#);
-    assert_snapshot!(bad("##|", "## "), @"a.txt:6:10: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
-    assert_snapshot!(bad("+--+--+--+\n|     ", "+--+  +--+\n|     "), @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
-    assert_snapshot!(bad("##|\n+--+--+--+", "##|\n+--+  +--+"), @"a.txt:7:5: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
-    assert_snapshot!(bad("##|\n+--+--+--+\n", "##|\n"), @"a.txt:6:11: the drawing ends before its southern rim; a drawing is a line of walls, then for each row a line of cells and a line of walls");
-    assert_snapshot!(bad("|   B  ##|\n+--+--+--+\n", ""), @"a.txt:5:2: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
+    assert_snapshot!(bad("layout 1", "layout 2"),
+        @"a.txt:1:17: this is version 2, this program reads version 1; write the drawing again with this program");
+    assert_snapshot!(bad("tautline layout 1\n", ""),
+        @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI \
+            maps .map and ROS maps .yaml");
+    assert_snapshot!(bad("robots 4", "robots 257"),
+        @r#"a.txt:2:8: "257" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
+    assert_snapshot!(bad("robots 4", "robots 0"),
+        @r#"a.txt:2:8: "0" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
+    assert_snapshot!(bad("robots 4", "robot 4"),
+        @"a.txt:2:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
+    assert_snapshot!(bad("+--+--+--+\n", ""),
+        @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
+    assert_snapshot!(bad("|     |  |", "|     |  | "),
+        @"a.txt:4:1: this row ends after character 11, not 10; make all rows equally long");
+    assert_snapshot!(bad("|     |  |", "|     |"),
+        @"a.txt:4:1: this row ends after character 7, not 10; make all rows equally long");
+    assert_snapshot!(bad("##", "#?"),
+        @r##"a.txt:6:8: the symbol "#?" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"##);
+    assert_snapshot!(bad("##", "é "),
+        @r#"a.txt:6:8: the symbol "é" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"#);
+    assert_snapshot!(bad("##|", "##x"),
+        @r#"a.txt:6:10: the symbol "x" is unknown; a cell is two spaces (free), `##` (blocked) or `B` and a space (the base); before each cell, and at the end of the row, stands `|` (a wall) or a space"#);
+    assert_snapshot!(bad("+  +--+  +", "+  +--+ -+"),
+        @r#"a.txt:5:8: the symbol " -" is unknown; a line between two rows is made of `+` corners, each followed by `--` (a wall) or two spaces"#);
+    assert_snapshot!(bad("+  +--+  +", "+  *--+  +"),
+        @r#"a.txt:5:4: the symbol "*" is unknown; a line between two rows is made of `+` corners, each followed by `--` (a wall) or two spaces"#);
+    assert_snapshot!(bad("##|", "## "),
+        @"a.txt:6:10: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
+    assert_snapshot!(bad("+--+--+--+\n|     ", "+--+  +--+\n|     "),
+        @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
+    assert_snapshot!(bad("##|\n+--+--+--+", "##|\n+--+  +--+"),
+        @"a.txt:7:5: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
+    assert_snapshot!(bad("##|\n+--+--+--+\n", "##|\n"),
+        @"a.txt:6:11: the drawing ends before its southern rim; a drawing is a line of walls, then for each row a line \
+            of cells and a line of walls");
+    assert_snapshot!(bad("|   B  ##|\n+--+--+--+\n", ""),
+        @"a.txt:5:2: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
     assert_snapshot!(bad("|     |", "|B    |"), @"a.txt:6:5: a second base; the first is 0,0; leave one of them");
-    assert_snapshot!(refused("a.txt", "tautline layout 1\n"), @"a.txt:1:18: the drawing ends before its southern rim; a drawing is a line of walls, then for each row a line of cells and a line of walls");
-    assert_snapshot!(refused("a.txt", "tautline layout 1\n+--+\n|##|\n+--+\n"), @"a.txt:2:1: no cell is free; leave at least one cell free for the base");
+    assert_snapshot!(refused("a.txt", "tautline layout 1\n"),
+        @"a.txt:1:18: the drawing ends before its southern rim; a drawing is a line of walls, then for each row a line \
+            of cells and a line of walls");
+    assert_snapshot!(refused("a.txt", "tautline layout 1\n+--+\n|##|\n+--+\n"),
+        @"a.txt:2:1: no cell is free; leave at least one cell free for the base");
     let wide = format!("+{}\n", "--+".repeat(32_001));
-    assert_snapshot!(refused("a.txt", format!("tautline layout 1\n{wide}{wide}{wide}")), @"a.txt:2:1: the size 32001x1 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
+    assert_snapshot!(refused("a.txt", format!("tautline layout 1\n{wide}{wide}{wide}")),
+        @"a.txt:2:1: the size 32001x1 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 \
+            in all");
 }
 
 #[test]
@@ -251,19 +278,38 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
         assert!(MAP.contains(from));
         refused("a.map", MAP.replacen(from, to, 1))
     };
-    assert_snapshot!(bad("type octile", "type hex"), @"a.map:1:1: the header line `type octile` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
-    assert_snapshot!(bad("height 2", "height two"), @r#"a.map:2:8: "two" is not the number N of the header line `height N`; write a whole number from 1 to 32000"#);
-    assert_snapshot!(bad("height 2\n", ""), @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
-    assert_snapshot!(bad("map\n", ""), @"a.map:4:1: the header line `map` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
-    assert_snapshot!(bad("\nwidth 4\nmap\n.GS@\nOTW.\n", ""), @"a.map:2:9: the header line `width N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
-    assert_snapshot!(bad("height 2", "height 3"), @"a.map:6:5: the map ends after row 2, not 3; make `height` the number of rows that follow `map`");
-    assert_snapshot!(bad("height 2", "height 1"), @"a.map:6:1: this is row 2, but `height` is 1; make `height` the number of rows that follow `map`");
-    assert_snapshot!(bad("width 4", "width 5"), @"a.map:5:1: this row ends after character 4, not 5; make all rows equally long");
-    assert_snapshot!(bad("OTW.", "OTW"), @"a.map:6:1: this row ends after character 3, not 4; make all rows equally long");
-    assert_snapshot!(bad("OTW.", "OTx."), @r#"a.map:6:3: the symbol "x" is unknown; a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)"#);
-    assert_snapshot!(bad("height 2\nwidth 4", "height 31250\nwidth 32000"), @"a.map:2:1: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
-    assert_snapshot!(bad("height 2\nwidth 4", "height 1000000000\nwidth 1"), @"a.map:2:1: the size 1x1000000000 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
-    assert_snapshot!(refused("a.map", "type octile\nheight 1\nwidth 1\nmap\nT\n"), @"a.map:2:1: no cell is free; leave at least one cell free for the base");
+    assert_snapshot!(bad("type octile", "type hex"),
+        @"a.map:1:1: the header line `type octile` is missing here; a map begins with the lines `type octile`, `height \
+            N`, `width N` and `map`");
+    assert_snapshot!(bad("height 2", "height two"),
+        @r#"a.map:2:8: "two" is not the number N of the header line `height N`; write a whole number from 1 to 32000"#);
+    assert_snapshot!(bad("height 2\n", ""),
+        @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines `type octile`, `height \
+            N`, `width N` and `map`");
+    assert_snapshot!(bad("map\n", ""),
+        @"a.map:4:1: the header line `map` is missing here; a map begins with the lines `type octile`, `height N`, \
+            `width N` and `map`");
+    assert_snapshot!(bad("\nwidth 4\nmap\n.GS@\nOTW.\n", ""),
+        @"a.map:2:9: the header line `width N` is missing here; a map begins with the lines `type octile`, `height N`, \
+            `width N` and `map`");
+    assert_snapshot!(bad("height 2", "height 3"),
+        @"a.map:6:5: the map ends after row 2, not 3; make `height` the number of rows that follow `map`");
+    assert_snapshot!(bad("height 2", "height 1"),
+        @"a.map:6:1: this is row 2, but `height` is 1; make `height` the number of rows that follow `map`");
+    assert_snapshot!(bad("width 4", "width 5"),
+        @"a.map:5:1: this row ends after character 4, not 5; make all rows equally long");
+    assert_snapshot!(bad("OTW.", "OTW"),
+        @"a.map:6:1: this row ends after character 3, not 4; make all rows equally long");
+    assert_snapshot!(bad("OTW.", "OTx."),
+        @r#"a.map:6:3: the symbol "x" is unknown; a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)"#);
+    assert_snapshot!(bad("height 2\nwidth 4", "height 31250\nwidth 32000"),
+        @"a.map:2:1: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most \
+            16777216 in all");
+    assert_snapshot!(bad("height 2\nwidth 4", "height 1000000000\nwidth 1"),
+        @"a.map:2:1: the size 1x1000000000 is out of bounds; a layout has 1 to 32000 cells on a side and at most \
+            16777216 in all");
+    assert_snapshot!(refused("a.map", "type octile\nheight 1\nwidth 1\nmap\nT\n"),
+        @"a.map:2:1: no cell is free; leave at least one cell free for the base");
 }
 
 /// The map that the YAML and the image make together.
@@ -433,53 +479,96 @@ fn a_bad_ros_map_is_refused_at_its_place() {
         assert!(YAML.contains(from));
         ros_map(&YAML.replacen(from, to, 1), image, None).expect_err("a fault")
     };
-    assert_snapshot!(bad("map.pgm", "gone.png"), @"map.yaml:1:8: the image gone.png is not there; name another image with --image FILE");
-    assert_snapshot!(bad("resolution: 0.05\n", ""), @"map.yaml:5:1: this does not describe a map: missing field `resolution`; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
-    assert_snapshot!(bad("0.05", "0"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
-    assert_snapshot!(bad("0.05", ".nan"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
-    assert_snapshot!(bad("0.05", "1e308"), @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
-    assert_snapshot!(bad("0.05", "[1"), @"map.yaml:2:13: this does not describe a map: the list has no end on its line; write one `key: value` a line, where a value is a word, a text between quotes, or a list such as [0, 0, 0]");
-    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5]"), @"map.yaml:3:9: this does not describe a map: `origin` is no list of 3 numbers; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
-    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5, .inf]"), @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most 1000000000");
-    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1e300, 2.5, 0]"), @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most 1000000000");
+    assert_snapshot!(bad("map.pgm", "gone.png"),
+        @"map.yaml:1:8: the image gone.png is not there; name another image with --image FILE");
+    assert_snapshot!(bad("resolution: 0.05\n", ""),
+        @"map.yaml:5:1: this does not describe a map: missing field `resolution`; a map has the fields image, \
+            resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
+    assert_snapshot!(bad("0.05", "0"),
+        @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
+    assert_snapshot!(bad("0.05", ".nan"),
+        @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
+    assert_snapshot!(bad("0.05", "1e308"),
+        @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
+    assert_snapshot!(bad("0.05", "[1"),
+        @"map.yaml:2:13: this does not describe a map: the list has no end on its line; write one `key: value` a line, \
+            where a value is a word, a text between quotes, or a list such as [0, 0, 0]");
+    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5]"),
+        @"map.yaml:3:9: this does not describe a map: `origin` is no list of 3 numbers; a map has the fields image, \
+            resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
+    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5, .inf]"),
+        @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most \
+            1000000000");
+    assert_snapshot!(bad("[-1, 2.5, 0]", "[-1e300, 2.5, 0]"),
+        @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most \
+            1000000000");
     assert_snapshot!(bad("negate: 0", "negate: 2"), @"map.yaml:4:9: `negate` is out of bounds; write 0 or 1");
-    assert_snapshot!(bad("negate: 0", "negate: perhaps"), @"map.yaml:4:9: this does not describe a map: expected 0 or 1; a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
-    assert_snapshot!(bad("0.65", "1.5"), @"map.yaml:5:18: `occupied_thresh` is out of bounds; write a number from 0 to 1");
-    assert_snapshot!(bad("0.196", "0.7"), @"map.yaml:6:14: `free_thresh` is out of bounds; write a number from 0 to `occupied_thresh`");
-    assert_snapshot!(bad("negate: 0", "negate: 0\nmode: raw"), @r#"map.yaml:5:7: the mode "raw" is not supported; save the map in mode trinary or scale"#);
-    assert_snapshot!(ros_map(YAML, image, Some("gone.pgm")).expect_err("a fault"), @"the image gone.pgm is not there; name another image with --image FILE");
+    assert_snapshot!(bad("negate: 0", "negate: perhaps"),
+        @"map.yaml:4:9: this does not describe a map: expected 0 or 1; a map has the fields image, resolution, origin: \
+            [x, y, yaw], negate, occupied_thresh and free_thresh");
+    assert_snapshot!(bad("0.65", "1.5"),
+        @"map.yaml:5:18: `occupied_thresh` is out of bounds; write a number from 0 to 1");
+    assert_snapshot!(bad("0.196", "0.7"),
+        @"map.yaml:6:14: `free_thresh` is out of bounds; write a number from 0 to `occupied_thresh`");
+    assert_snapshot!(bad("negate: 0", "negate: 0\nmode: raw"),
+        @r#"map.yaml:5:7: the mode "raw" is not supported; save the map in mode trinary or scale"#);
+    assert_snapshot!(ros_map(YAML, image, Some("gone.pgm")).expect_err("a fault"),
+        @"the image gone.pgm is not there; name another image with --image FILE");
 
     let bad = |image: &[u8]| ros_map(YAML, image, None).expect_err("a fault");
     assert_snapshot!(bad(b""), @"map.pgm: the image cannot be read: the file is empty; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"neither"), @"map.pgm: the image cannot be read: it is neither PGM nor PNG; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"GIF89a"), @"map.pgm: the image cannot be read: it is neither PGM nor PNG; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"P5 2 2 255\n\x00\xff"), @"map.pgm: the image cannot be read: it ends before its last pixel; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"P2 2 1 255\n254 -3\n"), @"map.pgm: the image cannot be read: before its last pixel it ends, or has something that is no number; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"P2 2 1 255\n254 300\n"), @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"P5 2 1 100\n\x10\xff"), @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"P5\r\n2 1\r\n255\r\n\xff\xff"), @"map.pgm: the image cannot be read: its header ends in CR LF, and the LF would be its first pixel; give a whole PGM or PNG file");
-    assert_snapshot!(bad(b"P5 32000 31250 255\n\x00\xff"), @"map.pgm: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
-    assert_snapshot!(bad(b"P5 2 1 255\n\x00\x00"), @"map.pgm: no cell is free; leave at least one cell free for the base");
+    assert_snapshot!(bad(b"neither"),
+        @"map.pgm: the image cannot be read: it is neither PGM nor PNG; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"GIF89a"),
+        @"map.pgm: the image cannot be read: it is neither PGM nor PNG; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P5 2 2 255\n\x00\xff"),
+        @"map.pgm: the image cannot be read: it ends before its last pixel; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P2 2 1 255\n254 -3\n"),
+        @"map.pgm: the image cannot be read: before its last pixel it ends, or has something that is no number; give a \
+            whole PGM or PNG file");
+    assert_snapshot!(bad(b"P2 2 1 255\n254 300\n"),
+        @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P5 2 1 100\n\x10\xff"),
+        @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
+    assert_snapshot!(bad(b"P5\r\n2 1\r\n255\r\n\xff\xff"),
+        @"map.pgm: the image cannot be read: its header ends in CR LF, and the LF would be its first pixel; give a \
+            whole PGM or PNG file");
+    assert_snapshot!(bad(b"P5 32000 31250 255\n\x00\xff"),
+        @"map.pgm: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 \
+            in all");
+    assert_snapshot!(bad(b"P5 2 1 255\n\x00\x00"),
+        @"map.pgm: no cell is free; leave at least one cell free for the base");
 }
 
 #[test]
 fn a_file_that_is_no_layout_is_refused() {
     assert_snapshot!(refused("a.txt", ""), @"a.txt: the file is empty; a drawing begins with `tautline layout 1`");
-    assert_snapshot!(refused("a.txt", b"tautline \xff"), @"a.txt: byte 9 is not UTF-8 text; a layout is a drawing, a MovingAI map or a ROS map's .yaml file");
-    assert_snapshot!(refused("a.pgm", "P2 1 1 255 0"), @"a.pgm: this is an image alone; name the .yaml file that describes it");
-    assert_snapshot!(refused("a.txt", "\u{1b}[31mred"), @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml");
+    assert_snapshot!(refused("a.txt", b"tautline \xff"),
+        @"a.txt: byte 9 is not UTF-8 text; a layout is a drawing, a MovingAI map or a ROS map's .yaml file");
+    assert_snapshot!(refused("a.pgm", "P2 1 1 255 0"),
+        @"a.pgm: this is an image alone; name the .yaml file that describes it");
+    assert_snapshot!(refused("a.txt", "\u{1b}[31mred"),
+        @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI \
+            maps .map and ROS maps .yaml");
     let load = |description: &str, image| {
         with_flags(&layout::load(description, 0, image).expect_err("a fault").to_string())
     };
-    assert_snapshot!(load("no/such/file.map", None), @"no/such/file.map: there is no such file; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
-    assert_snapshot!(load("src", None), @"src: this is a directory; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
-    assert_snapshot!(load("open:3x3", Some(Path::new("map.pgm"))), @"--image is given, but the layout is not a ROS map; leave --image out, or name the map's .yaml file");
+    assert_snapshot!(load("no/such/file.map", None),
+        @"no/such/file.map: there is no such file; name a layout file or one of the generators open:15x15, \
+            walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
+    assert_snapshot!(load("src", None),
+        @"src: this is a directory; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, \
+            rooms-b, office:30x30:4x4, cells:32x32:0.2");
+    assert_snapshot!(load("open:3x3", Some(Path::new("map.pgm"))),
+        @"--image is given, but the layout is not a ROS map; leave --image out, or name the map's .yaml file");
 
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("large.map");
     fs::File::create(&file).and_then(|large| large.set_len(MAX_FILE_BYTES + 1)).expect("a file");
     let fault = layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault");
-    assert_snapshot!(plain(&fault, folder.path()), @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
+    assert_snapshot!(plain(&fault, folder.path()),
+        @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 cells on a side and at most 16777216 in \
+            all");
 }
 
 #[test]
@@ -495,17 +584,27 @@ fn the_drawing_of_the_largest_layout_is_not_too_large_to_be_read() {
 #[test]
 fn a_description_that_is_no_generator_is_refused() {
     let load = |description| layout::load(description, 0, None).expect_err("a fault").to_string();
-    assert_snapshot!(load("opn:3x3"), @r#""opn:3x3" names no generator; the generators are open:15x15, walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2"#);
-    assert_snapshot!(load("walls:15x15"), @r#""walls:15x15" is not a whole description; write walls:WIDTHxHEIGHT:PROBABILITY, for example walls:15x15:0.1"#);
-    assert_snapshot!(load("walls"), @r#""walls" is not a whole description; write walls:WIDTHxHEIGHT:PROBABILITY, for example walls:15x15:0.1"#);
-    assert_snapshot!(load("walls:15x15:1.5"), @r#""1.5" is no probability; write a number from 0 to 1, for example 0.1"#);
-    assert_snapshot!(load("cells:15x15:NaN"), @r#""NaN" is no probability; write a number from 0 to 1, for example 0.1"#);
-    assert_snapshot!(load("open:15"), @r#""open:15" is not a whole description; write open:WIDTHxHEIGHT, for example open:15x15"#);
-    assert_snapshot!(load("open:0x5"), @"the size 0x5 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
-    assert_snapshot!(load("open:32000x31250"), @"the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
+    assert_snapshot!(load("opn:3x3"),
+        @r#""opn:3x3" names no generator; the generators are open:15x15, walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2"#);
+    assert_snapshot!(load("walls:15x15"),
+        @r#""walls:15x15" is not a whole description; write walls:WIDTHxHEIGHT:PROBABILITY, for example walls:15x15:0.1"#);
+    assert_snapshot!(load("walls"),
+        @r#""walls" is not a whole description; write walls:WIDTHxHEIGHT:PROBABILITY, for example walls:15x15:0.1"#);
+    assert_snapshot!(load("walls:15x15:1.5"),
+        @r#""1.5" is no probability; write a number from 0 to 1, for example 0.1"#);
+    assert_snapshot!(load("cells:15x15:NaN"),
+        @r#""NaN" is no probability; write a number from 0 to 1, for example 0.1"#);
+    assert_snapshot!(load("open:15"),
+        @r#""open:15" is not a whole description; write open:WIDTHxHEIGHT, for example open:15x15"#);
+    assert_snapshot!(load("open:0x5"),
+        @"the size 0x5 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
+    assert_snapshot!(load("open:32000x31250"),
+        @"the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
     assert_snapshot!(load("rooms-a:3x3"), @r#""rooms-a:3x3" is not a whole description; write rooms-a"#);
-    assert_snapshot!(load("office:4x4:5x1"), @"4x4 cells cannot hold 5x1 rooms; at least one room each way, and at most one for each column and row");
-    assert_snapshot!(load("office:4x4:0x1"), @"4x4 cells cannot hold 0x1 rooms; at least one room each way, and at most one for each column and row");
+    assert_snapshot!(load("office:4x4:5x1"),
+        @"4x4 cells cannot hold 5x1 rooms; at least one room each way, and at most one for each column and row");
+    assert_snapshot!(load("office:4x4:0x1"),
+        @"4x4 cells cannot hold 0x1 rooms; at least one room each way, and at most one for each column and row");
     assert_snapshot!(load("cells:3x3:1"), @"no cell is free; leave at least one cell free for the base");
 }
 
@@ -842,9 +941,11 @@ fn published_ros_maps_are_read_or_refused() {
         }
     };
     assert_snapshot!(load("depot.yaml", None), @"604x307, 179481 free, 0.05 m from 0,0 yaw 0");
-    assert_snapshot!(load("tb3_map.yaml", None), @"tb3_map.yaml:1:8: the image map.pgm is not there; name another image with --image FILE");
+    assert_snapshot!(load("tb3_map.yaml", None),
+        @"tb3_map.yaml:1:8: the image map.pgm is not there; name another image with --image FILE");
     assert_snapshot!(load("tb3_map.yaml", Some("tb3_map.pgm")), @"384x384, 7939 free, 0.05 m from -10,-10 yaw 0");
-    assert_snapshot!(load("testmap.yaml", None), @"testmap.yaml:1:8: the image testmap.png is not there; name another image with --image FILE");
+    assert_snapshot!(load("testmap.yaml", None),
+        @"testmap.yaml:1:8: the image testmap.png is not there; name another image with --image FILE");
     assert_snapshot!(load("testmap.yaml", Some("testmap.pgm")), @"10x10, 71 free, 0.1 m from 2,3 yaw 1");
     let (testmap, _) =
         ros::load(&folder.join("testmap.yaml"), Some(&folder.join("testmap.pgm"))).expect("a map");

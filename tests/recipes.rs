@@ -120,8 +120,8 @@ fn shell_steps() -> Vec<serde_json::Value> {
 }
 
 /// Runs the action's steps as a runner does, in a caller's folder, the action being in a folder beside it. `rustup`,
-/// `cargo` and `curl` stand in: the first two say how they were called, what is built is this program, and there are only
-/// the files in `released`.
+/// `cargo` and `curl` stand in: the first two say how they were called, what is built is this program, and there are
+/// only the files in `released`.
 #[test]
 fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources()
  {

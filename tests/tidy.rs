@@ -59,7 +59,7 @@ const KNOWS: &str = "
 /// Crates whose rooms all have a line that says who may import them.
 const ALL_LISTED: [&str; 3] = ["kernel", "proofs", "viewers"];
 
-/// Folders whose files are no longer than [`MOST_LINES`].
+/// Folders whose files have at most [`MOST_LINES`] of at most [`MOST_CHARACTERS`], and documentation that reads alone.
 const FOLDERS: [&str; 20] = [
     "kernel/src",
     "io/src",
@@ -83,6 +83,7 @@ const FOLDERS: [&str; 20] = [
     "fuzz/src",
 ];
 const MOST_LINES: usize = 550;
+const MOST_CHARACTERS: usize = 120;
 
 /// The right side of a table's line that begins with `part` and names `room`, if there is one.
 fn line(table: &'static str, part: &str, room: &str) -> Option<Vec<&'static str>> {
@@ -176,7 +177,7 @@ fn sources(folder: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn arrows_run_one_way_and_files_are_short() {
+fn arrows_run_one_way_and_files_and_lines_are_short() {
     for part in [
         "kernel",
         "io",
@@ -208,12 +209,19 @@ fn arrows_run_one_way_and_files_are_short() {
         for (file, text) in sources(folder) {
             let (file, lines) = (format!("{folder}/{file}"), text.lines().count());
             assert!(lines <= MOST_LINES, "{file} has {lines} lines");
+            for (line, text) in (1..).zip(text.lines()) {
+                assert!(text.chars().count() <= MOST_CHARACTERS, "{file}:{line} is too long");
+                let text = text.trim_start();
+                let doc = text.strip_prefix("/// ").or(text.strip_prefix("//! ")).unwrap_or_default();
+                let reads_alone = !doc.starts_with("What ") && !doc.starts_with("The same ");
+                assert!(reads_alone, "{file}:{line} begins with no noun, and no verb in the third person");
+            }
         }
     }
 }
 
-/// The two checkers of certificates know no crate of ours but the kernel, and not each other; what they ask of a system is
-/// answered by one file, which plans and settles, and knows no search.
+/// The two checkers of certificates know no crate of ours but the kernel, and not each other; what they ask of a system
+/// is answered by one file, which plans and settles, and knows no search.
 #[test]
 fn each_checker_of_certificates_is_short_and_its_step_function_knows_no_search() {
     let is_code = |line: &&str| !line.trim().is_empty() && !line.trim().starts_with("//");
@@ -277,6 +285,7 @@ fn a_forbidden_arrow_is_found_however_it_is_written() {
     ] {
         assert_eq!(forbidden(part, file, text), [""; 0]);
     }
-    let manifest = "[package]\n[dependencies]\ntautline-kernel.workspace = true\ntautline-sim = { path = \"sim\" }\n[dev-dependencies]\ntautline-proofs = \"1\"";
+    let manifest = "[package]\n[dependencies]\ntautline-kernel.workspace = true\ntautline-sim = { path = \"sim\" \
+        }\n[dev-dependencies]\ntautline-proofs = \"1\"";
     assert!(dependencies(manifest).eq(["kernel", "sim"]));
 }

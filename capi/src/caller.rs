@@ -1,4 +1,4 @@
-//! What a caller's pointers lead to.
+//! Memory behind a caller's pointers, as slices and references.
 
 use core::slice;
 

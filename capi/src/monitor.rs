@@ -1,5 +1,5 @@
-//! Monitors of robots that move, whatever program moves them: begin, hear, at, as [`tautline_monitor`] has them. Each is told
-//! one stamped position at a time, and says whether a safety clause of `SPEC.md` is kept, broken or unknown.
+//! Monitors of robots that move, whatever program moves them: begin, hear, at, as [`tautline_monitor`] has them. Each
+//! is told one stamped position at a time, and says whether a safety clause of `SPEC.md` is kept, broken or unknown.
 
 use core::mem::MaybeUninit;
 use core::slice;
@@ -51,7 +51,8 @@ pub struct TautlineDemand {
     pub kind: u32,
     /// The range, the least distance, or the width of a cell, in millimetres.
     pub length_mm: u32,
-    /// How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a cell.
+    /// How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a
+    /// cell.
     pub tolerance_mm: u32,
     /// The most robots in a cell.
     pub most: u32,
@@ -71,7 +72,8 @@ pub struct TautlineVerdict {
     pub kind: u32,
     /// The reason of an unknown verdict, one of `TAUTLINE_DOUBT_...`; else 0.
     pub doubt: u32,
-    /// Two of the robots that break the clause, from 0; of a silent robot, or of one that there is not, its number first.
+    /// Two of the robots that break the clause, from 0; of a silent robot, or of one that there is not, its number
+    /// first.
     pub robots: [u32; 2],
     /// The distance in millimetres, or the robots in the cell, of a broken clause.
     pub measured: u32,
@@ -136,7 +138,8 @@ impl TautlineMonitor {
         if self.mark != MARK {
             return Err(TautlineStatus::NotBegun);
         }
-        // SAFETY: the mark says that `tautline_monitor_begin` has written a state here, which fits in size and alignment.
+        // SAFETY: the mark says that `tautline_monitor_begin` has written a state here, which fits in size and
+        // alignment.
         Ok(unsafe { &mut *self.memory.as_mut_ptr().cast() })
     }
 }
@@ -167,8 +170,8 @@ impl From<Verdict> for TautlineVerdict {
 /// where it is. A position that is older than `gap_us` microseconds is no longer believed.
 ///
 /// # Safety
-/// `monitor` and `robots` are null, or memory of the caller that nobody else uses as long as the monitor is used, of one
-/// monitor and of so many robots; `demand` is null or can be read.
+/// `monitor` and `robots` are null, or memory of the caller that nobody else uses as long as the monitor is used, of
+/// one monitor and of so many robots; `demand` is null or can be read.
 // SAFETY: no other function of this name is linked.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tautline_monitor_begin(
@@ -212,8 +215,8 @@ pub unsafe extern "C" fn tautline_monitor_begin(
     status(begin())
 }
 
-/// Takes the position of `robot`, from 0, stamped `at_us` microseconds, and writes to `verdict` what the monitor says of
-/// the moment `now_us` by the same clock. A stamp further ahead of now than the gap is not believed.
+/// Takes the position of `robot`, from 0, stamped `at_us` microseconds, and writes to `verdict` what the monitor says
+/// of the moment `now_us` by the same clock. A stamp further ahead of now than the gap is not believed.
 ///
 /// # Safety
 /// `monitor` and `verdict` are null, or memory of the caller that nobody else uses meanwhile.

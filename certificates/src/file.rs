@@ -10,7 +10,7 @@ const FIRST: &str = "tautline certificate 1";
 /// Bytes of a digest.
 const DIGEST: usize = 16;
 
-/// What a certificate is about.
+/// The subject of a certificate: who wrote it, and about which clause and bound.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Header {
     /// The program that wrote it, with its version.
@@ -30,7 +30,7 @@ pub struct Header {
 /// A file that is as it was written.
 #[derive(Debug)]
 pub struct File<'a> {
-    /// What it is about.
+    /// Its subject.
     pub header: Header,
     /// A section for each system.
     pub sections: Vec<&'a [u8]>,

@@ -1,4 +1,4 @@
-//! What a checker knows of a system, and how it enumerates what an oracle may answer.
+//! A checker's view of a system, and how it enumerates what an oracle may answer.
 
 use std::hash::Hasher;
 
@@ -30,8 +30,8 @@ pub trait Model: Sync {
     /// The demand that a run breaks by staying in `state`, in words.
     fn broken_at_end(&self, state: &Self::State) -> Option<String>;
 
-    /// The obligations owed in `state`, a bit each, of which a run breaks the demand if it owes one for ever although it
-    /// is weakly fair; none where endless runs break nothing.
+    /// The obligations owed in `state`, a bit each, of which a run breaks the demand if it owes one for ever although
+    /// it is weakly fair; none where endless runs break nothing.
     fn owed(&self, state: &Self::State) -> u16;
 
     /// Who has something left to do in `state`, a bit each.

@@ -30,8 +30,8 @@ pub trait Runs: Sync {
     /// earlier steps have written.
     fn plan(&self, state: &mut Self::State, log: &[u8]) -> Option<Self::Plan>;
 
-    /// Makes of `state`, which is as it was planned, the one to which these answers lead, and writes to the end of `log`.
-    /// Returns the demand that the step breaks, in words.
+    /// Makes of `state`, which is as it was planned, the one to which these answers lead, and writes to the end of
+    /// `log`. Returns the demand that the step breaks, in words.
     fn step(
         &self,
         ready: &Ready<Self::State, Self::Plan>,
@@ -103,7 +103,7 @@ const PART: u64 = 1 << 10;
 /// Steps without an event from which on a run is watched, which may come back to where it was.
 const WATCHED: u32 = 32;
 
-/// What was counted.
+/// Counts of the runs that were made.
 struct Tally {
     /// Steps of the longest run.
     longest: u32,

@@ -160,7 +160,7 @@ struct Placed<S> {
     digest: Digest,
 }
 
-/// What a thread has at hand.
+/// The memory of one thread, kept from state to state.
 struct Desk<S> {
     told: Told,
     /// The digests of the parts of the state that it looks at, as far as they were asked for.

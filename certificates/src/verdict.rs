@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What a section has that was accepted.
+/// Counts of a section that was accepted.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Counts {
     /// States.

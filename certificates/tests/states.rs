@@ -7,8 +7,8 @@ use tautline_certificates::{
 };
 use tautline_kernel::choice::Oracle;
 
-/// A walker on 0 to 3. From 1 it goes to 2 or back to 0, as it is asked twice; from 2 to 3, where it stays. What it owes
-/// it owes below 2; two are awake, and the one with this bit makes every step.
+/// A walker on 0 to 3. From 1 it goes to 2 or back to 0, as it is asked twice; from 2 to 3, where it stays. What it
+/// owes it owes below 2; two are awake, and the one with this bit makes every step.
 #[derive(Clone, Copy)]
 struct Walk {
     acting: u16,

@@ -289,7 +289,8 @@ mod tests {
             let (left, right) = values.split_at(cut.index(values.len()));
             prop_assert_eq!(sums(right).and(sums(left)), sums(&values));
             let reals: Vec<f64> = values.iter().copied().map(f64::from).collect();
-            let (whole, real) = (sums(&values).estimate().expect("values"), Estimate::of_values(&reals).expect("values"));
+            let whole = sums(&values).estimate().expect("values");
+            let real = Estimate::of_values(&reals).expect("values");
             prop_assert!((whole.mean - real.mean).abs() < 1e-9);
             prop_assert_eq!(whole.interval.is_some(), values.len() > 1);
             prop_assert!((whole.margin().unwrap_or(0.0) - real.margin().unwrap_or(0.0)).abs() < 1e-6);

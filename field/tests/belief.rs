@@ -1,7 +1,8 @@
-//! The kernel's belief against nalgebra's matrices, and its consistency: by how much errors differ from what the covariance says
-//! (NEES, the normalised estimation error squared).
+//! The kernel's belief against nalgebra's matrices, and its consistency: by how much errors differ from what the
+//! covariance says (NEES, the normalised estimation error squared).
 
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use proptest::collection::vec;
 use proptest::prelude::*;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
@@ -57,7 +58,7 @@ impl Filter {
 proptest! {
     #[test]
     fn a_belief_is_that_of_a_kalman_filter_in_matrices(
-        moves in prop::collection::vec((-3.0..3.0_f64, 0.0..2.0_f64, -0.5..0.5_f64, -0.5..0.5_f64, 0.01..1.0_f64), 1..30)
+        moves in vec((-3.0..3.0_f64, 0.0..2.0_f64, -0.5..0.5_f64, -0.5..0.5_f64, 0.01..1.0_f64), 1..30)
     ) {
         let odometry = Odometry::new(0.05, 3.0).expect("errors");
         let mut belief = Belief::known(Point::new(1.0, 1.0), 0.5);
@@ -89,8 +90,8 @@ fn normal(oracle: &mut SeededOracle) -> f64 {
 /// Moves of one run: enough that fixes and wheels have come to their balance.
 const MOVES: u32 = 40;
 
-/// The mean NEES of so many runs of one robot: three unknowns, so that it is to be 3. It hears so many beacons of each anchor at each
-/// stop, with noise of 1 dB.
+/// The mean NEES of so many runs of one robot: three unknowns, so that it is to be 3. It hears so many beacons of each
+/// anchor at each stop, with noise of 1 dB.
 fn mean_nees(runs: u32, beacons: u32) -> f64 {
     let signal = |deviation_db| Signal::new(Propagation::FREE_SPACE, deviation_db).expect("a noise");
     let (one, averaged) = (signal(1.0), signal(1.0 / f64::from(beacons).sqrt()));

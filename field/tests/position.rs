@@ -25,9 +25,9 @@ fn is_near(one: f64, other: f64, part: f64) -> bool {
     (one - other).abs() <= part * one.abs().max(other.abs()).max(1.0)
 }
 
-/// Whether two inverses are one, as far as they can be told apart: the worse the condition, the more of what rounding has
-/// lost comes out in either. Anchors nearly in a line, one of them half a metre away, have 8.8 million; exact arithmetic
-/// finds ours off by 3e-10 then, and that of matrices by 7e-10.
+/// Whether two inverses are one, as far as they can be told apart: the worse the condition, the more of what rounding
+/// has lost comes out in either. Anchors nearly in a line, one of them half a metre away, have 8.8 million; exact
+/// arithmetic finds ours off by 3e-10 then, and that of matrices by 7e-10.
 fn are_near(one: &Matrix2<f64>, other: &Matrix2<f64>) -> bool {
     let condition = other.norm_squared() / other.determinant().abs();
     (one - other).norm() <= (1e-15 * condition).max(1e-9) * one.norm().max(1e-12)
@@ -38,7 +38,8 @@ proptest! {
     fn one_jacobi_rotation_gives_the_singular_values(ranges in ranges()) {
         let ours = Layout::of(&ranges).spread_m;
         let theirs = analysis::spread_m(&anchors(&ranges));
-        prop_assert!(ours.iter().zip(theirs).all(|(&ours, theirs)| is_near(ours, theirs, 1e-13)), "{:?} {:?}", ours, theirs);
+        let is_alike = ours.iter().zip(theirs).all(|(&ours, theirs)| is_near(ours, theirs, 1e-13));
+        prop_assert!(is_alike, "{:?} {:?}", ours, theirs);
     }
 
     #[test]
@@ -59,11 +60,14 @@ proptest! {
         prop_assume!(across_m > 0.1);
         let theirs = matrix.svd(true, true).solve(&vector, 1e-14).expect("a solution");
         let ours = linear(&ranges).expect("a position");
-        prop_assert!(is_near(ours.x_m, theirs[0], 1e-8) && is_near(ours.y_m, theirs[1], 1e-8), "{:?} {:?}", ours, theirs);
+        let is_alike = is_near(ours.x_m, theirs[0], 1e-8) && is_near(ours.y_m, theirs[1], 1e-8);
+        prop_assert!(is_alike, "{:?} {:?}", ours, theirs);
     }
 
     #[test]
-    fn the_bound_and_the_dilution_are_those_of_matrices(ranges in ranges(), x in -30.0..30.0_f64, y in -30.0..30.0_f64) {
+    fn the_bound_and_the_dilution_are_those_of_matrices(
+        ranges in ranges(), x in -30.0..30.0_f64, y in -30.0..30.0_f64,
+    ) {
         let (anchors, at) = (anchors(&ranges), Point::new(x, y));
         prop_assume!(anchors.iter().all(|anchor| anchor.distance_m(at) > 1e-3));
         let ours = bound(anchors.iter().copied(), at, &signal());

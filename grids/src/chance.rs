@@ -113,8 +113,8 @@ impl fmt::Display for Probability {
     }
 }
 
-/// A deviation around 0 in the unit of its standard deviation, near to a normal one but at most three times the standard
-/// deviation: the sum of twelve uniform numbers. Where the standard deviation is 0 nothing is left to chance.
+/// A deviation around 0 in the unit of its standard deviation, near to a normal one but at most three times the
+/// standard deviation: the sum of twelve uniform numbers. Where the standard deviation is 0 nothing is left to chance.
 pub fn deviation(standard: f64, oracle: &mut dyn Oracle) -> f64 {
     if standard == 0.0 {
         return 0.0;

@@ -14,18 +14,19 @@ const PAGE_WIDTH: i32 = 960;
 
 /// The colours of all pictures, by the class of what they paint.
 const STYLE: &str = "\
-svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#f0d6ba;--sealed:#d9a878;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
---base:#5b3a8c;--bad:#c4261d;font:12px system-ui,sans-serif;background:var(--ground)}\
-@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--visited:#4f3a26;--sealed:#7d5632;--blocked:#5d6875;\
---robot:#6aa9ee;--leader:#4cc79a;--base:#b795e6;--bad:#ff7b72}}\
-text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-anchor:start}\
-.lines{stroke:var(--faint);fill:none}.walls{stroke:var(--ink);stroke-width:3;stroke-linecap:square;fill:none}\
-.blocked{fill:var(--blocked)}.explored{fill:var(--explored)}\
-.visited{fill:var(--visited)}.sealed{fill:var(--sealed)}.closing{fill:var(--explored);stroke:var(--visited);stroke-width:3}.member{fill:var(--robot);fill-opacity:.35}\
-.order{fill:var(--robot)}.small{font-size:10px}.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}\
-.name{fill:var(--ground);font-size:10px;font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}\
-.way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
-.unseen{stroke:var(--bad);stroke-width:2;stroke-dasharray:3 2;fill:none}.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
+svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#f0d6ba;--sealed:#d9a878;\
+--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;--base:#5b3a8c;--bad:#c4261d;font:12px \
+system-ui,sans-serif;background:var(--ground)}@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;\
+--faint:#333b45;--explored:#1f3550;--visited:#4f3a26;--sealed:#7d5632;--blocked:#5d6875;--robot:#6aa9ee;\
+--leader:#4cc79a;--base:#b795e6;--bad:#ff7b72}}text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}\
+.caption{text-anchor:start}.lines{stroke:var(--faint);fill:none}.walls{stroke:var(--ink);stroke-width:3;\
+stroke-linecap:square;fill:none}.blocked{fill:var(--blocked)}.explored{fill:var(--explored)}\
+.visited{fill:var(--visited)}.sealed{fill:var(--sealed)}.closing{fill:var(--explored);stroke:var(--visited);\
+stroke-width:3}.member{fill:var(--robot);fill-opacity:.35}.order{fill:var(--robot)}.small{font-size:10px}\
+.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}.name{fill:var(--ground);font-size:10px;\
+font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}.way{stroke:var(--ink);stroke-width:1.5}\
+.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}.unseen{stroke:var(--bad);stroke-width:2;\
+stroke-dasharray:3 2;fill:none}.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
 
 /// How many colours there are for what is to be told apart.
 pub const SERIES: usize = 6;

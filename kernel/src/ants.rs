@@ -1,6 +1,6 @@
-//! Ants [Ferranti 2009, II.A, after Svennebring and Koenig 2004]: every cell counts how many times an agent has entered it,
-//! and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never knows
-//! that it is done. Clauses: ANTS-1 … ANTS-3.
+//! Ants [Ferranti 2009, II.A, after Svennebring and Koenig 2004]: every cell counts how many times an agent has entered
+//! it, and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never
+//! knows that it is done. Clauses: ANTS-1 … ANTS-3.
 
 use crate::floor::{COMPASS, Entry, Floor, Replaced, Ring, Scan, enter, leave};
 use crate::ground::{Cell, Side};

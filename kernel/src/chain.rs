@@ -2,8 +2,8 @@
 //! unexplored cell, and followers between them that keep radio contact. Clauses CHAIN-1 to CHAIN-25.
 //!
 //! [`Chain::plan`] says what the team intends; [`Chain::settle`] takes the answers of the world, or [`Chain::hear`] the
-//! messages of those who met them. The history that backtracking needs is the log of the robots' one-byte messages, kept
-//! by the caller and read backwards.
+//! messages of those who met them. The history that backtracking needs is the log of the robots' one-byte messages,
+//! kept by the caller and read backwards.
 
 mod admission;
 mod barrier;

@@ -13,8 +13,8 @@ pub trait Conditional: Copy {
     fn with_in_force(self, conditions: u16) -> Self;
 }
 
-/// Makes a fieldless enum of at most 16 conditions, the list `ALL` of them, the type `Conditions` of their sets, and what a rule
-/// is asked that has such a set in its field `conditions`.
+/// Makes a fieldless enum of at most 16 conditions, the list `ALL` of them, the type `Conditions` of their sets, and
+/// what a rule is asked that has such a set in its field `conditions`.
 ///
 /// ```
 /// tautline_kernel::conditions! {

@@ -1,4 +1,4 @@
-//! What an error says: a sentence for each of its cases.
+//! The words of errors: a sentence for each case.
 
 /// Makes `Display` and `Error` for an enum, of a sentence for each of its cases.
 macro_rules! sentences {

@@ -1,5 +1,5 @@
-//! The sensor-instrumented floor [Ferranti 2009, I]: cells with a fixed sensor in each that is no wall. An agent reads the
-//! sensors of its cell and of the eight cells around, writes what it has to remember into them, and goes to a side
+//! The sensor-instrumented floor [Ferranti 2009, I]: cells with a fixed sensor in each that is no wall. An agent reads
+//! the sensors of its cell and of the eight cells around, writes what it has to remember into them, and goes to a side
 //! neighbour. It has no map and no radio to other agents: the floor is all that they share.
 
 mod ring;
@@ -21,9 +21,10 @@ pub trait Floor<S = Sensor> {
     fn sensor(&self, cell: Cell) -> Option<S>;
     /// Changes what the sensor in `cell` stores; no effect where there is none.
     fn put(&mut self, cell: Cell, sensor: S);
-    /// The identifier of a sensor that is about to be placed in `cell`: not 0, and another than that of any of the 65,534
-    /// sensors that have been there last. There are no more, so that a lap during which the sensors of one cell are
-    /// replaced more often than that may take the last for the first. Agents that search in trees do not ask for it.
+    /// The identifier of a sensor that is about to be placed in `cell`: not 0, and another than that of any of the
+    /// 65,534 sensors that have been there last. There are no more, so that a lap during which the sensors of one cell
+    /// are replaced more often than that may take the last for the first. Agents that search in trees do not ask for
+    /// it.
     fn unpack(&mut self, cell: Cell) -> u16;
     /// Whether no wall stands on `edge`, which is between two cells that have sensors.
     fn is_open(&self, edge: Edge) -> bool;
@@ -57,8 +58,8 @@ pub enum Entry {
     },
 }
 
-/// Enters `cell`: its sensor counts an agent more. Where the agent is to find none it places a new one; an old one may have
-/// been missed only, and the agents that are in the cell register with the new one.
+/// Enters `cell`: its sensor counts an agent more. Where the agent is to find none it places a new one; an old one may
+/// have been missed only, and the agents that are in the cell register with the new one.
 pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
     let there = floor.sensor(cell).unwrap_or_default();
     let entered = match entry {

@@ -1,14 +1,16 @@
-//! Frontier cells (Rajesh, Nagaraja and Suja 2024, 4, “Frontier Cell Selection” and “Moving to the Selected Frontier Cell”; 5, “Implementation”): robots
-//! that explore an area of equal square cells. Each keeps a repository, a [`Map`] of which cells are explored and which are
-//! obstacles, goes to an unexplored neighbour of its cell, and tells the others. Clauses: FRONTIER-1 … FRONTIER-12.
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024, 4, “Frontier Cell Selection” and “Moving to the Selected Frontier
+//! Cell”; 5, “Implementation”): robots that explore an area of equal square cells. Each keeps a repository, a [`Map`]
+//! of which cells are explored and which are obstacles, goes to an unexplored neighbour of its cell, and tells the
+//! others. Clauses: FRONTIER-1 … FRONTIER-12.
 //!
-//! A [`Robot`] is a plain value with three calls. [`Robot::next`] says what it does next; [`Robot::looked`] takes what it sees
-//! of the cell that it is about to enter; [`Robot::arrived`] ends the move. [`Robot::hears`] takes what another robot tells.
-//! Which robot acts when, which cells are blocked and which messages arrive is the caller's business.
+//! A [`Robot`] is a plain value with three calls. [`Robot::next`] says what it does next; [`Robot::looked`] takes what
+//! it sees of the cell that it is about to enter; [`Robot::arrived`] ends the move. [`Robot::hears`] takes what another
+//! robot tells. Which robot acts when, which cells are blocked and which messages arrive is the caller's business.
 //!
-//! [`Place`] is for robots whose position has an error: where a robot is within its cell, the occupancy probability of equation
-//! (11), and the cell that a fix is taken for; [`Rule::may_go`] says whether such a robot is sure enough to move. A robot takes a map and 16 bytes. A decision searches the map as far as the cell that the
-//! robot goes to, once for itself and for each robot nearby, and again where others take the cells that are nearer.
+//! [`Place`] is for robots whose position has an error: where a robot is within its cell, the occupancy probability of
+//! equation (11), and the cell that a fix is taken for; [`Rule::may_go`] says whether such a robot is sure enough to
+//! move. A robot takes a map and 16 bytes. A decision searches the map as far as the cell that the robot goes to, once
+//! for itself and for each robot nearby, and again where others take the cells that are nearer.
 
 mod map;
 mod pairs;

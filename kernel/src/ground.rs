@@ -1,5 +1,5 @@
-//! The ground that all robots move on: square cells with sides, steps and edges, the environments that radio range gives
-//! them, and what a team knows of its area.
+//! The ground that all robots move on: square cells with sides, steps and edges, the environments that radio range
+//! gives them, and what a team knows of its area.
 
 mod around;
 mod bits;

@@ -1,11 +1,11 @@
-//! KIT, Keep In Touch (Peiris, Al-Jumaily and Jiang): robots on a lattice of nodes 3 m apart, which drive every path between two nodes and keep
-//! radio contact of 10 m. Clauses: KIT-1 … KIT-14.
+//! KIT, Keep In Touch (Peiris, Al-Jumaily and Jiang): robots on a lattice of nodes 3 m apart, which drive every path
+//! between two nodes and keep radio contact of 10 m. Clauses: KIT-1 … KIT-14.
 //!
-//! [`Kit`] is a team as a plain value: what each robot has recorded, and where each is. [`Kit::decide`] begins a decision
-//! and says at which side the robot looks; [`Kit::looked`] takes what it sees, until it drives, stays, or is done;
-//! [`Kit::arrived`] ends a drive. It has no clock: when a robot arrives, and who decides first, is the caller's business, a
-//! search that tries every order, a simulator with speeds, or the world itself. A robot of flesh and wire keeps such a team of
-//! its own, as far as it was told, and tells by [`Message`]s; [`Talk`] says when it sends which.
+//! [`Kit`] is a team as a plain value: what each robot has recorded, and where each is. [`Kit::decide`] begins a
+//! decision and says at which side the robot looks; [`Kit::looked`] takes what it sees, until it drives, stays, or is
+//! done; [`Kit::arrived`] ends a drive. It has no clock: when a robot arrives, and who decides first, is the caller's
+//! business, a search that tries every order, a simulator with speeds, or the world itself. A robot of flesh and wire
+//! keeps such a team of its own, as far as it was told, and tells by [`Message`]s; [`Talk`] says when it sends which.
 
 mod admitted;
 mod alone;

@@ -1,5 +1,5 @@
-//! The network that nodes and robots share: who they are, the call that spreads through it, a message as it is heard, and
-//! how strong it is heard.
+//! The network that nodes and robots share: who they are, the call that spreads through it, a message as it is heard,
+//! and how strong it is heard.
 
 mod propagation;
 pub(crate) mod sets;
@@ -16,8 +16,8 @@ pub struct NodeId(pub u32);
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RobotId(pub u16);
 
-/// The number of a WFR's call: from 1 on, each larger than the one before. A call under a new epoch is a new event to the
-/// nodes, and spreads through the network anew.
+/// The number of a WFR's call: from 1 on, each larger than the one before. A call under a new epoch is a new event to
+/// the nodes, and spreads through the network anew.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Epoch(pub u32);

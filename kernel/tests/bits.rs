@@ -1,5 +1,5 @@
-//! Positions are the same bits at every level of optimisation and on every machine. A test program of its own: the checks
-//! build it at every level, see `.ci/run`.
+//! Positions are the same bits at every level of optimisation and on every machine. A test program of its own: the
+//! checks build it at every level, see `.ci/run`.
 
 #[path = "support/numbers.rs"]
 mod numbers;

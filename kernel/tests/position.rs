@@ -349,7 +349,8 @@ proptest! {
             prop_assert!(found.is_finite(), "{:?} of {:?}", found, ranges);
         }
         let area = Area::new(Point::new(-5.0, -5.0), Point::new(5.0, 7.0));
-        for (residual, area) in [(Residual::Metres, None), (Residual::Decibels, None), (Residual::Metres, area), (Residual::Decibels, area)] {
+        let residuals = [Residual::Metres, Residual::Decibels];
+        for (residual, area) in residuals.into_iter().flat_map(|residual| [(residual, None), (residual, area)]) {
             let fix = locate(&ranges, residual, &signal, area);
             let estimates = match &fix {
                 Ok(Fix::One(one)) => vec![one],
@@ -357,12 +358,14 @@ proptest! {
                 Err(_) => Vec::new(),
             };
             for estimate in estimates {
-                let precision = estimate.precision.is_none_or(|precision| precision.rms_m() >= 0.0 && precision.dilution >= 0.0);
-                prop_assert!(estimate.at.is_finite() && estimate.cost >= 0.0 && precision, "{:?} of {:?}", estimate, ranges);
+                let is_precise = estimate.precision.is_none_or(|it| it.rms_m() >= 0.0 && it.dilution >= 0.0);
+                let is_sound = estimate.at.is_finite() && estimate.cost >= 0.0 && is_precise;
+                prop_assert!(is_sound, "{:?} of {:?}", estimate, ranges);
             }
         }
         let mut particles = [Particle::UNUSED; 4];
-        if let Ok(swarm) = Swarm::start(&ranges, Point::default(), Parameters::FALLING, &mut particles, &mut Congruence(2)) {
+        let start = Point::default();
+        if let Ok(swarm) = Swarm::start(&ranges, start, Parameters::FALLING, &mut particles, &mut Congruence(2)) {
             prop_assert!(swarm.run(&mut Congruence(3)).is_finite());
         }
     }

@@ -1,7 +1,7 @@
-//! Aggregation without computing: Gauci, Chen, Li, Dodd and Groß (International Journal of Robotics Research 33, 2014). A
-//! robot has a sensor of one bit, whether it sees a robot straight ahead, and no memory. If it sees none it goes backwards
-//! along an arc; if it sees one it turns on the spot. The paper's robots are discs on a plane; here they are on cells: an
-//! arc is a step back and a quarter turn, and a robot whose way is blocked only turns.
+//! Aggregation without computing: Gauci, Chen, Li, Dodd and Groß (International Journal of Robotics Research 33, 2014).
+//! A robot has a sensor of one bit, whether it sees a robot straight ahead, and no memory. If it sees none it goes
+//! backwards along an arc; if it sees one it turns on the spot. The paper's robots are discs on a plane; here they are
+//! on cells: an arc is a step back and a quarter turn, and a robot whose way is blocked only turns.
 
 use crate::prelude::*;
 

@@ -10,30 +10,34 @@ use crate::Entry;
 const HEAD: &str = "\
 # Other people's rules
 
-Published rules, each decided within its bound. The package `library` has one file for each rule: its source, its conditions, the
-demands, and rules with one thing wrong that the check must reject. This page is generated; a test compares it with what comes
-out. `tautline library` lists the rules, `tautline library pibt` decides one of them, `tautline library all` all of them, and `--larger`
-takes larger bounds. With `--out DIR` counterexamples are stored, and `tautline replay` plays them.
+Published rules, each decided within its bound. The package `library` has one file for each rule: its source, its
+conditions, the demands, and rules with one thing wrong that the check must reject. This page is generated; a test
+compares it with what comes out. `tautline library` lists the rules, `tautline library pibt` decides one of them,
+`tautline library all` all of them, and `--larger` takes larger bounds. With `--out DIR` counterexamples are stored, and
+`tautline replay` plays them.
 
-Where there are more states than memory, `--memory 8GiB --spill DIR` keeps them on disk ([commands.md](commands.md#larger-than-memory)). Where there are more
-than either holds, `tautline library pibt --larger --runs 100000 --out found` hunts: it makes random runs, each by
-the seed and its number, and stores the first that breaks a promise. A run that goes round for ever is found, too, if it is weakly
-fair. `tautline minimise FILE` makes it a shortest one from its start. What no run breaks is *not refuted*, and may be broken all the same.
-With `--plan` and `--shards` the checks are dealt out among machines: see [shards.md](shards.md).
+Where there are more states than memory, `--memory 8GiB --spill DIR` keeps them on disk
+([commands.md](commands.md#larger-than-memory)). Where there are more than either holds,
+`tautline library pibt --larger --runs 100000 --out found` hunts: it makes random runs, each by the seed and its number,
+and stores the first that breaks a promise. A run that goes round for ever is found, too, if it is weakly fair.
+`tautline minimise FILE` makes it a shortest one from its start. What no run breaks is *not refuted*, and may be broken
+all the same. With `--plan` and `--shards` the checks are dealt out among machines: see [shards.md](shards.md).
 
-The models are ours: a file says how it reads its source, and a verdict is about that reading. PIBT and LaCAM break ties by the numbers
-of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robots move on a grid.
-Not every demand is one that the source makes: some say what a reader may expect and the rule does not promise, such as that no two robots
-set out for one frontier.
+The models are ours: a file says how it reads its source, and a verdict is about that reading. PIBT and LaCAM break ties
+by the numbers of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robots move on a grid. Not
+every demand is one that the source makes: some say what a reader may expect and the rule does not promise, such as that
+no two robots set out for one frontier.
 
-A counterexample is the shortest one within the bound; of those that are as short, one in the smallest layout. Robots are numbers; the letter behind is
-the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all that were looked at. [stateright](https://www.stateright.rs) counts the same
-ones of Dijkstra's ring, Ricart–Agrawala and gathering by the same moves, and SPIN those of Ricart–Agrawala by a model of its own, 3,300 and, with a
-message that may be lost, 10,522: [library/tests/counts.rs](../library/tests/counts.rs).
+A counterexample is the shortest one within the bound; of those that are as short, one in the smallest layout. Robots
+are numbers; the letter behind is the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all
+that were looked at. [stateright](https://www.stateright.rs) counts the same ones of Dijkstra's ring, Ricart–Agrawala
+and gathering by the same moves, and SPIN those of Ricart–Agrawala by a model of its own, 3,300 and, with a message that
+may be lost, 10,522: [library/tests/counts.rs](../library/tests/counts.rs).
 
-An independent program counts 1,027,192 states of PIBT with three agents on all biconnected layouts to 3×3 cells, and 697,628 with four agents on
-those of 5 and 6 cells. We do not know how it reads the paper where the paper leaves it open. Its counts are none of those of the readings that we
-tried. In this table a shape counts in each place where it can stand; below each shape counts once:
+An independent program counts 1,027,192 states of PIBT with three agents on all biconnected layouts to 3×3 cells, and
+697,628 with four agents on those of 5 and 6 cells. We do not know how it reads the paper where the paper leaves it
+open. Its counts are none of those of the readings that we tried. In this table a shape counts in each place where it
+can stand; below each shape counts once:
 
 | robots at their goals | priorities change | three agents | four agents |
 |---|---|---|---|
@@ -43,11 +47,12 @@ tried. In this table a shape counts in each place where it can stand; below each
 | come last, by number | by where the step began | 1,001,355 | 691,408 |
 | come last, as they came | by where the step began | 1,009,193 | 729,208 |
 
-Without the preference for cells that are free, ours has 981,509 and 625,198. In the second row the order of equally good cells changes little: four
-agents have 688,824 to 689,026 states with any order of the four sides.
+Without the preference for cells that are free, ours has 981,509 and 625,198. In the second row the order of equally
+good cells changes little: four agents have 688,824 to 689,026 states with any order of the four sides.
 
-Lines of code of each rule with its demands, mutants, drawing, source and registration, beside those of a user who wrote the rule with its
-own world from the documents alone, before there were these faces; and those of the rule without mutants, source and registration:
+Lines of code of each rule with its demands, mutants, drawing, source and registration, beside those of a user who wrote
+the rule with its own world from the documents alone, before there were these faces; and those of the rule without
+mutants, source and registration:
 
 | rule | before | now | the rule |
 |---|---|---|---|
@@ -59,12 +64,14 @@ own world from the documents alone, before there were these faces; and those of 
 | boustrophedon | 142 | 61 | 44 |
 | Dijkstra's ring | 97 | 63 | 44 |
 
-In [Python](python.md#a-rule-over-states) Dijkstra's ring has 24 lines and Ricart–Agrawala 50, with demands, without mutants and registration
-([ring.py](../python/tests/ring.py), [mutex.py](../python/tests/mutex.py)).
+In [Python](python.md#a-rule-over-states) Dijkstra's ring has 24 lines and Ricart–Agrawala 50, with demands, without
+mutants and registration ([ring.py](../python/tests/ring.py), [mutex.py](../python/tests/mutex.py)).
 
-Four of Alpha's robots, all together, have 292,924 states on 6×6 cells, 1,013,486 on 8×8, and 26,713,844 on 16×16, where the promise is refuted, too,
-in 1.4 GB and 385 s on a part of one core (`cargo test -p tautline-library --test all four_robots -- --ignored --nocapture`). States that are turns of each
-other, or differ in the order of robots, count once; of the 4.3 billion starts in all places and headings, 731,392 are looked at.
+Four of Alpha's robots, all together, have 292,924 states on 6×6 cells, 1,013,486 on 8×8, and 26,713,844 on 16×16, where
+the promise is refuted, too, in 1.4 GB and 385 s on a part of one core
+(`cargo test -p tautline-library --test all four_robots -- --ignored --nocapture`). States that are turns of each other,
+or differ in the order of robots, count once; of the 4.3 billion starts in all places and headings, 731,392 are looked
+at.
 
 | rule | source | checks that hold | refuted |
 |---|---|---|---|

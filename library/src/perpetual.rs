@@ -1,8 +1,8 @@
 //! Perpetual exploration of a ring by three robots that are alike and remember nothing: after Blin, Milani,
 //! Potop-Butucaru and Tixeuil (DISC 2010), the legitimate phase of their algorithm for the fewest robots. The gaps
 //! between the robots are 0, 2 and a large one. The robot ahead goes on (0, 3); the one behind the gap of 3 follows
-//! (1, 2); the last one closes up (0, 2). No other robot of such a ring moves, so that the order of looks and moves does
-//! not matter. From other starts robots may stand still for ever: the paper has a second phase for them.
+//! (1, 2); the last one closes up (0, 2). No other robot of such a ring moves, so that the order of looks and moves
+//! does not matter. From other starts robots may stand still for ever: the paper has a second phase for them.
 
 use crate::prelude::*;
 

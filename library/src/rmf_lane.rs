@@ -1,8 +1,8 @@
 //! Open-RMF's mutex group of a lane, and its release after replanning: rmf_ros2, issue 448 and pull request 490. Robots
-//! cross one lane from two bays. A robot locks the lane, enters, and releases it when it leaves. A robot in the lane may
-//! be told to plan anew; the first step of its new plan is to a midpoint of the lane, which belongs to no mutex group.
-//! The phase that moves it releases whatever the steps ahead do not need, and so the lane that it stands in. Mended, the
-//! phase releases nothing while the robot is at a midpoint.
+//! cross one lane from two bays. A robot locks the lane, enters, and releases it when it leaves. A robot in the lane
+//! may be told to plan anew; the first step of its new plan is to a midpoint of the lane, which belongs to no mutex
+//! group. The phase that moves it releases whatever the steps ahead do not need, and so the lane that it stands in.
+//! Mended, the phase releases nothing while the robot is at a midpoint.
 
 use crate::prelude::*;
 

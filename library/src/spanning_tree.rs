@@ -1,7 +1,7 @@
 //! Spiral spanning tree coverage: Gabriely and Rimon (Annals of Mathematics and Artificial Intelligence 31, 2001; ICRA
 //! 2002). Cells are gathered in blocks of four. The robot builds a spanning tree of the blocks while it goes round it:
-//! at each side of a block it looks whether the next block is new; if it is, the tree grows there, and the robot enters.
-//! So it goes through every cell of every block once, and comes back to where it began.
+//! at each side of a block it looks whether the next block is new; if it is, the tree grows there, and the robot
+//! enters. So it goes through every cell of every block once, and comes back to where it began.
 
 use crate::prelude::*;
 
@@ -37,8 +37,8 @@ impl Protocol for Conditions {
         starts.map(|start| (start, start, bit(start), Vec::new()))
     }
 
-    /// Quarters are numbered clockwise from the north-west, and each looks at one side of the block: north, east, south,
-    /// west. The run is over when the robot is back.
+    /// Quarters are numbered clockwise from the north-west, and each looks at one side of the block: north, east,
+    /// south, west. The run is over when the robot is back.
     fn moves(&self, crew: &Deployed, (at, start, covered, tree): &State) -> Vec<Move<State>> {
         if at == start && *covered != bit(*start) {
             return Vec::new();

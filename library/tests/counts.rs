@@ -94,8 +94,8 @@ fn a_check_in_portions_has_the_verdict_the_counts_and_the_counterexample_of_the_
     assert_eq!(refuted, 3);
 }
 
-/// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 16 unless it says otherwise; what is found is printed:
-/// `cargo test -p tautline-library --test all four_robots -- --ignored --nocapture`.
+/// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 16 unless it says otherwise; what is found is
+/// printed: `cargo test -p tautline-library --test all four_robots -- --ignored --nocapture`.
 #[test]
 #[ignore = "it takes minutes"]
 fn four_robots_of_alpha_on_a_large_square_are_decided_in_two_gigabytes() {

@@ -33,7 +33,7 @@ fn room(bytes: u64, folder: &TempDir) -> MemoryLimit {
     MemoryLimit::of(bytes + bytes / 3 + 2, 1).spilling(Spill::new(folder.path().to_owned()))
 }
 
-/// What does not depend on where states are kept.
+/// The findings that do not depend on where states are kept.
 fn found<D>(findings: Findings<D>) -> Findings<D> {
     Findings { bytes: 0, ..findings }
 }
@@ -309,8 +309,8 @@ fn a_search_of_twice_the_memory_comes_to_its_end() {
     compared(&dijkstra::Rule::Published, || dijkstra::Machines::of(8, states), 45);
 }
 
-/// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 8 unless it says otherwise, whose endless runs are looked
-/// for: `cargo test -p tautline-library --test all four_robots_on_disk -- --ignored --nocapture`.
+/// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 8 unless it says otherwise, whose endless runs are
+/// looked for: `cargo test -p tautline-library --test all four_robots_on_disk -- --ignored --nocapture`.
 #[test]
 #[ignore = "it takes a minute"]
 fn four_robots_on_disk_are_decided_in_less_memory() {

@@ -58,7 +58,7 @@ pub enum Joining {
     JoinedAtStart,
 }
 
-/// What a log says of a clause.
+/// The answer of a log to a clause.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Verdict {
     /// At no stamp it is broken, and no robot was silent for longer than the gap.

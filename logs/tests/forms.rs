@@ -30,9 +30,9 @@ pub(crate) fn json(rows: &[Row<'_>]) -> Vec<u8> {
             format!(r#"{{"time_us":{at_us},"robot":"{robot}","x":{x},"y":{y}}}"#)
         } else {
             let (sec, nanosec) = (at_us.div_euclid(1_000_000), at_us.rem_euclid(1_000_000) * 1_000);
-            format!(
-                r#"{{"robot":"{robot}","header":{{"stamp":{{"sec":{sec},"nanosec":{nanosec}}},"frame_id":"map"}},"pose":{{"pose":{{"position":{{"x":{x},"y":{y},"z":0}}}}}}}}"#
-            )
+            let header = format!(r#"{{"stamp":{{"sec":{sec},"nanosec":{nanosec}}},"frame_id":"map"}}"#);
+            let pose = format!(r#"{{"pose":{{"position":{{"x":{x},"y":{y},"z":0}}}}}}"#);
+            format!(r#"{{"robot":"{robot}","header":{header},"pose":{pose}}}"#)
         };
         text += &line;
         text.push('\n');

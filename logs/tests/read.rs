@@ -1,4 +1,4 @@
-//! What is read of logs, and what is said of those that are cut, damaged or of no use.
+//! Logs that are read, and the words for those that are cut, damaged or of no use.
 
 use tautline_logs::{
     Demand, Doubt, Fault, FaultPlace, Limits, Log, Misnamed, Numbers, Silence, Tracks, Verdict, judge, read,

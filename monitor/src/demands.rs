@@ -12,8 +12,8 @@ fn between(one: (usize, Place), other: (usize, Place), allowed: u32) -> Breach {
     Breach { robots: [one.0, other.0], measured: apart_mm(one.1, other.1), allowed }
 }
 
-/// CHAIN-3: neighbours in the chain, which are robots whose numbers follow each other, are within range: the paper's r_cov
-/// is √6.5 = 2.549 cells.
+/// CHAIN-3: neighbours in the chain, which are robots whose numbers follow each other, are within range: the paper's
+/// r_cov is √6.5 = 2.549 cells.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Neighbours {
     /// The range.
@@ -31,8 +31,8 @@ impl Demand for Neighbours {
     }
 }
 
-/// KIT-1, KIT-2 and KIT-12: robots hear each other directly or over others. Two robots of KIT are within 10 m. Nothing is
-/// said before every robot is heard within the gap: a silent one may be the link.
+/// KIT-1, KIT-2 and KIT-12: robots hear each other directly or over others. Two robots of KIT are within 10 m. Nothing
+/// is said before every robot is heard within the gap: a silent one may be the link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Joined {
     /// The range.
@@ -66,8 +66,8 @@ impl Demand for Joined {
     }
 }
 
-/// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it was
-/// first heard; it has left it once it was heard farther from it than the demand and its tolerance, and for ever.
+/// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it
+/// was first heard; it has left it once it was heard farther from it than the demand and its tolerance, and for ever.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Apart {
     /// The least distance.
@@ -89,8 +89,8 @@ impl Demand for Apart {
     }
 }
 
-/// CHAIN-2, with 2 in a cell at most and the base left out, and FRONTIER-2 and PACK-2, with 1: not more robots are in one
-/// cell. The corner of a cell is at the origin; a robot whose circle of tolerance crosses a border is in no cell.
+/// CHAIN-2, with 2 in a cell at most and the base left out, and FRONTIER-2 and PACK-2, with 1: not more robots are in
+/// one cell. The corner of a cell is at the origin; a robot whose circle of tolerance crosses a border is in no cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Cells {
     /// The width of a cell; above 0.

@@ -5,8 +5,8 @@
 //! A breach is reported where the positions leave no doubt: a distance has to be off by more than the tolerance, and a
 //! robot is in a cell if the whole circle of the tolerance is. A clause is *kept* if every robot was heard within the
 //! gap and nothing is broken. Between two positions a robot goes where it will: choose the tolerance of a cell as the
-//! error of a position and the way that a robot goes within the gap, and that of a distance, which has two ends, as twice
-//! as much.
+//! error of a position and the way that a robot goes within the gap, and that of a distance, which has two ends, as
+//! twice as much.
 //!
 //! ```
 //! use tautline_monitor::{Monitor, Neighbours, Place, Robot, Verdict};
@@ -211,14 +211,14 @@ pub struct Monitor<D, R> {
 }
 
 impl<D: Demand, R: AsMut<[Robot]>> Monitor<D, R> {
-    /// A monitor of robots that were not heard, whose memory is `robots`, each one [`Robot::UNHEARD`]. A position that is
-    /// older than `gap_us` microseconds is no longer believed.
+    /// A monitor of robots that were not heard, whose memory is `robots`, each one [`Robot::UNHEARD`]. A position that
+    /// is older than `gap_us` microseconds is no longer believed.
     pub const fn new(demand: D, gap_us: u64, robots: R) -> Self {
         Self { demand, track: Track { robots, gap_us, now_us: 0 } }
     }
 
-    /// Takes the position of `robot` at `at_us` microseconds, and judges all positions of now, as [`Monitor::at`] does. A
-    /// stamp further ahead of now than the gap is not believed.
+    /// Takes the position of `robot` at `at_us` microseconds, and judges all positions of now, as [`Monitor::at`] does.
+    /// A stamp further ahead of now than the gap is not believed.
     pub fn hear(&mut self, now_us: u64, robot: usize, at_us: u64, place: Place) -> Verdict {
         match self.take(now_us, robot, at_us, place) {
             Ok(()) => self.at(now_us),
@@ -244,8 +244,9 @@ impl<D: Demand, R: AsMut<[Robot]>> Monitor<D, R> {
         Ok(())
     }
 
-    /// Judges the positions of the moment `now_us`, in microseconds of the clock that the stamps go by; time does not go
-    /// back, and a moment before an earlier one counts as that. Ask it when nobody was heard for a while: silence is said.
+    /// Judges the positions of the moment `now_us`, in microseconds of the clock that the stamps go by; time does not
+    /// go back, and a moment before an earlier one counts as that. Ask it when nobody was heard for a while: silence is
+    /// said.
     pub fn at(&mut self, now_us: u64) -> Verdict {
         let track = &mut self.track;
         track.now_us = track.now_us.max(now_us);

@@ -1,5 +1,5 @@
-//! Monitors against a judge of whole logs, which is written from the sentences of SPEC.md and shares nothing with them: it
-//! keeps every sample, and looks at all pairs and all ways at each one.
+//! Monitors against a judge of whole logs, which is written from the sentences of SPEC.md and shares nothing with them:
+//! it keeps every sample, and looks at all pairs and all ways at each one.
 
 use tautline_monitor::{
     Apart, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Own, Place, Robot, Track, Verdict,
@@ -41,9 +41,9 @@ impl Chance {
     }
 }
 
-/// A log of robots that start side by side and go on by small steps; single samples are mutated: another place, an earlier
-/// stamp, one far ahead, a long silence, a robot that there is not, a place beyond all others; some come together in one cell, or
-/// go back to where they started.
+/// A log of robots that start side by side and go on by small steps; single samples are mutated: another place, an
+/// earlier stamp, one far ahead, a long silence, a robot that there is not, a place beyond all others; some come
+/// together in one cell, or go back to where they started.
 fn log(chance: &mut Chance) -> Vec<Sample> {
     let mut places: Vec<[i32; 2]> = (0..ROBOTS).map(|robot| [1_200 * robot as i32 + 500, 500]).collect();
     let mut at_us = 0;

@@ -119,12 +119,17 @@ fn what_does_not_fit_is_refused_with_its_reason() {
         unfit.to_string()
     };
     let four = Parameters::FULL.with_moves(Moves::Four);
-    insta::assert_snapshot!(refused(four, 8), @"with four moves a robot there is no legal first team move: 7 robots cannot leave one cell by four sides into cells of their own");
+    insta::assert_snapshot!(refused(four, 8),
+        @"with four moves a robot there is no legal first team move: 7 robots cannot leave one cell by four sides into \
+            cells of their own");
     assert!(four.check(5).is_ok() && four.in_cells(Cells::Shared).check(8).is_ok());
-    insta::assert_snapshot!(refused(Parameters::FULL, 12), @"full search of 12 robots would look at 5^11 = 48828125 team moves in each");
-    insta::assert_snapshot!(refused(Parameters::FULL, 256), @"full search of 256 robots would look at 5^255 team moves in each");
+    insta::assert_snapshot!(refused(Parameters::FULL, 12),
+        @"full search of 12 robots would look at 5^11 = 48828125 team moves in each");
+    insta::assert_snapshot!(refused(Parameters::FULL, 256),
+        @"full search of 256 robots would look at 5^255 team moves in each");
     assert!(Parameters::FULL.check(10).is_ok() && Parameters::POOL.check(256).is_ok());
-    insta::assert_snapshot!(refused(Parameters { search: Search::Pool(0), ..Parameters::POOL }, 8), @"a pool of no team moves");
+    insta::assert_snapshot!(refused(Parameters { search: Search::Pool(0), ..Parameters::POOL }, 8),
+        @"a pool of no team moves");
     insta::assert_snapshot!(refused(Parameters::POOL, 1), @"there is no team of 1, the base counted");
     for wrong in [f64::NAN, f64::INFINITY, -1e9] {
         let weights = Weights { distance: wrong, new_cell: 0.0 };

@@ -206,11 +206,13 @@ mod tests {
         );
         assert_eq!(
             refused(&["anew", "window"]),
-            r#""anew" and "window" contradict each other: “selects a robot” means “it selects at each message”, “selects a robot” means “it selects when a window closes”"#
+            "\"anew\" and \"window\" contradict each other: “selects a robot” means “it selects at each message”, \
+             “selects a robot” means “it selects when a window closes”"
         );
         assert_eq!(
             refused(&["answered"]),
-            r#""anew" and "answered" contradict each other: “selects a robot” means “it selects at each message”, “answers all” means “later messages have one”"#
+            "\"anew\" and \"answered\" contradict each other: “selects a robot” means “it selects at each message”, \
+             “answers all” means “later messages have one”"
         );
     }
 }

@@ -258,8 +258,8 @@ pub trait Method<R>: Sync {
         1
     }
 
-    /// Looks for a counterexample to `rule` in a portion of the parts. [`Answer::merged`] makes one answer of those to all
-    /// portions.
+    /// Looks for a counterexample to `rule` in a portion of the parts. [`Answer::merged`] makes one answer of those to
+    /// all portions.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
@@ -273,8 +273,8 @@ pub trait Method<R>: Sync {
     /// [`ScriptError`] if they are none.
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 
-    /// The answer about `rule` by random runs in place of all cases, up to the first that is a counterexample; `None` if
-    /// the method makes none.
+    /// The answer about `rule` by random runs in place of all cases, up to the first that is a counterexample; `None`
+    /// if the method makes none.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
@@ -291,8 +291,8 @@ pub trait Method<R>: Sync {
         Ok(None)
     }
 
-    /// A file that Rocq checks, with the theorem that the clause holds of `rule` beyond every bound; `None` if the method has
-    /// none.
+    /// A file that Rocq checks, with the theorem that the clause holds of `rule` beyond every bound; `None` if the
+    /// method has none.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or if the file would be too large.
@@ -300,8 +300,8 @@ pub trait Method<R>: Sync {
         None
     }
 
-    /// The systems whose states or runs it searches for `rule`, all of them, each of which a section of a certificate is
-    /// about.
+    /// The systems whose states or runs it searches for `rule`, all of them, each of which a section of a certificate
+    /// is about.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or searches something else.

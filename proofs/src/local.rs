@@ -1,13 +1,13 @@
 //! Rules that are local and the same everywhere, decided for every number of robots and every layout. Whoever
 //! implements [`Local`] says what one robot can do and what `k` robots may plan at once; the promise is about `k`
-//! robots, too. From that [`EveryNumber`] computes a set of relative places of `k` robots that keep the promise and that
-//! no admitted step leaves: then no run of any number of robots in any layout leaves it, since the rule speaks of
+//! robots, too. From that [`EveryNumber`] computes a set of relative places of `k` robots that keep the promise and
+//! that no admitted step leaves: then no run of any number of robots in any layout leaves it, since the rule speaks of
 //! nothing but `k` robots at a time. If there is no such set, teams of `k` and more robots are searched for a run that
-//! breaks the promise, the walls decided as robots meet them. If none is found, and teams have more than `k` robots, the
-//! places of `k + 1` robots are looked at in the same way; if that does not do, the question is open.
+//! breaks the promise, the walls decided as robots meet them. If none is found, and teams have more than `k` robots,
+//! the places of `k + 1` robots are looked at in the same way; if that does not do, the question is open.
 //!
-//! The verdict is about the relation of plans that the rule admits, whoever picks among them; [`Kept`] keeps any planner
-//! to it. That the finite check is
+//! The verdict is about the relation of plans that the rule admits, whoever picks among them; [`Kept`] keeps any
+//! planner to it. That the finite check is
 //! enough is proved in `proofs/rocq/Local.v`.
 
 /// Functions of a rule that has another one, `self.rule`, and answers as that does.
@@ -166,8 +166,8 @@ pub trait Local: Sync {
     /// How far the promise looks, in cells, and what it says of robots that are farther.
     fn reach(&self) -> (i16, Far);
 
-    /// Whether robots of which the rule speaks may start so, the first of them in cell (0, 0). Where the promise is broken
-    /// by robots that are far apart, none start so.
+    /// Whether robots of which the rule speaks may start so, the first of them in cell (0, 0). Where the promise is
+    /// broken by robots that are far apart, none start so.
     fn may_start(&self, robots: &[Robot<Self::State>]) -> bool;
 
     /// A team of so many robots at its start: each tuple of which the rule speaks must be one that may start. It is
@@ -179,8 +179,8 @@ pub trait Local: Sync {
         all_tuples(robots, self.robots())
     }
 
-    /// Whether an act is possible whatever was before. One that is possible in some pasts only is looked at as if it always
-    /// were; but no run with it is called real, and no planner that is kept to the rule may do it.
+    /// Whether an act is possible whatever was before. One that is possible in some pasts only is looked at as if it
+    /// always were; but no run with it is called real, and no planner that is kept to the rule may do it.
     fn is_always_possible(&self, _: Self::Act) -> bool {
         true
     }

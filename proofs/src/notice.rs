@@ -9,7 +9,7 @@ pub mod spread;
 
 use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};
 
-/// What k counts where a packet comes twice.
+/// The senders or packets that k counts where a packet comes twice.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Counted {
     /// The senders that a node hears besides the first.
@@ -36,7 +36,7 @@ pub struct Subject {
     pub conditions: Conditions,
     /// How they take k, if not for what it is.
     pub miscount: Option<Miscount>,
-    /// What k counts.
+    /// The senders or packets that k counts.
     pub counted: Counted,
 }
 

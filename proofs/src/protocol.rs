@@ -47,10 +47,10 @@ pub trait Protocol: Clone + Sync + 'static {
     /// Every move that is possible in `state`, always in the same order. If there is none, the run is over.
     fn moves(&self, here: &Surroundings<Self>, state: &Self::State) -> Vec<Move<Self::State>>;
 
-    /// The other states that are taken for one with `state`: the same robots in another order, say, or the floor turned.
-    /// From each of them the same moves of the same actors, in the same words, lead to states that are taken for one,
-    /// and each demand says the same of them. A check tries that on the first few states, and is refused where it is
-    /// not so. None, unless there is more to tell.
+    /// The other states that are taken for one with `state`: the same robots in another order, say, or the floor
+    /// turned. From each of them the same moves of the same actors, in the same words, lead to states that are taken
+    /// for one, and each demand says the same of them. A check tries that on the first few states, and is refused where
+    /// it is not so. None, unless there is more to tell.
     fn alike(&self, _: &Surroundings<Self>, _: &Self::State) -> Vec<Self::State> {
         Vec::new()
     }

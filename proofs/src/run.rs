@@ -49,8 +49,8 @@ pub struct Run {
     pub ending: Ending,
 }
 
-/// A run that a search has made by its choices: the layout that it met, without frames, and the choices that make it again
-/// there, as the runs of its scheme read them.
+/// A run that a search has made by its choices: the layout that it met, without frames, and the choices that make it
+/// again there, as the runs of its scheme read them.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Scripted {
     /// Where it takes place, and what it breaks.

@@ -30,7 +30,8 @@
 /// }
 ///
 /// tautline_proofs::step_checks! { Larger;
-///     no_less: is_no_less, NamedRule::new("ours", u32::max as Larger), pairs, covers ["two numbers"], unwind 3, mutants {
+///     no_less: is_no_less, NamedRule::new("ours", u32::max as Larger), pairs,
+///         covers ["two numbers"], unwind 3, mutants {
 ///         the_first: "the first" => first as Larger,
 ///     };
 /// }

@@ -3,8 +3,8 @@
 //! and says the rest in a [`Setting`] has a search over all of it, mutants, counterexamples that can be replayed and
 //! drawn, and a line in a ledger ([`Keeps`]).
 //!
-//! A setting is searched in one of two ways. As a tree ([`Game`](crate::engine::tree::Game)): the layout with the fewest
-//! walls that breaks a demand comes first, and a search can be left, taken up again and dealt out. As states
+//! A setting is searched in one of two ways. As a tree ([`Game`](crate::engine::tree::Game)): the layout with the
+//! fewest walls that breaks a demand comes first, and a search can be left, taken up again and dealt out. As states
 //! ([`System`](crate::engine::states::System)): ways that lead to the same are gone once, and the shortest run comes
 //! first. [`Setting::strategy`] says which; where both can be asked, they agree.
 
@@ -221,7 +221,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// Every scene in which a run begins: of every layout that is decided before, with every start and goal.
     ///
     /// # Errors
-    /// [`MethodError`] if the area, the number of robots or the number of layouts is too large, or a robot starts outside.
+    /// [`MethodError`] if the area, the number of robots or the number of layouts is too large, or a robot starts
+    /// outside.
     pub fn starts(&self, rule: &R) -> Result<Vec<Scene<R>>, MethodError> {
         if !(1..=MOST_ROBOTS).contains(&self.robots) {
             return Err(MethodError::new(format_args!(

@@ -14,8 +14,8 @@ use tautline_proofs::ledger::{Misfit, certificate, clauses, examine};
 use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Served, Setting};
 
-/// Holds a verdict against the certificates of what `method` searches for `rule`: if it holds there is one of each system,
-/// which is accepted, and if it is refuted there is none of some.
+/// Holds a verdict against the certificates of what `method` searches for `rule`: if it holds there is one of each
+/// system, which is accepted, and if it is refuted there is none of some.
 pub(crate) fn certify<R>(method: &impl Method<R>, rule: &R, verdict: Verdict) {
     if verdict == Verdict::Open {
         return;
@@ -299,8 +299,8 @@ fn processor_s() -> f64 {
     fields.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
-/// One row per check that holds and searches all states or layouts: states, bytes of the file, bytes a state; seconds of
-/// processor time of the search and of the checker on one thread, and seconds that pass while two threads search and
+/// One row per check that holds and searches all states or layouts: states, bytes of the file, bytes a state; seconds
+/// of processor time of the search and of the checker on one thread, and seconds that pass while two threads search and
 /// while they check. `TAUTLINE_CERTIFICATES` names some of the clauses.
 #[test]
 #[ignore = "takes minutes: cargo test -p tautline-proofs --test all -- --ignored --nocapture certificates_of_all"]

@@ -1,6 +1,6 @@
-//! Weak fairness, and promises that must be kept at some time or again and again: on random small systems the search over
-//! states finds what a naive checker finds. The naive one goes on from every state along every walk, and remembers of a
-//! walk who was awake in all of its states and who has acted; it knows no components.
+//! Weak fairness, and promises that must be kept at some time or again and again: on random small systems the search
+//! over states finds what a naive checker finds. The naive one goes on from every state along every walk, and remembers
+//! of a walk who was awake in all of its states and who has acted; it knows no components.
 
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::fmt;
@@ -73,8 +73,8 @@ impl Random {
         Self { moves, owed }
     }
 
-    /// The states that a run gets to, each with the fewest steps. Where something must be so at some time, a run is over
-    /// once it is.
+    /// The states that a run gets to, each with the fewest steps. Where something must be so at some time, a run is
+    /// over once it is.
     fn distances(&self, until_met: bool) -> HashMap<u8, usize> {
         let (mut found, mut ahead) = (HashMap::from([(0, 0)]), VecDeque::from([0]));
         while let Some(state) = ahead.pop_front() {
@@ -121,7 +121,8 @@ impl Random {
         if demand == 0 { [of(1), of(2)].into_iter().flatten().min() } else { of(3) }
     }
 
-    /// The fewest steps to a state in which the run may stay, or from which it may go round, and owe something for ever.
+    /// The fewest steps to a state in which the run may stay, or from which it may go round, and owe something for
+    /// ever.
     fn shortest_way(&self, demand: usize) -> Option<usize> {
         let stays = |state: u8| {
             self.owed[usize::from(state)] != 0

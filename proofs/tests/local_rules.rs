@@ -324,8 +324,8 @@ fn rules_of_other_people_are_decided_as_well() {
     ");
 }
 
-/// A robot raises a flag, which nobody is to see, if every other one is in the cell east of it. Two robots may start so; of
-/// three one is elsewhere.
+/// A robot raises a flag, which nobody is to see, if every other one is in the cell east of it. Two robots may start
+/// so; of three one is elsewhere.
 struct Flags<const LEAST: usize>;
 
 impl<const LEAST: usize> Local for Flags<LEAST> {
@@ -382,5 +382,7 @@ fn where_two_robots_are_too_coarse_three_are_looked_at_and_else_the_question_is_
     assert!(!Invariant::of(&Flags::<3>).expect("a local rule").holds());
     let decision = OPEN.decide(&mut Cache::default(), &mut unwatched).expect("a local rule");
     assert_eq!((decision.verdict, decision.counterexample), (Verdict::Open, None));
-    insta::assert_snapshot!(decision.note.expect("what was found"), @"places of 2 robots are too coarse, and no run of up to 4 robots was found; as far as these places tell, robots may go from 0,0 false | -1,0 false to 0,0 false | -1,0 true");
+    insta::assert_snapshot!(decision.note.expect("what was found"),
+        @"places of 2 robots are too coarse, and no run of up to 4 robots was found; as far as these places tell, \
+            robots may go from 0,0 false | -1,0 false to 0,0 false | -1,0 true");
 }

@@ -1,5 +1,5 @@
-//! The readings of the chain that Kovács, Pásztor and Istenes 2011 leave open, beyond what the ledger decides of them: those
-//! that change nothing, and those that the paper's own figures exclude.
+//! The readings of the chain that Kovács, Pásztor and Istenes 2011 leave open, beyond what the ledger decides of them:
+//! those that change nothing, and those that the paper's own figures exclude.
 
 use tautline_kernel::chain::{Chain, Intent, Kind, Message, Outcome, Rule};
 use tautline_kernel::choice::Oracle;
@@ -95,8 +95,8 @@ fn a_row_and_a_null_move_at_the_end_break_no_sentence_that_holds_as_published() 
 /// All layouts of the paper's area in which a run meets at most so many walls.
 const FEW_WALLS: [(i16, u32); 2] = [(3, 3), (4, 2)];
 
-/// Plays the published chain and one under `reading` side by side in these layouts; `takes_turn` says whether the other one
-/// takes part in a team move of the published one.
+/// Plays the published chain and one under `reading` side by side in these layouts; `takes_turn` says whether the other
+/// one takes part in a team move of the published one.
 fn play_along(reading: Reading, takes_turn: impl Fn(&PlainIntent) -> bool) {
     for (robots, most) in FEW_WALLS {
         let tally = exhaust(|oracle: &mut dyn Oracle| {
@@ -154,8 +154,9 @@ fn a_backtrack_of_a_blocked_team_move_changes_nothing() {
 /// Three bits for the step and one for a wall.
 const FOUR_BITS: u8 = 0b1111;
 
-/// The messages that four bits confuse are those of an advance and a backtrack by the same step. So who hears them knows where
-/// robots are and which walls they met; and who plans along knows the rest, since the plan is the one or the other.
+/// The messages that four bits confuse are those of an advance and a backtrack by the same step. So who hears them
+/// knows where robots are and which walls they met; and who plans along knows the rest, since the plan is the one or
+/// the other.
 #[test]
 fn four_bits_are_enough_for_one_who_plans_along() {
     let messages = Step::ALL.into_iter().flat_map(|step| {

@@ -1,4 +1,4 @@
-//! What the registered checks find that are refuted: decided once, for all tests that look at it.
+//! The findings of the registered checks that are refuted: decided once, for all tests that look at them.
 
 use std::sync::LazyLock;
 

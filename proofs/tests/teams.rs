@@ -1,5 +1,5 @@
-//! Whether the chain is optimal among all connected teams in the open (CHAIN-9, CHAIN-10): teams of which links by E_S, or by
-//! E_C, join all robots to the base as any tree, against chains.
+//! Whether the chain is optimal among all connected teams in the open (CHAIN-9, CHAIN-10): teams of which links by E_S,
+//! or by E_C, join all robots to the base as any tree, against chains.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -133,8 +133,8 @@ fn a_tree_is_faster_than_a_chain_in_three_cells_in_a_row() {
     assert_eq!(faster.first(), Some(&(3, 1, Cell::new(1, 0), 3, 1, 2)));
 }
 
-/// A robot in ring N−1 needs N−1 links to the base, and there are no more. So also of any tree one robot at most is in that
-/// ring, which has 8(N−1) cells, and after N−1 team moves at the earliest: none is faster than the chain.
+/// A robot in ring N−1 needs N−1 links to the base, and there are no more. So also of any tree one robot at most is in
+/// that ring, which has 8(N−1) cells, and after N−1 team moves at the earliest: none is faster than the chain.
 #[test]
 fn in_the_papers_area_no_tree_is_faster_than_the_chain() {
     for robots in 2..=4 {

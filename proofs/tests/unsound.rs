@@ -23,7 +23,7 @@ fn refusal<R>(method: &impl Method<R>, rule: &R) -> String {
     decide(method, rule).expect_err("it is refused").to_string()
 }
 
-/// What may be wrong with a system.
+/// A fault of a system.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Slip {
     None,

@@ -55,7 +55,7 @@ const NAMES: [(&str, &str); 6] = [
     ),
 ];
 
-/// What is wrong, or what would be right, in Python's words: fields are its keywords.
+/// Words about what is wrong, or would be right, as Python has them: fields are its keywords.
 fn keywords(words: &str) -> String {
     let words = NAMES.iter().fold(words.to_owned(), |words, (name, own)| words.replace(name, own));
     let named = words.split('`').enumerate();

@@ -225,8 +225,8 @@ fn refused(py: Python<'_>, script: &StateScript, why: &MethodError) -> PyErr {
     if why.to_string() == Unsound::Unrepeatable.to_string() {
         return script.script.not_pure(py);
     }
-    let remedy = "let alike return only states with the same moves of the same actors, in the same words, to states that \
-                  are alike, and of which each demand says the same";
+    let remedy = "let alike return only states with the same moves of the same actors, in the same words, to states \
+                  that are alike, and of which each demand says the same";
     error(py, Kind::WrongType, format_args!("alike is wrong: {why}"), remedy)
 }
 

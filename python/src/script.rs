@@ -24,7 +24,7 @@ const MAX_WORD: usize = 64;
 /// The words that rules bring. There are few, and they are kept as long as the process.
 static KEPT: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
 
-/// What the mutex has, whatever has become of others who held it.
+/// The value of the mutex, whatever has become of others who held it.
 pub(crate) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -112,11 +112,11 @@ impl fmt::Display for Id {
 pub enum ConfigError {
     /// It is no TOML, or has what is not known; the text of the parser, with the line.
     Toml(String),
-    /// What stands at a byte of the text, or on the command line, cannot be.
+    /// A value at a byte of the text, or on the command line, cannot be.
     Wrong {
         /// The byte.
         at: usize,
-        /// What is wrong, and what would be right.
+        /// A sentence that says what is wrong, and what would be right.
         why: String,
     },
 }

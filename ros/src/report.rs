@@ -1,4 +1,4 @@
-//! What is known of the clauses, as diagnostics and as markers.
+//! Verdicts of the clauses, as diagnostics and as markers.
 
 use super::config::{Clause, Config, Id, Robot};
 use super::messages::{

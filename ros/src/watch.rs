@@ -62,7 +62,7 @@ pub(crate) struct Watched {
     pub(crate) told: Status,
 }
 
-/// What was heard of a robot.
+/// The positions heard of a robot.
 #[derive(Clone, Default)]
 pub(crate) struct Heard {
     /// When a position was last taken, by this machine, and which.

@@ -11,7 +11,7 @@ fn call(arguments: &[&str]) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8(output.stderr).expect("text"))
 }
 
-/// What a configuration is refused with.
+/// The words with which a configuration is refused.
 fn refused(text: &str) -> String {
     let folder = TempDir::new().expect("a folder");
     let file = folder.path().join("wrong.toml");

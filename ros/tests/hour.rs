@@ -10,7 +10,7 @@ const ROUNDS: u64 = 36_000;
 /// A breach lasts for one round, and comes once in so many.
 const EACH: u64 = 30;
 
-/// What is true at a share of sorted numbers.
+/// The number at a share of sorted ones.
 fn quantile(sorted: &[Duration], share: f64) -> Duration {
     sorted[((sorted.len() - 1) as f64 * share).round() as usize]
 }

@@ -114,10 +114,10 @@ impl<M: DeserializeOwned> Decode<'_, M> for Cdr {
     }
 }
 
-/// What the team publishes on one topic.
+/// The team's publisher on one topic.
 pub(crate) type Mouth<M> = DataWriter<M, Cdr>;
 
-/// What the team hears on one topic.
+/// The team's subscriber on one topic.
 pub(crate) struct Ear<M: DeserializeOwned + 'static>(SimpleDataReader<M, Cdr>, PhantomData<M>);
 
 impl<M: DeserializeOwned + 'static> Ear<M> {

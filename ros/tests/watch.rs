@@ -1,4 +1,4 @@
-//! What positions say of clauses, without a network.
+//! Verdicts of clauses from positions, without a network.
 
 use super::team::{at, header};
 use std::time::{Duration, Instant};

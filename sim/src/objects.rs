@@ -1,5 +1,5 @@
-//! Objects that robots find (Rajesh, Nagaraja and Suja 2024, 4.5): where they stand, and where robots take them to be. Lengths are in
-//! sides of a cell; the midpoint of a cell has the cell's column and row.
+//! Objects that robots find (Rajesh, Nagaraja and Suja 2024, 4.5): where they stand, and where robots take them to be.
+//! Lengths are in sides of a cell; the midpoint of a cell has the cell's column and row.
 
 use std::fmt::{self, Display};
 use std::str::FromStr;

@@ -220,9 +220,9 @@ impl Extra {
     /// How far messages are heard.
     pub const RANGE: &'static Self = &Self {
         takes: Takes::Word("CELLS"),
-        about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep \
-                in touch hear 2 to 5 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or \
-                more; without it 60",
+        about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots that \
+                keep in touch hear 2 to 5 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 \
+                cells or more; without it 60",
         ..told!("range", range_cells, whole)
     };
 
@@ -264,16 +264,16 @@ impl Extra {
     /// How many beacons are averaged.
     pub const READINGS: &'static Self = &Self {
         takes: Takes::Word("BEACONS"),
-        about: "How many beacons of each anchor a robot averages at each stop; with 0 it goes by its wheels alone. Without \
-                it 100",
+        about: "How many beacons of each anchor a robot averages at each stop; with 0 it goes by its wheels alone. \
+                Without it 100",
         ..told!("readings", readings, whole)
     };
 
     /// How many anchors there are.
     pub const ANCHORS: &'static Self = &Self {
         takes: Takes::Word("ANCHORS"),
-        about: "How many anchors stand around the area, from 3 to 8: in its corners, then in the middle of its sides. A \
-                robot takes the best three. Without it 3",
+        about: "How many anchors stand around the area, from 3 to 8: in its corners, then in the middle of its sides. \
+                A robot takes the best three. Without it 3",
         wrong: |options, _, _| {
             let is_right = (3..=8).contains(&options.anchors());
             unless(
@@ -322,8 +322,8 @@ impl Extra {
     /// Which objects robots look for.
     pub const OBJECTS: &'static Self = &Self {
         takes: Takes::Real("COUNT|COLUMN:ROW,…"),
-        about: "How many objects robots look for, each somewhere in a cell that they can reach, or where the objects are: \
-                a cell's column and row are its midpoint, as in 1.5:2,3:4",
+        about: "How many objects robots look for, each somewhere in a cell that they can reach, or where the objects \
+                are: a cell's column and row are its midpoint, as in 1.5:2,3:4",
         wrong: |options, _, layout| options.objects.as_ref()?.wrong(layout),
         ..told!("objects", objects, str::parse)
     };
@@ -359,8 +359,8 @@ impl Extra {
     /// How likely small obstacles are.
     pub const SMALL: &'static Self = &Self {
         takes: Takes::Real("PROBABILITY"),
-        about: "How likely it is that an obstacle that is smaller than a cell stands between two cells, from 0 to 1: a robot \
-                goes round it, which takes it a team move. Without it 0",
+        about: "How likely it is that an obstacle that is smaller than a cell stands between two cells, from 0 to 1: a \
+                robot goes round it, which takes it a team move. Without it 0",
         ..told!("small", small, str::parse)
     };
 
@@ -411,7 +411,8 @@ impl Extra {
     /// Which wall appears, and when.
     pub const WALL: &'static Self = &Self {
         takes: Takes::Word("X,Y,SIDE@MOVE"),
-        about: "On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or N",
+        about: "On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or \
+            N",
         wrong: |options, _, layout| {
             let (cell, edge) = options.wall.map(|wall| (wall.cell, wall.edge()))?;
             let sides = [cell, edge.cell(), edge.cell().beyond(edge.side())];

@@ -4,7 +4,7 @@
 //! another rule is found where it first differs, and no more than one line is held at a time.
 //!
 //! ```text
-//! {"format":"tautline run","version":1,"scheme":"chain","rule":"repaired","robots":2,…,"layout":"tautline layout 1\n…"}
+//! {"format":"tautline run","version":1,"scheme":"chain","rule":"repaired","robots":2,…,"layout":"tautline layout…"}
 //! {"move":{"step":1,"kind":"advance","tried":".E","blocked":[],"cells":[[1,1],[2,1]]}}
 //! {"end":{"stopped":"explored","steps":8,"explored":9,"cells":9,"violations":[]}}
 //! ```

@@ -352,7 +352,8 @@ fn of_turns_that_can_go_on_for_ever_only_those_are_drawn() {
     };
     let drawn = story::of_course(&course).expect("a layout");
     assert_snapshot!(drawn, @"
-    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any \
+    more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
 
       In turn 2 agent 2 misses the sensor of 0,1.
       The last 2 of 3 turns can go on for ever.

@@ -80,8 +80,8 @@ fn a_repaired_team_explores_an_open_area_and_knows_it() {
     }
 }
 
-/// Of so many runs in 12×14 cells with noise of 2 dB, how many are clean: nothing is noted that is not so, no two robots are in one
-/// cell, and the team ends and knows it.
+/// Of so many runs in 12×14 cells with noise of 2 dB, how many are clean: nothing is noted that is not so, no two
+/// robots are in one cell, and the team ends and knows it.
 fn clean_runs(rule: Rule, options: &Options, runs: u64) -> usize {
     let is_clean = |seed: &u64| {
         let mut layout = generated("cells:12x14:0.1", *seed);
@@ -321,8 +321,8 @@ fn hungarian_assignment_anew_at_every_move_ends_in_larger_layouts() {
     assert_eq!(end_of_runs_with_assignments_anew(500), 56_000);
 }
 
-/// The team moves of repaired robots with Keep, those that they take more without it, and in how many of so many runs these
-/// differ, for each of several sizes and shares of blocked cells. All starts are anywhere.
+/// The team moves of repaired robots with Keep, those that they take more without it, and in how many of so many runs
+/// these differ, for each of several sizes and shares of blocked cells. All starts are anywhere.
 fn moves_with_keep(layouts: u64) -> (usize, isize, usize) {
     let (mut moves, mut more, mut differing) = (0, 0, 0);
     for cells in ["6x7:0.1", "6x7:0.3", "12x14:0.1", "12x14:0.3"] {
@@ -355,7 +355,8 @@ fn keep_costs_next_to_nothing_in_many_layouts() {
 }
 
 #[test]
-#[ignore = "46 s of a core, and published maps: cargo test -p tautline-sim --release --test all published_maps -- --ignored --nocapture"]
+#[ignore = "46 s of a core, and published maps: cargo test -p tautline-sim --release --test all published_maps -- \
+    --ignored --nocapture"]
 fn eight_robots_explore_published_maps() {
     let folder = std::env::var_os("TAUTLINE_MAPS").expect("TAUTLINE_MAPS names the folder of published maps");
     for (map, expected) in [("random512-10-0", 36_795), ("Boston_0_512", 29_356)] {

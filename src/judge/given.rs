@@ -61,7 +61,8 @@ impl MapArgs {
         self.map.as_ref().map_or_else(Vec::new, |map| layout::inputs(map, self.image.as_deref()))
     }
 
-    /// Refuses options without effect on clauses of which some speak of cells and of a base, and some of a range in cells.
+    /// Refuses options without effect on clauses of which some speak of cells and of a base, and some of a range in
+    /// cells.
     pub(super) fn check(
         &self,
         (has_cells, has_base): (bool, bool),
@@ -102,7 +103,8 @@ impl MapArgs {
                     let (pixels, frame) = ros::load(path, image)?;
                     if frame.yaw_rad != 0.0 {
                         let what = format!("the map is turned by {} rad", frame.yaw_rad);
-                        let remedy = "turn the positions into the axes of its image, and set the yaw of its origin to 0";
+                        let remedy = "turn the positions into the axes of its image, and set the yaw of its origin to \
+                            0";
                         return Err(Diagnostic::in_file(path, what, remedy));
                     }
                     coarse.cell_m = self.cell;

@@ -13,7 +13,7 @@ use super::given::Given;
 use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 
-/// What is told of a log.
+/// The report of a log.
 pub(super) struct Told<'a> {
     pub(super) file: String,
     pub(super) log: &'a Log,
@@ -38,7 +38,7 @@ pub(crate) struct JudgeJson<'a> {
     tolerance_mm: u32,
     gap_us: u64,
     cell_mm: u32,
-    /// What was not taken, and what the log does not have.
+    /// Remarks on what was not taken, and on what the log does not have.
     remarks: Vec<String>,
     clauses: Vec<ClauseJson>,
 }
@@ -124,7 +124,7 @@ impl Told<'_> {
         )
     }
 
-    /// What was not taken, and what does not fit.
+    /// Remarks on what was not taken, and on what does not fit.
     fn remarks(&self) -> Vec<String> {
         let (log, place) = (self.log, self.log.form.place());
         let refused = self.tracks.refused();
@@ -255,8 +255,8 @@ impl Told<'_> {
             Doubt::Alone => "it speaks of several robots, and the log has one".to_owned(),
             Doubt::Parted(at_us) => {
                 format!(
-                    "at {} s, the first moment that has all robots, they do not hear each other, and the clause asks for \
-                     nothing",
+                    "at {} s, the first moment that has all robots, they do not hear each other, and the clause asks \
+                     for nothing",
                     seconds(*at_us)
                 )
             }

@@ -124,7 +124,7 @@ fn outcome(row: &Row, runs: &RandomRuns) -> String {
     }
 }
 
-/// What came of a check, and the run that breaks it: drawn if it is short.
+/// The result of a check, and the run that breaks it: drawn if it is short.
 fn words(row: &Row, runs: &RandomRuns, file: Option<&str>) -> Result<String, Halt> {
     let Row { clause, check, ref decision, .. } = *row;
     let head =

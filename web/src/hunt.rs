@@ -112,11 +112,13 @@ impl WorldHunt {
             let steps = counted(order.steps, "step") + &round;
             json!({
                 "clause": order.clause, "sentence": sentence(order.clause), "title": steps,
-                "settings": written(&self.settings), "answers": order.answers, "steps": order.steps + usize::from(order.is_still),
+                "settings": written(&self.settings), "answers": order.answers,
+                "steps": order.steps + usize::from(order.is_still),
             })
         };
+        let Settings { scheme, rule, .. } = &self.settings;
         json!({
-            "title": format!("{} ({}), every order: {}", self.settings.scheme, self.settings.rule, counted(*states, "state")),
+            "title": format!("{scheme} ({rule}), every order: {}", counted(*states, "state")),
             "outcome": outcome,
             "complete": is_complete,
             "found": found.iter().map(order).collect::<Vec<_>>(),

@@ -25,8 +25,8 @@ fn settings(scheme: &Value, rule: &Value) -> Value {
 fn a_step_under_noise_marks_where_robots_and_objects_are_and_are_taken_to_be() {
     let options = json!({ "noise-db": "2", "readings": "20", "objects": "3" });
     let settings = json!({
-        "scheme": "frontier", "rule": "repaired", "robots": 2, "ground": ["7a", "2a2b3a", "7a", "7a"], "options": options,
-        "base": [3, 3],
+        "scheme": "frontier", "rule": "repaired", "robots": 2, "options": options,
+        "ground": ["7a", "2a2b3a", "7a", "7a"], "base": [3, 3],
     });
     let opened = ask(&mut Page::default(), &json!({ "do": "open", "settings": settings, "steps": 9 }));
     let layer = |name: &str| {

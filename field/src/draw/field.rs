@@ -28,11 +28,11 @@ const CROSS: &str = "m-5-5l10 10m0-10l-10 10";
 const SQUARE: &str = "m-5-5h10v10h-10z";
 
 const STYLE: &str = "\
-.rim{fill:none;stroke:var(--ink)}.obstacle{fill:var(--blocked);stroke:var(--blocked);stroke-width:2;stroke-linejoin:round}.start{text-anchor:start}.title{text-anchor:start;font-size:15px;font-weight:600}\
-.tree{stroke:var(--blocked);stroke-opacity:.6;fill:none}\
-.nodes{stroke:var(--ink);stroke-opacity:.45;stroke-width:2.5;stroke-linecap:round;fill:none}\
-.trail{fill:none;stroke-width:2.5;stroke-linejoin:round}.terminus{fill:none;stroke-width:3}\
-.wfr{fill:var(--bad);stroke:var(--ground)}.mark{stroke:var(--ground)}\
+.rim{fill:none;stroke:var(--ink)}.obstacle{fill:var(--blocked);stroke:var(--blocked);stroke-width:2;\
+stroke-linejoin:round}.start{text-anchor:start}.title{text-anchor:start;font-size:15px;font-weight:600}\
+.tree{stroke:var(--blocked);stroke-opacity:.6;fill:none}.nodes{stroke:var(--ink);stroke-opacity:.45;stroke-width:2.5;\
+stroke-linecap:round;fill:none}.trail{fill:none;stroke-width:2.5;stroke-linejoin:round}.terminus{fill:none;\
+stroke-width:3}.wfr{fill:var(--bad);stroke:var(--ground)}.mark{stroke:var(--ground)}\
 .trail-0{color:var(--series-0)}.trail-1{color:var(--series-1)}.trail-2{color:var(--series-2)}\
 .trail-3{color:var(--series-3)}.trail-4{color:var(--series-4)}.trail-5{color:var(--series-5)}\
 .trail,.terminus{stroke:currentColor}.mark{fill:currentColor}";

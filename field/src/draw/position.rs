@@ -25,7 +25,8 @@ const STYLE: &str = "\
 .title{text-anchor:start;font-size:15px;font-weight:600}.start{text-anchor:start}.rim{fill:none;stroke:var(--faint)}\
 .anchor{fill:var(--ink)}.robot{fill:none;stroke:var(--ink);stroke-width:2}\
 .found{stroke:var(--series-0);stroke-opacity:.35;stroke-width:3;stroke-linecap:round;fill:none}\
-.errors{fill:none;stroke:var(--series-0);stroke-width:2}.bound{fill:none;stroke:var(--series-1);stroke-width:2;stroke-dasharray:6 4}";
+.errors{fill:none;stroke:var(--series-0);stroke-width:2}.bound{fill:none;stroke:var(--series-1);stroke-width:2;\
+stroke-dasharray:6 4}";
 
 /// The picture of trials at some places.
 pub fn spots(title: &str, anchors: &[Point], spots: &[Spot]) -> String {
@@ -132,7 +133,8 @@ impl Ground {
         let [long, short] = ellipse.half_axes_m.map(|half_m| half_m * self.scale);
         // Degrees of a picture turn the other way.
         format!(
-            "<ellipse class=\"{class}\" rx=\"{long:.1}\" ry=\"{short:.1}\" transform=\"translate({x:.1},{y:.1})rotate({:.1})\"/>\n",
+            "<ellipse class=\"{class}\" rx=\"{long:.1}\" ry=\"{short:.1}\" \
+                transform=\"translate({x:.1},{y:.1})rotate({:.1})\"/>\n",
             -ellipse.degrees
         )
     }

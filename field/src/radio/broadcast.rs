@@ -217,7 +217,8 @@ mod tests {
             for scheme in [Scheme::Farthest { k: None }, Scheme::Flooding] {
                 let chance = &mut SeededOracle::new(seed, 1);
                 let (report, _) =
-                    broadcast(&network, &rule(scheme), Channel::Ideal, &Faults::NONE, source, chance).expect("a source");
+                    broadcast(&network, &rule(scheme), Channel::Ideal, &Faults::NONE, source, chance).expect("a \
+                        source");
                 prop_assert_eq!(report.reached as usize, network.component(source));
                 prop_assert_eq!(report.rebroadcasts + 1, report.reached);
             }

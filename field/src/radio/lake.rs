@@ -1,5 +1,5 @@
-//! Obstacles of any shape, as a person writes them: a picture of the shape, and the rectangle that the picture fills. Its
-//! blocked parts are rectangles that touch each other, so that neither signals nor robots pass between them.
+//! Obstacles of any shape, as a person writes them: a picture of the shape, and the rectangle that the picture fills.
+//! Its blocked parts are rectangles that touch each other, so that neither signals nor robots pass between them.
 
 use std::str::FromStr;
 
@@ -29,7 +29,7 @@ impl Lake {
     /// The obstacle whose `picture` fills the rectangle with these sides.
     ///
     /// # Errors
-    /// What is wrong with the picture, and what would be right.
+    /// A sentence that says what is wrong with the picture, and what would be right.
     pub fn new(picture: &str, [west_m, north_m, east_m, south_m]: [f64; 4]) -> Result<Self, String> {
         let named = SHAPES.into_iter().find(|(name, _)| *name == picture);
         let rows: Vec<&str> = named.map_or(picture, |(_, rows)| rows).split('/').collect();

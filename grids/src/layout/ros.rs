@@ -42,8 +42,8 @@ impl Frame {
         Self { x_m: self.x_m + x_m, y_m: self.y_m + y_m, ..self }
     }
 
-    /// The frame of cells of this width over an image of so many rows of pixels, of which this is the frame. The rows of
-    /// cells begin at the upper rim, and pixels below the last one are in none.
+    /// The frame of cells of this width over an image of so many rows of pixels, of which this is the frame. The rows
+    /// of cells begin at the upper rim, and pixels below the last one are in none.
     #[must_use]
     pub fn of_cells(self, pixel_rows: i16, cell_m: f64, rows: i16) -> Self {
         let upper = self.moved(0.0, f64::from(pixel_rows) * self.resolution_m);

@@ -65,8 +65,8 @@ impl Lap {
         self.at == Cell::new(0, 0)
     }
 
-    /// The lap after a move through `side`; `None` if it goes round without coming home: the claim was taken away and the
-    /// start marked, or a sensor was missed.
+    /// The lap after a move through `side`; `None` if it goes round without coming home: the claim was taken away and
+    /// the start marked, or a sensor was missed.
     pub(super) fn through(self, side: Side) -> Option<Self> {
         let (at, moved) = (self.at.beyond(side), self.moved + 1);
         if moved >= self.due {
@@ -81,7 +81,8 @@ impl Lap {
 mod tests {
     use super::*;
 
-    /// Moves in a rectangle of so many columns and rows, from outside of which the lap began, until the lap is given up.
+    /// Moves in a rectangle of so many columns and rows, from outside of which the lap began, until the lap is given
+    /// up.
     fn given_up_after(mut lap: Lap, columns: usize, rows: usize) -> u32 {
         let sides = [
             (Side::East, columns - 1),

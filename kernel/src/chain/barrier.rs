@@ -1,10 +1,10 @@
-//! The barrier between two team moves, where bytes can be lost (ours: the paper lets every byte arrive). A robot plans the
-//! next team move only when it has the bytes of all others about the last one. Two bits that a message leaves free count
-//! team moves, modulo 4. A robot that misses a byte repeats its own; whoever hears a byte of the team move before says its
-//! byte of then again, with a third bit, so that nobody answers it in turn. One bit would not do: that repeated byte looks like one about the next
-//! team move to a robot that is one ahead. So a lost, repeated or late byte delays a team and never misleads it
-//! (CHAIN-20), and a robot that falls silent stops it where it is, in contact (CHAIN-19). No byte may be late by four
-//! team moves.
+//! The barrier between two team moves, where bytes can be lost (ours: the paper lets every byte arrive). A robot plans
+//! the next team move only when it has the bytes of all others about the last one. Two bits that a message leaves free
+//! count team moves, modulo 4. A robot that misses a byte repeats its own; whoever hears a byte of the team move before
+//! says its byte of then again, with a third bit, so that nobody answers it in turn. One bit would not do: that
+//! repeated byte looks like one about the next team move to a robot that is one ahead. So a lost, repeated or late byte
+//! delays a team and never misleads it (CHAIN-20), and a robot that falls silent stops it where it is, in contact
+//! (CHAIN-19). No byte may be late by four team moves.
 
 use super::message::{Damage, Message};
 

@@ -50,8 +50,8 @@ pub enum Damage {
     NotHome(usize),
     /// This robot's message about a team move does not fit the plan.
     OtherStep(usize),
-    /// This robot says that it crossed a side which nobody is known to have crossed, or met a wall which is not known to be
-    /// one; or of a side that is new to the team it says something else than another robot.
+    /// This robot says that it crossed a side which nobody is known to have crossed, or met a wall which is not known
+    /// to be one; or of a side that is new to the team it says something else than another robot.
     OtherWorld(usize),
 }
 

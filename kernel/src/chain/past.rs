@@ -1,5 +1,5 @@
-//! The history that a chain can take back: the entries of its log that are open, read backwards (CHAIN-8). It begins with
-//! all robots in the base, unless the chain has re-formed or met a wall on its way back.
+//! The history that a chain can take back: the entries of its log that are open, read backwards (CHAIN-8). It begins
+//! with all robots in the base, unless the chain has re-formed or met a wall on its way back.
 
 use super::message::Message;
 

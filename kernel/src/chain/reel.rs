@@ -1,9 +1,9 @@
-//! The reel (ours): a planner that goes for the nearest unexplored cell by the shortest way that a rehearsal finds. Each
-//! team move is the first of these that there is:
+//! The reel (ours): a planner that goes for the nearest unexplored cell by the shortest way that a rehearsal finds.
+//! Each team move is the first of these that there is:
 //!
 //! - A, *touch*: the leader crosses into an unexplored cell beside it, and the others follow as in the paper.
-//! - B, *approach*: some robot comes one cell nearer to an unexplored cell in each team move, and the others do what the
-//!   step solver finds cheapest.
+//! - B, *approach*: some robot comes one cell nearer to an unexplored cell in each team move, and the others do what
+//!   the step solver finds cheapest.
 //! - C, *draw in and let out*: the chain is drawn in along its own walk up to where the walk to another unexplored cell
 //!   turns off, and let out along that.
 //! - D, *take back*: the latest 1, 2, 4, 8, … team moves are taken back, and A to C are sought again.
@@ -267,13 +267,14 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         self.approach(NEAR, most.min(self.most_steps()), &mut rehearsals).or(drawn)
     }
 
-    /// The first approach that a rehearsal carries through, of robots and cells more than `above` and at most `most` steps
-    /// apart, nearest first, the leader before the others.
+    /// The first approach that a rehearsal carries through, of robots and cells more than `above` and at most `most`
+    /// steps apart, nearest first, the leader before the others.
     fn approach(&mut self, above: u32, most: u32, rehearsals: &mut u32) -> Option<(Reel<ROBOTS>, u32)> {
         if above >= most {
             return None;
         }
-        // For each robot, the next cell behind those that were tried; as long as it is not sought, only how far it is at least.
+        // For each robot, the next cell behind those that were tried; as long as it is not sought, only how far it is
+        // at least.
         let mut nearest = [Nearest::Nothing; ROBOTS];
         for (robot, &at) in self.team.iter().enumerate().skip(1) {
             let least = self.grid.least_distance(at).max(above + 1);
@@ -291,8 +292,8 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         None
     }
 
-    /// Of what comes next for each robot, the nearest at most `most` steps away, the leader's before the others'. What cannot be
-    /// nearer is not sought.
+    /// Of what comes next for each robot, the nearest at most `most` steps away, the leader's before the others'. What
+    /// cannot be nearer is not sought.
     fn seek_nearest(&mut self, nearest: &mut [Nearest; ROBOTS], most: u32) -> Option<(u32, usize, Cell)> {
         let robots = (1..self.team.len()).rev();
         let promising = robots.clone().min_by_key(|&robot| nearest[robot].least());
@@ -318,7 +319,8 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         found
     }
 
-    /// The shortest way to draw the chain in and let it out again to an unexplored cell that a rehearsal carries through.
+    /// The shortest way to draw the chain in and let it out again to an unexplored cell that a rehearsal carries
+    /// through.
     fn draw_in(&mut self) -> Option<(Reel<ROBOTS>, u32)> {
         let leader = self.team.len() - 1;
         let walk = Walk::<ROBOTS>::own(self.grid, self.team);

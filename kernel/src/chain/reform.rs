@@ -1,7 +1,8 @@
-//! Re-forming behind a robot that has died (ours). The barrier has stopped the team in contact (CHAIN-20, CHAIN-19). Behind
-//! a mute R_d the robots R_1 … R_{d−1} stay, and those ahead take their own moves back until R_{d+1} is in contact with
-//! R_{d−1}; if that does not come about, the robots behind come home, too. Then the chain goes on with one robot fewer.
-//! Within each of the two parts neighbours are always in contact: each part is where it was before (CHAIN-21).
+//! Re-forming behind a robot that has died (ours). The barrier has stopped the team in contact (CHAIN-20, CHAIN-19).
+//! Behind a mute R_d the robots R_1 … R_{d−1} stay, and those ahead take their own moves back until R_{d+1} is in
+//! contact with R_{d−1}; if that does not come about, the robots behind come home, too. Then the chain goes on with one
+//! robot fewer. Within each of the two parts neighbours are always in contact: each part is where it was before
+//! (CHAIN-21).
 
 use super::message::{Damage, Message};
 use super::past::Past;
@@ -23,8 +24,8 @@ pub enum ReformError {
     },
     /// The base alone is left without that robot.
     TooFew,
-    /// The history of the chain does not begin in the base: it has re-formed before and not come home since, or a wall has
-    /// shut its way back.
+    /// The history of the chain does not begin in the base: it has re-formed before and not come home since, or a wall
+    /// has shut its way back.
     NoWayHome,
     /// The log is not as long as the run.
     Damaged(Damage),
@@ -77,8 +78,8 @@ impl<G: Grid, const ROBOTS: usize> Reformation<G, ROBOTS> {
         self.parts.mute
     }
 
-    /// Takes one more team move back, of the part ahead as long as it has one, then of the part behind. `log` is that of
-    /// the chain before the failure. Returns whether there was one.
+    /// Takes one more team move back, of the part ahead as long as it has one, then of the part behind. `log` is that
+    /// of the chain before the failure. Returns whether there was one.
     ///
     /// # Errors
     /// [`Damage`] if an entry of the log is no messages, or leads over a side that nobody is known to have crossed.
@@ -118,8 +119,8 @@ impl<G: Grid, const ROBOTS: usize> Reformation<G, ROBOTS> {
         in_contact && !cells.iter().any(is_crowded)
     }
 
-    /// The chain with one robot fewer. It knows what it knew, and its log begins anew: it takes back no move from before. And
-    /// what is needed to bring it home for that: see [`Chain::come_home`].
+    /// The chain with one robot fewer. It knows what it knew, and its log begins anew: it takes back no move from
+    /// before. And what is needed to bring it home for that: see [`Chain::come_home`].
     ///
     /// # Errors
     /// [`ReformError::Apart`] if it is not [formed](Reformation::is_formed).
@@ -134,8 +135,8 @@ impl<G: Grid, const ROBOTS: usize> Reformation<G, ROBOTS> {
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
-    /// Begins to re-form without `robot`, numbered from 1, the base. `log` holds the messages of all team moves; what it says
-    /// of that robot is not read.
+    /// Begins to re-form without `robot`, numbered from 1, the base. `log` holds the messages of all team moves; what
+    /// it says of that robot is not read.
     ///
     /// # Errors
     /// [`ReformError`] if there is no such robot, too few are left, or the log does not lead home.
@@ -166,8 +167,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.past == Past::Since(0) && self.last_open.is_none()
     }
 
-    /// Begins to bring a chain home that [can come home](Chain::can_come_home): it is to take back the moves from before, too.
-    /// `None` if it cannot.
+    /// Begins to bring a chain home that [can come home](Chain::can_come_home): it is to take back the moves from
+    /// before, too. `None` if it cannot.
     pub fn come_home(self, parts: Parts) -> Option<Reformation<G, ROBOTS>> {
         self.can_come_home().then(|| self.parted(parts))
     }

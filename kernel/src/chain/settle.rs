@@ -33,8 +33,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.carry_out(plan, None, is_open)
     }
 
-    /// Carries `plan` out as [`Chain::settle`] does, but `mute`, numbered from 1, the base, has died and does not go. Nobody
-    /// hears of it: its messages say that it stays, which no other robot relies on.
+    /// Carries `plan` out as [`Chain::settle`] does, but `mute`, numbered from 1, the base, has died and does not go.
+    /// Nobody hears of it: its messages say that it stays, which no other robot relies on.
     pub fn settle_without(
         &mut self,
         plan: &Plan<ROBOTS>,
@@ -102,8 +102,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
     }
 
-    /// Carries `plan` out as one who plans along and hears of the rest: `messages` are those of R_2 … R_N about this team
-    /// move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
+    /// Carries `plan` out as one who plans along and hears of the rest: `messages` are those of R_2 … R_N about this
+    /// team move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
     ///
     /// # Errors
     /// [`Damage`] if they cannot be about this plan and this world; then nothing has changed.

@@ -1,8 +1,8 @@
-//! The step solver: of all the team moves that the conditions admit, one that costs least, as far as the steps of neighbours
-//! in the chain decide it. What a robot's step costs hangs on its own and its neighbour's step alone, so the cheapest
-//! move is found robot by robot from the base up, in O(N) (25 pairs of steps each). That every robot has a planned cell
-//! of its own is no matter of neighbours: where the cheapest move breaks it, the next cheapest step behind is tried,
-//! within a bound.
+//! The step solver: of all the team moves that the conditions admit, one that costs least, as far as the steps of
+//! neighbours in the chain decide it. What a robot's step costs hangs on its own and its neighbour's step alone, so the
+//! cheapest move is found robot by robot from the base up, in O(N) (25 pairs of steps each). That every robot has a
+//! planned cell of its own is no matter of neighbours: where the cheapest move breaks it, the next cheapest step behind
+//! is tried, within a bound.
 
 use super::plan::{mark_occupied, unmark_occupied};
 use super::rule::{Condition, Move, Role, Rule};
@@ -36,15 +36,16 @@ struct Solver<'a, const ROBOTS: usize> {
     team: &'a [Cell],
     wishes: &'a [Wish; ROBOTS],
     apart: Apart,
-    /// The steps of each robot that its present neighbours, walls and full cells leave, and then also the robots behind it.
+    /// The steps of each robot that its present neighbours, walls and full cells leave, and then also the robots behind
+    /// it.
     left: [Steps; ROBOTS],
     /// By robot and place of a step that is left: the least that it and all behind it cost.
     least: [[i32; Step::ALL.len()]; ROBOTS],
 }
 
-/// The steps of the robots in `team`, base first, that `rule` admits and that cost least by `wishes` and `apart`; `None` if
-/// none is found. A side that is not known to be a wall is never taken for open: so what is found does not hang on what
-/// a team finds open on its way.
+/// The steps of the robots in `team`, base first, that `rule` admits and that cost least by `wishes` and `apart`;
+/// `None` if none is found. A side that is not known to be a wall is never taken for open: so what is found does not
+/// hang on what a team finds open on its way.
 pub(super) fn solve<G: Grid, const ROBOTS: usize>(
     rule: &Rule,
     grid: &mut G,
@@ -240,7 +241,8 @@ mod tests {
         let mut grid = SmallGrid::new(area).expect("it fits");
         let (base, step) = (Cell::new(2, 2), |side| Steps::only(Step::Cross(side)));
         let mut finds = |robots: usize| {
-            // R_2 goes east from the base, where all are but the leader, which would rather go north to the same cell than stay.
+            // R_2 goes east from the base, where all are but the leader, which would rather go north to the same cell
+            // than stay.
             let mut team = [base; MOST];
             team[robots - 1] = Cell::new(3, 3);
             let mut wishes = [Wish { steps: Steps::ALL, ..Wish::STAY }; MOST];

@@ -198,14 +198,14 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         matches!(self.stage, Stage::Unfolding)
     }
 
-    /// Whether the last call of [`Chain::plan`] made a plan that [`Rule::admits_plan`] refused, and returned the null move in
-    /// its place.
+    /// Whether the last call of [`Chain::plan`] made a plan that [`Rule::admits_plan`] refused, and returned the null
+    /// move in its place.
     pub const fn is_refused(&self) -> bool {
         self.refused
     }
 
-    /// Team moves until what the reel has begun and rehearsed explores a cell, unless it meets a wall before: the next one
-    /// is among them. `None` if the chain is at nothing that was rehearsed.
+    /// Team moves until what the reel has begun and rehearsed explores a cell, unless it meets a wall before: the next
+    /// one is among them. `None` if the chain is at nothing that was rehearsed.
     pub const fn until_gain(&self) -> Option<u32> {
         match self.reel.task {
             Task::None | Task::TakeBack => None,
@@ -229,11 +229,12 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.grid == other.grid
     }
 
-    /// The team's intended move. `log` holds the messages of all team moves so far, as [`MoveOutcome::messages`] gave them.
+    /// The team's intended move. `log` holds the messages of all team moves so far, as [`MoveOutcome::messages`] gave
+    /// them.
     ///
     /// The log is not trusted: a backtrack goes over sides that are known to be open, and ends where neighbours are in
-    /// contact and no three robots in one cell. So a log that was changed may lead elsewhere than the true one, but never
-    /// against CHAIN-1, CHAIN-2 and CHAIN-3.
+    /// contact and no three robots in one cell. So a log that was changed may lead elsewhere than the true one, but
+    /// never against CHAIN-1, CHAIN-2 and CHAIN-3.
     ///
     /// # Errors
     /// [`Damage`] if a backtrack needs the log, and it is not as long as the run, a byte needed is no message, or the
@@ -320,7 +321,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.grid.stops(self.cells[0], &mut stops[..self.robots]).is_some()
     }
 
-    /// Forgets the history if the team move that would be taken back next leads over a side that is known to be a wall by now.
+    /// Forgets the history if the team move that would be taken back next leads over a side that is known to be a wall
+    /// by now.
     fn forget_what_is_shut(&mut self, log: &[u8]) {
         let (Walls::Changing, Some(entry)) = (self.walls, self.last_open) else { return };
         let first = entry as usize * (self.robots - 1);

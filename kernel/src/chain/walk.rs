@@ -1,5 +1,5 @@
-//! The walk that a chain is drawn in and let out along: its own, over the cells of its robots one after the other, and from
-//! one of them on to an unexplored cell, by links.
+//! The walk that a chain is drawn in and let out along: its own, over the cells of its robots one after the other, and
+//! from one of them on to an unexplored cell, by links.
 
 use super::unfold::goes_on;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link, steps_to};
@@ -114,8 +114,8 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         Some(places)
     }
 
-    /// The steps that let the chain out further: the leader goes on by one cell, the others follow one cell behind, each
-    /// as far as its stop. `None` if some robot is not on the walk.
+    /// The steps that let the chain out further: the leader goes on by one cell, the others follow one cell behind,
+    /// each as far as its stop. `None` if some robot is not on the walk.
     pub(super) fn let_out(&self, team: &[Cell], search: Lookup) -> Option<[Step; ROBOTS]> {
         let places = self.places(team, search)?;
         let leader = team.len() - 1;

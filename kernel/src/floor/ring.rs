@@ -3,8 +3,8 @@
 
 use crate::ground::Side;
 
-/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and the side that leads from each to the
-/// next.
+/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and the side that leads from each to
+/// the next.
 pub(super) const AROUND: [(i16, i16, Side); 8] = [
     (0, -1, Side::East),
     (1, -1, Side::South),
@@ -33,8 +33,8 @@ impl Ring {
     }
 
     /// The place of the cell in which a sensor lies that is localised `east` and `south` of the centre of the agent's
-    /// cell, in the unit of the `side` of a cell; `None` if it is the agent's own, or none of the eight. Where in its cell
-    /// the sensor lies does not matter to any rule.
+    /// cell, in the unit of the `side` of a cell; `None` if it is the agent's own, or none of the eight. Where in its
+    /// cell the sensor lies does not matter to any rule.
     pub fn locate(east: i32, south: i32, side: u16) -> Option<u32> {
         let side = i32::from(side);
         if side == 0 || east.unsigned_abs() >= 1 << 20 || south.unsigned_abs() >= 1 << 20 {

@@ -50,9 +50,9 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The bits that a sensor stores for Brick&Mortar robust against missed sensors, but for the 16 of its identifier: 3 for the
-    /// mark, 32 for the crossings, 8 for the agents, 4 for the sides that are shut, 9 for the claim. As published it stores 2
-    /// for the mark, and for Ants the crossings.
+    /// The bits that a sensor stores for Brick&Mortar robust against missed sensors, but for the 16 of its identifier:
+    /// 3 for the mark, 32 for the crossings, 8 for the agents, 4 for the sides that are shut, 9 for the claim. As
+    /// published it stores 2 for the mark, and for Ants the crossings.
     pub const BITS: u32 = 56;
 
     /// The sensor once one agent more has entered.

@@ -1,7 +1,8 @@
 //! Which robot goes to which unexplored cell: robots and cells are paired, the nearest pair first.
 //!
-//! Every robot computes the pairs by itself, from its own map and from what the others have told. A robot takes one of as many
-//! cells as there are robots, the others at most all but one of them: so a list of that length for each robot is enough.
+//! Every robot computes the pairs by itself, from its own map and from what the others have told. A robot takes one of
+//! as many cells as there are robots, the others at most all but one of them: so a list of that length for each robot
+//! is enough.
 
 use core::ops::ControlFlow;
 
@@ -10,8 +11,8 @@ use super::rule::{Condition, Rule};
 use super::search::{Search, Target, Way, search};
 use crate::ground::{Area, Cell, Side};
 
-/// A robot and an unexplored cell that it could go to. What is less goes first: robots and cells count by the row and the
-/// column of their cells.
+/// A robot and an unexplored cell that it could go to. What is less goes first: robots and cells count by the row and
+/// the column of their cells.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pair {
@@ -23,7 +24,8 @@ pub struct Pair {
     inland: u16,
     robot: (i16, i16),
     cell: (i16, i16),
-    /// The side through which the robot leaves its cell. It decides no order: no two pairs of a list differ in it alone.
+    /// The side through which the robot leaves its cell. It decides no order: no two pairs of a list differ in it
+    /// alone.
     first: Side,
 }
 
@@ -109,8 +111,8 @@ fn insert(list: &mut List, pair: Pair) {
     }
 }
 
-/// Fills `list` with the pairs of `seeker` whose cells are no farther than the nearest one from `least` on, nor than `most`. Returns
-/// how far that one is, and `None` if there is none.
+/// Fills `list` with the pairs of `seeker` whose cells are no farther than the nearest one from `least` on, nor than
+/// `most`. Returns how far that one is, and `None` if there is none.
 fn fill<M: Map>(
     map: &M,
     rule: &Rule,
@@ -142,7 +144,8 @@ pub(super) struct Pairing<'a, 'm, M, I> {
     pub(super) map: &'a M,
     pub(super) rule: &'a Rule,
     pub(super) own: Seeker,
-    /// Whether its way must not be longer than the one to the cell it has claimed, or to a nearest one if it has claimed none.
+    /// Whether its way must not be longer than the one to the cell it has claimed, or to a nearest one if it has
+    /// claimed none.
     pub(super) is_bound: bool,
     pub(super) others: I,
     pub(super) memory: &'a mut Search<'m>,
@@ -150,8 +153,8 @@ pub(super) struct Pairing<'a, 'm, M, I> {
 }
 
 impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> {
-    /// The way to the unexplored cell that the robot is paired with, or to the one that comes first for it if all cells are the
-    /// others'; `None` if it reaches none.
+    /// The way to the unexplored cell that the robot is paired with, or to the one that comes first for it if all cells
+    /// are the others'; `None` if it reaches none.
     ///
     /// Pairs that are farther come later, so that cells are looked at level by level, no farther than it takes.
     pub(super) fn found(&mut self) -> Option<Way> {
@@ -174,7 +177,8 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
         }
     }
 
-    /// Whether the cell that the robot has claimed, or the `first` one if it has claimed none, is nearer than `distance`.
+    /// Whether the cell that the robot has claimed, or the `first` one if it has claimed none, is nearer than
+    /// `distance`.
     fn is_within(&mut self, distance: u32, first: &Target) -> bool {
         let (cell, mut is_nearer) = (self.own.aim.unwrap_or(first.cell), false);
         if first.distance < distance {
@@ -186,8 +190,9 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
         is_nearer
     }
 
-    /// Adds a list for each other robot that may be as near to a cell of the lists as the robots that these are of, and returns how
-    /// many places of the lists are in use. Measured by columns and rows, the others are farther, and take none of these cells first.
+    /// Adds a list for each other robot that may be as near to a cell of the lists as the robots that these are of, and
+    /// returns how many places of the lists are in use. Measured by columns and rows, the others are farther, and take
+    /// none of these cells first.
     fn fill_others(&mut self, each: usize, level: u32) -> usize {
         let mut filled = each;
         loop {

@@ -69,8 +69,8 @@ pub fn clamped(cell: Cell, fix: Place) -> Place {
     Place { x: within(fix.x, midpoint.x), y: within(fix.y, midpoint.y) }
 }
 
-/// How the occupancy probability of a cell follows from a robot's distance d to its midpoint (equation (11)), which does not
-/// say from where to where d_r is measured.
+/// How the occupancy probability of a cell follows from a robot's distance d to its midpoint (equation (11)), which
+/// does not say from where to where d_r is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Occupancy {
@@ -103,8 +103,8 @@ impl Occupancy {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Threshold {
-    /// The lowest occupancy probability, in units of 1 / [`HALF`], that is not below it, and 1 more, so that an optional
-    /// threshold takes no more memory.
+    /// The lowest occupancy probability, in units of 1 / [`HALF`], that is not below it, and 1 more, so that an
+    /// optional threshold takes no more memory.
     after: NonZeroU16,
 }
 

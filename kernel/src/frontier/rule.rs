@@ -8,8 +8,8 @@ use crate::ground::Cell;
 use crate::position::{Belief, Gate, Odometry, Point};
 
 conditions! {
-    /// One condition of the rule, by the sentence it stands for. As published there are none but [`Condition::Record`] and
-    /// [`Condition::Detour`], and not even the first one if the paper's avoidance of obstacles is taken literally.
+    /// One condition of the rule, by the sentence it stands for. As published there are none but [`Condition::Record`]
+    /// and [`Condition::Detour`], and not even the first one if the paper's avoidance of obstacles is taken literally.
     pub enum Condition of Rule {
         /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
         /// unexplored one.
@@ -42,18 +42,18 @@ conditions! {
         Fuse,
         /// Repair: a fix that the robot's belief makes so unlikely as one in a thousand is left out.
         Gate,
-        /// Repair: a robot moves only if by its belief it arrives within the next cell, with four standard deviations to
-        /// spare along each axis. Otherwise it stands and takes another fix.
+        /// Repair: a robot moves only if by its belief it arrives within the next cell, with four standard deviations
+        /// to spare along each axis. Otherwise it stands and takes another fix.
         Sure,
-        /// A robot goes round an obstacle that is smaller than a cell: it turns by 90°, takes five steps, turns back, and
-        /// goes on. Without it such an obstacle is stored as one that fills the cell beyond.
+        /// A robot goes round an obstacle that is smaller than a cell: it turns by 90°, takes five steps, turns back,
+        /// and goes on. Without it such an obstacle is stored as one that fills the cell beyond.
         Detour,
-        /// Repair: what the others have told lapses for a robot to which they leave no cell, since it may be old: the robot
-        /// goes to the cell that comes first for it. Without it the robot stands until it hears more.
+        /// Repair: what the others have told lapses for a robot to which they leave no cell, since it may be old: the
+        /// robot goes to the cell that comes first for it. Without it the robot stands until it hears more.
         Lapse,
-        /// Repair: a robot that has learned nothing since it last looked goes to no cell that is farther than the one it has
-        /// claimed, and to a nearest one if it has claimed none, as after it has met another robot. So each move leads
-        /// nearer to a cell that is left, whatever the others have told.
+        /// Repair: a robot that has learned nothing since it last looked goes to no cell that is farther than the one
+        /// it has claimed, and to a nearest one if it has claimed none, as after it has met another robot. So each move
+        /// leads nearer to a cell that is left, whatever the others have told.
         Keep,
     }
 }
@@ -68,14 +68,15 @@ pub enum Otherwise {
     Wanders,
 }
 
-/// The basis of the threshold T: the paper has it “decided based on previous probability values”. T is given before the first
-/// decision.
+/// The basis of the threshold T: the paper has it “decided based on previous probability values”. T is given before the
+/// first decision.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Basis {
     /// No values: T stays as it is given.
     Given,
-    /// The mean of the values at the last decision, of the four neighbours of the robot's cell, which are what step 5 checks.
+    /// The mean of the values at the last decision, of the four neighbours of the robot's cell, which are what step 5
+    /// checks.
     Neighbours,
     /// The mean of those and of the value of the robot's own cell.
     Cells,
@@ -109,12 +110,12 @@ pub struct Rule {
     pub ties: Ties,
 }
 
-/// The five steps of a [`Condition::Detour`], in sides of a cell. This value is ours: half a side would lead to the rim of the
-/// next cell.
+/// The five steps of a [`Condition::Detour`], in sides of a cell. This value is ours: half a side would lead to the rim
+/// of the next cell.
 pub const FIVE_STEPS: f64 = 0.25;
 
-/// A detour about an obstacle that is smaller than a cell, for a robot that heads for its destination: turns in radians, each with
-/// the way after it. The robot turns to its right, takes five steps, and turns back.
+/// A detour about an obstacle that is smaller than a cell, for a robot that heads for its destination: turns in
+/// radians, each with the way after it. The robot turns to its right, takes five steps, and turns back.
 pub const DETOUR: [(f64, f64); 2] = [(FRAC_PI_2, FIVE_STEPS), (-FRAC_PI_2, 0.0)];
 
 /// The standard deviations along each axis that a robot keeps between where it arrives and the rim of the cell.
@@ -126,8 +127,8 @@ pub fn midpoint(cell: Cell) -> Point {
 }
 
 impl Rule {
-    /// Whether a robot with this belief, in sides of a cell, may go to the midpoint of `to`; else it stands and takes another
-    /// fix ([`Condition::Sure`]).
+    /// Whether a robot with this belief, in sides of a cell, may go to the midpoint of `to`; else it stands and takes
+    /// another fix ([`Condition::Sure`]).
     pub fn may_go(&self, belief: &Belief, to: Cell, odometry: &Odometry) -> bool {
         if !self.has(Condition::Sure) {
             return true;

@@ -1,5 +1,5 @@
-//! The steps of a robot by where they lead: into a circle round another cell, or beside it. For the circles of the paper
-//! they stand in tables by the offset of the two cells, since planning asks for them all the time.
+//! The steps of a robot by where they lead: into a circle round another cell, or beside it. For the circles of the
+//! paper they stand in tables by the offset of the two cells, since planning asks for them all the time.
 
 use super::{Cell, Circle, Step, Steps};
 

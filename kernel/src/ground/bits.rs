@@ -57,8 +57,8 @@ impl<P: Plane> BitGrid<P> {
         Steps::of_bits(east | south << 1 | u8::from(column == 0) << 2 | u8::from(row == 0) << 3)
     }
 
-    /// Floods the area from the frontier outwards, one cell at a time, until all the cells are reached where `steps` lead
-    /// from `at`, or as many as can be. Hears which are reached by how many cells, and whether that is enough.
+    /// Floods the area from the frontier outwards, one cell at a time, until all the cells are reached where `steps`
+    /// lead from `at`, or as many as can be. Hears which are reached by how many cells, and whether that is enough.
     #[inline]
     fn flood(
         &self,

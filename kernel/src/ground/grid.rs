@@ -86,8 +86,8 @@ pub trait Grid {
     /// Steps on the shortest path from `from` to an unexplored cell: 0 if `from` is unexplored itself, `None`
     /// if there is no path.
     fn distance(&mut self, from: Cell, avoid: Avoid) -> Option<u32>;
-    /// Tells of the `steps` from `at`, nearest first, which lead to cells with one and the same distance, until it is told
-    /// to stop; not of those from which there is no path.
+    /// Tells of the `steps` from `at`, nearest first, which lead to cells with one and the same distance, until it is
+    /// told to stop; not of those from which there is no path.
     fn approach(
         &mut self,
         at: Cell,
@@ -108,17 +108,17 @@ pub trait Grid {
             }
         }
     }
-    /// A walk from `from` to the unexplored cell that is fewest [`links`](super::links) away, the first in row order of these: how
-    /// many links it has, at most one less than there are `stops`, and the cells where they begin and end in
+    /// A walk from `from` to the unexplored cell that is fewest [`links`](super::links) away, the first in row order of
+    /// these: how many links it has, at most one less than there are `stops`, and the cells where they begin and end in
     /// `stops`, `from` first. Going back, each stop is the first of those linked to the one after it that is
     /// nearer to `from`. `None` if all cells so near are explored.
     fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize>;
     /// The unexplored cell that comes next behind `last` in the order of the number of steps on the shortest path from
-    /// `from` over sides that are not known to be walls, at most `most`, and then of rows; with its distance. The first if
-    /// there is no `last`; `None` if there is no more.
+    /// `from` over sides that are not known to be walls, at most `most`, and then of rows; with its distance. The first
+    /// if there is no `last`; `None` if there is no more.
     fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)>;
-    /// Fewer steps than these lead from `from` to no unexplored cell over sides that are not known to be walls. A grid that keeps what its
-    /// searches have found tells more than 0; then far fewer of them are needed.
+    /// Fewer steps than these lead from `from` to no unexplored cell over sides that are not known to be walls. A grid
+    /// that keeps what its searches have found tells more than 0; then far fewer of them are needed.
     fn least_distance(&mut self, _from: Cell) -> u32 {
         0
     }

@@ -24,8 +24,8 @@ pub trait Plane: Copy + Eq {
     fn take(&mut self, column: usize, row: usize);
     /// The steps from a cell that lead into the set. A step that leads out of the plane may be among them or not.
     fn steps_from(&self, column: usize, row: usize) -> Steps;
-    /// The steps across the sides of a cell, if `east` holds the cells of which the east side is meant, and `south` those
-    /// of which the south side is. Before the first column stands what is in the last, before the first row too.
+    /// The steps across the sides of a cell, if `east` holds the cells of which the east side is meant, and `south`
+    /// those of which the south side is. Before the first column stands what is in the last, before the first row too.
     fn steps_across(east: &Self, south: &Self, column: usize, row: usize) -> Steps;
     /// The cells in both sets.
     fn and(&self, other: &Self) -> Self;
@@ -37,9 +37,9 @@ pub trait Plane: Copy + Eq {
     fn along_rows(&self, open: &Self) -> Self;
     /// The cells beyond the open south and north sides of these.
     fn along_columns(&self, open: &Self) -> Self;
-    /// Adds the cells beyond the open sides of these, the `east` and the `south` ones from either side, in the `rows` from
-    /// the first to the last, and perhaps in others. Returns rows, the first and the last, that hold all the new cells;
-    /// `None` if there are no new cells.
+    /// Adds the cells beyond the open sides of these, the `east` and the `south` ones from either side, in the `rows`
+    /// from the first to the last, and perhaps in others. Returns rows, the first and the last, that hold all the new
+    /// cells; `None` if there are no new cells.
     #[inline]
     fn spread(&mut self, east: &Self, south: &Self, rows: (usize, usize)) -> Option<(usize, usize)> {
         let wider = self.or(&self.along_rows(east)).or(&self.along_columns(south));

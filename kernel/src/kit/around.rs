@@ -1,5 +1,5 @@
-//! The nodes that may be in reach of one, as the bits of a word: what is in reach of it, and what is joined with it by short
-//! paths.
+//! The nodes that may be in reach of one, as the bits of a word: what is in reach of it, and what is joined with it by
+//! short paths.
 
 use super::stance::Reach;
 use crate::ground::{Cell, Step};
@@ -47,8 +47,8 @@ pub(super) fn place_of(node: Cell, other: Cell) -> Option<Places> {
     is_near.then(|| 1 << bit(columns, rows))
 }
 
-/// The places after the other robot has taken this step. From the last column a place in reach comes to the first one of the
-/// next row, which is out of reach, and the other way round.
+/// The places after the other robot has taken this step. From the last column a place in reach comes to the first one
+/// of the next row, which is out of reach, and the other way round.
 pub(super) const fn moved(places: Places, step: Step) -> Places {
     match step.place() {
         0 => places << 1,

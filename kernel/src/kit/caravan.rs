@@ -1,13 +1,14 @@
-//! How three robots and more go together to an uncovered side that none of them can come to alone (KIT-13). It is the condition
-//! *Caravan*, which is ours.
+//! How three robots and more go together to an uncovered side that none of them can come to alone (KIT-13). It is the
+//! condition *Caravan*, which is ours.
 //!
-//! The robot that is nearest to an uncovered side leads. It drives on while the others stay tied to it; else they come nearer,
-//! a robot at a time, each along known paths towards one that it is tied to. Where each stands beside another one, the leader
-//! can always go on, and at its goal every side is admitted whose other end is free. Two numbers say why that ends: the drives
-//! of the leader to an uncovered side, and while they stay the same, the drives of all others to the leader.
+//! The robot that is nearest to an uncovered side leads. It drives on while the others stay tied to it; else they come
+//! nearer, a robot at a time, each along known paths towards one that it is tied to. Where each stands beside another
+//! one, the leader can always go on, and at its goal every side is admitted whose other end is free. Two numbers say
+//! why that ends: the drives of the leader to an uncovered side, and while they stay the same, the drives of all others
+//! to the leader.
 //!
-//! If a robot stands at each end of the uncovered paths of the leader's node, the robots between one of these ends and the
-//! nearest free node shift by one node each: the condition *MakesRoom*. From there the other end drives the path.
+//! If a robot stands at each end of the uncovered paths of the leader's node, the robots between one of these ends and
+//! the nearest free node shift by one node each: the condition *MakesRoom*. From there the other end drives the path.
 
 use super::alone::Way;
 use super::rule::Condition;
@@ -53,8 +54,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         is_any.then_some(own)
     }
 
-    /// The sides that `robot` takes that has its own way alone: those with which it makes no longer the way of one that has
-    /// a shorter way.
+    /// The sides that `robot` takes that has its own way alone: those with which it makes no longer the way of one that
+    /// has a shorter way.
     fn going_alone(&self, robot: usize, own: Way, planned: &Formation<ROBOTS>) -> Steps {
         let shorter: [Option<Way>; ROBOTS] = core::array::from_fn(|other| {
             let below = own.drives + u16::from(other < robot);
@@ -197,8 +198,8 @@ mod tests {
         Edge::new(Cell::new(x, y), side)
     }
 
-    /// Three robots in these columns and rows of 4×4 nodes. Paths are driven, seen free by robots at both ends, or unknown; all
-    /// others are blocked.
+    /// Three robots in these columns and rows of 4×4 nodes. Paths are driven, seen free by robots at both ends, or
+    /// unknown; all others are blocked.
     fn trio(rule: Rule, starts: [(i16, i16); 3], [driven, seen, unknown]: [&[Path]; 3]) -> Trio {
         let area = Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("an area");
         let mut map = TinyGrid::new(area).expect("16 nodes");

@@ -1,8 +1,8 @@
 //! The messages of robots (Peiris, section 5, figures 5 to 8): a request, its acknowledgement, the response, and the
 //! acknowledgement of that, each in seven fields: flag, x, y, and the four sides. Clause KIT-9.
 //!
-//! The paper gives three flags to the four messages. [`Condition::Flags`] gives the fourth one its own, and the number of a
-//! request stands above the flag, since there is no field for it.
+//! The paper gives three flags to the four messages. [`Condition::Flags`] gives the fourth one its own, and the number
+//! of a request stands above the flag, since there is no field for it.
 
 use super::rule::{Condition, Rule};
 use crate::error::sentences;

@@ -69,7 +69,7 @@ pub enum Records {
 pub enum Fallback {
     /// The one that leads nearest to where the other one goes (section 4).
     Nearest,
-    /// The same, of those that the conditions admit: if none is left of these, it stays.
+    /// The first of the directions that the conditions admit: if none is left of these, it stays.
     Admitted,
     /// Any.
     Random,

@@ -1,10 +1,10 @@
-//! Where robots are on the lattice, and who is sure to hear whom (KIT-1, KIT-3). The unit is the path between two nodes,
-//! 3 m; 10 m are between √11 and √12 of it, and no two nodes are √11 apart.
+//! Where robots are on the lattice, and who is sure to hear whom (KIT-1, KIT-3). The unit is the path between two
+//! nodes, 3 m; 10 m are between √11 and √12 of it, and no two nodes are √11 apart.
 
 use crate::ground::{Cell, Circle, EdgeMark, Side};
 
-/// A path that was seen free from one end to a robot at the other, and that nobody has driven. It is the third mark that a
-/// grid has for edges; robots of a chain use it for virtual obstacles.
+/// A path that was seen free from one end to a robot at the other, and that nobody has driven. It is the third mark
+/// that a grid has for edges; robots of a chain use it for virtual obstacles.
 pub(super) const SEEN: EdgeMark = EdgeMark::Virtual;
 
 /// How far robots hear each other.
@@ -83,8 +83,9 @@ impl Stance {
         self.from() == node || self.to() == node
     }
 
-    /// Whether robots with these stances hear each other within `reach` at whatever speeds they drive. Their distance is a
-    /// convex function of how far each has come, so it is largest where both are at an end: the four corners decide.
+    /// Whether robots with these stances hear each other within `reach` at whatever speeds they drive. Their distance
+    /// is a convex function of how far each has come, so it is largest where both are at an end: the four corners
+    /// decide.
     pub const fn is_sure_of(self, other: Self, reach: Reach) -> bool {
         reach.joins(self.from(), other.from())
             && reach.joins(self.from(), other.to())
@@ -92,15 +93,15 @@ impl Stance {
             && reach.joins(self.to(), other.to())
     }
 
-    /// Whether robots with these stances are at least one path, 3 m, apart at whatever speeds they drive: two paths of the
-    /// lattice that have no end in common are.
+    /// Whether robots with these stances are at least one path, 3 m, apart at whatever speeds they drive: two paths of
+    /// the lattice that have no end in common are.
     pub fn is_apart_from(self, other: Self) -> bool {
         !other.has(self.from()) && !other.has(self.to())
     }
 }
 
-/// Whether a robot that looks from a node through `side` sees another one within 3.5 m: always, never, or at some speeds
-/// only. It sees as far as the next node and half a metre beyond.
+/// Whether a robot that looks from a node through `side` sees another one within 3.5 m: always, never, or at some
+/// speeds only. It sees as far as the next node and half a metre beyond.
 pub fn touch(node: Cell, side: Side, other: Stance) -> Option<bool> {
     let ahead = node.beyond(side);
     let is_on_the_path = |end: Cell| end == node || end == ahead;

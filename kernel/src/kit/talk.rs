@@ -1,15 +1,16 @@
-//! Who says what to whom, and when, between two robots (Peiris, section 5). A robot that stands asks the other one, is told
-//! at once that the request has come, and waits for the response, which the other one sends while it drives.
+//! Who says what to whom, and when, between two robots (Peiris, section 5). A robot that stands asks the other one, is
+//! told at once that the request has come, and waits for the response, which the other one sends while it drives.
 //! Clauses: KIT-4, KIT-5.
 //!
-//! [`Talk`] is a plain value: what arrives makes of one the next, and says what to send. It has no clock: [`Talk::again`] is
-//! for the caller's timer.
+//! [`Talk`] is a plain value: what arrives makes of one the next, and says what to send. It has no clock:
+//! [`Talk::again`] is for the caller's timer.
 
 use super::message::Message;
 use super::rule::{Answers, Condition, Rule};
 use crate::ground::{Cell, Steps};
 
-/// Requests are numbered from 0 to one less than this, over and over: no message may be on its way while a robot asks twice.
+/// Requests are numbered from 0 to one less than this, over and over: no message may be on its way while a robot asks
+/// twice.
 pub const NUMBERS: u8 = 4;
 
 /// The number of the request after the one with this number.

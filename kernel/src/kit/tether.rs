@@ -2,8 +2,8 @@
 //! team of three and more known paths join it with them (KIT-13). The second one is the condition *Tether*, which is
 //! ours.
 //!
-//! A *field* is a rectangle any two nodes of which are in reach, and that is in no larger one: within the paper's 10 m, 3×3
-//! nodes, 4×2, or 2×4. Two robots are *tied* if known paths within one
+//! A *field* is a rectangle any two nodes of which are in reach, and that is in no larger one: within the paper's 10 m,
+//! 3×3 nodes, 4×2, or 2×4. Two robots are *tied* if known paths within one
 //! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
 //! it all the way; radio alone, through a wall, promises no way back.
 
@@ -22,8 +22,9 @@ pub(super) const FAR: u32 = 1 << 16;
 /// Drives that lead to any node of a field over paths within it, at most: the largest ones have 20 nodes.
 const MAX_DRIVES: usize = 19;
 
-/// Calls `each` with the fields that have the node in the middle: the place of the first node of each, its nodes from there on,
-/// and the bit of the one in the middle among them. No field has more than six rows, so that its nodes fit in half a word.
+/// Calls `each` with the fields that have the node in the middle: the place of the first node of each, its nodes from
+/// there on, and the bit of the one in the middle among them. No field has more than six rows, so that its nodes fit in
+/// half a word.
 fn fields(reach: Reach, mut each: impl FnMut(u32, u64, u64)) {
     let squared = i16::from(reach.squared());
     let rows = |columns: i16| match squared - (columns - 1) * (columns - 1) {
@@ -87,7 +88,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         })
     }
 
-    /// The drives from `node` to each of `ends` that known paths within one field join with it; to the others it is far.
+    /// The drives from `node` to each of `ends` that known paths within one field join with it; to the others it is
+    /// far.
     pub(super) fn drives(&self, node: Cell, ends: &[Cell; ROBOTS]) -> [u32; ROBOTS] {
         let places = ends.map(|end| place_of(node, end).unwrap_or(0));
         let wanted = places.iter().fold(0, |wanted, place| wanted | place);
@@ -97,8 +99,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         })
     }
 
-    /// The nodes that known paths within one field, and the one that `also` leads over, join with a node, as far as they are
-    /// `wanted`; and then those that they join with no drive, with one at most, and so on.
+    /// The nodes that known paths within one field, and the one that `also` leads over, join with a node, as far as
+    /// they are `wanted`; and then those that they join with no drive, with one at most, and so on.
     fn joined<const WITHIN: usize>(
         &self,
         node: Cell,
@@ -219,8 +221,8 @@ mod tests {
         ]
     }
 
-    /// The drives from the middle of an area of 7×7 nodes to each of its nodes, over the paths of `map` between nodes that are
-    /// at most so many columns and rows away, the first and last ones of each.
+    /// The drives from the middle of an area of 7×7 nodes to each of its nodes, over the paths of `map` between nodes
+    /// that are at most so many columns and rows away, the first and last ones of each.
     fn flooded(map: &TinyGrid, columns: (i16, i16), rows: (i16, i16)) -> [[u32; 7]; 7] {
         let is_within = |node: Cell| {
             (columns.0..=columns.1).contains(&(node.x - 3)) && (rows.0..=rows.1).contains(&(node.y - 3))

@@ -1,14 +1,15 @@
-//! Which part a robot has in the way of the team to the next uncovered side (clauses KIT-6 to KIT-8, KIT-11, KIT-13, KIT-14). It is the
-//! condition *Regroup*, which is ours.
+//! Which part a robot has in the way of the team to the next uncovered side (clauses KIT-6 to KIT-8, KIT-11, KIT-13,
+//! KIT-14). It is the condition *Regroup*, which is ours.
 //!
-//! A *joint way* of two robots is made of single drives over paths driven before, after each of which both stand in reach of
-//! each other and at different nodes; it ends where an uncovered side is admitted for one of them. Whoever has the turn takes
-//! a drive with which a shortest joint way can begin. All pairs of nodes in reach are flooded at once: of each node one word
-//! has a bit for each place of the other robot around it. The flood goes from where the robots go as far as the nearest
-//! uncovered side, and comes back from all that are so near.
+//! A *joint way* of two robots is made of single drives over paths driven before, after each of which both stand in
+//! reach of each other and at different nodes; it ends where an uncovered side is admitted for one of them. Whoever has
+//! the turn takes a drive with which a shortest joint way can begin. All pairs of nodes in reach are flooded at once:
+//! of each node one word has a bit for each place of the other robot around it. The flood goes from where the robots go
+//! as far as the nearest uncovered side, and comes back from all that are so near.
 //!
-//! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone, the
-//! others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no others.
+//! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone,
+//! the others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no
+//! others.
 
 use super::around::{HERE, Places, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
@@ -50,8 +51,8 @@ impl<const NODES: usize> Level<NODES> {
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
-    /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side: none if
-    /// others have to go first. `None` if there is no way.
+    /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side:
+    /// none if others have to go first. `None` if there is no way.
     pub(super) fn part(&self, robot: usize) -> Option<Steps> {
         if self.count != 2 {
             return self.together(robot);
@@ -74,8 +75,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if self.goals(place, pair, admitted) != 0 {
             return Some(Steps::NONE);
         }
-        // Each drive changes the sum of all columns and rows by one, so pairs beside one are a drive farther or nearer: the
-        // second bit of their drives tells which.
+        // Each drive changes the sum of all columns and rows by one, so pairs beside one are a drive farther or nearer:
+        // the second bit of their drives tells which.
         let (mut near, mut second): (Pairs<NODES>, Pairs<NODES>) = ([0; NODES], [0; NODES]);
         let mut levels = [Level::<NODES>::NONE, Level::NONE];
         let [new, next] = &mut levels;

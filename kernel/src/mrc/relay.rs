@@ -37,9 +37,9 @@ impl<const ROUTES: usize> Relay<ROUTES> {
     }
 
     /// A robot's message has come from `from`: what this node sends on, to its own `parent` in the tree of the call.
-    /// Nothing, if the message is another node's to send on. The latest way back is kept; one of an older call of the same
-    /// WFR never takes the place of a newer one, and where there is no room for another the way is not kept: its RESB
-    /// ends here.
+    /// Nothing, if the message is another node's to send on. The latest way back is kept; one of an older call of the
+    /// same WFR never takes the place of a newer one, and where there is no room for another the way is not kept: its
+    /// RESB ends here.
     pub fn up(mut self, message: Upward, from: Hop, parent: NodeId) -> (Self, Option<Upward>) {
         if message.parent != self.id {
             return (self, None);

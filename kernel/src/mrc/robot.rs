@@ -1,4 +1,5 @@
-//! A robot's part in MRC [Jiang 2011, 3.3, steps 1, 2 and 5]: the request table T_REQ, what it asks for, and where it goes.
+//! A robot's part in MRC [Jiang 2011, 3.3, steps 1, 2 and 5]: the request table T_REQ, what it asks for, and where it
+//! goes.
 
 use super::message::{Downward, Resb, Upward, Word};
 use super::rule::{Condition, Rule};
@@ -142,8 +143,8 @@ impl<const CALLS: usize> Robot<CALLS> {
         self.ask_if_free()
     }
 
-    /// The lease of `call` has lapsed before it came: it is free again. It must hold the lease no shorter than the WFR, which
-    /// else counts on a robot that may be another's.
+    /// The lease of `call` has lapsed before it came: it is free again. It must hold the lease no shorter than the WFR,
+    /// which else counts on a robot that may be another's.
     pub fn lapse(mut self, call: Call) -> (Self, Option<Upward>) {
         if self.task != (Task::Leased { call }) {
             return (self, None);
@@ -239,9 +240,9 @@ impl<const CALLS: usize> Robot<CALLS> {
         }
     }
 
-    /// Adds a record, in the place of a served one if the table is full, but not of the one whose lease the robot holds: with
-    /// that, an older call of the same WFR that comes late would pass for the newest, and the next for a newer one. Where none
-    /// can go the call is left to others, and heard again under its next epoch.
+    /// Adds a record, in the place of a served one if the table is full, but not of the one whose lease the robot
+    /// holds: with that, an older call of the same WFR that comes late would pass for the newest, and the next for a
+    /// newer one. Where none can go the call is left to others, and heard again under its next epoch.
     fn add(&mut self, heard: Request) {
         let own = match self.task {
             Task::Free => None,

@@ -1,5 +1,5 @@
-//! A WFR's part in MRC [Jiang 2011, 3.3, step 4]: it calls, hears MOVEs, chooses a robot, tells all that have asked, and
-//! waits until the one chosen is there.
+//! A WFR's part in MRC [Jiang 2011, 3.3, step 4]: it calls, hears MOVEs, chooses a robot, tells all that have asked,
+//! and waits until the one chosen is there.
 
 use super::message::{Bid, Resb, Upward, Word};
 use super::rule::{Condition, Rule};

@@ -157,8 +157,8 @@ impl Node {
         Some(self.notice())
     }
 
-    /// Hears a NOTICE. What is `around` is asked for if the NOTICE can matter, and matters to [`Scheme::Scalable`] alone;
-    /// `chance` is asked for the wait of the schemes that wait at random.
+    /// Hears a NOTICE. What is `around` is asked for if the NOTICE can matter, and matters to [`Scheme::Scalable`]
+    /// alone; `chance` is asked for the wait of the schemes that wait at random.
     #[inline]
     pub fn receive<'a>(
         &mut self,
@@ -211,8 +211,8 @@ impl Node {
         }
     }
 
-    /// Its wait may be over: the NOTICE that it forwards, if it does. A timer that was armed for a wait since given up, or
-    /// for an older event, comes to nothing.
+    /// Its wait may be over: the NOTICE that it forwards, if it does. A timer that was armed for a wait since given up,
+    /// or for an older event, comes to nothing.
     #[inline]
     pub fn expire(&mut self, now_ns: u64) -> Option<Notice> {
         if self.phase != Phase::Waiting || self.until_ns > now_ns {

@@ -1,5 +1,5 @@
-//! The rule of a broadcast: which scheme, which named conditions, and the two constants of equation (2). What the schemes
-//! other than k-FNF do is their papers' (Ni, Tseng, Chen and Sheu, MobiCom 1999; Peng and Lu, MobiHoc 2000), as
+//! The rule of a broadcast: which scheme, which named conditions, and the two constants of equation (2). What the
+//! schemes other than k-FNF do is their papers' (Ni, Tseng, Chen and Sheu, MobiCom 1999; Peng and Lu, MobiHoc 2000), as
 //! [Jiang 2011] tells it.
 
 use core::num::NonZeroU32;

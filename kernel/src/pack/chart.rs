@@ -67,8 +67,8 @@ impl<W: AsRef<[[u64; 2]]> + AsMut<[[u64; 2]]>> Chart<W> {
         }
     }
 
-    /// A robot in `from` looks round: `is_obstacle` answers for unknown cells, and `tell` hears of each that is seen, and whether it
-    /// is an obstacle.
+    /// A robot in `from` looks round: `is_obstacle` answers for unknown cells, and `tell` hears of each that is seen,
+    /// and whether it is an obstacle.
     pub fn look(
         &mut self,
         sight: &Sight,

@@ -1,6 +1,6 @@
-//! Robots side by side, as a caterpillar: the robot nearest to a frontier cell goes one step towards it, and robots follow into the
-//! cells that are left, along a path from it to a robot without which the others are still side by side. So the team can go
-//! wherever one robot could go, through ways that are one cell wide.
+//! Robots side by side, as a caterpillar: the robot nearest to a frontier cell goes one step towards it, and robots
+//! follow into the cells that are left, along a path from it to a robot without which the others are still side by
+//! side. So the team can go wherever one robot could go, through ways that are one cell wide.
 
 use super::MAX_ROBOTS;
 use crate::ground::{Cell, neighbours};
@@ -18,8 +18,8 @@ pub(super) fn is_side_by_side(cells: &[Cell]) -> bool {
     joined(cells, neighbours) == cells.len()
 }
 
-/// The robots, by their numbers, from `head` to the one that is farthest from it along cells side by side: the first goes to the
-/// new cell, and each other one into the cell of the one before it. How many they are, and their numbers.
+/// The robots, by their numbers, from `head` to the one that is farthest from it along cells side by side: the first
+/// goes to the new cell, and each other one into the cell of the one before it. How many they are, and their numbers.
 pub(super) fn caterpillar(cells: &[Cell], head: usize) -> (usize, [usize; MAX_ROBOTS]) {
     // The robot through which each was reached, and the order in which they were.
     let mut before = [None; MAX_ROBOTS];

@@ -66,8 +66,8 @@ impl Sight {
 /// Rows of a window.
 const ROWS: usize = 2 * Sight::MOST_CELLS as usize + 1;
 
-/// The disc round a cell, one word a row: which of its cells are unknown, and which are obstacles as far as that is known. The
-/// lowest bit is R_s columns west of the cell.
+/// The disc round a cell, one word a row: which of its cells are unknown, and which are obstacles as far as that is
+/// known. The lowest bit is R_s columns west of the cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Window {
     from: Cell,
@@ -117,8 +117,8 @@ impl Window {
         self.unknown.iter().zip(&self.taken).map(|(unknown, taken)| (unknown & !taken).count_ones()).sum()
     }
 
-    /// The visibility gain V: how many unknown cells would be seen, as far as obstacles are known; and how many of them are not
-    /// taken.
+    /// The visibility gain V: how many unknown cells would be seen, as far as obstacles are known; and how many of them
+    /// are not taken.
     pub fn gain(&self) -> (u32, u32) {
         let (mut all, mut own) = (0, 0);
         self.each_unknown(|columns, rows, _| {
@@ -131,7 +131,8 @@ impl Window {
         (all, own)
     }
 
-    /// Tells of each unknown cell that is seen, and whether it is an obstacle, if `is_obstacle` says so of unknown cells.
+    /// Tells of each unknown cell that is seen, and whether it is an obstacle, if `is_obstacle` says so of unknown
+    /// cells.
     pub fn look(&mut self, mut is_obstacle: impl FnMut(Cell) -> bool, mut tell: impl FnMut(Cell, bool)) {
         let mut obstacles = self.obstacles;
         self.each_unknown(|columns, rows, cell| {

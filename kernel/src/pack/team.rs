@@ -1,11 +1,12 @@
 //! A pack: its robots, and how it makes a team move.
 //!
-//! Each robot has an aim, a frontier cell, and keeps it until it is a frontier cell no longer. In a team move the robots take their
-//! steps in the order of their numbers, each step admitted by where the others are at that moment. Two robots that are in each other's
-//! way change aims. If no robot can take its step, the paper's definitions say no more, and [`Rule::PUBLISHED`] ends. Else the robot
-//! with the shortest way leads: it goes on, and the others go to it, nearest first. If that does not work either, the team
-//! takes 1, 2, 4, 8 … team moves back and tries again. Where all robots were side by side nothing is left to take back, and it goes as a
-//! caterpillar. So the distance to one frontier cell falls until that is reached, and then something new is seen.
+//! Each robot has an aim, a frontier cell, and keeps it until it is a frontier cell no longer. In a team move the
+//! robots take their steps in the order of their numbers, each step admitted by where the others are at that moment.
+//! Two robots that are in each other's way change aims. If no robot can take its step, the paper's definitions say no
+//! more, and [`Rule::PUBLISHED`] ends. Else the robot with the shortest way leads: it goes on, and the others go to it,
+//! nearest first. If that does not work either, the team takes 1, 2, 4, 8 … team moves back and tries again. Where all
+//! robots were side by side nothing is left to take back, and it goes as a caterpillar. So the distance to one frontier
+//! cell falls until that is reached, and then something new is seen.
 
 use super::MAX_ROBOTS;
 use super::aim::Aim;
@@ -17,8 +18,8 @@ use super::rule::{Condition, Rule};
 use crate::error::sentences;
 use crate::ground::{Cell, Side, Step};
 
-/// The history of a pack: its team moves, the last one first. One that forgets the oldest moves, since it is full, brings a team
-/// back less far: PACK-3 is not promised then.
+/// The history of a pack: its team moves, the last one first. One that forgets the oldest moves, since it is full,
+/// brings a team back less far: PACK-3 is not promised then.
 pub trait Past {
     /// Notes the step of each robot.
     fn push(&mut self, steps: &[Step]);
@@ -73,8 +74,8 @@ pub enum MoveKind {
     Marched,
 }
 
-/// Stages that a team goes through at most before it makes a team move or finds none: it spreads, leads, takes back, leads where
-/// all began, finds nothing more to take back, and marches.
+/// Stages that a team goes through at most before it makes a team move or finds none: it spreads, leads, takes back,
+/// leads where all began, finds nothing more to take back, and marches.
 const STAGES: usize = 6;
 
 /// The team's stage.
@@ -147,8 +148,8 @@ impl Team {
         self.aims.iter().take(self.robots).map(|aim| aim.map(|aim| aim.cell))
     }
 
-    /// Makes a team move by what is on the `chart`, and returns what it is, with the step of each robot in `steps`. Each robot must have
-    /// looked round before.
+    /// Makes a team move by what is on the `chart`, and returns what it is, with the step of each robot in `steps`.
+    /// Each robot must have looked round before.
     ///
     /// # Errors
     /// [`End`] if there is none.

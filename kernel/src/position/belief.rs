@@ -1,5 +1,5 @@
-//! Where a robot takes itself to be: place and heading with their covariance, by an extended Kalman filter of its wheels and of
-//! fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7).
+//! Where a robot takes itself to be: place and heading with their covariance, by an extended Kalman filter of its
+//! wheels and of fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7).
 
 use super::locate::check_residual;
 use super::normal::Normal;
@@ -131,8 +131,9 @@ impl Belief {
         self.heading = [of_x - y * variance, of_y + x * variance, variance];
     }
 
-    /// The place of an object that the robot sees at `distance_m`, and so far to its left: `bearing_rad` is from its heading towards −y.
-    /// A robot that is known to be at the origin with heading 0 has it at (d cos θ, −d sin θ) (Rajesh et al. 2024, 4.5).
+    /// The place of an object that the robot sees at `distance_m`, and so far to its left: `bearing_rad` is from its
+    /// heading towards −y. A robot that is known to be at the origin with heading 0 has it at (d cos θ, −d sin θ)
+    /// (Rajesh et al. 2024, 4.5).
     pub fn sees(&self, bearing_rad: f64, distance_m: f64, sight: &SightError) -> Sighting {
         let angle = self.heading_rad - bearing_rad;
         let (cosine, sine) = (libm::cos(angle), libm::sin(angle));
@@ -142,7 +143,8 @@ impl Belief {
         Sighting { at: Point::new(self.at.x_m + x, self.at.y_m + y), covariance }
     }
 
-    /// The covariance of what is (x, y) away, the variance of its direction being `variance`: it moves by (−y, x) with each radian.
+    /// The covariance of what is (x, y) away, the variance of its direction being `variance`: it moves by (−y, x) with
+    /// each radian.
     const fn carried(&self, x: f64, y: f64, variance: f64) -> SymmetricMatrix {
         let [of_x, of_y, _] = self.heading;
         SymmetricMatrix {
@@ -152,16 +154,18 @@ impl Belief {
         }
     }
 
-    /// The squared Mahalanobis distance of a fix with this covariance: χ² with two degrees of freedom if the belief is right.
+    /// The squared Mahalanobis distance of a fix with this covariance: χ² with two degrees of freedom if the belief is
+    /// right.
     pub fn surprise(&self, fix: Point, covariance: SymmetricMatrix) -> Option<f64> {
         let (x, y) = (fix.x_m - self.at.x_m, fix.y_m - self.at.y_m);
         let (by_x, by_y) = self.place.and(covariance).solve((x, y))?;
         Some(x * by_x + y * by_y)
     }
 
-    /// A fix by ranges, whose levels have the noise of `signal`: one step of Gauss and Newton from the believed place, with the bound
-    /// there as its covariance; `None` where they tell none. So each level counts as an extended Kalman filter would have it. The most
-    /// likely position is no better: its error bends with the circles as far as a fix alone is off, and a belief is off by less.
+    /// A fix by ranges, whose levels have the noise of `signal`: one step of Gauss and Newton from the believed place,
+    /// with the bound there as its covariance; `None` where they tell none. So each level counts as an extended Kalman
+    /// filter would have it. The most likely position is no better: its error bends with the circles as far as a fix
+    /// alone is off, and a belief is off by less.
     ///
     /// # Errors
     /// [`Refusal`] as for [`locate`](super::locate).
@@ -250,8 +254,8 @@ pub struct Sighting {
 }
 
 impl Sighting {
-    /// This sighting and another one of the same object, each weighed by its covariance. Their errors are taken to be independent:
-    /// those of different robots are, but for the anchors that they share.
+    /// This sighting and another one of the same object, each weighed by its covariance. Their errors are taken to be
+    /// independent: those of different robots are, but for the anchors that they share.
     #[must_use]
     pub fn merged(self, other: Self) -> Self {
         let mut belief = Belief { at: self.at, heading_rad: 0.0, place: self.covariance, heading: [0.0; 3] };

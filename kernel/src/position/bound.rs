@@ -1,4 +1,5 @@
-//! How far a position can be trusted: the Cramér–Rao bound, the covariance of an estimate, and the dilution of precision.
+//! How far a position can be trusted: the Cramér–Rao bound, the covariance of an estimate, and the dilution of
+//! precision.
 
 use super::normal::information;
 use super::{Point, Range, Residual, Signal, SymmetricMatrix};
@@ -37,8 +38,8 @@ pub fn bound(anchors: impl Iterator<Item = Point> + Clone, at: Point, signal: &S
     Precision { covariance, dilution }.told()
 }
 
-/// The three of `anchors` by which a robot at `at` is told best: those with the least bound, since errors grow with distances. The
-/// dilution of precision alone counts all distances alike. `None` if no three tell both directions.
+/// The three of `anchors` by which a robot at `at` is told best: those with the least bound, since errors grow with
+/// distances. The dilution of precision alone counts all distances alike. `None` if no three tell both directions.
 ///
 /// Rajesh et al. 2024, 4, “selects the best three anchors”; the measure is ours. All triples are compared.
 pub fn best_three(anchors: &[Point], at: Point) -> Option<[Point; 3]> {
@@ -58,8 +59,8 @@ pub fn best_three(anchors: &[Point], at: Point) -> Option<[Point; 3]> {
     best.map(|(_, three)| three)
 }
 
-/// The precision of the minimum of the squared residuals, if it is at `at`. Distances are wrong in proportion, so that those in
-/// metres, all weighed alike, are less exact than the bound.
+/// The precision of the minimum of the squared residuals, if it is at `at`. Distances are wrong in proportion, so that
+/// those in metres, all weighed alike, are less exact than the bound.
 pub(super) fn precision(
     ranges: &[Range],
     residual: Residual,

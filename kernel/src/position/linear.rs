@@ -1,6 +1,6 @@
-//! Linear least squares for any number of anchors: the circles' equations (2) to (4) of Rajesh et al. 2024 less their mean, in the
-//! frame in which the anchors' places are uncorrelated. One Jacobi rotation finds it, so that no matrix is inverted and none is
-//! squared.
+//! Linear least squares for any number of anchors: the circles' equations (2) to (4) of Rajesh et al. 2024 less their
+//! mean, in the frame in which the anchors' places are uncorrelated. One Jacobi rotation finds it, so that no matrix is
+//! inverted and none is squared.
 
 use super::range::{check, count};
 use super::{Point, Range, Refusal};
@@ -63,8 +63,8 @@ impl Layout {
         self.spread_m[1] <= 4.0 * f64::EPSILON * scale_m
     }
 
-    /// How far along and across the line the linear equations say that the robot is. Across it, that is no number or not
-    /// finite if the anchors are on the line.
+    /// How far along and across the line the linear equations say that the robot is. Across it, that is no number or
+    /// not finite if the anchors are on the line.
     pub(super) fn solve(&self, ranges: &[Range]) -> (f64, f64) {
         let right = |range: &Range| {
             let (u, v) = self.about_centre(range.anchor);
@@ -97,7 +97,8 @@ fn rotation(xx: f64, xy: f64, yy: f64) -> (f64, f64) {
 /// The position by linear least squares. For three anchors it is that of the closed form.
 ///
 /// # Errors
-/// [`Refusal`] if the anchors are fewer than three, at fewer than three places or on one line, or if a distance is no number from 0.
+/// [`Refusal`] if the anchors are fewer than three, at fewer than three places or on one line, or if a distance is no
+/// number from 0.
 pub fn linear(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
     let layout = Layout::of(ranges);

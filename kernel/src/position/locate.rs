@@ -1,5 +1,5 @@
-//! Damped Gauss–Newton (Levenberg's damping): the positions at which the squares of what the distances miss are least, at most
-//! two of them.
+//! Damped Gauss–Newton (Levenberg's damping): the positions at which the squares of what the distances miss are least,
+//! at most two of them.
 
 use super::bound::{Precision, precision};
 use super::descent::{Descent, Landing};
@@ -52,8 +52,8 @@ pub struct Estimate {
 pub enum Fix {
     /// One.
     One(Estimate),
-    /// Two that cannot be told apart: a mirror image, or a second minimum whose cost is as good within 3.84 times the variance of
-    /// the noise, that is at 95 %. The first one fits no worse.
+    /// Two that cannot be told apart: a mirror image, or a second minimum whose cost is as good within 3.84 times the
+    /// variance of the noise, that is at 95 %. The first one fits no worse.
     Two(Estimate, Estimate),
 }
 
@@ -72,8 +72,8 @@ const AMBIGUOUS: f64 = 3.84;
 /// Above this dilution of precision a position is called weak, as is the habit with satellites.
 const MOST_DILUTION: f64 = 20.0;
 
-/// A step below this, in proportion to the spread of the anchors, is the last. Where the sum of the squares is convex the error is
-/// then about the square of it.
+/// A step below this, in proportion to the spread of the anchors, is the last. Where the sum of the squares is convex
+/// the error is then about the square of it.
 const LAST_STEP: f64 = 1e-5;
 
 /// Minima nearer to each other than this, in the same proportion, are one.
@@ -82,26 +82,27 @@ const ONE_PLACE: f64 = 1e-2;
 /// Costs nearer to each other than this, in the same proportion squared, are one.
 const ONE_COST: f64 = 1e-12;
 
-/// An image promises a second minimum if the next step from it leads this near to the best one, in units of the difference at
-/// which two are told apart: steps are not straight.
+/// An image promises a second minimum if the next step from it leads this near to the best one, in units of the
+/// difference at which two are told apart: steps are not straight.
 const PROMISING: f64 = 32.0;
 
 /// Where a better minimum is found, it is mirrored again, at most this often.
 const MOST_ROUNDS: u32 = 3;
 
-/// Images that are looked at in a round: of more anchors than this, in lines from all over the list, each image once. So the work
-/// grows with the number of anchors and not with its square.
+/// Images that are looked at in a round: of more anchors than this, in lines from all over the list, each image once.
+/// So the work grows with the number of anchors and not with its square.
 const MOST_IMAGES: usize = 32;
 
 /// The position from which the residuals are least, or two.
 ///
-/// Steps begin on one side of the line along which the anchors are spread most, as far from it as the distances say on average. Where
-/// they end is then mirrored, in that line and in those through two anchors that follow each other, at most 32 of them: from an image
-/// the two distances fit as well, and where the others promise to, too, steps begin anew.
+/// Steps begin on one side of the line along which the anchors are spread most, as far from it as the distances say on
+/// average. Where they end is then mirrored, in that line and in those through two anchors that follow each other, at
+/// most 32 of them: from an image the two distances fit as well, and where the others promise to, too, steps begin
+/// anew.
 ///
 /// # Errors
-/// [`Refusal`] if there are fewer than three anchors at three places, if a distance is no number from 0, or is less than a
-/// micrometre and decibels are asked for.
+/// [`Refusal`] if there are fewer than three anchors at three places, if a distance is no number from 0, or is less
+/// than a micrometre and decibels are asked for.
 pub fn locate(
     ranges: &[Range],
     residual: Residual,
@@ -154,8 +155,9 @@ pub fn locate(
     })
 }
 
-/// The position to which steps lead from `from`: for a robot that knows about where it is, from its last position or from its
-/// wheels. No second position is looked for. From a place on the line of anchors that are all on one, no step leads off it.
+/// The position to which steps lead from `from`: for a robot that knows about where it is, from its last position or
+/// from its wheels. No second position is looked for. From a place on the line of anchors that are all on one, no step
+/// leads off it.
 ///
 /// # Errors
 /// [`Refusal`] as for [`locate`], and if `from` is no place.
@@ -204,7 +206,8 @@ fn start(descent: &Descent<'_>, layout: &Layout) -> Landing {
     descent.from(at, normal, |_| false)
 }
 
-/// `at` mirrored in the lines through two anchors that follow each other: in their order, or, of many, from all over the list.
+/// `at` mirrored in the lines through two anchors that follow each other: in their order, or, of many, from all over
+/// the list.
 fn images(ranges: &[Range], at: Point) -> impl Iterator<Item = Point> {
     let count = ranges.len();
     let step = if count <= MOST_IMAGES { 1 } else { scattering(count) };

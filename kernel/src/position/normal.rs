@@ -3,8 +3,8 @@
 use super::range::LEAST_M;
 use super::{Point, Range, Residual, SymmetricMatrix};
 
-/// At one position: the sum of the squared residuals, the normal matrix JᵀJ, half of the sum's second derivatives, and Jᵀr, which
-/// leads downhill. Residuals in decibels are in units of [`Signal::decibels`](super::Signal::decibels).
+/// At one position: the sum of the squared residuals, the normal matrix JᵀJ, half of the sum's second derivatives, and
+/// Jᵀr, which leads downhill. Residuals in decibels are in units of [`Signal::decibels`](super::Signal::decibels).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Normal {
     pub(super) cost: f64,
@@ -53,9 +53,10 @@ impl Normal {
         Self { cost, matrix, curvature, downhill }
     }
 
-    /// The step downhill: along x and along y. It is Newton's, by the second derivatives, where the sum of the squares is convex, so
-    /// that the last steps are few; elsewhere it is Gauss and Newton's, by JᵀJ, which always leads downhill. `damping` times its
-    /// trace is added to the diagonal; where one direction is not told, so much that the step stays finite.
+    /// The step downhill: along x and along y. It is Newton's, by the second derivatives, where the sum of the squares
+    /// is convex, so that the last steps are few; elsewhere it is Gauss and Newton's, by JᵀJ, which always leads
+    /// downhill. `damping` times its trace is added to the diagonal; where one direction is not told, so much that the
+    /// step stays finite.
     #[inline]
     pub(super) fn step(&self, damping: f64) -> (f64, f64) {
         let by = |matrix: SymmetricMatrix, damping| matrix.damped(damping).solve(self.downhill);

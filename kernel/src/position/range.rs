@@ -23,8 +23,8 @@ impl Range {
 /// Coordinates and distances beyond this are refused, so that none of their squares overflows.
 const MOST_M: f64 = 1e9;
 
-/// A micrometre: distances below it are taken for it, anchors nearer to each other are at one place, and so little is not told by
-/// a level. So an anchor at the robot's own place has a logarithm and a direction, and no square is lost.
+/// A micrometre: distances below it are taken for it, anchors nearer to each other are at one place, and so little is
+/// not told by a level. So an anchor at the robot's own place has a logarithm and a direction, and no square is lost.
 pub(super) const LEAST_M: f64 = 1e-6;
 
 /// Why there is no position. Anchors are counted from 0 in the order of the ranges.
@@ -99,8 +99,8 @@ sentences!(Refusal {
     Self::NoPlace => "the place to begin from is infinite, too far or no number";
 });
 
-/// Whether a position can be asked of these ranges: at least three anchors at three places, and distances that are numbers
-/// from 0.
+/// Whether a position can be asked of these ranges: at least three anchors at three places, and distances that are
+/// numbers from 0.
 ///
 /// # Errors
 /// [`Refusal`] if it cannot.
@@ -169,7 +169,8 @@ pub fn do_meet(one: &Range, other: &Range, most_error: f64) -> bool {
     !is_outside && !is_inside
 }
 
-/// Whether every two circles meet, if each distance may be wrong by four standard deviations of `signal`. Every two are compared.
+/// Whether every two circles meet, if each distance may be wrong by four standard deviations of `signal`. Every two are
+/// compared.
 ///
 /// # Errors
 /// [`Refusal::Apart`] if two do not, and what [`check`] returns.

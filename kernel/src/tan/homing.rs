@@ -1,6 +1,6 @@
-//! TAN [Jiang 2011, 3.4; clauses TAN-1 and TAN-2]: the robot asks its parent for a signal, turns its antenna once round,
-//! walks towards the strongest direction, and asks the next parent when it is there, with a hop count one less each time,
-//! until it is 0.
+//! TAN [Jiang 2011, 3.4; clauses TAN-1 and TAN-2]: the robot asks its parent for a signal, turns its antenna once
+//! round, walks towards the strongest direction, and asks the next parent when it is there, with a hop count one less
+//! each time, until it is 0.
 //!
 //! Left open by the paper, and chosen here: a robot that hears nothing asks again; one that walks past the node, since
 //! a direction is off by up to 7.5°, or meets an obstacle, scans again. A parent may be at the very end of what its
@@ -49,9 +49,9 @@ pub enum Guide {
 }
 
 impl Guide {
-    /// A REQNAV has arrived; `own` is the node's place in the tree of that WFR, if it is a path node. The one that is asked
-    /// signals, the others keep silent, each for T_x from now. One that keeps silent for another robot's sake does not
-    /// signal: the robot asks again.
+    /// A REQNAV has arrived; `own` is the node's place in the tree of that WFR, if it is a path node. The one that is
+    /// asked signals, the others keep silent, each for T_x from now. One that keeps silent for another robot's sake
+    /// does not signal: the robot asks again.
     #[must_use]
     pub fn request(self, request: ReqNav, id: NodeId, own: Option<Nav>) -> Self {
         let own = own.filter(|own| request.node == id && own.node == id && own.wfr == request.wfr);
@@ -152,8 +152,8 @@ pub struct Homing {
 }
 
 impl Homing {
-    /// A robot that sets out, `hops` from the WFR, by its parent in the tree. It asks each node at least once and at most
-    /// `tries` times in vain.
+    /// A robot that sets out, `hops` from the WFR, by its parent in the tree. It asks each node at least once and at
+    /// most `tries` times in vain.
     pub const fn new(
         wfr: NodeId,
         robot: RobotId,

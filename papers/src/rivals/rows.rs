@@ -50,7 +50,8 @@ macro_rules! rival {
                 }),
                 Rule::new(
                     SCATTER,
-                    "A rival of the chain, covered, that makes 5 legal team moves at random after every 20 without gain",
+                    "A rival of the chain, covered, that makes 5 legal team moves at random after every 20 without \
+                        gain",
                     |setup| {
                         let parameters = $parameters.linked(Links::Covered);
                         start(setup, Parameters { deadlock: SCATTERING, ..parameters })

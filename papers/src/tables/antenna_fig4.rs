@@ -158,8 +158,8 @@ impl Table for AntennaFig4 {
             id: "antenna-fig4",
             shows: "what a robot hears of a node all round with its directional antenna, and how far off the strongest \
                     direction is from the node's, by the noise",
-            help: "What a robot hears of a node all round with its directional antenna, and how well that tells where the \
-                   node is",
+            help: "What a robot hears of a node all round with its directional antenna, and how well that tells where \
+                   the node is",
             more: "A scan is 24 measurements, 15° apart, and its strongest direction the one in which a robot walks.",
             examples: &[
                 "antenna-fig4 --svg antenna.svg",
@@ -217,8 +217,8 @@ impl Table for AntennaFig4 {
         Ok(format!(
             "A node {} m off: dB above the weakest signal that is heard all round\n\n{}\n\
              Scans of nodes in random directions, {} for each noise, seed {}\n\n{}\n\
-             right: the strongest direction is the nearest of the 24 to the node's · one beside: that, or one of the two \
-             beside it ·\noff: between the strongest direction and the node's · ±, […]: the 95 % interval\n",
+             right: the strongest direction is the nearest of the 24 to the node's · one beside: that, or one of the \
+             two beside it ·\noff: between the strongest direction and the node's · ±, […]: the 95 % interval\n",
             merged.distance_m,
             pattern.text(),
             merged.scans,

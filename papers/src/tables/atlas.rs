@@ -189,8 +189,8 @@ impl Table for Atlas {
     fn about(&self) -> Description {
         Description {
             id: "atlas",
-            shows: "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
-                    how long, and how many break which clause",
+            shows: "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there \
+                    are, how long, and how many break which clause",
             help: "What becomes of all runs in all layouts with few walls, by rule and number of robots",
             examples: &["atlas", "atlas --deep --format json"],
             doing: "searching",
@@ -258,8 +258,10 @@ impl Table for Atlas {
             columns = columns.right(clause, Fit, |line| line.runs_that_break(clause));
         }
         let mut text = format!(
-            "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at most\n\n{}\n\
-             layouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs ·\n\
+            "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at \
+                most\n\n{}\n\
+             layouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs \
+             ·\n\
              longest: team moves of the longest run · CHAIN-…: runs that break the clause, whatever else they break ·\n\
              -: not looked for\n\
              \nThe smallest counterexamples in these areas, by walls, then team moves\n",

@@ -88,11 +88,11 @@ impl Table for ChainRadio {
     fn about(&self) -> Description {
         Description {
             id: "chain-radio",
-            shows: "a chain with two radios a robot against a scatternet of bridges, for three to eight robots: how long the bytes \
-                    of a team move take, and how long a run waits for them",
+            shows: "a chain with two radios a robot against a scatternet of bridges, for three to eight robots: how \
+                    long the bytes of a team move take, and how long a run waits for them",
             help: "Two radios a robot against bridges that switch between two nets",
-            more: "The bytes are those of runs without walls. A switch takes 3 to 6 s, all durations as likely; N-2 switches a \
-                   team move are the least that bridges need.",
+            more: "The bytes are those of runs without walls. A switch takes 3 to 6 s, all durations as likely; N-2 \
+                   switches a team move are the least that bridges need.",
             examples: &["chain-radio", "chain-radio --hop-ms 5 --format json"],
             doing: "sending",
             takes: "a second",
@@ -158,8 +158,8 @@ impl Table for ChainRadio {
             .estimate("min", Fit, 1, |line| line.bridges_minutes)
             .estimate("switching %", Fit, 0, |line| line.switching)
             .text();
-        text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and waiting, the share in which a \
-                 bridge switches\n";
+        text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and waiting, the share \
+                 in which a bridge switches\n";
         Ok(text)
     }
 

@@ -112,7 +112,8 @@ impl Table for FrontierFig7 {
     fn about(&self) -> Description {
         Description {
             id: "frontier-fig7",
-            shows: "frontier cells: how many team moves 1 to 8 robots take to explore every cell, by every rule and rival",
+            shows: "frontier cells: how many team moves 1 to 8 robots take to explore every cell, by every rule and \
+                rival",
             help: "How many team moves robots take that go from frontier cell to frontier cell",
             examples: &[
                 "frontier-fig7 --svg moves.svg",
@@ -290,7 +291,8 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
             "“performs better when team of robots has 8 members”",
             "robots that wander",
             format!(
-                "{} team moves with 6 and {} with 8, repaired {} and {}; {largest} is the largest team that is compared",
+                "{} team moves with 6 and {} with 8, repaired {} and {}; {largest} is the largest team that is \
+                    compared",
                 moves("wanders", 6),
                 moves("wanders", 8),
                 moves("repaired", 6),
@@ -322,8 +324,8 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
     ]
 }
 
-/// The paper's sentence about eight robots, where larger teams are measured, too: no larger team of robots that wander, as of
-/// repaired ones, explores every cell in fewer team moves.
+/// The paper's sentence about eight robots, where larger teams are measured, too: no larger team of robots that wander,
+/// as of repaired ones, explores every cell in fewer team moves.
 fn best_of_all(lines: &[Line]) -> Vec<Judgement> {
     let of = |rule: &str| -> Vec<&Line> { lines.iter().filter(|line| line.rule.as_str() == rule).collect() };
     let judged = |(rule, who): (&str, &str)| {

@@ -202,7 +202,8 @@ settings! {
         pub side_m: f64 = SIDE_M, one("side", "METRES", real);
         /// The radio range, in metres
         pub range_m: f64 = RANGE_M, one("range", "METRES", real);
-        /// An obstacle by its sides, and its shape: l, u, c, spiral, ring, or rows of # and . with / between them; may be given again [default: those of the figure]
+        /// An obstacle by its sides, and its shape: l, u, c, spiral, ring, or rows of # and . with / between them; may
+        /// be given again [default: those of the figure]
         pub obstacles_m: Vec<Lake> = Vec::new(),
             repeated("obstacle", "[SHAPE:]W,N,E,S", |lake| format!("{lake:?}"), str::parse::<Lake>);
         /// The k of k-FNF, whose tree TAN uses

@@ -5,9 +5,9 @@
 //! 5 driven by both. So every layout here has 26 paths, all within reach of a node that is drawn as the start, and
 //! there are four families of them: compact, long and branching ones. As published both robots start there, one after
 //! the other, and run KIT at every node, our main reading, or only where the way ahead is blocked, as the words of
-//! section 3 have it; repaired the second one starts beside. Robots drive at 0.3 m/s, unless it is asked for something else,
-//! and each drive is up to a tenth faster or slower; with equal speeds, robots as published may drive to and fro for
-//! ever.
+//! section 3 have it; repaired the second one starts beside. Robots drive at 0.3 m/s, unless it is asked for something
+//! else, and each drive is up to a tenth faster or slower; with equal speeds, robots as published may drive to and fro
+//! for ever.
 
 mod drawn;
 mod lattice;

@@ -66,17 +66,17 @@ pub enum Values {
     Repeated,
 }
 
-/// Makes a structure of settings, its default and its parameters. A setting has a line of documentation, which is its
+/// Makes a structure of settings, its default and its parameters. A setting has documentation, which is its
 /// help text as well, a field, its default, and how a person gives it: by one of the functions below.
 macro_rules! settings {
     ($(#[$meta:meta])* $pub:vis struct $name:ident {$(
-        #[doc = $about:literal]
+        $(#[doc = $about:literal])+
         $vis:vis $field:ident: $type:ty = $default:expr, $how:expr;
     )*}) => {
         $(#[$meta])*
         #[derive(Clone, PartialEq, Debug, schemars::JsonSchema, serde::Serialize, serde::Deserialize)]
         $pub struct $name {
-            $(#[doc = $about] $vis $field: $type,)*
+            $($(#[doc = $about])+ $vis $field: $type,)*
         }
 
         impl Default for $name {
@@ -89,7 +89,7 @@ macro_rules! settings {
             fn parameters() -> Vec<$crate::tables::parameter::Parameter<Self>> {
                 let parameters: Vec<Vec<_>> = vec![
                     $($crate::tables::parameter::of_field(
-                        $about,
+                        concat!($($about),+),
                         |all: &Self| &all.$field,
                         |all: &mut Self| &mut all.$field,
                         $how,

@@ -136,8 +136,8 @@ impl Table for RepairCost {
     fn about(&self) -> Description {
         Description {
             id: "repair-cost",
-            shows: "the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % \
-                    and 75 %, and runs that break a clause",
+            shows: "the chain as published against the chain repaired on the same random layouts: mean team moves to \
+                    50 % and 75 %, and runs that break a clause",
             help: "What the chain's repairs cost in team moves, and what they prevent",
             examples: &["repair-cost", "repair-cost --runs 10000 --format json"],
             doing: "comparing",

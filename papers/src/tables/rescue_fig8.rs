@@ -173,11 +173,11 @@ impl Table for RescueFig8 {
     fn about(&self) -> Description {
         Description {
             id: "rescue-fig8",
-            shows: "three robots for three that wait for rescue, MRC as published and repaired: how often each gets a robot, \
-                    and one of its own, how far they go, and how far from the best assignment that is",
+            shows: "three robots for three that wait for rescue, MRC as published and repaired: how often each gets a \
+                    robot, and one of its own, how far they go, and how far from the best assignment that is",
             help: "Which robot comes to whom, and how far it goes, where several call at once",
-            more: "Nodes, robots and those who wait for rescue (WFRs) at random in a square, without any fault, under MRC \
-                   as published and repaired. The paper draws one case of it.",
+            more: "Nodes, robots and those who wait for rescue (WFRs) at random in a square, without any fault, under \
+                   MRC as published and repaired. The paper draws one case of it.",
             examples: &[
                 "rescue-fig8 --svg ways.svg",
                 "rescue-fig8 --nodes 1100 --runs 1000 --format json",
@@ -234,11 +234,12 @@ impl Table for RescueFig8 {
         table.row("NOTICE packets", |line| text(line.notices, 1));
         table.row("control packets", |line| text(line.control, 1));
         Ok(table.with_notes(
-            "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one \
-             to each ·\npaper: a picture of one topology in which it is so, and “for all simulated scenarios” · RD: metres \
-             walked for each metre\nof the shortest ways · over the best assignment: how many times as far the robots are \
-             off the WFRs that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · \
-             the best assignment: % of these in which it is\nthat one · control packets: MOVE, RESB, the answers to them and receipts, at each hop · ±, […]: the 95 % interval",
+            "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a \
+             different one to each ·\npaper: a picture of one topology in which it is so, and “for all simulated \
+             scenarios” · RD: metres walked for each metre\nof the shortest ways · over the best assignment: how many \
+             times as far the robots are off the WFRs that they come to as\nunder the best of all assignments, where \
+             each WFR has a robot of its own · the best assignment: % of these in which it is\nthat one · control \
+             packets: MOVE, RESB, the answers to them and receipts, at each hop · ±, […]: the 95 % interval",
         ))
     }
 

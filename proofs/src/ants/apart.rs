@@ -1,5 +1,5 @@
-//! Ants where a missed sensor stays beside the new one, and the sensors of a cell are missed one by one (ANTS-1, ANTS-3): an
-//! ant reads the highest count of those that it sees, and writes one more to each of these.
+//! Ants where a missed sensor stays beside the new one, and the sensors of a cell are missed one by one (ANTS-1,
+//! ANTS-3): an ant reads the highest count of those that it sees, and writes one more to each of these.
 
 use std::convert::Infallible;
 
@@ -12,7 +12,8 @@ use crate::engine::{Outcome, require};
 use crate::floor::crew::{Scheme, SensorData, Sight};
 use crate::floor::team::Demands;
 
-/// The sensors of a cell: the first one, and one for each time that all were missed, as often as the searches let it happen.
+/// The sensors of a cell: the first one, and one for each time that all were missed, as often as the searches let it
+/// happen.
 const SENSORS: usize = 3;
 
 /// The counts of the sensors of a cell; 0 where there is none.

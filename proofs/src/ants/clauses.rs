@@ -152,8 +152,8 @@ mod tests {
     use crate::engine::states::steps;
     use crate::floor::team::Team;
 
-    /// A cell in the dark reads 0 however often an ant has been there; of equals an ant goes to the first in the order of
-    /// the compass.
+    /// A cell in the dark reads 0 however often an ant has been there; of equals an ant goes to the first in the order
+    /// of the compass.
     #[test]
     fn an_ant_goes_to_and_fro_between_a_cell_and_one_in_the_dark_and_never_to_the_third() {
         for subject in [LOSING, STAYING, COUNTING] {

@@ -40,8 +40,8 @@ const PUBLISHED: NamedRule<Subject<Rule>> = named("published", Rule::PUBLISHED);
 const REPAIRED: NamedRule<Subject<Rule>> = named("repaired", Rule::REPAIRED);
 const ROBUST: NamedRule<Subject<Rule>> = named("robust", Rule::ROBUST);
 
-/// The readings of the published rule but for the main one: whether a cell is marked in which another agent is, and where
-/// some sensors are missed, which ones, and what becomes of them.
+/// The readings of the published rule but for the main one: whether a cell is marked in which another agent is, and
+/// where some sensors are missed, which ones, and what becomes of them.
 const READINGS: [(&str, Subject<Rule>); 11] = [
     ("alone", Subject::of(Rule::PUBLISHED.with(Alone))),
     ("beside", replacing(Rule::PUBLISHED, Replaced::Beside)),
@@ -405,13 +405,14 @@ pub const CLAUSES: [Clause; 15] = [
     },
     Clause {
         id: "BRICKS-14",
-        sentence: "Two trees MUST have different labels; the one before which its agent had founded fewer has the greater.",
+        sentence: "Two trees MUST have different labels; the one before which its agent had founded fewer has the \
+            greater.",
         checks: &[&labels::labels_of_trees::CHECK],
     },
     Clause {
         id: "BRICKS-15",
-        sentence: "An agent that explores MUST go to the unexplored neighbour with the most inaccessible sides, as far as it \
-                   sees them, the first in the order of the compass.",
+        sentence: "An agent that explores MUST go to the unexplored neighbour with the most inaccessible sides, as far \
+                   as it sees them, the first in the order of the compass.",
         checks: &[&ways_on::CHECK],
     },
 ];

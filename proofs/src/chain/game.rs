@@ -224,7 +224,7 @@ pub(super) fn left_out(
     invariants.iter().copied().filter(leaves).collect()
 }
 
-/// What is not so where `demand` is broken by the end of a run, or by its never coming.
+/// The sentence that is not so where `demand` is broken by the end of a run, or by its never coming.
 pub(super) const fn words_of_end(demand: Invariant) -> &'static str {
     match demand {
         Invariant::Heard => "no message of a team is refused by it",

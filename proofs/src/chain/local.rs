@@ -1,5 +1,5 @@
-//! Plans that two or three robots of a chain may make at once, as local rules: CHAIN-1 to CHAIN-3, CHAIN-15 and CHAIN-19 for
-//! every layout, by the kernel's own conditions.
+//! Plans that two or three robots of a chain may make at once, as local rules: CHAIN-1 to CHAIN-3, CHAIN-15 and
+//! CHAIN-19 for every layout, by the kernel's own conditions.
 
 use tautline_kernel::chain::{Condition, Move, Role, Rule};
 use tautline_kernel::ground::{Cell, Circle, Step};
@@ -32,8 +32,8 @@ pub enum Sort {
     TakesBack,
 }
 
-/// Every step by a plan. Where robots may stay behind though no wall is there, a team that takes a move back is not where
-/// it was: so that is looked at, too.
+/// Every step by a plan. Where robots may stay behind though no wall is there, a team that takes a move back is not
+/// where it was: so that is looked at, too.
 fn steps<S: Copy>(state: S, may_fail: bool) -> Vec<Act<S, Going>> {
     let act = |sort, step| {
         let goes = vec![(true, state)];
@@ -51,8 +51,8 @@ fn as_move<S>(plan: &Plan<S, Going>) -> Move {
     Move { from: plan.robot.at, step: plan.step, known_open: plan.act.1 == Sort::KnownOpen }
 }
 
-/// The moves that a robot may have planned which takes its part in the last team move back: a robot that need not go back
-/// has stayed behind, or planned to stay.
+/// The moves that a robot may have planned which takes its part in the last team move back: a robot that need not go
+/// back has stayed behind, or planned to stay.
 fn undone(back: Move) -> Vec<Move> {
     let planned = |step| Move { from: back.to(), step, known_open: true };
     match back.step {
@@ -307,8 +307,8 @@ impl Local for Coverage {
     }
 }
 
-/// A chain of three as published (CHAIN-15): the base, R_2 and R_3, of which R_2 prefers to stay. Their states are their
-/// numbers.
+/// A chain of three as published (CHAIN-15): the base, R_2 and R_3, of which R_2 prefers to stay. Their states are
+/// their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct OfThree(pub Rule);
 

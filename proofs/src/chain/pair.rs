@@ -116,8 +116,8 @@ impl Pair {
     }
 }
 
-/// The largest distances of two neighbours in the chain, squared, in quarters of a squared cell: after a team move, and at any
-/// moment of it, whoever of the two has gone.
+/// The largest distances of two neighbours in the chain, squared, in quarters of a squared cell: after a team move, and
+/// at any moment of it, whoever of the two has gone.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Farthest {
     /// From centre to centre.

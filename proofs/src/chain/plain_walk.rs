@@ -1,5 +1,5 @@
-//! The walk along which a chain unfolds, in plain words: growing layers of linked cells, and the way back from the nearest
-//! unexplored one.
+//! The walk along which a chain unfolds, in plain words: growing layers of linked cells, and the way back from the
+//! nearest unexplored one.
 
 use rustc_hash::FxHashSet;
 use tautline_kernel::ground::{Cell, Edge, Side};

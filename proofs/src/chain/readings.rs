@@ -1,5 +1,5 @@
-//! The readings of what Kovács, Pásztor and Istenes 2011 leave open. The plain recursion follows them, so that the kernel
-//! has the published one alone.
+//! The readings of what Kovács, Pásztor and Istenes 2011 leave open. The plain recursion follows them, so that the
+//! kernel has the published one alone.
 
 use tautline_kernel::conditions;
 use tautline_kernel::ground::Cell;
@@ -45,7 +45,7 @@ pub(super) const LAST: (&str, Subject) = ("last", read(&[Reading::NullLast]));
 pub(super) const READINGS: [(&str, Subject); 3] =
     [LAST, ("row", read(&[Reading::InARow])), ("row + last", read(&[Reading::InARow, Reading::NullLast]))];
 
-/// What the paper leaves open, as far as it makes a difference.
+/// The places that the paper leaves open, as far as they make a difference.
 pub(super) static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {

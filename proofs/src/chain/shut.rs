@@ -92,7 +92,9 @@ fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) 
         let Intent::Go(plan) = intent else { return Ok(situation) };
         require(!chain.is_refused(), "no plan is refused")?;
         let before = chain.cells().to_vec();
-        let is_met = |(&cell, &step): (&Cell, &Step)| matches!(step, Step::Cross(side) if walls.get(&key(Edge::new(cell, side))) == Some(&true));
+        let is_closed = |cell, side| walls.get(&key(Edge::new(cell, side))) == Some(&true);
+        let is_met =
+            |(&cell, &step): (&Cell, &Step)| matches!(step, Step::Cross(side) if is_closed(cell, side));
         require(
             !before.iter().zip(plan.steps()).any(is_met),
             "no robot is sent through a wall that the team has met",
@@ -118,7 +120,8 @@ fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) 
             .map_err(|_| Stop::Violated("who hears a team move believes it"))?;
         require(heard == chain, "who hears a team move knows what the team knows")?;
         log.extend_from_slice(settled.messages());
-        let crosses = |(&from, &step)| matches!(step, Step::Cross(side) if walls.get(&key(Edge::new(from, side))) == Some(&true));
+        let is_wall = |cell, side| walls.get(&key(Edge::new(cell, side))) == Some(&true);
+        let crosses = |(&from, &step)| matches!(step, Step::Cross(side) if is_wall(from, side));
         let is_through = before
             .iter()
             .zip(plan.steps())

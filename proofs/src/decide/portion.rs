@@ -22,8 +22,8 @@ impl Portion {
 }
 
 impl Answer {
-    /// The answer of those to all portions of a check, with the shortest counterexample, of which the first. A portion in
-    /// which there was nothing to look at says nothing.
+    /// The answer of those to all portions of a check, with the shortest counterexample, of which the first. A portion
+    /// in which there was nothing to look at says nothing.
     pub fn merged(answers: impl IntoIterator<Item = Self>) -> Self {
         let key = |answer: &Self| {
             let choices = answer.counterexample.as_ref().map(|found| &found.choices);

@@ -392,7 +392,7 @@ impl<D> Run<D> {
         self.choices_after(&[])
     }
 
-    /// The same after these.
+    /// The choices of the run after those that lead to its start.
     pub(crate) fn choices_after(&self, first: &[u32]) -> Choices {
         let once = [first, &[self.start as u32], &self.steps].concat();
         Choices { once, again: self.round().to_vec() }

@@ -48,7 +48,7 @@ pub(crate) const HOW_OFTEN: Ambiguity = Ambiguity {
 };
 
 conditions! {
-    /// What is so on the floor by another reading than the published one; agents know nothing of it.
+    /// A property of the floor by another reading than the published one; agents know nothing of it.
     pub enum Given {
         /// The cell in which an agent starts counts nothing until the agent enters it.
         UncountedStart,

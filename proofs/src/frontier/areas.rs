@@ -97,8 +97,8 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         Some((setting, numbers))
     }
 
-    /// The choices that make the run in an area that has the obstacles that it met: the first two say how many messages are
-    /// lost and how many fixes are wrong at most. Obstacles that are smaller than a cell are in no layout.
+    /// The choices that make the run in an area that has the obstacles that it met: the first two say how many messages
+    /// are lost and how many fixes are wrong at most. Obstacles that are smaller than a cell are in no layout.
     pub fn scripted(&self) -> Option<Scripted> {
         if self.setting.max_small > 0 {
             return None;

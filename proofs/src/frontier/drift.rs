@@ -251,8 +251,8 @@ pub(super) fn tell(before: &State, after: &State) -> String {
             format!("it is in {cell}, takes itself to be in {at}, and takes {blocked} for an obstacle")
         }
         None => format!(
-            "it arrives in {cell}, {x} and {y} sixteenths east and south of the midpoint; its fix says {fix_x} and {fix_y}, \
-             and it takes itself to be in {at}"
+            "it arrives in {cell}, {x} and {y} sixteenths east and south of the midpoint; its fix says {fix_x} and \
+             {fix_y}, and it takes itself to be in {at}"
         ),
     }
 }

@@ -1,5 +1,5 @@
-//! Robots that fuse wheels and fixes, whose errors are bounded along each axis (FRONTIER-10), and robots that stand until they are
-//! sure (FRONTIER-11). Errors are in eighths of a cell.
+//! Robots that fuse wheels and fixes, whose errors are bounded along each axis (FRONTIER-10), and robots that stand
+//! until they are sure (FRONTIER-11). Errors are in eighths of a cell.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, Rule, midpoint};
@@ -39,7 +39,8 @@ impl FusedBudget {
 /// The bound of [`stays`], in words.
 pub(super) fn errors() -> String {
     format!(
-        "every error of a place, of a move and of a fix in 1/{PARTS} of a cell, and every gain in 1/{QUARTERS}, along one axis"
+        "every error of a place, of a move and of a fix in 1/{PARTS} of a cell, and every gain in 1/{QUARTERS}, along \
+            one axis"
     )
 }
 

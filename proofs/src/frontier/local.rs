@@ -1,5 +1,5 @@
-//! Two robots among frontier cells, as a local rule: FRONTIER-2 for every number of robots, every area and every order of
-//! events, by what the kernel's robots do.
+//! Two robots among frontier cells, as a local rule: FRONTIER-2 for every number of robots, every area and every order
+//! of events, by what the kernel's robots do.
 
 use tautline_kernel::frontier::{Condition, Robot as Explorer, Rule, Sight, Stance, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side, Step};

@@ -91,8 +91,8 @@ fn next(rule: &Rule, map: TinyMap, team: &[Sighting], has_news: bool) -> Next {
     let (at, aim) = team[0];
     let known = if has_news { TinyMap::new(map.area()).unwrap_or(map) } else { map };
     let mut own = Robot::new(known, at, &[]);
-    // A robot keeps what it has claimed when it goes round a small obstacle. It has claimed nothing any more when it has
-    // met another robot, and nothing yet at its start.
+    // A robot keeps what it has claimed when it goes round a small obstacle. It has claimed nothing any more when it
+    // has met another robot, and nothing yet at its start.
     if aim.is_some() || !has_news {
         own.tries(Side::East, aim.unwrap_or(at));
         own.looked(rule, if aim.is_some() { Sight::Small } else { Sight::Robot });

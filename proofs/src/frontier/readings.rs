@@ -7,8 +7,8 @@ use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 
 /// The readings of the published rule but for the main one: what a robot without a candidate does, how it avoids an
-/// obstacle, what equation (11) means, and whether the threshold follows from earlier probabilities of neighbours. Where
-/// those of the robot's own cells count as well, robots at midpoints decide as with a threshold of ½.
+/// obstacle, what equation (11) means, and whether the threshold follows from earlier probabilities of neighbours.
+/// Where those of the robot's own cells count as well, robots at midpoints decide as with a threshold of ½.
 pub(super) const READINGS: [(&str, Rule); 15] = [
     ("wanders", Rule::WANDERS),
     ("literal", Rule::LITERAL),
@@ -27,7 +27,7 @@ pub(super) const READINGS: [(&str, Rule); 15] = [
     ("wanders + literal + printed + adaptive", adaptive(wandering(Rule::PRINTED.without(Record)))),
 ];
 
-/// What the paper leaves open.
+/// The places that the paper leaves open.
 pub(super) static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {

@@ -74,8 +74,8 @@ pub struct Setting<const ROBOTS: usize> {
     pub max_losses: u8,
     /// Most fixes in one run that are off by one cell.
     pub max_wrong: u8,
-    /// Most looks in one run that meet an obstacle smaller than a cell. Such an obstacle stands nowhere for good: a robot
-    /// that comes again may meet another one.
+    /// Most looks in one run that meet an obstacle smaller than a cell. Such an obstacle stands nowhere for good: a
+    /// robot that comes again may meet another one.
     pub max_small: u8,
     /// The one demand that is looked at; all if there is none.
     pub demand: Option<Demand>,
@@ -189,8 +189,8 @@ impl Rim {
 }
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
-    /// Every start: the robots in different cells. They take their turns in the order of their numbers, round and round,
-    /// so that the first may be the one in the first of the cells.
+    /// Every start: the robots in different cells. They take their turns in the order of their numbers, round and
+    /// round, so that the first may be the one in the first of the cells.
     pub fn starts(&self) -> Vec<World<ROBOTS>> {
         let cells: Vec<Cell> = self.area.cells().filter(|&cell| !self.is_given(cell)).collect();
         let of = cells.len();

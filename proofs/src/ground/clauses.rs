@@ -17,8 +17,8 @@ pub(crate) const NARROWER: Circle = Circle::new(10);
 const WHOLE: NamedRule<Flooding> = NamedRule::new("published", Flooding::Whole);
 
 step_checks! { Circles;
-    environments_of_circles: environments::environments, NamedRule::new("published", Circles::PUBLISHED), environments::offsets,
-        covers ["in E_C alone", "in E_N", "in E_S alone", "in none"], unwind 6, mutants {
+    environments_of_circles: environments::environments, NamedRule::new("published", Circles::PUBLISHED),
+        environments::offsets, covers ["in E_C alone", "in E_N", "in E_S alone", "in none"], unwind 6, mutants {
             safe_too_wide: "E_S with the radius of E_C" => Circles { safe: Circle::COVERED, ..Circles::PUBLISHED },
             covered_too_narrow: "E_C with the radius of E_S" => Circles { covered: Circle::SAFE, ..Circles::PUBLISHED },
             covered_too_wide: "E_C widened" => Circles { covered: WIDER, ..Circles::PUBLISHED },
@@ -36,9 +36,9 @@ pub const CLAUSES: [Clause; 2] = [
     },
     Clause {
         id: "LATTICE-2",
-        sentence: "The distance of a robot to the frontier MUST be the fewest steps to an unexplored cell, for a follower \
-                   over edges that are not known to be walls, for the leader over those of them without a virtual \
-                   obstacle.",
+        sentence: "The distance of a robot to the frontier MUST be the fewest steps to an unexplored cell, for a \
+                   follower over edges that are not known to be walls, for the leader over those of them without a \
+                   virtual obstacle.",
         checks: &[
             &Check::holds(
                 WHOLE,

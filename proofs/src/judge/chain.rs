@@ -16,11 +16,11 @@ pub use judge_input::{Exhibit, Move, Repairs};
 use super::Case;
 pub use super::{Objection, Place};
 
-/// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule; whether in each of them the
-/// leader does what its rule says, and a backtrack is due; whether each of the walls was met; and whether the last move,
-/// and no earlier one, breaks the clause, or the run is over after it and not before, and its end breaks the clause. What
-/// followers prefer among the moves that are admitted is not asked, nor by which way a chain unfolds. Of more than 12
-/// robots it is not asked either what the leader does, so that the end of their runs cannot be judged.
+/// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule; whether in each of them
+/// the leader does what its rule says, and a backtrack is due; whether each of the walls was met; and whether the last
+/// move, and no earlier one, breaks the clause, or the run is over after it and not before, and its end breaks the
+/// clause. What followers prefer among the moves that are admitted is not asked, nor by which way a chain unfolds. Of
+/// more than 12 robots it is not asked either what the leader does, so that the end of their runs cannot be judged.
 ///
 /// # Errors
 /// The first [`Objection`].

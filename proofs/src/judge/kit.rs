@@ -1,6 +1,6 @@
-//! The judge of KIT: runs of two robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11, KIT-14),
-//! of three and more by the repaired rule ([`Party`]: KIT-8), what two robots say to each other ([`Talk`]: KIT-4,
-//! KIT-5), and the fields of a message ([`Wire`]: KIT-9). It knows the sentences of `SPEC.md` alone.
+//! The judge of KIT: runs of two robots on a lattice as published (KIT-1 to KIT-3, KIT-6 to KIT-8, KIT-10, KIT-11,
+//! KIT-14), of three and more by the repaired rule ([`Party`]: KIT-8), what two robots say to each other ([`Talk`]:
+//! KIT-4, KIT-5), and the fields of a message ([`Wire`]: KIT-9). It knows the sentences of `SPEC.md` alone.
 
 mod party;
 mod talk;
@@ -393,8 +393,8 @@ impl Run {
         (0..4).filter(can_drive).collect()
     }
 
-    /// The sides of covered paths with which a shortest joint way begins: a robot drives there in contact with both ends of
-    /// the other one's path, and to neither of them.
+    /// The sides of covered paths with which a shortest joint way begins: a robot drives there in contact with both
+    /// ends of the other one's path, and to neither of them.
     fn shortest(&self, team: &Team, robot: usize) -> Vec<usize> {
         let (from, other) = (team.stances[robot][0], team.stances[1 - robot]);
         let now = self.joint_way(team, team.goals());

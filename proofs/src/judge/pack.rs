@@ -48,7 +48,7 @@ pub struct Run {
     pub sight: i32,
     /// R_c, in cells.
     pub range: i32,
-    /// What robots compare.
+    /// The distance that robots compare.
     pub metric: Metric,
     /// Where each robot starts.
     pub starts: Vec<Place>,
@@ -147,8 +147,8 @@ fn apart(one: Place, other: Place) -> Place {
 }
 
 impl Run {
-    /// The team moves that the rule makes from the starts, at most so many, and the free cells that a robot could walk to
-    /// and that are not seen then.
+    /// The team moves that the rule makes from the starts, at most so many, and the free cells that a robot could walk
+    /// to and that are not seen then.
     pub(crate) fn played(&self, most: usize) -> (Vec<Vec<Place>>, Vec<Place>) {
         let (mut team, mut moves) = (self.team(), Vec::new());
         while moves.len() < most && self.advance(&mut team) {

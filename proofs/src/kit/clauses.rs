@@ -72,15 +72,15 @@ const ANSWERING: [(&str, Rule); 2] = [
 
 const REFUTED: &[Reading<Rule>] = &holding(READINGS, []);
 
-/// The readings of sentences that hold in a larger bound where KIT runs at every node and a robot stays rather than go out of
-/// reach: but for that of these in which the other's record alone counts, whose states are too many.
+/// The readings of sentences that hold in a larger bound where KIT runs at every node and a robot stays rather than go
+/// out of reach: but for that of these in which the other's record alone counts, whose states are too many.
 const STAYING: &[Reading<Rule>] = {
     let [a, b, c, d, e, f, g, stays, ahead, _, other] = READINGS;
     &holding([a, b, c, d, e, f, g, stays, ahead, other], [7])
 };
 
-/// The ambiguities that these readings are about. Under *every* two robots have the paper's 78 % and keep its contact more
-/// often, so that it is the more charitable one, though *ahead* is closer to the words.
+/// The ambiguities that these readings are about. Under *every* two robots have the paper's 78 % and keep its contact
+/// more often, so that it is the more charitable one, though *ahead* is closer to the words.
 static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {
@@ -98,8 +98,8 @@ static PAPER: Paper = Paper {
             ],
         },
         Ambiguity {
-            words: "“the robot does the processing again for all the directions regardless of whether direction is open or \
-                    not. Then it will get the direction that has smallest communication distance”",
+            words: "“the robot does the processing again for all the directions regardless of whether direction is \
+                    open or not. Then it will get the direction that has smallest communication distance”",
             interpretations: &[
                 Interpretation::new(
                     "nearest side",
@@ -399,7 +399,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-8",
-        sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know it.",
+        sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know \
+            it.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Covers)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Covers), &[NO_REGROUP, UNMARKED]),
@@ -414,8 +415,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-10",
-        sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it blocked, and \
-                   no other side.",
+        sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it \
+                   blocked, and no other side.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Marks)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Marks), &[UNMARKED, OTHERS]),
@@ -423,8 +424,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-11",
-        sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while another \
-                   one drives a new path.",
+        sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while \
+                   another one drives a new path.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Shortens)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Shortens), &[NO_STAY]),
@@ -437,8 +438,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-13",
-        sentence: "Three robots and more that start side by side MUST drive, or see blocked, every side of every node that \
-                   paths join to their starts, unless they fill all of these nodes; and every robot MUST know it.",
+        sentence: "Three robots and more that start side by side MUST drive, or see blocked, every side of every node \
+                   that paths join to their starts, unless they fill all of these nodes; and every robot MUST know it.",
         checks: &[&Check::holds(
             REPAIRED,
             &side_by_side(Demand::Whole),
@@ -447,8 +448,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-14",
-        sentence: "Of two robots one that drives a path again MUST be able to take each side that begins a shortest way, and no \
-                   other.",
+        sentence: "Of two robots one that drives a path again MUST be able to take each side that begins a shortest \
+                   way, and no other.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::AnyShortest)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::AnyShortest), &[NO_STAY, NO_NEXT]),

@@ -75,8 +75,8 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         Some((walls.collect(), numbers))
     }
 
-    /// The choices that make the run on a lattice that has the walls that it met: the first one says whether robots drive at
-    /// equal speeds. `None` if a search of such runs is none of robots that drive side by side.
+    /// The choices that make the run on a lattice that has the walls that it met: the first one says whether robots
+    /// drive at equal speeds. `None` if a search of such runs is none of robots that drive side by side.
     pub fn scripted(&self) -> Option<Scripted> {
         let Self { setting, run } = self;
         let (speeds, clause) = match (setting.speeds, run.demand) {
@@ -137,8 +137,8 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 }
 
 /// A run from `start` on, with these walls and steps, of which the last `round` come again for ever, said to break
-/// `clause`: written down for the judge of two robots by the published rule, or of three by the repaired one; `None` if it is no such
-/// run, or the judge does not know the clause.
+/// `clause`: written down for the judge of two robots by the published rule, or of three by the repaired one; `None` if
+/// it is no such run, or the judge does not know the clause.
 pub fn case<const ROBOTS: usize>(
     clause: &'static str,
     (setting, walls): (&Setting<ROBOTS>, &[Edge]),

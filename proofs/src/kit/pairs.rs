@@ -8,7 +8,8 @@ use crate::engine::{Choices, Outcome, Replay, assume, outcomes, require};
 use crate::judge::AnyCase;
 use crate::judge::kit::{Sent, Wire};
 
-/// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in the paper's reach.
+/// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in the
+/// paper's reach.
 const OFFSETS: u32 = 9;
 
 /// Parts of a path at which robots are looked at.
@@ -62,8 +63,8 @@ pub(super) fn pairs() -> String {
     )
 }
 
-/// The largest distances of two robots of which that is so, squared, in squared paths: while both stand, and wherever they
-/// are on their paths.
+/// The largest distances of two robots of which that is so, squared, in squared paths: while both stand, and wherever
+/// they are on their paths.
 pub fn farthest(is: impl Fn(Stance, Stance) -> bool) -> [u32; 2] {
     let offsets = 2 * u32::from(Reach::MOST_PATHS + 1) + 1;
     let pairs = outcomes(|oracle| Some(pair(offsets, oracle))).filter(|&[one, other]| is(one, other));

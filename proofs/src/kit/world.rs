@@ -251,7 +251,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         std::array::from_fn(|robot| world.team.stance(robot).map_or(Cell::new(0, 0), Stance::to))
     }
 
-    /// What a team that stands has found.
+    /// The findings of a team that stands.
     fn findings<'a>(&self, map: &'a TinyGrid) -> Findings<'a, ROBOTS> {
         Findings { map, left: [None; ROBOTS], reach: self.rule.reach }
     }

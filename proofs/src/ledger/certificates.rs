@@ -1,4 +1,5 @@
-//! Certificates of checks that search all states or all layouts: which check a file is about, and the sections of its systems.
+//! Certificates of checks that search all states or all layouts: which check a file is about, and the sections of its
+//! systems.
 
 use std::fmt;
 
@@ -63,7 +64,7 @@ impl fmt::Display for Misfit {
 
 impl std::error::Error for Misfit {}
 
-/// What is made of a certificate of a check of ours.
+/// The judgement of a certificate of a check of ours.
 #[derive(Debug)]
 pub struct Examined {
     /// The clause.
@@ -86,8 +87,8 @@ fn claim(clause: &Clause, number: usize) -> u128 {
 /// The certificate of the check of `clause` with this number, which holds.
 ///
 /// # Errors
-/// [`MethodError`] if the check is none that searches all states or layouts, or finds something broken, or too much within
-/// `limits`.
+/// [`MethodError`] if the check is none that searches all states or layouts, or finds something broken, or too much
+/// within `limits`.
 pub fn certificate(clause: &Clause, number: usize, limits: Limits<'_>) -> Result<Vec<u8>, MethodError> {
     let systems = clause.checks[number].systems()?;
     let sections = threads::each(&systems, |system| system.exhausted(limits));

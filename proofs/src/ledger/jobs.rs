@@ -107,8 +107,8 @@ pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, MethodError> 
 
 /// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one
 /// thread, which forgets it after the last of them. Where a step does not end, its check is left open; others are
-/// decided as long as a thread is left for them, and open if none is. A thread that makes such a step is left behind: it
-/// ends with the process.
+/// decided as long as a thread is left for them, and open if none is. A thread that makes such a step is left behind:
+/// it ends with the process.
 ///
 /// # Errors
 /// [`MethodError`] if a method cannot begin.

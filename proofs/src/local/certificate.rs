@@ -174,8 +174,8 @@ pub(super) fn terms(rule: &dyn Numbered, invariant: &Invariant) -> Result<String
     let mut text = format!(
         "From Coq Require Import ZArith NArith List.\nFrom Tautline Require Import Certificate.\n\
          Import ListNotations.\nLocal Open Scope Z_scope.\n\n\
-         Definition rule_ : rule := {{|\n robots := {}; colours := {}; reach := {reach}; far := {}; width := {width};\n \
-         moves :=\n {}",
+         Definition rule_ : rule := {{|\n robots := {}; colours := {}; reach := {reach}; far := {}; width := \
+         {width};\n moves :=\n {}",
         rule.robots(),
         rule.colours(),
         far == Far::Fine,
@@ -200,7 +200,8 @@ pub(super) fn terms(rule: &dyn Numbered, invariant: &Invariant) -> Result<String
     let is_kept = |tuple: &Tuple| invariant.kept.binary_search(tuple).is_ok();
     tables.of_robots(invariant.window, is_kept).write(&mut text);
     // Computed once, at `Qed`: the tactic `vm_compute` would do so before.
-    text += " |}.\n\nTheorem accepted : accepts rule_ certificate_ = true.\nProof. vm_cast_no_check (eq_refl true). Qed.\n\n\
+    text += " |}.\n\nTheorem accepted : accepts rule_ certificate_ = true.\nProof. vm_cast_no_check (eq_refl true). \
+        Qed.\n\n\
              Theorem holds_ : holds rule_.\nProof. exact (sound rule_ certificate_ accepted). Qed.\n";
     Ok(text)
 }

@@ -44,9 +44,9 @@ impl Invariant {
     /// The set of `rule`: the first that holds of those that look as far as the promise and a little farther.
     ///
     /// # Errors
-    /// [`MethodError`] if the rule is not the same everywhere, speaks of no robot, has no colour, no state or one that is
-    /// none of its states, an act without an outcome or one that no wall stops, looks too far, may start with a broken
-    /// promise, or may not start.
+    /// [`MethodError`] if the rule is not the same everywhere, speaks of no robot, has no colour, no state or one that
+    /// is none of its states, an act without an outcome or one that no wall stops, looks too far, may start with a
+    /// broken promise, or may not start.
     pub fn of<R: Local>(rule: &R) -> Result<Self, MethodError> {
         Self::found(&ByNumber::new(rule))
     }
@@ -92,8 +92,8 @@ impl Invariant {
         Answer { note: Some(self.to_string()), ..Answer::new(None, true, Verdict::Holds, self.cases) }
     }
 
-    /// A shortest way of the robots of which the rule speaks from a start to where they break the promise, each place in
-    /// words: what others do to them plays no part, so that no team need go so. Empty if there is none.
+    /// A shortest way of the robots of which the rule speaks from a start to where they break the promise, each place
+    /// in words: what others do to them plays no part, so that no team need go so. Empty if there is none.
     pub(super) fn way_out(&self, rule: &dyn Numbered) -> Result<Vec<String>, MethodError> {
         let steps = Steps::of(rule)?;
         let starts = tuples(rule, self.window)?.into_iter().filter(|tuple| rule.may_start(tuple));
@@ -251,8 +251,8 @@ fn tuples(rule: &dyn Numbered, window: i16) -> Result<Vec<Tuple>, MethodError> {
     Ok(all.filter(|tuple| agree(tuple.iter().map(|robot| (robot.at, robot.on)))).collect())
 }
 
-/// Where robots may be within a window: the first in cell (0, 0), each of so many others in any cell, column by column, the
-/// second robot's cells changing first.
+/// Where robots may be within a window: the first in cell (0, 0), each of so many others in any cell, column by column,
+/// the second robot's cells changing first.
 pub(super) fn offsets(window: i16, others: usize) -> Vec<Vec<Cell>> {
     let cells: Vec<Cell> =
         (-window..=window).flat_map(|x| (-window..=window).map(move |y| Cell::new(x, y))).collect();
@@ -308,8 +308,8 @@ impl<'r> Steps<'r> {
         Ok(Self { rule, acts })
     }
 
-    /// Visits every tuple to which one step of a tuple may lead, as seen from its first robot then, and returns how many
-    /// there are; within a window those alone that may be within it.
+    /// Visits every tuple to which one step of a tuple may lead, as seen from its first robot then, and returns how
+    /// many there are; within a window those alone that may be within it.
     fn each(
         &self,
         tuple: &[Robot<u32>],

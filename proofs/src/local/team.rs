@@ -187,7 +187,8 @@ impl<'r> Team<'r> {
         Depiction::Story(beside(&frames))
     }
 
-    /// The cells that robots are in, robots by number, and below them their states, if there is more than one, and walls.
+    /// The cells that robots are in, robots by number, and below them their states, if there is more than one, and
+    /// walls.
     fn draw(&self, (robots, layout): &Start) -> String {
         let (columns, rows) = (robots.iter().map(|robot| robot.at.x), robots.iter().map(|robot| robot.at.y));
         let span = |of: &mut dyn Iterator<Item = i16>| {

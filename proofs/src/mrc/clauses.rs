@@ -77,8 +77,8 @@ const fn chosen(conditions: &[Condition]) -> Subject {
     Subject::rescuing(rule)
 }
 
-/// The readings of a WFR's choice: at each MOVE, at the first, or when a window closes; whether a MOVE that comes later is
-/// answered; and whose service the SBit stands for.
+/// The readings of a WFR's choice: at each MOVE, at the first, or when a window closes; whether a MOVE that comes later
+/// is answered; and whose service the SBit stands for.
 static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {
@@ -180,7 +180,8 @@ const TWO: Setting = Setting {
 const TWO_LONGER: Setting = Setting { events: 3, max_hops: 1, ..TWO };
 const THREE_AND_TWO: Setting = Setting { robots: 3, max_hops: 1, ..TWO };
 const TWO_AND_ONE: Setting = Setting { wfrs: 1, ..TWO };
-/// For a robot alone all readings are alike but for what is lost. Two whose SBits are their own go round in too many ways.
+/// For a robot alone all readings are alike but for what is lost. Two whose SBits are their own go round in too many
+/// ways.
 const ALONE: Setting = Setting { robots: 1, max_hops: 1, ..TWO_AND_ONE };
 const ONE_AND_TWO: Setting = Setting { robots: 1, events: 3, ..TWO };
 const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
@@ -287,8 +288,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "MRC-7",
-        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear, until it is \
-                   set.",
+        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear, until \
+                   it is set.",
         checks: &[
             &Check::holds(
                 PUBLISHED,
@@ -358,32 +359,32 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "MRC-10",
-        sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest under \
-                   it and the first node that told it so, and bid by that record.",
+        sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest \
+                   under it and the first node that told it so, and bid by that record.",
         checks: &[&Check::refuted(PUBLISHED, RECORDS.method).judged(records::recorded), &RECORDS],
     },
     Clause {
         id: "MRC-11",
-        sentence: "A path node MUST send a robot's message on to its own parent, and a RESB of the robot's newest call to \
-                   whom the robot's latest message of it came from.",
+        sentence: "A path node MUST send a robot's message on to its own parent, and a RESB of the robot's newest call \
+                   to whom the robot's latest message of it came from.",
         checks: &[&WAYS_BACK],
     },
     Clause {
         id: "MRC-12",
-        sentence: "A robot MUST set the SBit of a call when it is told whom the WFR has chosen or has asked in vain, and \
-                   keep it until it hears a newer call.",
+        sentence: "A robot MUST set the SBit of a call when it is told whom the WFR has chosen or has asked in vain, \
+                   and keep it until it hears a newer call.",
         checks: &[&SERVED],
     },
     Clause {
         id: "MRC-13",
-        sentence: "A MOVE, and the RESB to the robot chosen, MUST be repeated as often as the rule says while nobody answers, \
-                   and not more often.",
+        sentence: "A MOVE, and the RESB to the robot chosen, MUST be repeated as often as the rule says while nobody \
+                   answers, and not more often.",
         checks: &[&REPEATED],
     },
     Clause {
         id: "MRC-14",
-        sentence: "A robot whose records are full MUST put a new WFR in the place of the first that it is done with, unless it \
-                   holds that one's lease, and leave it to others if there is none.",
+        sentence: "A robot whose records are full MUST put a new WFR in the place of the first that it is done with, \
+                   unless it holds that one's lease, and leave it to others if there is none.",
         checks: &[&FILLED],
     },
 ];

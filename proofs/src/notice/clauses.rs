@@ -139,8 +139,8 @@ pub const CLAUSES: [Clause; 6] = [
     },
     Clause {
         id: "NOTICE-6",
-        sentence: "Of the senders that a node has heard before it forwards or falls silent, its parent MUST be one with \
-                   the least hop count, and of several the first heard.",
+        sentence: "Of the senders that a node has heard before it forwards or falls silent, its parent MUST be one \
+                   with the least hop count, and of several the first heard.",
         checks: &[
             &Check::holds(PUBLISHED, &networks::NEAREST_PARENT, &ANOTHER_PARENT),
             &Check::new(

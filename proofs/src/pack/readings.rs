@@ -1,5 +1,5 @@
-//! The readings of what Jasmine Xavier and Shantha Selva Kumari 2013 leave open. The judge's plain words follow them, so
-//! that the kernel has the published one alone.
+//! The readings of what Jasmine Xavier and Shantha Selva Kumari 2013 leave open. The judge's plain words follow them,
+//! so that the kernel has the published one alone.
 
 use tautline_kernel::ground::Cell;
 use tautline_kernel::pack::Rule;
@@ -14,7 +14,7 @@ use crate::judge::{Floor as Written, Place};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Subject {
     pub(super) rule: Rule,
-    /// What its robots compare: another one than the published one is followed by the published rule alone.
+    /// The distance that its robots compare: another one than the published one is followed by the published rule alone.
     pub(super) metric: Metric,
     /// A flaw that no condition expresses: a mutant's.
     pub(super) flaw: Option<Flaw>,
@@ -70,7 +70,7 @@ pub(super) const READINGS: [(&str, Subject); 3] = [
     ("share + line", read(Metric::ShareByLine)),
 ];
 
-/// What the paper leaves open.
+/// The places that the paper leaves open.
 pub(super) static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {

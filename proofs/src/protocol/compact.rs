@@ -163,8 +163,8 @@ tuple!(A B C D);
 tuple!(A B C D E);
 tuple!(A B C D E F);
 
-/// Makes an enum without fields, or a struct with named ones, [`Compact`]; or makes such an enum: `compact! { enum Light {
-/// Off, On } }`.
+/// Makes an enum without fields, or a struct with named ones, [`Compact`]; or makes such an enum:
+/// `compact! { enum Light { Off, On } }`.
 #[macro_export]
 macro_rules! compact {
     ($(#[$about:meta])* $vis:vis enum $name:ident { $($variant:ident),* }) => {

@@ -1,5 +1,5 @@
-//! The face of a protocol whose types are not known, in one of its surroundings: states are bytes. What is asked of it is
-//! the same for all protocols, so that whatever searches or plays one is compiled once for all of them.
+//! The face of a protocol whose types are not known, in one of its surroundings: states are bytes. What is asked of it
+//! is the same for all protocols, so that whatever searches or plays one is compiled once for all of them.
 
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
@@ -40,8 +40,8 @@ pub(super) trait Erased: Sync {
     /// The states in which runs begin, each tried whether it comes back from its bytes.
     fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_>;
 
-    /// Every move from a state, each with the one to which it leads, made in the memory of `to`: none once the demand is
-    /// met.
+    /// Every move from a state, each with the one to which it leads, made in the memory of `to`: none once the demand
+    /// is met.
     fn each_move(
         &self,
         state: &[u8],
@@ -52,7 +52,7 @@ pub(super) trait Erased: Sync {
     /// The actors of all moves that are possible in a state.
     fn awake(&self, state: &[u8]) -> Bits;
 
-    /// What is owed in a state.
+    /// The obligations that are owed in a state.
     fn owed(&self, state: &[u8]) -> Bits;
 
     /// Whether a run breaks the demand that ends in a state.

@@ -41,8 +41,8 @@ impl<P: Protocol> Keeps<P> {
     /// The states, and the shortest run that breaks the demand if there is one.
     ///
     /// # Errors
-    /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function of
-    /// their state, the states not of their bytes, or states that are taken for one not alike.
+    /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function
+    /// of their state, the states not of their bytes, or states that are taken for one not alike.
     pub fn search(&self, rule: &P, limits: Limits<'_>) -> Result<Findings<&'static str>, MethodError> {
         searched(&self.playing(rule, false)?, Portion::WHOLE, Until::Exhausted, limits)
     }

@@ -1,4 +1,5 @@
-//! Which cell a fix is taken for in a row of cells, what it tells a robot that counts its cell, and what it makes of a belief.
+//! Which cell a fix is taken for in a row of cells, what it tells a robot that counts its cell, and what it makes of a
+//! belief.
 
 use tautline_kernel::frontier::{HALF, Place, SIDE, clamped, taken_for};
 use tautline_kernel::ground::{Area, Cell};
@@ -29,9 +30,9 @@ pub(super) fn terms() -> String {
         + &definition("fused", "list (Z * Z * Z * Z * Z)", &format!("{}%Z", list(fused())))
 }
 
-/// Robots that have driven to the midpoint of the next cell and take a fix of which one part in so many counts: these parts,
-/// where they believe to be, the fix, where they believe to be after it, and how far they drive to the next midpoint, in
-/// 64ths of a cell's side. All numbers are exact.
+/// Robots that have driven to the midpoint of the next cell and take a fix of which one part in so many counts: these
+/// parts, where they believe to be, the fix, where they believe to be after it, and how far they drive to the next
+/// midpoint, in 64ths of a cell's side. All numbers are exact.
 fn fused() -> Vec<String> {
     let wheels = Odometry::new(0.125, 0.0).expect("an error");
     let parts = |length: f64| {

@@ -1,5 +1,5 @@
-//! Runs of robots that explore cells, by the plain rule and by the repaired one, in drawn layouts: who might have acted in
-//! each state and what was done, and what each robot knows at the end.
+//! Runs of robots that explore cells, by the plain rule and by the repaired one, in drawn layouts: who might have acted
+//! in each state and what was done, and what each robot knows at the end.
 
 use tautline_kernel::frontier::{Condition, Map, Robot, Rule, Sight, Stance, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell};
@@ -25,8 +25,9 @@ struct Situations {
     wrong: usize,
 }
 
-/// Of each rule's runs: robots, columns and rows; the obstacles and the starts; of each step the first cells to which robots
-/// might have gone, whether a slot might have been over, and the event; and the map and the cell of each robot at the end.
+/// Of each rule's runs: robots, columns and rows; the obstacles and the starts; of each step the first cells to which
+/// robots might have gone, whether a slot might have been over, and the event; and the map and the cell of each robot
+/// at the end.
 pub(super) fn terms() -> String {
     let rules = [("PLAIN", Rule::PLAIN), ("REPAIRED", Rule::REPAIRED)];
     let terms = rules.map(|(name, rule)| {
@@ -116,8 +117,8 @@ fn step<const ROBOTS: usize>(
     format!("({},{ticks},{})", list(might), event(world, &turn.event, number, met))
 }
 
-/// A run of four robots without Keep in 4×3 cells that has no end: two of them miss what the other two find, and each of the
-/// two waits for the other one to make way. Its events, and those that follow each other for ever then.
+/// A run of four robots without Keep in 4×3 cells that has no end: two of them miss what the other two find, and each
+/// of the two waits for the other one to make way. Its events, and those that follow each other for ever then.
 const WITHOUT_END: [&str; 2] = [
     "Decides 0 8 8 [] | Looks 0 [] [] 0 | Decides 1 11 11 [] | Arrives 0 [] | Decides 2 4 4 [] | Looks 1 [] [] 0 | \
      Arrives 1 [] | Looks 2 [] [] 0 | Decides 0 9 6 [] | Decides 1 7 7 [] | Decides 3 1 1 [1] | Looks 1 [] [] 0 | \
@@ -139,8 +140,8 @@ fn place_without_end(rule: Rule) -> (Setting<4>, [Cell; 4]) {
     (Setting { given: Some(given), max_losses: 24, ..setting }, [9, 10, 5, 2].map(|place| cells[place]))
 }
 
-/// The run of repaired robots that begins as that one, as long as its events may happen, and in which no more messages are
-/// missed then: it ends.
+/// The run of repaired robots that begins as that one, as long as its events may happen, and in which no more messages
+/// are missed then: it ends.
 fn with_an_end() -> String {
     let (setting, starts) = place_without_end(Rule::REPAIRED);
     let number = |cell: Cell| setting.area.place(cell).expect("it is inside").to_string();
@@ -249,7 +250,7 @@ fn event<const ROBOTS: usize>(
     }
 }
 
-/// What a robot takes for explored and for obstacles, and where it is.
+/// The cells that a robot takes for explored and for obstacles, and where it is.
 fn knows(area: Area, robot: &Robot<TinyMap>) -> String {
     let those = |status: Status| {
         let cells = area.cells().filter(move |&cell| robot.map().status(cell) == status);

@@ -1,5 +1,5 @@
-//! Runs of robots that keep in touch, in drawn layouts: what they do and see, which paths again they may drive, and which
-//! sides count as covered for each of them. By the repaired rule, and by two others that forget sides.
+//! Runs of robots that keep in touch, in drawn layouts: what they do and see, which paths again they may drive, and
+//! which sides count as covered for each of them. By the repaired rule, and by two others that forget sides.
 
 use std::collections::BTreeSet;
 
@@ -24,9 +24,9 @@ struct Situations {
     choices: usize,
 }
 
-/// Of each rule's runs: robots, columns and rows; the walls and the starts; of each step the events, of two robots the one
-/// that decides and the sides of old paths that it may take, and of each robot a bit for each side of each node that
-/// counts as covered.
+/// Of each rule's runs: robots, columns and rows; the walls and the starts; of each step the events, of two robots the
+/// one that decides and the sides of old paths that it may take, and of each robot a bit for each side of each node
+/// that counts as covered.
 pub(super) fn terms() -> String {
     let (mut draw, mut met) = (Draw(2015), Situations::default());
     let mut two: Vec<String> = Vec::new();

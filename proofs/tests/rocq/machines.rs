@@ -21,7 +21,7 @@ const LAST: Epoch = Epoch(2);
 /// More repeats than the rule's own.
 const PATIENT: u8 = 2;
 
-/// What is heard, and in what state it leaves a machine, and what that sends.
+/// A message heard, the state in which it leaves a machine, and what the machine sends.
 type Answer<S> = (String, S, String);
 
 const fn call(wfr: u32, epoch: u32) -> Call {

@@ -33,8 +33,8 @@ pub(super) fn terms() -> String {
     text + &definition("runs", "list (Z * list (Z * Z) * list (Z * Z) * list (bool * list nat))", &list(runs))
 }
 
-/// R_c, the starts, the obstacles, and of each team move whether one was taken back, and the step of each robot; `None` if
-/// the robots are no pack. Counts the team moves that were led or marched, and those that were taken back.
+/// R_c, the starts, the obstacles, and of each team move whether one was taken back, and the step of each robot; `None`
+/// if the robots are no pack. Counts the team moves that were led or marched, and those that were taken back.
 fn run(robots: usize, draw: &mut Draw, kinds: &mut [usize; 2]) -> Option<String> {
     let area = Area::new(Cell::new(0, 0), Cell::new(WIDTH - 1, WIDTH - 1)).expect("an area");
     let mut cells: Vec<Cell> = area.cells().collect();

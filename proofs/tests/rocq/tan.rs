@@ -1,5 +1,5 @@
-//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths; and runs with
-//! all that is heard. A node that guides: every conduct, and its answers.
+//! A robot on its way through a tree: every state that signals of three nodes lead it to, with any strengths; and runs
+//! with all that is heard. A node that guides: every conduct, and its answers.
 
 use tautline_kernel::net::{NodeId, RobotId, Strength};
 use tautline_kernel::tan::{Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
@@ -108,8 +108,8 @@ fn guides() -> Vec<String> {
 /// The steps of a robot that walks, at most.
 const STEPS: usize = 60;
 
-/// Runs of robots that ask and go nearer so many times at most: of each step what happens, what the robot does then, and its
-/// hops.
+/// Runs of robots that ask and go nearer so many times at most: of each step what happens, what the robot does then,
+/// and its hops.
 pub(super) fn walks() -> String {
     let mut draw = Draw(2011);
     let numbers = (0..36).map(|number| (1 + number % 3, number / 3 % 3));
@@ -143,7 +143,7 @@ fn walk(tries: u8, times: u8, draw: &mut Draw) -> String {
     format!("\n ({tries}%nat,{times}%nat,{})", list(steps))
 }
 
-/// What happens to a robot next, and the robot after it: a signal or none, a part of a scan, or a step of a walk.
+/// The next event of a robot, and the robot after it: a signal or none, a part of a scan, or a step of a walk.
 fn happens(robot: Homing, draw: &mut Draw) -> (String, Homing) {
     // How strong the node is to be heard at most, in this scan or step.
     let most = 96 + draw.below(20) as i32;

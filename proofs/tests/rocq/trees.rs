@@ -32,7 +32,7 @@ impl Oracle for Eyes {
     }
 }
 
-/// What a sensor says but the crossings.
+/// A sensor's words but the crossings.
 type Said = (State, Label, Option<Side>);
 
 const fn said(note: Note) -> Said {
@@ -145,8 +145,8 @@ fn drawn_run(rule: Rule, agents: usize, misses: u32, draw: &mut Draw, met: &mut 
     run(rule, floor, &starts, order, &mut eyes, met)
 }
 
-/// An order of two agents of brick-tree in 6×2 cells, in which the first makes more than four moves a cell, though there
-/// is one tree.
+/// An order of two agents of brick-tree in 6×2 cells, in which the first makes more than four moves a cell, though
+/// there is one tree.
 const MANY_MOVES: &str = "000000100000000000000110000000000001100000001000000000000";
 
 /// The lowest `bits` of the labels of the first trees, of those around a byte more, and of the last ones, of agents

@@ -1,4 +1,4 @@
-//! What Turns.v assumes of agents that walk laps; of those that search in trees their runs show it.
+//! Assumptions of Turns.v about agents that walk laps; of those that search in trees their runs show them.
 
 use tautline_kernel::bricks::{Agent, Next, Rule, act};
 use tautline_kernel::floor::{Sensor, settle};

@@ -23,8 +23,8 @@ const MAX_SIDE: i16 = 16;
 const SIZE: &str = "a size of 1 to 16 columns and 1 to 16 rows";
 
 /// A hint at what `step` is to return.
-const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the next state and a \
-                      string with one letter of E, S, W, N or . for each robot";
+const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the \
+                      next state and a string with one letter of E, S, W, N or . for each robot";
 
 /// When a demand is looked at.
 #[derive(Debug)]

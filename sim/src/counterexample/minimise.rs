@@ -16,8 +16,8 @@
 //!
 //! A start of a robot's own goes with the column or row in which it is, as the base does, and with its robot.
 //!
-//! A run that a search has made by its choices is not shrunk, since choices fit one layout: smaller teams and layouts are
-//! searched instead, the smallest first.
+//! A run that a search has made by its choices is not shrunk, since choices fit one layout: smaller teams and layouts
+//! are searched instead, the smallest first.
 //!
 //! Whatever a run never met goes all at once, before anything else and after everything that goes: the cells out of the
 //! team's reach, and the walls and blocked cells that no robot bumped into. Where robots see what they do not bump
@@ -457,8 +457,8 @@ struct Shrinker<'a, 'b> {
 }
 
 impl Shrinker<'_, '_> {
-    /// Makes the smallest team that breaks the clause in this layout the team; robots with starts of their own go one by
-    /// one.
+    /// Makes the smallest team that breaks the clause in this layout the team; robots with starts of their own go one
+    /// by one.
     fn dismiss_robots(&mut self, least: u16) -> Result<(), Halt> {
         if self.smallest.starts.is_empty() {
             for robots in least..self.smallest.robots {

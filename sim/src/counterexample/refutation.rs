@@ -4,7 +4,7 @@
 //! with it. A run that can go on for ever has its choices marked that come again.
 //!
 //! ```text
-//! {"format":"tautline refutation","version":1,"clause":"NOTICE-5","rule":"published","engine":"states","bound":"…","demand":"…"}
+//! {"format":"tautline refutation","version":1,"clause":"NOTICE-5","rule":"published","engine":"states",…,"demand":"…"}
 //! {"choice":{"taken":5,"of":74}}
 //! {"again":{"taken":0,"of":2}}
 //! {"end":{"choices":1,"again":1,"crc32":1234}}
@@ -107,7 +107,7 @@ pub fn store(
     Ok(file)
 }
 
-/// What refutes `clause` by `check`, as it stands in a file.
+/// The run that refutes `clause` by `check`, as it stands in a file.
 ///
 /// # Errors
 /// [`ScriptError`] if it does not lead where it is said to lead.

@@ -153,8 +153,8 @@ impl<S: Scheme> Agents<S> {
         self.advance_in(&mut |_: Edge| true);
     }
 
-    /// Makes one team move, in which `world` says who acts next and which sensors are missed; whether it has said anything
-    /// else than usual.
+    /// Makes one team move, in which `world` says who acts next and which sensors are missed; whether it has said
+    /// anything else than usual.
     fn advance_in(&mut self, world: &mut dyn Surroundings) -> bool {
         self.floor.forget_changes();
         self.unseen.clear();

@@ -33,8 +33,8 @@ impl Course {
         Self { report: Report::new(team, layout), entered: vec![0; team.cells().len()] }
     }
 
-    /// Makes the next team move of the `team`, for which `world` answers; `None` if the run is over, and then the report
-    /// says why.
+    /// Makes the next team move of the `team`, for which `world` answers; `None` if the run is over, and then the
+    /// report says why.
     pub fn step(
         &mut self,
         team: &mut dyn Team,

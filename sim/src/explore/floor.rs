@@ -51,7 +51,8 @@ pub(super) fn layers<D: SensorData>() -> Vec<Layer> {
     let about = "what the sensors say of cells that are done with";
     let mut layers = vec![Layer::new("marks", about, Shape::Cells(MARKS))];
     if D::STORES_SIDES {
-        let about = "the side that a sensor stores: of an open cell its parent's, of a visited one the way to what was left";
+        let about = "the side that a sensor stores: of an open cell its parent's, of a visited one the way to what was \
+            left";
         layers.push(Layer::new("trees", about, Shape::Sides(SIDES)));
     }
     layers

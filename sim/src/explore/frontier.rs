@@ -180,7 +180,8 @@ fn allowed(setup: &Setup, rule: &Frontier) -> Result<(), Diagnostic> {
         None | Some(Allowance::Stops(0..=MOST_STOPS)) => Ok(()),
         Some(Allowance::Stops(stops)) => {
             let what = format!(
-                "this floor is larger than its noise allows: in its worst cell a robot stands for {stops} team moves before each move"
+                "this floor is larger than its noise allows: in its worst cell a robot stands for {stops} team moves \
+                    before each move"
             );
             let remedy = "take a smaller floor, less `noise-db`, or more `readings` or `anchors`";
             Err(Diagnostic::usage(what, format!("{remedy}; at most {MOST_STOPS} team moves are borne")))

@@ -153,8 +153,8 @@ pub struct Mark {
     pub number: usize,
     /// Its value, by its number from 1.
     pub value: u8,
-    /// Its place, in thousandths of a cell's side; if it is a guess, the standard deviations of both coordinates and their correlation
-    /// in thousandths; with a heading, that and its standard deviation in milliradians.
+    /// Its place, in thousandths of a cell's side; if it is a guess, the standard deviations of both coordinates and
+    /// their correlation in thousandths; with a heading, that and its standard deviation in milliradians.
     pub figures: Vec<i32>,
 }
 
@@ -173,7 +173,7 @@ impl Mark {
         mark
     }
 
-    /// The same thing, which heads there.
+    /// This thing, which heads there.
     #[must_use]
     pub fn heading(mut self, radians: f64, variance: f64) -> Self {
         self.figures.extend([radians, variance.sqrt()].map(thousandths));

@@ -1,5 +1,5 @@
-//! A rule to begin with. Copy this folder, and change the rule, which stands in `lib.rs`, and here its surroundings and its
-//! promises. `cargo run` decides the promises, `cargo test` holds the verdicts.
+//! A rule to begin with. Copy this folder, and change the rule, which stands in `lib.rs`, and here its surroundings and
+//! its promises. `cargo run` decides the promises, `cargo test` holds the verdicts.
 
 use std::process::ExitCode;
 

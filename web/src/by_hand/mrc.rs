@@ -36,7 +36,8 @@ fn row() -> Json {
         "options": [
             option("wfrs", "How many wait for rescue, from 1 to 3. Without it 2"),
             option("events", "How often something happens to them. Without it 2"),
-            option("faults", "How many messages may be lost or come twice, and timers, robots and nodes fail. Without it 2"),
+            option("faults", "How many messages may be lost or come twice, and timers, robots and nodes fail. Without \
+                it 2"),
         ],
         "rules": [
             of_world("repaired", "With the repairs of its refuted claims", &Rule::REPAIRED),

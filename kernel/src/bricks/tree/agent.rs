@@ -129,8 +129,8 @@ impl Agent {
         go_on(rule, view, here)
     }
 
-    /// The sensor of its cell, which blocks, as one of a tree: the one it belongs to; or that with the greatest label beside
-    /// it; or, if nothing beside it is unexplored, a new one.
+    /// The sensor of its cell, which blocks, as one of a tree: the one it belongs to; or that with the greatest label
+    /// beside it; or, if nothing beside it is unexplored, a new one.
     fn join(&mut self, rule: Rule, view: &View) -> Note {
         let here = view.here;
         if here.state == State::Open {
@@ -221,8 +221,8 @@ fn go_on(rule: Rule, view: &View, here: Note) -> Act {
     Act { here: mark(rule, here, here.side), next: here.side.map_or(Next::Done, Next::Goes) }
 }
 
-/// The neighbour that becomes a child of the cell, which is one of the tree `own` as `here` says: one that belongs to no
-/// tree, or else to one with a lower label.
+/// The neighbour that becomes a child of the cell, which is one of the tree `own` as `here` says: one that belongs to
+/// no tree, or else to one with a lower label.
 fn adopted(rule: Rule, view: &View, here: Note, own: Label) -> Option<Side> {
     let is_lower = |&(side, note): &(Side, Note)| {
         let is_other = || !note.is_child_beyond(side) && here.side != Some(side);

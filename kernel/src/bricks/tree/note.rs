@@ -29,8 +29,8 @@ impl Label {
     /// How many trees an agent can found: as many as the largest layout has cells, since no cell is founded on twice.
     pub const TREES: u32 = 1 << 24;
 
-    /// The label of the tree that the agent `id` founds after so many others; `None` after [`Label::TREES`]. Earlier trees
-    /// have greater labels.
+    /// The label of the tree that the agent `id` founds after so many others; `None` after [`Label::TREES`]. Earlier
+    /// trees have greater labels.
     pub const fn new(founded: u32, id: u8) -> Option<Self> {
         if founded < Self::TREES { Some(Self((Self::TREES - 1 - founded) << 8 | id as u32)) } else { None }
     }
@@ -58,8 +58,8 @@ pub struct Note {
     pub state: State,
     /// Of an open cell, the tree that it belongs to.
     pub label: Label,
-    /// Of an open cell, the side of its parent, if it is not the root; of a visited one the side that leads to where more was
-    /// left to do, if there was.
+    /// Of an open cell, the side of its parent, if it is not the root; of a visited one the side that leads to where
+    /// more was left to do, if there was.
     pub side: Option<Side>,
     /// How many times an agent has entered; it stays at [`Note::MOST_CROSSINGS`].
     pub crossings: u16,

@@ -8,7 +8,8 @@ use crate::choice::Oracle;
 use crate::floor::{COMPASS, Floor, Ring, Scan, Sensor};
 use crate::ground::{Cell, Side};
 
-/// One scan: what the sensor underfoot stores, and what was seen around. A sensor that was missed reads as an unexplored cell.
+/// One scan: what the sensor underfoot stores, and what was seen around. A sensor that was missed reads as an
+/// unexplored cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct View {
@@ -26,8 +27,8 @@ pub struct View {
 }
 
 impl View {
-    /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an agent
-    /// has been at.
+    /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an
+    /// agent has been at.
     pub fn new(floor: &impl Floor<Note>, cell: Cell, world: &mut (impl Oracle + ?Sized)) -> Self {
         let sensor = |cell| {
             let sensor = |note: Note| Sensor { mark: note.mark(), ..Sensor::default() };

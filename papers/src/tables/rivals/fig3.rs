@@ -65,10 +65,11 @@ impl Table for ChainFig3 {
     fn about(&self) -> Description {
         Description {
             id: "chain-fig3",
-            shows: "the chain against Full search and Rooker and Birk's pool by the density of walls: team moves to 50 % and \
-                    75 %, and what the paper says of them",
+            shows: "the chain against Full search and Rooker and Birk's pool by the density of walls: team moves to 50 \
+                    % and 75 %, and what the paper says of them",
             help: "Fig. 3 of the chain's paper: team moves to 50 % and to 75 % by the density of walls",
-            more: "Where not all runs get there, the median counts the others as later than any; the chart draws medians.",
+            more: "Where not all runs get there, the median counts the others as later than any; the chart draws \
+                medians.",
             examples: &["chain-fig3", "chain-fig3 --runs 20 --svg-50 fig3a.svg"],
             doing: "comparing",
             takes: "two minutes",
@@ -124,8 +125,8 @@ impl Table for ChainFig3 {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let RivalSettings { runs, seed, patience, pool, .. } = settings.told;
         let mut text = format!(
-            "{ROBOTS} robots in walls:15x15:DENSITY and two buildings, {} a point, seeds from {seed}; means with 95 % intervals \
-             (reached / runs); stuck after {} without gain\n",
+            "{ROBOTS} robots in walls:15x15:DENSITY and two buildings, {} a point, seeds from {seed}; means with 95 % \
+             intervals (reached / runs); stuck after {} without gain\n",
             counted(runs, "layout"),
             counted(patience, "team move"),
         );
@@ -139,7 +140,8 @@ impl Table for ChainFig3 {
             }
             text += &columns.text();
         }
-        text += "\nsooner, even, later: the chain as published on the same layouts; who never gets there is later than any\n";
+        text += "\nsooner, even, later: the chain as published on the same layouts; who never gets there is later than \
+            any\n";
         Ok(text)
     }
 

@@ -85,11 +85,11 @@ impl Table for ChainTable1 {
     fn about(&self) -> Description {
         Description {
             id: "chain-table1",
-            shows: "the chain against Full search and Rooker and Birk's pool: team moves without walls, what is explored of two \
-                    buildings, and what the rivals' figures depend on",
+            shows: "the chain against Full search and Rooker and Birk's pool: team moves without walls, what is \
+                    explored of two buildings, and what the rivals' figures depend on",
             help: "Table I of the chain's paper: the chain against Full search and a pool of random team moves",
-            more: "Rivals have links by E_S or by E_C, in cells of their own or not; the paper does not say which. Where not \
-                   all runs get there, the median counts the others as later than any.",
+            more: "Rivals have links by E_S or by E_C, in cells of their own or not; the paper does not say which. \
+                   Where not all runs get there, the median counts the others as later than any.",
             examples: &["chain-table1", "chain-table1 --runs 200 --pool 200 --format json"],
             doing: "comparing",
             takes: "half a minute",
@@ -140,8 +140,8 @@ impl Table for ChainTable1 {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { told: RivalSettings { runs, seed, patience, .. }, max_moves } = settings;
         let heading = format!(
-            "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals (reached / runs); stuck after {} \
-             without gain\n",
+            "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals (reached / runs); stuck \
+             after {} without gain\n",
             counted(*runs, "run"),
             counted(*patience, "team move"),
         );

@@ -14,7 +14,7 @@ use crate::engine::{Outcome, require};
 pub(crate) const COVERS: [&str; 4] =
     ["children entered alike", "children entered unlike", "elsewhere", "the only child"];
 
-/// What is beyond a side.
+/// Whatever is beyond a side.
 #[derive(Clone, Copy)]
 enum Beyond {
     Wall,
@@ -42,8 +42,8 @@ const BEYOND: [Beyond; 9] = [
 /// The bound of [`next`].
 pub(crate) fn views() -> String {
     format!(
-        "all {} views from the root of a tree: beside it walls, cells unexplored, explored, visited or of its tree, and \
-         children entered 1 to 4 times",
+        "all {} views from the root of a tree: beside it walls, cells unexplored, explored, visited or of its tree, \
+         and children entered 1 to 4 times",
         BEYOND.len().pow(4)
     )
 }

@@ -1,4 +1,4 @@
-//! What a search has exhausted, written down: the states as a tree, from each its steps, and where endless runs are
+//! An exhausted search, written down: the states as a tree, from each its steps, and where endless runs are
 //! looked for, ranks. No step that is bound to be made and owes the same thing leads to a higher rank, and among states
 //! of one rank somebody is awake throughout who does not act.
 

@@ -1,7 +1,7 @@
-//! How far a search over states may go, and on how many threads. Searches that run beside each other share the memory that they may take: small
-//! ones take it as they come, and of those that grow only one at a time is large. What one search may take does not
-//! depend on how many there are, so neither does what it finds. A large search for which memory does not suffice goes on
-//! in a folder ([`Spill`]), if there is one.
+//! How far a search over states may go, and on how many threads. Searches that run beside each other share the memory
+//! that they may take: small ones take it as they come, and of those that grow only one at a time is large. What one
+//! search may take does not depend on how many there are, so neither does what it finds. A large search for which
+//! memory does not suffice goes on in a folder ([`Spill`]), if there is one.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -174,8 +174,9 @@ impl<'a> MemoryShare<'a> {
         self.room.limit.was_too_small.store(true, Ordering::Relaxed);
     }
 
-    /// The bytes that steps may take at a time beside so many, if a search goes on in a folder: the states to which they
-    /// lead may take as many, and a table as many again while it grows. Nothing if that is too little to go on with.
+    /// The bytes that steps may take at a time beside so many, if a search goes on in a folder: the states to which
+    /// they lead may take as many, and a table as many again while it grows. Nothing if that is too little to go on
+    /// with.
     pub(super) const fn for_steps(&self, beside: u64) -> u64 {
         let most = self.room.limit.most;
         let bytes = most.saturating_sub(beside) / 4;

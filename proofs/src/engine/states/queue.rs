@@ -134,8 +134,8 @@ impl<P: Clone + Eq + Hash> Queue<P> {
         }
     }
 
-    /// The next state, whose new parts have their numbers: its hash, its code in a table of numbers of so many bytes, and
-    /// its own number if it was found.
+    /// The next state, whose new parts have their numbers: its hash, its code in a table of numbers of so many bytes,
+    /// and its own number if it was found.
     pub(super) fn next(&mut self, width: usize) -> (HashOfState, &[u8], Option<u32>) {
         let Queued { hash, end, node, has_new } = self.states[self.met];
         let code = &self.bytes[mem::replace(&mut self.first, end)..end];

@@ -69,7 +69,7 @@ impl Spill {
 pub struct SpillError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// The fault of it.
     pub fault: SpillFault,
 }
 
@@ -94,7 +94,7 @@ impl SpillFault {
         }
     }
 
-    /// What can be done about it.
+    /// A sentence that says what can be done about it.
     pub const fn remedy(&self) -> &'static str {
         match self {
             Self::Unwritable(_) => {
@@ -200,7 +200,7 @@ impl Disk {
     }
 
     /// Writes states, of which the first has the next number; their slots in the order of their hashes; and numbers.
-    /// What cannot be written to its end is removed. False if it cannot.
+    /// Removes a file that cannot be written to its end. False if it cannot.
     pub(super) fn write(
         &mut self,
         (codes, sorted): (&Codes, &[u64]),

@@ -1,5 +1,5 @@
-//! What a search has exhausted, as a section of a certificate: the team moves of the longest run, and for each number of
-//! walls the runs that meet so many, and their team moves.
+//! An exhausted search as a section of a certificate: the team moves of the longest run, and for each number
+//! of walls the runs that meet so many, and their team moves.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

@@ -215,8 +215,8 @@ impl<G: Game> Lane<G> {
         Place { answers: self.answers.values(0).collect(), fixed, next: self.next, moved }
     }
 
-    /// Plans the next team move of the run, the last of the forks until it is [kept](Self::keep): how many answers there
-    /// are before it. `None` if the run is over.
+    /// Plans the next team move of the run, the last of the forks until it is [kept](Self::keep): how many answers
+    /// there are before it. `None` if the run is over.
     #[inline]
     fn plan(&mut self, game: &G) -> Option<usize> {
         let before = self.state.clone();

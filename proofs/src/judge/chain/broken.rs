@@ -67,8 +67,8 @@ fn misses_within_reach(court: &Court<'_>) -> bool {
     !within_reach.is_subset(&court.explored)
 }
 
-/// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored. It is said
-/// if there are at most so many configurations.
+/// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored. It
+/// is said if there are at most so many configurations.
 fn misses_reachable(court: &Court<'_>, most: usize) -> Result<bool, &'static str> {
     let start = vec![court.exhibit.base; court.exhibit.robots];
     // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.

@@ -272,8 +272,8 @@ fn renamed_robot<const CALLS: usize>(robot: &Robot<CALLS>, rename: impl Fn(Call)
 }
 
 /// The WFR with its call under another epoch and without what plays no part any more: in which order robots have asked,
-/// and by whom it was rescued. If `rename` keeps the order of epochs, the WFR goes on as before. Who has asked it keeps:
-/// that a new call forgets them is to be shown.
+/// and by whom it was rescued. If `rename` keeps the order of epochs, the WFR goes on as before. Who has asked it
+/// keeps: that a new call forgets them is to be shown.
 fn renamed_wfr<const ROBOTS: usize>(wfr: &Wfr<ROBOTS>, rename: impl Fn(Call) -> Call) -> Wfr<ROBOTS> {
     let mut heard = wfr.asked();
     let mut asked: [Option<RobotId>; ROBOTS] = array::from_fn(|_| heard.next());

@@ -27,8 +27,8 @@ fn pass_over(robot: Robot<WFRS>, resb: Resb) -> (Robot<WFRS>, Option<Upward>) {
     }
 }
 
-/// A robot that is told of a choice. One on its way that takes it for the choice of the WFR to which it goes says that it
-/// comes, and goes on.
+/// A robot that is told of a choice. One on its way that takes it for the choice of the WFR to which it goes says that
+/// it comes, and goes on.
 fn heed(robot: Robot<WFRS>, resb: Resb, misread: Option<Misreading>) -> (Robot<WFRS>, Option<Upward>) {
     let (next, sent) = robot.receive(Downward::Resb(resb));
     match (misread, robot.task()) {
@@ -367,7 +367,8 @@ mod tests {
 
     use super::*;
 
-    /// “If a mobile node is not selected, it can reply to another un-replied notification packet”: not where its SBit stays clear.
+    /// “If a mobile node is not selected, it can reply to another un-replied notification packet”: not where its SBit
+    /// stays clear.
     #[test]
     fn a_robot_whose_sbit_stays_clear_asks_the_same_wfr_again_and_again() {
         let call = |wfr| Call { wfr: NodeId(wfr), epoch: Epoch(1) };

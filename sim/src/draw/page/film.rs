@@ -216,8 +216,8 @@ pub fn foot(film: &Film) -> String {
     foot.replace("{{film}}", &json(film)).replace("{{script}}\n", SCRIPT)
 }
 
-/// A whole page of what is no run of the program: a title, a sentence, what to know, and parts that are drawn with letters,
-/// which the page goes through one by one.
+/// A whole page of what is no run of the program: a title, a sentence, what to know, and parts that are drawn with
+/// letters, which the page goes through one by one.
 pub fn in_words(title: &str, sentence: &str, words: &str, parts: &[String]) -> String {
     let (style, _) = TEMPLATE.split_once("</head>").unwrap_or_default();
     let title = escaped(title);

@@ -9,8 +9,8 @@ use super::{CELL, Frame, lines, panel, stripes};
 use crate::explore::{Play, Report, Setup};
 use crate::objects::{Found, ObjectReport};
 
-/// The knowledge of a team about a cell: whether it is free, if that is known. A cell that a robot was in is, and a blocked one beside
-/// such a cell is not.
+/// The knowledge of a team about a cell: whether it is free, if that is known. A cell that a robot was in is, and a
+/// blocked one beside such a cell is not.
 pub fn known(setup: &Setup, report: &Report, cell: Cell) -> Option<bool> {
     let is_explored = |cell| report.chart.step(cell).is_some();
     let is_met = || Side::ALL.iter().any(|&side| is_explored(cell.beyond(side)));
@@ -21,8 +21,8 @@ pub fn known(setup: &Setup, report: &Report, cell: Cell) -> Option<bool> {
     }
 }
 
-/// The map of a run: free cells, obstacles and, left empty, what is not known; objects as squares, and crosses in the ellipses in which
-/// robots take them to be with 95 %.
+/// The map of a run: free cells, obstacles and, left empty, what is not known; objects as squares, and crosses in the
+/// ellipses in which robots take them to be with 95 %.
 pub fn map(run: &dyn Play, report: &Report) -> Panel {
     let (setup, area) = (run.setup(), report.chart.area());
     let frame = Frame(area);
@@ -47,8 +47,8 @@ pub fn map(run: &dyn Play, report: &Report) -> Panel {
         let rest = (1.0 - correlation * correlation).max(0.0).sqrt();
         let _ = write!(
             body,
-            "<path class=\"found\" d=\"M{:.1} {y:.1}h4M{x:.1} {:.1}v4\"/><circle class=\"found\" r=\"1\" vector-effect=\"non-scaling-stroke\" \
-             transform=\"matrix({across:.2} {:.2} 0 {:.2} {x:.1} {y:.1})\"/>",
+            "<path class=\"found\" d=\"M{:.1} {y:.1}h4M{x:.1} {:.1}v4\"/><circle class=\"found\" r=\"1\" \
+             vector-effect=\"non-scaling-stroke\" transform=\"matrix({across:.2} {:.2} 0 {:.2} {x:.1} {y:.1})\"/>",
             x - 2.0,
             y - 2.0,
             down * correlation,
