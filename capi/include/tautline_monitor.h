@@ -99,7 +99,8 @@ typedef struct {
    */
   uint32_t length_mm;
   /*
-   How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a cell.
+   How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a
+   cell.
    */
   uint32_t tolerance_mm;
   /*
@@ -140,7 +141,8 @@ typedef struct {
    */
   uint32_t doubt;
   /*
-   Two of the robots that break the clause, from 0; of a silent robot, or of one that there is not, its number first.
+   Two of the robots that break the clause, from 0; of a silent robot, or of one that there is not, its number
+   first.
    */
   uint32_t robots[2];
   /*
@@ -162,8 +164,8 @@ extern "C" {
  where it is. A position that is older than `gap_us` microseconds is no longer believed.
 
  # Safety
- `monitor` and `robots` are null, or memory of the caller that nobody else uses as long as the monitor is used, of one
- monitor and of so many robots; `demand` is null or can be read.
+ `monitor` and `robots` are null, or memory of the caller that nobody else uses as long as the monitor is used, of
+ one monitor and of so many robots; `demand` is null or can be read.
  */
 TautlineStatus tautline_monitor_begin(TautlineMonitor *monitor,
                                       const TautlineDemand *demand,
@@ -172,8 +174,8 @@ TautlineStatus tautline_monitor_begin(TautlineMonitor *monitor,
                                       size_t count);
 
 /*
- Takes the position of `robot`, from 0, stamped `at_us` microseconds, and writes to `verdict` what the monitor says of
- the moment `now_us` by the same clock. A stamp further ahead of now than the gap is not believed.
+ Takes the position of `robot`, from 0, stamped `at_us` microseconds, and writes to `verdict` what the monitor says
+ of the moment `now_us` by the same clock. A stamp further ahead of now than the gap is not believed.
 
  # Safety
  `monitor` and `verdict` are null, or memory of the caller that nobody else uses meanwhile.

@@ -507,8 +507,8 @@ mod tests {
         assert_eq!(story, expected);
     }
 
-    /// The way of counting plays no part in who is whose parent, and who forwards does so once. Of five nodes the states would
-    /// be too many.
+    /// The way of counting plays no part in who is whose parent, and who forwards does so once. Of five nodes the
+    /// states would be too many.
     #[test]
     fn where_packets_are_counted_parents_make_the_same_kind_of_tree() {
         let packets = Subject { counted: Counted::Packets, ..Subject::PUBLISHED };

@@ -14,7 +14,8 @@ use crate::judge::{Floor as Written, Place};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Subject {
     pub(super) rule: Rule,
-    /// The distance that its robots compare: another one than the published one is followed by the published rule alone.
+    /// The distance that its robots compare: another one than the published one is followed by the published rule
+    /// alone.
     pub(super) metric: Metric,
     /// A flaw that no condition expresses: a mutant's.
     pub(super) flaw: Option<Flaw>,
