@@ -13,7 +13,7 @@ use tautline_proofs::decide::Depiction;
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
-use tautline_sim::counterexample::own::Found;
+use tautline_sim::counterexample::own::OwnRun;
 
 /// The rule: where the leader starts, whether the follower goes to where the leader is, and how many walls end a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -113,7 +113,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rows = ledger::decide_all(&ledger::register(&[&CLAUSES])?)?;
     print!("{}", ledger::table(&rows));
     if let (Some(path), Some(run)) = (env::args().nth(1), counterexample(&rows)) {
-        let found = Found { setting: &SETTING, rule: ("written", &WRITTEN), run };
+        let found = OwnRun { setting: &SETTING, rule: ("written", &WRITTEN), run };
         let (file, _) = found.store(Path::new(&path), &Replaceable::default())?;
         file.keep()?;
         println!("\nplay the counterexample with: tautline replay {path}");
@@ -137,7 +137,7 @@ mod tests {
         let tutorial = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/own-rule.md");
         assert!(fs::read_to_string(tutorial).expect("a page").contains(&ledger::table(&rows)));
         let run = counterexample(&rows).expect("the rule as written is refuted");
-        let found = Found { setting: &SETTING, rule: ("written", &WRITTEN), run };
+        let found = OwnRun { setting: &SETTING, rule: ("written", &WRITTEN), run };
         assert_eq!((run.walls.len(), run.frames.len()), (1, 2));
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("found.jsonl");

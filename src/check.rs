@@ -7,7 +7,7 @@ use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_proofs::ledger::{self, Examined, examine};
+use tautline_proofs::ledger::{self, Examination, examine};
 use tautline_proofs::plural::counted;
 
 use super::judge::given::bytes;
@@ -51,12 +51,12 @@ struct CertificateJson {
     bound: String,
     /// Systems, each of which has a section in the file.
     systems: usize,
-    accepted: Option<Accepted>,
-    refused: Option<Refused>,
+    accepted: Option<AcceptanceJson>,
+    refused: Option<RefusalJson>,
 }
 
 #[derive(JsonSchema, Serialize)]
-struct Accepted {
+struct AcceptanceJson {
     states: u64,
     steps: u64,
     /// States from which no step is bound to be made.
@@ -64,21 +64,21 @@ struct Accepted {
 }
 
 #[derive(JsonSchema, Serialize)]
-struct Refused {
+struct RefusalJson {
     /// The number of the section, from 1.
     section: usize,
     reason: String,
 }
 
 impl CertificateJson {
-    fn of(file: &Path, examined: Examined) -> Self {
-        let Examined { clause, number, systems, outcome } = examined;
+    fn of(file: &Path, examined: Examination) -> Self {
+        let Examination { clause, number, systems, outcome } = examined;
         let check = clause.checks[number];
         let (accepted, refused) = match outcome {
             Ok(counts) => {
-                (Some(Accepted { states: counts.states, steps: counts.steps, ends: counts.ends }), None)
+                (Some(AcceptanceJson { states: counts.states, steps: counts.steps, ends: counts.ends }), None)
             }
-            Err((section, refusal)) => (None, Some(Refused { section, reason: refusal.to_string() })),
+            Err((section, refusal)) => (None, Some(RefusalJson { section, reason: refusal.to_string() })),
         };
         let (clause, sentence, rule, bound) = (clause.id, clause.sentence, check.rule(), check.bound());
         Self { file: file.display().to_string(), clause, sentence, rule, bound, systems, accepted, refused }
@@ -87,11 +87,11 @@ impl CertificateJson {
     fn text(&self) -> String {
         let Self { file, clause, sentence, rule, bound, systems, accepted, refused } = self;
         let mut text = match (accepted, refused) {
-            (Some(Accepted { states, steps, ends }), _) => {
+            (Some(AcceptanceJson { states, steps, ends }), _) => {
                 let counts = [counted(*states, "state"), counted(*steps, "step"), counted(*ends, "end")];
                 format!("{file}: accepted: {} in {}\n", counts.join(", "), counted(*systems as u64, "system"))
             }
-            (None, Some(Refused { section, reason })) => {
+            (None, Some(RefusalJson { section, reason })) => {
                 format!("{file}: refused: section {section}, {reason}\n")
             }
             (None, None) => String::new(),

@@ -20,11 +20,11 @@ use tautline_proofs::run::Frame;
 use self::program::Program;
 use super::output::Output;
 use super::{CATALOGUE, Exit, Format, FormatArgs, positive};
-use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::ColumnRow;
 use tautline_grids::layout::Layout;
 use tautline_io::text_blocks::{Block, beside};
 use tautline_sim::draw::{self, Pose};
-use tautline_sim::explore::{Play, Report, Senses, Setup, Stopped, Survey, TeamMove, Told};
+use tautline_sim::explore::{Completeness, Play, Report, Senses, Setup, StopReason, Survey, TeamMove};
 use tautline_sim::options::Options;
 use tautline_sim::trace::{self, StoredMove, StoredRun, steps};
 
@@ -67,13 +67,13 @@ pub(super) enum ToldLine<'a> {
         robots: usize,
         /// Columns and rows.
         size: [i16; 2],
-        #[schemars(with = "Vec<CellWritten>")]
+        #[schemars(with = "Vec<ColumnRow>")]
         starts: Vec<Cell>,
     },
     /// One before each team move: an answer is due.
     Move(Learnt<'a>),
     /// The last.
-    End { end: Stopped },
+    End { end: StopReason },
 }
 
 /// The news for the robots since the last team move.
@@ -82,7 +82,7 @@ pub(super) struct Learnt<'a> {
     /// The number of the team move to be planned, from 1.
     step: u32,
     /// Where the robots are.
-    #[schemars(with = "Vec<CellWritten>")]
+    #[schemars(with = "Vec<ColumnRow>")]
     cells: &'a [Cell],
     /// The numbers of the robots that met a wall in the last team move, from 1.
     blocked: Vec<usize>,
@@ -222,7 +222,7 @@ impl Conform {
 /// Refuses runs of which a program would have to know what it is not told.
 fn check(setup: &Setup) -> Result<(), Diagnostic> {
     let scheme = setup.scheme;
-    let what = if scheme.told == Told::Part {
+    let what = if scheme.told == Completeness::Part {
         format!("robots of {} learn more than where they are and what they meet", scheme.name)
     } else if scheme.draws(setup) || !setup.missed.is_empty() || !setup.choices.is_empty() {
         "in this run something is left to chance, or was chosen by a search".to_owned()
@@ -231,7 +231,7 @@ fn check(setup: &Setup) -> Result<(), Diagnostic> {
     } else {
         return Ok(());
     };
-    let names = scheme.among.names(|scheme| scheme.told == Told::All).join(", ");
+    let names = scheme.among.names(|scheme| scheme.told == Completeness::All).join(", ");
     let remedy = format!("name a run of {names}, in which nothing is missed, lost or late");
     Err(Diagnostic::usage(format_args!("{what}: no program could plan along"), remedy))
 }
@@ -261,7 +261,7 @@ impl Trial<'_> {
             // Agents on a floor do not know it where somebody else ends their run.
             Ok(_)
                 if scheme.senses == Senses::Bumps
-                    && matches!(report.stopped, Stopped::Explored | Stopped::Exhausted) =>
+                    && matches!(report.stopped, StopReason::Explored | StopReason::Exhausted) =>
             {
                 self.compare_end(report)?;
             }

@@ -11,7 +11,7 @@ use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Depiction, Evidence};
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::plural::counted;
-use tautline_proofs::run::{Run, Scripted};
+use tautline_proofs::run::{Run, ScriptedRun};
 
 use super::CATALOGUE;
 use tautline_io::text_blocks::Block;
@@ -59,7 +59,7 @@ pub(super) fn run(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) ->
 
 /// The run that a search has made by its choices, if a rule of the catalogue makes it again and breaks the clause.
 fn scripted(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<Option<Setup>, Halt> {
-    let Some(Scripted { run, choices }) = check.scripted(&evidence.choices) else { return Ok(None) };
+    let Some(ScriptedRun { run, choices }) = check.scripted(&evidence.choices) else { return Ok(None) };
     let Some(scheme) = CATALOGUE.scheme(run.scheme) else { return Ok(None) };
     let Some(rule) = scheme.rules.iter().find(|rule| rule.name.as_str() == check.rule()) else {
         return Ok(None);

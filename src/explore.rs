@@ -29,8 +29,8 @@ use tautline_sim::draw::{page, svg};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Reach, Report, RuleId, Scheme, Senses,
-    Setup, Stopped, Violation, explore, team,
+    ExplorationRequest, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Reach, Report, RuleId,
+    Scheme, Senses, Setup, StopReason, Violation, explore, team,
 };
 use tautline_sim::failures::Failures;
 use tautline_sim::options::{Extra, Options, Takes, Wrong};
@@ -286,10 +286,13 @@ impl Explore {
     }
 
     /// The request; whatever nobody says is that of the stored run, where there is one of the scheme.
-    fn asked(&self, stored: Option<&Setup>) -> Asked {
+    fn asked(&self, stored: Option<&Setup>) -> ExplorationRequest {
         let scheme = self.scheme.or(stored.map(|run| run.scheme)).unwrap_or_else(|| DEFAULT_SCHEME.into());
         let stored = stored.filter(|run| run.scheme == scheme);
-        let mut asked = stored.map_or_else(|| Asked::new(scheme, scheme.default_rule()), Asked::again);
+        let mut asked = stored.map_or_else(
+            || ExplorationRequest::new(scheme, scheme.default_rule()),
+            ExplorationRequest::again,
+        );
         asked.rule = self.rule.unwrap_or(asked.rule);
         asked.robots = self.robots.or(asked.robots);
         asked.seed = self.layout.seed.unwrap_or(asked.seed);
@@ -310,7 +313,7 @@ impl Explore {
         match self.draw {
             Some(Draw::Order) => out.text(format_args!("\n{}", draw::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
-                draw_moves(setup, report, &Wanted::All(1..=report.steps), draw::Pose::Before, out)?;
+                draw_moves(setup, report, &DrawnMoves::All(1..=report.steps), draw::Pose::Before, out)?;
             }
             None if report.chart.area().width() > SMALL_COLUMNS => {}
             Some(Draw::Map) | None => {
@@ -325,7 +328,7 @@ impl Explore {
 const MOST_LINES: usize = 500;
 
 /// The team moves that are drawn.
-pub(super) enum Wanted {
+pub(super) enum DrawnMoves {
     /// These, however many lines they take.
     All(RangeInclusive<u32>),
     /// Of these the last ones, as many as fit.
@@ -336,12 +339,12 @@ pub(super) enum Wanted {
 pub(super) fn draw_moves(
     run: &dyn Play,
     report: &Report,
-    wanted: &Wanted,
+    wanted: &DrawnMoves,
     pose: draw::Pose,
     out: &mut Output,
 ) -> Result<RangeInclusive<u32>, Halt> {
     let drawn = draw::TeamMoves::new(run, &report.chart);
-    let (Wanted::All(moves) | Wanted::Last(moves)) = wanted;
+    let (DrawnMoves::All(moves) | DrawnMoves::Last(moves)) = wanted;
     let mut columns = None;
     run.among(moves, &mut |made| {
         columns = columns.max(Some(drawn.columns(made, pose)));
@@ -349,8 +352,8 @@ pub(super) fn draw_moves(
     })?;
     let Some(columns) = columns else { return Ok(moves.clone()) };
     let moves = match wanted {
-        Wanted::All(moves) => moves.clone(),
-        Wanted::Last(moves) => {
+        DrawnMoves::All(moves) => moves.clone(),
+        DrawnMoves::Last(moves) => {
             let most = drawn.fitting(columns, MOST_LINES);
             *moves.start().max(&(moves.end() + 1).saturating_sub(most))..=*moves.end()
         }
@@ -416,7 +419,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
                     format!("every agent is done, with {left} unexplored")
                 }
                 (0, _) => "every agent knows that it is done".to_owned(),
-                (active, Stopped::Explored) => format!(
+                (active, StopReason::Explored) => format!(
                     "{active} of {} may never be done: whoever watches the agents ends the run",
                     counted(whole.robots, "agent")
                 ),

@@ -23,7 +23,7 @@ use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, wh
 use crate::{shards, value_parser};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{
-    Done, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, Shown,
+    Done, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize,
 };
 use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
 use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
@@ -267,7 +267,7 @@ fn stored(
     replaceable: &Replaceable,
     out: &mut Output,
 ) -> Result<Option<String>, Halt> {
-    let (Shown::Run(clause) | Shown::Story(clause, _)) = finding.shown else { return Ok(None) };
+    let (Exhibit::Run(clause) | Exhibit::Story(clause, _)) = finding.shown else { return Ok(None) };
     let (file, _) = store(folder, &finding.setup, clause, replaceable)?;
     Ok(keep(file, out))
 }
@@ -365,11 +365,11 @@ pub(super) fn again(file: &str, setup: &Setup) -> String {
 fn picture(finding: &Finding) -> Result<String, Halt> {
     let setup = &finding.setup;
     match (&finding.shown, setup.scheme.senses) {
-        (Shown::Run(_), Senses::Bumps) => story::last_move(setup),
-        (Shown::Run(_), Senses::Floor) => story::of_trap(setup),
-        (Shown::Endless, _) => Ok(format!("A run without end in this layout:\n\n{}", setup.layout)),
-        (Shown::Story(_, story), Senses::Bumps) => Ok(format!("{story}\n{}", story::last_move(setup)?)),
-        (Shown::Story(_, story) | Shown::Told(story), _) => Ok(story.clone()),
+        (Exhibit::Run(_), Senses::Bumps) => story::last_move(setup),
+        (Exhibit::Run(_), Senses::Floor) => story::of_trap(setup),
+        (Exhibit::Endless, _) => Ok(format!("A run without end in this layout:\n\n{}", setup.layout)),
+        (Exhibit::Story(_, story), Senses::Bumps) => Ok(format!("{story}\n{}", story::last_move(setup)?)),
+        (Exhibit::Story(_, story) | Exhibit::Told(story), _) => Ok(story.clone()),
     }
 }
 

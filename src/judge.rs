@@ -9,13 +9,13 @@ use clap::Args;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::value_parser::real;
 use tautline_logs::{
-    CLAUSES, Demand, Doubt, Fault, FaultPlace, Kind, Limits, Log, Misnamed, Misplaced, Numbers, Tracks,
+    CLAUSES, Demand, Doubt, Fault, FaultPlace, Kind, Limits, Log, NamesError, Numbers, Strays, Tracks,
     Verdict, judge, misplaced, not_judged, read,
 };
 use tautline_proofs::ledger;
 
-use self::given::{Given, MapArgs};
-use self::told::Told;
+use self::given::{MapArgs, MapOfLog};
+use self::told::LogReport;
 use super::output::Output;
 use super::{Exit, ForceArgs, FormatArgs, needless};
 use tautline_sim::draw::page::{self, Sink};
@@ -136,7 +136,7 @@ impl Judge {
             };
             verdicts.push((id, demand, verdict));
         }
-        let told = Told {
+        let told = LogReport {
             file: self.log.display().to_string(),
             log: &log,
             numbers: &numbers,
@@ -202,11 +202,11 @@ impl Judge {
             let remedy = "write lines as robot_a,1 with the names of the log and the numbers of robots, from 1, each \
                           once";
             match wrong {
-                Misnamed::Line(line) | Misnamed::Twice(line) => {
+                NamesError::Line(line) | NamesError::Twice(line) => {
                     let text = text.lines().nth(line - 1).unwrap_or_default();
                     Diagnostic::in_line(file, line, text, 0..text.len(), wrong, remedy)
                 }
-                Misnamed::Gap(_) | Misnamed::Nothing(_) => Diagnostic::in_file(file, wrong, remedy),
+                NamesError::Gap(_) | NamesError::Nothing(_) => Diagnostic::in_file(file, wrong, remedy),
             }
         })
     }
@@ -216,7 +216,7 @@ impl Judge {
         &self,
         id: &str,
         kind: Kind,
-        given: &Given,
+        given: &MapOfLog,
         tracks: &Tracks,
         limits: &Limits,
         log: &Log,
@@ -231,9 +231,9 @@ impl Judge {
                 let what = format!("{id} speaks of two robots, and the log has {}", tracks.count());
                 return Err(Diagnostic::in_file(&self.log, what, "name KIT-12, or two robots with --names"));
             }
-            Kind::Pair => Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Joining::All },
+            Kind::Pair => Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Contact::All },
             Kind::Joined => {
-                Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Joining::JoinedAtStart }
+                Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Contact::JoinedAtStart }
             }
             Kind::Apart => {
                 let least_mm = milli(self.least.unwrap_or(KIT_LEAST));
@@ -287,6 +287,6 @@ impl Judge {
 }
 
 /// Whether more than half of the positions are not of the map.
-fn is_other_map(misplaced: Misplaced, tracks: &Tracks) -> bool {
+fn is_other_map(misplaced: Strays, tracks: &Tracks) -> bool {
     misplaced.off.is_some_and(|(off, _)| off as usize * 2 > tracks.samples().count())
 }

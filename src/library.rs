@@ -14,7 +14,7 @@ use tautline_proofs::decide::RandomRuns;
 
 pub(super) use self::dealt::rows;
 use super::output::Output;
-use super::prove::{Deciding, Detail};
+use super::prove::{DecisionArgs, Detail};
 use super::shards::Scope;
 use super::{Exit, needless, number, whole};
 
@@ -70,7 +70,7 @@ pub(super) struct Library {
     #[arg(conflicts_with_all = ["memory", "spill", "patience", "force"])]
     shard: Option<u32>,
     #[command(flatten)]
-    how: Deciding,
+    how: DecisionArgs,
 }
 
 impl Library {

@@ -140,7 +140,7 @@ struct Line<'a> {
 }
 
 /// A tool: a command that is called with an object of arguments.
-trait Called: DeserializeOwned + JsonSchema {
+trait ToolCommand: DeserializeOwned + JsonSchema {
     const NAME: &'static str;
 
     /// Puts the arguments into the command's line.
@@ -205,7 +205,7 @@ impl Line<'_> {
     }
 }
 
-impl Called for Prove {
+impl ToolCommand for Prove {
     const NAME: &'static str = "prove";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
@@ -219,7 +219,7 @@ impl Called for Prove {
     }
 }
 
-impl Called for Hunt {
+impl ToolCommand for Hunt {
     const NAME: &'static str = "hunt";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
@@ -234,7 +234,7 @@ impl Called for Hunt {
     }
 }
 
-impl Called for Explore {
+impl ToolCommand for Explore {
     const NAME: &'static str = "explore";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
@@ -248,7 +248,7 @@ impl Called for Explore {
     }
 }
 
-impl Called for Minimise {
+impl ToolCommand for Minimise {
     const NAME: &'static str = "minimise";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
@@ -258,7 +258,7 @@ impl Called for Minimise {
     }
 }
 
-impl Called for Replay {
+impl ToolCommand for Replay {
     const NAME: &'static str = "replay";
 
     fn line(self, line: &mut Line<'_>) -> Result<(), String> {
@@ -275,7 +275,7 @@ struct Entry {
 }
 
 impl Entry {
-    fn of<T: Called>() -> Self {
+    fn of<T: ToolCommand>() -> Self {
         let [mut schema, bounds] = [schema_for!(T), schema_for!(Bounds)]
             .map(|schema| schema.as_object().cloned().unwrap_or_default());
         let about = schema.remove("description").and_then(|text| text.as_str().map(str::to_owned));

@@ -15,7 +15,7 @@ use tautline_proofs::engine::states::{Limits, MemoryLimit};
 use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
 
-use super::explore::Wanted;
+use super::explore::DrawnMoves;
 use super::output::Output;
 use super::replay::draw;
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, evidence, hunt, progress};
@@ -165,7 +165,7 @@ impl Minimise {
             Format::Json => out.json(&minimised)?,
             Format::Text => {
                 out.text(tell(&self.file.display().to_string(), &minimised))?;
-                draw(&minimal.setup, &report, &Wanted::Last(1..=report.steps), out)?;
+                draw(&minimal.setup, &report, &DrawnMoves::Last(1..=report.steps), out)?;
                 if let Some(file) = &minimised.file {
                     out.text(format_args!("\n{}", hunt::again(file, &minimal.setup)))?;
                 }

@@ -23,7 +23,7 @@ pub(super) struct Output {
 
 /// The beginning of every JSON object.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Versioned<'a, T> {
+pub(super) struct VersionedJson<'a, T> {
     schema_version: u32,
     #[serde(flatten)]
     content: &'a T,
@@ -81,7 +81,7 @@ impl Output {
 
     /// Prints `content` as one JSON object on one line.
     pub(super) fn json(&mut self, content: &impl Serialize) -> Result<(), Diagnostic> {
-        let versioned = Versioned { schema_version: SCHEMA_VERSION, content };
+        let versioned = VersionedJson { schema_version: SCHEMA_VERSION, content };
         let written = serde_json::to_writer(&mut *self, &versioned).map_err(io::Error::from);
         written.and_then(|()| writeln!(self)).map_err(|error| unwritable(&error))
     }

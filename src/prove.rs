@@ -74,12 +74,12 @@ pub(super) struct Prove {
     #[arg(value_name = "CLAUSE")]
     clauses: Vec<String>,
     #[command(flatten)]
-    how: Deciding,
+    how: DecisionArgs,
 }
 
 /// How clauses are decided, and where it goes.
 #[derive(Debug, Args)]
-pub(super) struct Deciding {
+pub(super) struct DecisionArgs {
     /// Store each counterexample as a file in DIR, which `tautline replay` plays. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -201,7 +201,7 @@ pub(super) enum Detail {
     All,
 }
 
-impl Deciding {
+impl DecisionArgs {
     /// Where nothing is decided, there is nothing to store, and only text to print.
     ///
     /// # Errors

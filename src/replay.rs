@@ -21,7 +21,7 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::Frame;
 
 use super::evidence::{self, EvidenceJson, setup, shown, story};
-use super::explore::{Wanted, draw_moves, summary};
+use super::explore::{DrawnMoves, draw_moves, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
@@ -288,7 +288,7 @@ impl Replay {
                     out.text(format_args!("{said}\n"))?;
                 }
                 if is_drawn {
-                    let wanted = if is_said { Wanted::All(moves) } else { Wanted::Last(moves) };
+                    let wanted = if is_said { DrawnMoves::All(moves) } else { DrawnMoves::Last(moves) };
                     let first = *draw(run, report, &wanted, out)?.start();
                     if !is_said && first > 1 {
                         let left = if first == 2 {
@@ -424,7 +424,7 @@ fn said(clause: &str, is_judged: bool) -> String {
 pub(super) fn draw(
     run: &dyn Play,
     report: &Report,
-    wanted: &Wanted,
+    wanted: &DrawnMoves,
     out: &mut Output,
 ) -> Result<RangeInclusive<u32>, Halt> {
     let moves = draw_moves(run, report, wanted, draw::Pose::After, out)?;

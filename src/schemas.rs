@@ -9,7 +9,7 @@ use tautline_io::schema::of;
 use tautline_papers::tables::TABLES;
 use tautline_sim::trace::Summary;
 
-use super::output::Versioned;
+use super::output::VersionedJson;
 use super::{
     check, conform, hunt, judge, library, locate, minimise, prove, replay, reproduce, rescue, schemes,
     shards, show,
@@ -20,7 +20,7 @@ const RENEW: &str = "SCHEMAS_UPDATE=always cargo test -p tautline --bin tautline
 
 /// The schema of what [`super::output::Output::json`] prints of a type.
 fn printed<T: JsonSchema>(title: &str) -> Value {
-    of::<Versioned<'_, T>>(title).to_value()
+    of::<VersionedJson<'_, T>>(title).to_value()
 }
 
 /// One or the other.

@@ -20,7 +20,7 @@ use super::findings::FormatArgs;
 use super::hunt::{self, make_folder, shown};
 use super::library;
 use super::output::Output;
-use super::prove::{Deciding, Detail};
+use super::prove::{DecisionArgs, Detail};
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
 use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, needless, progress, whole};
@@ -251,7 +251,7 @@ impl Merge {
             Work::Library { .. } => {
                 self.out.as_deref().map(make_folder).transpose()?;
                 let (how, rows) = (
-                    Deciding::elsewhere(self.out.clone(), self.force, self.format),
+                    DecisionArgs::elsewhere(self.out.clone(), self.force, self.format),
                     library::rows(&plan, &shards)?,
                 );
                 let replaceable = self.force.replaceable(inputs);

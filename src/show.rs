@@ -12,7 +12,7 @@ use tautline_kernel::ground::Cell;
 use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless};
-use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::ColumnRow;
 use tautline_io::svg::Panel;
 use tautline_sim::draw::svg;
 use tautline_sim::draw::{self, Environment};
@@ -48,7 +48,7 @@ pub(super) struct LayoutJson<'a> {
     height: i16,
     free_cells: usize,
     walls: usize,
-    #[schemars(with = "CellWritten")]
+    #[schemars(with = "ColumnRow")]
     base: Cell,
     robots: Option<u16>,
     drawing: String,
@@ -58,7 +58,7 @@ pub(super) struct LayoutJson<'a> {
 struct EnvironmentJson {
     symbol: &'static str,
     /// Columns and rows from the centre.
-    #[schemars(with = "Vec<CellWritten>")]
+    #[schemars(with = "Vec<ColumnRow>")]
     offsets: Vec<Cell>,
 }
 

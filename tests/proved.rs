@@ -7,7 +7,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 /// The text and the files of `tautline prove --verbose --out refuted`.
-pub(crate) struct Proved {
+pub(crate) struct ProveOutput {
     /// The text that it prints.
     pub(crate) told: String,
     /// The files in `refuted`, by their names.
@@ -15,8 +15,8 @@ pub(crate) struct Proved {
 }
 
 /// All verdicts, which are the registered ones.
-pub(crate) fn proved() -> &'static Proved {
-    static PROVED: OnceLock<Proved> = OnceLock::new();
+pub(crate) fn proved() -> &'static ProveOutput {
+    static PROVED: OnceLock<ProveOutput> = OnceLock::new();
     PROVED.get_or_init(|| {
         let folder = tempfile::tempdir().expect("a folder");
         let mut prove = Command::new(env!("CARGO_BIN_EXE_tautline"));
@@ -29,6 +29,6 @@ pub(crate) fn proved() -> &'static Proved {
             let name = file.file_name().into_string().expect("a plain name");
             (name, fs::read_to_string(file.path()).expect("text"))
         });
-        Proved { told: String::from_utf8(output.stdout).expect("text"), stored: stored.collect() }
+        ProveOutput { told: String::from_utf8(output.stdout).expect("text"), stored: stored.collect() }
     })
 }

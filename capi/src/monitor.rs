@@ -5,7 +5,7 @@ use core::mem::MaybeUninit;
 use core::slice;
 
 use tautline_monitor::{
-    AnyDemand, Apart, Breach, Cells, Doubt, Joined, Monitor, Neighbours, Place, Robot, Verdict,
+    AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, Verdict,
 };
 
 use crate::caller::{read, status, write};
@@ -110,7 +110,9 @@ impl TautlineDemand {
             TAUTLINE_DEMAND_NEIGHBOURS => {
                 AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm })
             }
-            TAUTLINE_DEMAND_JOINED => AnyDemand::Joined(Joined { range_mm: length_mm, tolerance_mm }),
+            TAUTLINE_DEMAND_JOINED => {
+                AnyDemand::Connectivity(Connectivity { range_mm: length_mm, tolerance_mm })
+            }
             TAUTLINE_DEMAND_APART => AnyDemand::Apart(Apart { least_mm: length_mm, tolerance_mm }),
             TAUTLINE_DEMAND_CELLS => {
                 let base = if self.has_base == 0 { None } else { Some([self.base_column, self.base_row]) };

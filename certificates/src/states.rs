@@ -92,9 +92,9 @@ type Digest = u128;
 
 /// The digest of a state, in halves that are 0 until it is known.
 #[derive(Default)]
-struct Known([AtomicU64; 2]);
+struct DigestCell([AtomicU64; 2]);
 
-impl Known {
+impl DigestCell {
     /// Whether this is the digest, or none was known.
     fn is(&self, digest: Digest) -> bool {
         let is_half = |(half, new): (&AtomicU64, u64)| {
@@ -130,7 +130,7 @@ struct Checker<'a, M> {
     section: &'a [u8],
     trees: Trees,
     hasher: SipHasher13,
-    known: Vec<Known>,
+    known: Vec<DigestCell>,
     /// Of each obligation the classes by their ranks.
     classes: Vec<Vec<Class>>,
     steps: AtomicU64,
@@ -140,9 +140,9 @@ struct Checker<'a, M> {
 
 /// The bytes by which a part is told.
 #[derive(Default)]
-struct Told(Vec<u8>);
+struct PartBytes(Vec<u8>);
 
-impl Hasher for Told {
+impl Hasher for PartBytes {
     #[inline]
     fn write(&mut self, bytes: &[u8]) {
         self.0.extend_from_slice(bytes);
@@ -154,7 +154,7 @@ impl Hasher for Told {
 }
 
 /// A state with its place in the section, and its digest.
-struct Placed<S> {
+struct Entry<S> {
     place: u32,
     state: S,
     digest: Digest,
@@ -162,16 +162,16 @@ struct Placed<S> {
 
 /// The memory of one thread, kept from state to state.
 struct Desk<S> {
-    told: Told,
+    told: PartBytes,
     /// The digests of the parts of the state that it looks at, as far as they were asked for.
     parts: Vec<Option<Digest>>,
     /// The states to which steps from it lead in the tree.
-    children: Vec<Placed<S>>,
+    children: Vec<Entry<S>>,
 }
 
 impl<S> Desk<S> {
     fn new() -> Self {
-        Self { told: Told::default(), parts: Vec::new(), children: Vec::new() }
+        Self { told: PartBytes::default(), parts: Vec::new(), children: Vec::new() }
     }
 }
 
@@ -182,7 +182,7 @@ impl<'a, M: Model> Checker<'a, M> {
         Ok(Self {
             model,
             section,
-            known: trees.at.iter().map(|_| Known::default()).collect(),
+            known: trees.at.iter().map(|_| DigestCell::default()).collect(),
             classes: trees.ranks.iter().map(|ranks| ranks.iter().map(class).collect()).collect(),
             trees,
             hasher: SipHasher13::new_with_keys(key as u64, (key >> 64) as u64),
@@ -208,12 +208,12 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// The starts that are roots.
-    fn starts(&self) -> Result<Vec<Placed<M::State>>, Refusal> {
+    fn starts(&self) -> Result<Vec<Entry<M::State>>, Refusal> {
         let starts = self.model.starts();
         if starts.is_empty() || starts.len() != self.trees.starts.len() {
             return Err(Refusal::Starts(starts.len()));
         }
-        let (mut roots, mut next, mut told) = (Vec::new(), 0, Told::default());
+        let (mut roots, mut next, mut told) = (Vec::new(), 0, PartBytes::default());
         for (number, (state, &link)) in starts.into_iter().zip(&self.trees.starts).enumerate() {
             let parts = 0..self.model.parts(&state);
             let digest = parts.fold(0, |all, part| all ^ self.part(&state, part, &mut told));
@@ -222,7 +222,7 @@ impl<'a, M: Model> Checker<'a, M> {
                 return Err(Refusal::Start(number));
             }
             if link == 0 {
-                roots.push(Placed { place: next, state, digest });
+                roots.push(Entry { place: next, state, digest });
                 next += self.trees.size[next as usize];
             }
         }
@@ -230,7 +230,7 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// The digest of a part of `state`.
-    fn part(&self, state: &M::State, part: usize, told: &mut Told) -> Digest {
+    fn part(&self, state: &M::State, part: usize, told: &mut PartBytes) -> Digest {
         told.0.clear();
         told.write_usize(part);
         self.model.tell(state, part, told);
@@ -238,7 +238,7 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// The digest of a state to which a step leads from the one that a thread looks at.
-    fn digest(&self, from: &Placed<M::State>, to: &M::State, desk: &mut Desk<M::State>) -> Digest {
+    fn digest(&self, from: &Entry<M::State>, to: &M::State, desk: &mut Desk<M::State>) -> Digest {
         let differing = self.model.differing(&from.state, to);
         let differs = |&part: &usize| part >= 64 || differing >> part & 1 == 1;
         (0..desk.parts.len()).filter(differs).fold(from.digest, |all, part| {
@@ -254,7 +254,7 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// Looks at all states of the subtrees of these ones.
-    fn walk<'s>(&'s self, scope: &rayon::Scope<'s>, share: u32, mut ahead: Vec<Placed<M::State>>) {
+    fn walk<'s>(&'s self, scope: &rayon::Scope<'s>, share: u32, mut ahead: Vec<Entry<M::State>>) {
         let mut desk = Desk::new();
         while let Some(placed) = ahead.pop() {
             if let Err(refusal) = self.look(&placed, &mut desk) {
@@ -275,8 +275,8 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// Makes all steps from a state: those that lead on in the tree lead to its children.
-    fn look(&self, from: &Placed<M::State>, desk: &mut Desk<M::State>) -> Result<(), Refusal> {
-        let &Placed { place, ref state, .. } = from;
+    fn look(&self, from: &Entry<M::State>, desk: &mut Desk<M::State>) -> Result<(), Refusal> {
+        let &Entry { place, ref state, .. } = from;
         let mut record = &self.section[self.trees.at[place as usize]..];
         let mut next = || take(&mut record).unwrap_or(0);
         let (said, owed) = (next(), self.model.owed(state));
@@ -307,7 +307,7 @@ impl<'a, M: Model> Checker<'a, M> {
                         .ok_or(Refusal::Rises(place, step))?;
                 }
                 if link == 0 {
-                    desk.children.push(Placed { place: child, state: to, digest });
+                    desk.children.push(Entry { place: child, state: to, digest });
                     child += self.trees.size[child as usize];
                 }
                 step += 1;

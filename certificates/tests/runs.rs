@@ -183,7 +183,7 @@ fn each_other_number_is_refused() {
 }
 
 /// Runs whose steps are drawn from what was answered: each asks several questions, some after a mishap alone.
-struct Drawn {
+struct RandomRuns {
     seed: u64,
     most: u32,
 }
@@ -193,7 +193,7 @@ fn drawn(seed: u64, number: u64) -> u64 {
     (mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 20
 }
 
-impl Drawn {
+impl RandomRuns {
     fn go(&self, state: &mut (u64, u32), answers: &mut dyn Oracle) {
         let (now, steps) = *state;
         let mut next = drawn(self.seed, now);
@@ -215,7 +215,7 @@ fn is_over((now, steps): (u64, u32)) -> bool {
     steps == 9 || drawn(now, 7).is_multiple_of(9)
 }
 
-impl Runs for Drawn {
+impl Runs for RandomRuns {
     type State = (u64, u32);
     type Plan = ();
 
@@ -256,14 +256,14 @@ impl Runs for Drawn {
 }
 
 /// Answers of a list, and then 0; at most so many mishaps.
-struct Listed {
+struct AnswerList {
     given: Vec<(u32, u32)>,
     asked: usize,
     mishaps: u32,
     most: u32,
 }
 
-impl Oracle for Listed {
+impl Oracle for AnswerList {
     fn pick(&mut self, below: u32) -> u32 {
         if self.asked == self.given.len() {
             self.given.push((0, below));
@@ -281,12 +281,12 @@ impl Oracle for Listed {
 
 /// The section of these runs: each is made from the start, and steps are told apart by their number and all answers
 /// up to their end.
-fn counted(drawn: &Drawn) -> Vec<u64> {
+fn counted(drawn: &RandomRuns) -> Vec<u64> {
     let (mut longest, mut levels) = (0, vec![[0, 0]; drawn.most as usize + 1]);
     let (mut given, mut steps) = (Vec::new(), HashSet::new());
     loop {
         let (mut state, mut listed) =
-            (drawn.start(), Listed { given, asked: 0, mishaps: 0, most: drawn.most });
+            (drawn.start(), AnswerList { given, asked: 0, mishaps: 0, most: drawn.most });
         while !is_over(state) {
             drawn.go(&mut state, &mut listed);
             if steps.insert((state.1, listed.given[..listed.asked].to_vec())) {
@@ -307,7 +307,7 @@ fn counted(drawn: &Drawn) -> Vec<u64> {
 fn runs_of_drawn_systems_are_counted_as_one_by_one() {
     let mut parted = 0;
     for seed in 0..24 {
-        let drawn = Drawn { seed, most: seed as u32 % 4 };
+        let drawn = RandomRuns { seed, most: seed as u32 % 4 };
         let mut section = Vec::new();
         let numbers = counted(&drawn);
         for &number in &numbers {

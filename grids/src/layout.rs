@@ -35,7 +35,7 @@ pub use problem::{Misread, no_free_cell, of_size, outside};
 pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
 
 /// A cell, as it is written: column and row.
-pub type CellWritten = [i16; 2];
+pub type ColumnRow = [i16; 2];
 
 /// An area of cells. The outer rim is closed; three bits a cell hold the rest.
 #[derive(Clone, PartialEq, Eq, Hash)]

@@ -270,12 +270,12 @@ impl AtomicFile {
     ///
     /// # Errors
     /// A [`Diagnostic`] as of [`AtomicFile::keep`], or if another process has put a file there.
-    pub(crate) fn keep_locked(self, standing: Standing) -> Result<File, Diagnostic> {
+    pub(crate) fn keep_locked(self, standing: Occupant) -> Result<File, Diagnostic> {
         let FinishedFile { path, target, part, .. } = self.finish()?;
         lock(&path, part.file.as_file())?;
         let kept = match standing {
-            Standing::Held => part.file.persist(&target),
-            Standing::Nothing => part.file.persist_noclobber(&target),
+            Occupant::Held => part.file.persist(&target),
+            Occupant::Nothing => part.file.persist_noclobber(&target),
         };
         kept.map_err(|refused| match refused.error.kind() {
             io::ErrorKind::AlreadyExists => {
@@ -332,7 +332,7 @@ pub fn place(files: Vec<FinishedFile>) -> Vec<Diagnostic> {
 
 /// The file that stands in the place of one that processes lock.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Standing {
+pub(crate) enum Occupant {
     /// Nothing: what another process puts there is not replaced.
     Nothing,
     /// A file that this process has locked.

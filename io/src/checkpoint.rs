@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use serde_json::value::{RawValue, to_raw_value};
 
-use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
+use crate::atomic_file::{AtomicFile, Occupant, Replaceable, lock};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::json_lines::{self, MAX_FILE_BYTES, Magic, key_of, line_of, value_of};
 
@@ -224,7 +224,7 @@ pub struct Checkpoint<'a, T> {
     path: Option<&'a Path>,
     task: T,
     /// The file that stands at the path, as far as this process knows.
-    standing: Standing,
+    standing: Occupant,
     /// That file, locked.
     held: Option<File>,
     /// When it was last tried to write one.
@@ -234,7 +234,7 @@ pub struct Checkpoint<'a, T> {
 impl<'a, T: Task> Checkpoint<'a, T> {
     /// The part of `task` that is to be kept at `path`; without one it is not kept.
     pub fn new(path: Option<&'a Path>, task: T) -> Self {
-        Self { path, task, standing: Standing::Nothing, held: None, tried: Instant::now() }
+        Self { path, task, standing: Occupant::Nothing, held: None, tried: Instant::now() }
     }
 
     /// How far the part was by its file, which is locked from now on; `None` if there is no file.
@@ -250,7 +250,7 @@ impl<'a, T: Task> Checkpoint<'a, T> {
             return self.read();
         }
         let lines = Lines::<T>::read(path, &file, Some(&self.task))?;
-        (self.standing, self.held) = (Standing::Held, Some(file));
+        (self.standing, self.held) = (Occupant::Held, Some(file));
         lines.check(&self.task)?;
         lines.far().map(Some)
     }
@@ -259,7 +259,7 @@ impl<'a, T: Task> Checkpoint<'a, T> {
     #[must_use]
     pub fn found(&self, fault: Diagnostic) -> Diagnostic {
         match self.path {
-            Some(path) if self.standing == Standing::Held => fault.found_in(path),
+            Some(path) if self.standing == Occupant::Held => fault.found_in(path),
             Some(_) | None => fault,
         }
     }
@@ -279,7 +279,7 @@ impl<'a, T: Task> Checkpoint<'a, T> {
             self.held = None;
         }
         self.held = Some(aside.keep_locked(self.standing)?);
-        self.standing = Standing::Held;
+        self.standing = Occupant::Held;
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 //! it, and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never
 //! knows that it is done. Clauses: ANTS-1 … ANTS-3.
 
-use crate::floor::{COMPASS, Entry, Floor, Replaced, Ring, Scan, enter, leave};
+use crate::floor::{COMPASS, Entry, Floor, Ring, Scan, SensorFate, enter, leave};
 use crate::ground::{Cell, Side};
 
 /// The count of a sensor placed where none was, or where one was missed: an ant cannot tell which.
@@ -10,7 +10,7 @@ use crate::ground::{Cell, Side};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rule {
     /// From nothing: it says 1, as published. The paper leaves open what becomes of a sensor that was only missed.
-    Published(Replaced),
+    Published(SensorFate),
     /// Repair: from what the cell counts that the ant comes from. A missed sensor takes its count with it, and one that
     /// says 1 draws ants back to where they have been.
     Repaired,
@@ -18,7 +18,7 @@ pub enum Rule {
 
 impl Rule {
     /// As the paper publishes it, where the count of a missed sensor is lost.
-    pub const PUBLISHED: Self = Self::Published(Replaced::Lost);
+    pub const PUBLISHED: Self = Self::Published(SensorFate::Lost);
 }
 
 /// Where an agent goes: the side neighbour of `among` with the fewest crossings, ties in the order of the compass.

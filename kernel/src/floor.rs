@@ -34,7 +34,7 @@ pub trait Floor<S = Sensor> {
 /// paper says no more than that the agent "marks it with the state 1". Sensors of one cell are seen or missed together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Replaced {
+pub enum SensorFate {
     /// Whatever it stored is lost.
     Lost,
     /// It stays beside the new one: agents read the higher state and the higher count of the two.
@@ -54,7 +54,7 @@ pub enum Entry {
         /// The new sensor's count before the agent enters.
         crossings: u32,
         /// The fate of an old sensor that was only missed.
-        replaced: Replaced,
+        replaced: SensorFate,
     },
 }
 
@@ -77,7 +77,7 @@ pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
 pub fn settle(floor: &mut impl Floor, starts: &[Cell]) {
     for &start in starts {
         let entry = match floor.sensor(start).unwrap_or_default().mark {
-            Mark::Unexplored => Entry::New { crossings: 0, replaced: Replaced::Lost },
+            Mark::Unexplored => Entry::New { crossings: 0, replaced: SensorFate::Lost },
             Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
         };
         enter(floor, start, entry);

@@ -21,16 +21,21 @@ impl Protocol for Conditions {
     type Bound = Crew;
     type State = State;
     demands! {
-        eventually "all cells are covered", |_, crew, &(_, cells, _)| Known { graph: &crew.graph, cells }.is_whole();
+        eventually "all cells are covered",
+            |_, crew, &(_, cells, _)| KnownGraph { graph: &crew.graph, cells }.is_whole();
         always "a robot goes to cells that are new", |_, _, before, after| before.1 >> after.0 & 1 == 0;
     }
 
-    fn starts(&self, crew: &Deployed) -> impl IntoIterator<Item = State> {
+    fn starts(&self, crew: &Deployment) -> impl IntoIterator<Item = State> {
         (0..crew.graph.len() as u8).map(|cell| (cell, 1 << cell, None))
     }
 
-    fn moves(&self, Deployed { graph, .. }: &Deployed, &(here, cells, point): &State) -> Vec<Move<State>> {
-        let covered = Known { graph, cells };
+    fn moves(
+        &self,
+        Deployment { graph, .. }: &Deployment,
+        &(here, cells, point): &State,
+    ) -> Vec<Move<State>> {
+        let covered = KnownGraph { graph, cells };
         let sides = [Side::North, Side::South, Side::East, Side::West];
         let mut ahead = sides.into_iter().filter_map(|side| graph.to_side(here, side));
         let point = point.filter(|&point| point != here);
@@ -45,7 +50,7 @@ impl Protocol for Conditions {
         next.map(|cell| Move::of(0, "goes back", (cell, cells, point))).into_iter().collect()
     }
 
-    fn draw(&self, crew: &Deployed, &(here, covered, _): &State) -> String {
+    fn draw(&self, crew: &Deployment, &(here, covered, _): &State) -> String {
         let sign = |cell: u8| match covered >> cell & 1 {
             _ if cell == here => "0",
             0 => ".",

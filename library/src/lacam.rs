@@ -6,7 +6,7 @@
 use std::collections::{HashMap, VecDeque};
 
 use crate::inheritance::{PIBT, Plan};
-use crate::planned::{Only, Planned, Planner, Tasks};
+use crate::planned::{Only, Planner, PlannerProtocol, Tasks};
 use crate::prelude::*;
 
 /// Whether constraints are added, and whether those by which robots conflict are left out.
@@ -77,12 +77,12 @@ const SOLVABLE: Tasks = Tasks(Teams::within(Kind::Connected, 3, 2, 3), Only::Sol
 
 const RULE: Lacam = Lacam { has_constraints: true, leaves_out_conflicts: true };
 
-entry! { Planned<Lacam>: "lacam", "LaCAM", "LACAM",
+entry! { PlannerProtocol<Lacam>: "lacam", "LaCAM", "LACAM",
     "Okumura, *LaCAM: Search-Based Algorithm for Quick Multi-Agent Pathfinding*, AAAI 2023, Algorithm 1 and Theorem \
      1";
-    PUBLISHED = "published", Planned(RULE);
-    BARE = "no constraints", Planned(Lacam { has_constraints: false, ..RULE });
-    MIXED = "any constraint", Planned(Lacam { leaves_out_conflicts: false, ..RULE });
+    PUBLISHED = "published", PlannerProtocol(RULE);
+    BARE = "no constraints", PlannerProtocol(Lacam { has_constraints: false, ..RULE });
+    MIXED = "any constraint", PlannerProtocol(Lacam { leaves_out_conflicts: false, ..RULE });
     1: "No two robots MUST come into one cell, or change places." {
         Holds PUBLISHED within SOLVABLE, not MIXED;
     }

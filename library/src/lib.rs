@@ -79,7 +79,7 @@ mod prelude {
         Bound, Keeps, Letter, Mail, Move, Protocol, Ring, Start, Walker, combinations, names, set, with,
     };
     pub(crate) use tautline_proofs::team::{
-        Crew, Deployed, Graph, Graphs, Kind, Known, Moves, Task, Teams, conflicts,
+        Crew, Deployment, Graph, Graphs, Kind, KnownGraph, Moves, Task, Teams, conflicts,
     };
     pub(crate) use tautline_proofs::{bound, compact, demands};
 

@@ -44,12 +44,12 @@ impl Bound for Tasks {
 
 /// A planner's robots.
 #[derive(Clone, Copy)]
-pub(crate) struct Planned<R>(pub(crate) R);
+pub(crate) struct PlannerProtocol<R>(pub(crate) R);
 
 /// Where robots are, and, once they have planned, where they will be.
 type State = (Vec<u8>, Option<Vec<Vec<u8>>>);
 
-impl<R: Planner> Protocol for Planned<R> {
+impl<R: Planner> Protocol for PlannerProtocol<R> {
     type Bound = Tasks;
     type State = State;
     demands! {

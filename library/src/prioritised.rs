@@ -3,13 +3,13 @@
 //! takes a shortest way that meets none of those that are planned. Revised, a way also leaves out where robots of a
 //! lower priority start; then, in a well-formed infrastructure, every robot has a way at last, after all the others.
 
-use crate::planned::{Only, Planned, Planner, Tasks};
+use crate::planned::{Only, Planner, PlannerProtocol, Tasks};
 use crate::prelude::*;
 
 /// The conditions of the rule.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a condition of the rule")]
-struct Prioritised {
+struct PriorityPlanner {
     /// A way leaves out where robots of a lower priority start.
     leaves_out_starts: bool,
     /// A robot may stay at its goal only if no way that is planned comes through it later.
@@ -25,7 +25,7 @@ fn at(way: &[u8], step: usize) -> u8 {
     way[step.min(way.len() - 1)]
 }
 
-impl Prioritised {
+impl PriorityPlanner {
     /// A shortest way that meets none of `ways`, within so many steps.
     fn way(&self, graph: &Graph, (start, goal): (u8, u8), ways: &[Vec<u8>], shut: &[u8]) -> Option<Vec<u8>> {
         let most = graph.len() * (ways.len() + 2);
@@ -56,7 +56,7 @@ impl Prioritised {
     }
 }
 
-impl Planner for Prioritised {
+impl Planner for PriorityPlanner {
     fn plan(&self, graph: &Graph, starts: &[u8], goals: &[u8]) -> Option<Vec<Vec<u8>>> {
         let mut ways: Vec<Vec<u8>> = Vec::new();
         for (robot, (&start, &goal)) in starts.iter().zip(goals).enumerate() {
@@ -73,18 +73,18 @@ const fn tasks(only: Only) -> Tasks {
 }
 
 const WIDE: Tasks = Tasks(Teams::within(Kind::Connected, 4, 3, 2).of_cells(7, 9), Only::WellFormed);
-const RULE: Prioritised =
-    Prioritised { leaves_out_starts: true, can_stay: true, has_no_swap: true, waits: true };
+const RULE: PriorityPlanner =
+    PriorityPlanner { leaves_out_starts: true, can_stay: true, has_no_swap: true, waits: true };
 
-entry! { Planned<Prioritised>: "prioritised", "prioritised planning", "PRIO",
+entry! { PlannerProtocol<PriorityPlanner>: "prioritised", "prioritised planning", "PRIO",
     "Erdmann, Lozano-Pérez, *On Multiple Moving Objects*, Algorithmica 2, 1987; revised: Čáp, Novák, Kleiner, \
      Selecký, *Prioritized Planning Algorithms for Trajectory Coordination of Multiple Mobile Robots*, IEEE T-ASE \
      12, 2015";
-    REVISED = "revised", Planned(RULE);
-    CLASSIC = "classic", Planned(Prioritised { leaves_out_starts: false, ..RULE });
-    HASTY = "stays anywhere", Planned(Prioritised { can_stay: false, ..RULE });
-    RUSHES = "never waits", Planned(Prioritised { waits: false, ..RULE });
-    SWAPS = "may swap", Planned(Prioritised { has_no_swap: false, ..RULE });
+    REVISED = "revised", PlannerProtocol(RULE);
+    CLASSIC = "classic", PlannerProtocol(PriorityPlanner { leaves_out_starts: false, ..RULE });
+    HASTY = "stays anywhere", PlannerProtocol(PriorityPlanner { can_stay: false, ..RULE });
+    RUSHES = "never waits", PlannerProtocol(PriorityPlanner { waits: false, ..RULE });
+    SWAPS = "may swap", PlannerProtocol(PriorityPlanner { has_no_swap: false, ..RULE });
     1: "No two robots MUST come into one cell, or change places." {
         Holds CLASSIC within tasks(Only::All), not SWAPS, HASTY;
     }

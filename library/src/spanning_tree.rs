@@ -31,7 +31,7 @@ impl Protocol for Conditions {
         };
     }
 
-    fn starts(&self, crew: &Deployed) -> impl IntoIterator<Item = State> {
+    fn starts(&self, crew: &Deployment) -> impl IntoIterator<Item = State> {
         let starts =
             (0..crew.graph.len() as u8).flat_map(|block| (0..4).map(move |quarter| (block, quarter)));
         starts.map(|start| (start, start, bit(start), Vec::new()))
@@ -39,7 +39,7 @@ impl Protocol for Conditions {
 
     /// Quarters are numbered clockwise from the north-west, and each looks at one side of the block: north, east,
     /// south, west. The run is over when the robot is back.
-    fn moves(&self, crew: &Deployed, (at, start, covered, tree): &State) -> Vec<Move<State>> {
+    fn moves(&self, crew: &Deployment, (at, start, covered, tree): &State) -> Vec<Move<State>> {
         if at == start && *covered != bit(*start) {
             return Vec::new();
         }
@@ -57,7 +57,7 @@ impl Protocol for Conditions {
         vec![Move::of(0, words, (to, *start, covered | bit(to), tree))]
     }
 
-    fn draw(&self, crew: &Deployed, (at, _, covered, _): &State) -> String {
+    fn draw(&self, crew: &Deployment, (at, _, covered, _): &State) -> String {
         let sign = |cell: (u8, u8)| match covered & bit(cell) {
             _ if *at == cell => '0',
             0 => '.',

@@ -8,7 +8,7 @@ use tautline_proofs::decide::{Method, RandomRuns, Verdict};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger;
 use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring};
-use tautline_proofs::team::{Crew, Deployed, Graphs, Kind, Moves};
+use tautline_proofs::team::{Crew, Deployment, Graphs, Kind, Moves};
 use tautline_proofs::{bound, demands};
 
 /// A number that a move makes larger, up to 9.
@@ -194,11 +194,11 @@ impl Protocol for Stays {
     type State = Vec<u8>;
     demands! { at_the_end "it is somewhere", |_, _, robots| !robots.is_empty(); }
 
-    fn starts(&self, crew: &Deployed) -> impl IntoIterator<Item = Vec<u8>> {
+    fn starts(&self, crew: &Deployment) -> impl IntoIterator<Item = Vec<u8>> {
         crew.graph.places(crew.robots)
     }
 
-    fn moves(&self, _: &Deployed, _: &Vec<u8>) -> Vec<Move<Vec<u8>>> {
+    fn moves(&self, _: &Deployment, _: &Vec<u8>) -> Vec<Move<Vec<u8>>> {
         Vec::new()
     }
 }

@@ -48,7 +48,7 @@ pub trait Ground {
 
 /// The positions that are not of the map, and the steps: how many, and the place of the first in the log.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub struct Misplaced {
+pub struct Strays {
     /// Positions in blocked cells or off the map.
     pub off: Option<(u32, u32)>,
     /// Steps from a cell into one beside it with a wall between them.
@@ -59,8 +59,8 @@ pub struct Misplaced {
 }
 
 /// Compares the positions with a map.
-pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Ground) -> Misplaced {
-    let mut found = Misplaced::default();
+pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Ground) -> Strays {
+    let mut found = Strays::default();
     let count = |counted: &mut Option<(u32, u32)>, place: u32| {
         let counted = counted.get_or_insert((0, place));
         *counted = (counted.0 + 1, counted.1.min(place));

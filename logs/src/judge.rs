@@ -21,7 +21,7 @@ pub enum Demand {
         /// The range.
         range_mm: u32,
         /// The robots of which the clause speaks.
-        of: Joining,
+        of: Contact,
     },
     /// KIT-3: robots that have left their starts are apart. A robot has left its start, the first place of it in the
     /// log, for ever once it was farther from it than this distance and the tolerance.
@@ -51,7 +51,7 @@ pub enum Demand {
 
 /// The robots that have to hear each other.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Joining {
+pub enum Contact {
     /// All.
     All,
     /// All, if they do so when they start: at the first stamp at which the log says where all of them are.
@@ -128,7 +128,7 @@ impl fmt::Display for TooMuch {
 impl std::error::Error for TooMuch {}
 
 /// A moment in which a clause is broken.
-struct Found {
+struct Finding {
     /// In their order.
     robots: Vec<u32>,
     measured: u32,
@@ -170,7 +170,7 @@ impl Moment<'_> {
 
 /// Whether all robots are joined by links of at most so many millimetres; if not, the nearest two of whom one is
 /// joined to the first robot and the other one is not. `None` if some place is not known.
-fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Found>> {
+fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Finding>> {
     let places: Vec<[f64; 2]> = moment.robots().map(|robot| moment.at(robot)).collect::<Option<_>>()?;
     let (mut reached, mut left): (Vec<usize>, Vec<usize>) = (vec![0], (1..places.len()).collect());
     let mut next = 0;
@@ -185,7 +185,7 @@ fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Found>> {
         pairs.min_by(|a, b| apart(places[a.0], places[a.1]).total_cmp(&apart(places[b.0], places[b.1])));
     Some(nearest.map_or(Ok(()), |(one, other)| {
         let measured = apart(places[one], places[other]) as u32;
-        Err(Found { robots: vec![one.min(other) as u32, one.max(other) as u32], measured, cell: None })
+        Err(Finding { robots: vec![one.min(other) as u32, one.max(other) as u32], measured, cell: None })
     }))
 }
 
@@ -206,7 +206,7 @@ fn crowded(
     tolerance_mm: u32,
     most: u32,
     base: Option<[i32; 2]>,
-) -> Option<Found> {
+) -> Option<Finding> {
     let mut within: BTreeMap<[i32; 2], Vec<u32>> = BTreeMap::new();
     for robot in moment.robots() {
         if let Some(cell) = moment.at(robot).and_then(|place| grid.surely(place, tolerance_mm)) {
@@ -216,7 +216,7 @@ fn crowded(
     let crowds =
         within.into_iter().filter(|(cell, robots)| Some(*cell) != base && robots.len() > most as usize);
     let (cell, robots) = crowds.max_by_key(|(_, robots)| robots.len())?;
-    Some(Found { measured: robots.len() as u32, robots, cell: Some(cell) })
+    Some(Finding { measured: robots.len() as u32, robots, cell: Some(cell) })
 }
 
 /// Judges a clause.
@@ -253,7 +253,7 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     } else {
         Vec::new()
     };
-    let pair = |([one, other], far): ([u32; 2], f64)| Found {
+    let pair = |([one, other], far): ([u32; 2], f64)| Finding {
         robots: vec![one, other],
         measured: far as u32,
         cell: None,
@@ -267,7 +267,7 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         Demand::Joined { range_mm, of } => {
             let is_joined = joined(moment, f64::from(*range_mm) + tolerance)?;
             let is_first = !std::mem::replace(&mut is_started, true);
-            if is_first && is_joined.is_err() && *of == Joining::JoinedAtStart {
+            if is_first && is_joined.is_err() && *of == Contact::JoinedAtStart {
                 parted = Some(moment.at_us);
             }
             is_joined.err()
@@ -286,7 +286,7 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     let mut first: Option<Breach> = None;
     for fresh in moments() {
         let moment = Moment { at_us: fresh[0].0, fresh, tracks };
-        let Some(Found { robots, measured, cell }) = found(&moment) else { continue };
+        let Some(Finding { robots, measured, cell }) = found(&moment) else { continue };
         let place = fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
         let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
         let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);

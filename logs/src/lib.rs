@@ -28,8 +28,8 @@ mod read;
 mod track;
 
 pub use clause::{CLAUSES, Kind, not_judged};
-pub use ground::{Grid, Ground, Misplaced, misplaced, visits};
-pub use judge::{Breach, Demand, Doubt, Joining, MOST_COMPARISONS, TooMuch, Verdict, judge};
-pub use numbers::{Misnamed, Numbers};
+pub use ground::{Grid, Ground, Strays, misplaced, visits};
+pub use judge::{Breach, Contact, Demand, Doubt, MOST_COMPARISONS, TooMuch, Verdict, judge};
+pub use numbers::{NamesError, Numbers};
 pub use read::{Fault, FaultPlace, Form, Log, MOST_SAMPLES, Sample, read};
-pub use track::{Limits, Refused, Silence, Tracks};
+pub use track::{Limits, Refusals, Silence, Tracks};

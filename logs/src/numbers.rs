@@ -18,7 +18,7 @@ pub struct Numbers {
 
 /// A file of names that cannot be used.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Misnamed {
+pub enum NamesError {
     /// A line, from 1, that is no name with a number.
     Line(usize),
     /// A name or a number that stands on this line for the second time.
@@ -29,7 +29,7 @@ pub enum Misnamed {
     Nothing(Vec<String>),
 }
 
-impl fmt::Display for Misnamed {
+impl fmt::Display for NamesError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(_) => {
@@ -44,7 +44,7 @@ impl fmt::Display for Misnamed {
     }
 }
 
-impl std::error::Error for Misnamed {}
+impl std::error::Error for NamesError {}
 
 /// Names that a message shows.
 const SHOWN: usize = 6;
@@ -64,8 +64,8 @@ impl Numbers {
     /// Numbers as a file of lines `NAME,NUMBER` says, from 1. Names of the log that it does not name are no robots.
     ///
     /// # Errors
-    /// [`Misnamed`].
-    pub fn named(names: &[String], file: &str) -> Result<Self, Misnamed> {
+    /// [`NamesError`].
+    pub fn named(names: &[String], file: &str) -> Result<Self, NamesError> {
         let mut numbers: HashMap<&str, u32> = HashMap::new();
         let (mut by_number, mut given): (Vec<(u32, &str)>, HashSet<u32>) = (Vec::new(), HashSet::new());
         let file = file.strip_prefix(BOM).unwrap_or(file);
@@ -80,20 +80,20 @@ impl Numbers {
                 None if numbers.is_empty() && line.to_ascii_lowercase().replace(' ', "") == "name,robot" => {
                     continue;
                 }
-                Some(_) | None => return Err(Misnamed::Line(place)),
+                Some(_) | None => return Err(NamesError::Line(place)),
             };
             if numbers.insert(name, robot).is_some() || !given.insert(robot) {
-                return Err(Misnamed::Twice(place));
+                return Err(NamesError::Twice(place));
             }
             by_number.push((robot, name));
         }
         by_number.sort_unstable();
         if let Some(gap) = (0..).zip(&by_number).find(|(robot, (other, _))| robot != other) {
-            return Err(Misnamed::Gap(gap.0));
+            return Err(NamesError::Gap(gap.0));
         }
         let of: Vec<Option<u32>> = names.iter().map(|name| numbers.get(name.as_str()).copied()).collect();
         if of.iter().all(Option::is_none) {
-            return Err(Misnamed::Nothing(names.iter().take(SHOWN).cloned().collect()));
+            return Err(NamesError::Nothing(names.iter().take(SHOWN).cloned().collect()));
         }
         let known: HashSet<&str> = names.iter().map(String::as_str).collect();
         let is_absent = |name: &&str| !known.contains(name);

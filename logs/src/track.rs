@@ -19,7 +19,7 @@ pub struct Limits {
 
 /// The positions that were not taken: how many, and the place of the first in the log.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub struct Refused {
+pub struct Refusals {
     /// Stamps before an earlier one of the same robot.
     pub late: Option<(u32, u32)>,
     /// Stamps that are farther than the limit from the one before and from half of those behind.
@@ -48,7 +48,7 @@ pub struct Tracks {
     gap_us: u64,
     /// The first stamp and the last one.
     span_us: [i64; 2],
-    refused: Refused,
+    refused: Refusals,
 }
 
 fn count(counted: &mut Option<(u32, u32)>, place: u32) {
@@ -61,7 +61,7 @@ const LOOKED_AHEAD: usize = 16;
 impl Tracks {
     /// The positions of `log`, of the robots that have numbers.
     pub fn new(log: &Log, numbers: &Numbers, limits: &Limits) -> Self {
-        let mut refused = Refused::default();
+        let mut refused = Refusals::default();
         let mut robots = vec![Vec::new(); numbers.names().len()];
         let mut latest: HashMap<u32, i64> = HashMap::new();
         let mut now: Option<i64> = None;
@@ -120,7 +120,7 @@ impl Tracks {
     }
 
     /// The positions that were not taken.
-    pub const fn refused(&self) -> Refused {
+    pub const fn refused(&self) -> Refusals {
         self.refused
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use tautline_logs::{Grid, Ground, Limits, Misplaced, Numbers, Tracks, misplaced, read};
+use tautline_logs::{Grid, Ground, Limits, Numbers, Strays, Tracks, misplaced, read};
 
 const LIMITS: Limits = Limits { tolerance_mm: 100, gap_us: 1_000_000, jump_us: 60_000_000 };
 const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000 };
@@ -31,7 +31,7 @@ fn faults(rows: &[(u32, [i32; 2])]) -> [u32; 2] {
     }
     let log = read(text.as_bytes()).expect("a log");
     let tracks = Tracks::new(&log, &Numbers::natural(&log.names), &LIMITS);
-    let Misplaced { off, through, .. } = misplaced(&tracks, &LIMITS, GRID, &Floor);
+    let Strays { off, through, .. } = misplaced(&tracks, &LIMITS, GRID, &Floor);
     [off, through].map(|found| found.map_or(0, |(count, _)| count))
 }
 

@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 
 use tautline_grids::layout::{Layout, load};
 use tautline_kernel::ground::Cell;
-use tautline_logs::{Demand, Doubt, Grid, Joining, Limits, Numbers, Tracks, Verdict, judge, read};
+use tautline_logs::{Contact, Demand, Doubt, Grid, Limits, Numbers, Tracks, Verdict, judge, read};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::pack::PACK;
-use tautline_sim::explore::{Asked, Profile, RuleId, explore};
+use tautline_sim::explore::{ExplorationRequest, Profile, RuleId, explore};
 
 use super::forms::{self, Row};
 
@@ -97,7 +97,11 @@ struct Run {
 
 fn run(sort: &Sort, seed: u64) -> Run {
     let layout = load(sort.layout, seed, None).expect("a layout");
-    let asked = Asked { robots: Some(sort.robots as u64), seed, ..Asked::new(sort.scheme, RuleId::REPAIRED) };
+    let asked = ExplorationRequest {
+        robots: Some(sort.robots as u64),
+        seed,
+        ..ExplorationRequest::new(sort.scheme, RuleId::REPAIRED)
+    };
     let setup = asked.setup(layout).expect("a setup");
     let mut cells = vec![setup.starts()];
     explore(&setup, &mut |made| {
@@ -139,8 +143,8 @@ impl Run {
         match id {
             "CHAIN-2" => Demand::Crowd { grid, most: 2, base: Some(self.grid_cell(self.cells[0][0])) },
             "CHAIN-3" => Demand::Neighbours { range_mm: 2_549 },
-            "KIT-1" => Demand::Joined { range_mm: 10_000, of: Joining::All },
-            "KIT-12" => Demand::Joined { range_mm: 10_000, of: Joining::JoinedAtStart },
+            "KIT-1" => Demand::Joined { range_mm: 10_000, of: Contact::All },
+            "KIT-12" => Demand::Joined { range_mm: 10_000, of: Contact::JoinedAtStart },
             "KIT-3" => Demand::Apart { least_mm: 3_000 },
             "FRONTIER-1" => {
                 let cells =

@@ -1,7 +1,7 @@
 //! Logs that are read, and the words for those that are cut, damaged or of no use.
 
 use tautline_logs::{
-    Demand, Doubt, Fault, FaultPlace, Limits, Log, Misnamed, Numbers, Silence, Tracks, Verdict, judge, read,
+    Demand, Doubt, Fault, FaultPlace, Limits, Log, NamesError, Numbers, Silence, Tracks, Verdict, judge, read,
 };
 
 use super::forms::{self, Row};
@@ -169,9 +169,9 @@ fn names_are_numbered_by_their_digits_or_by_a_file() {
     let named = |file: &str| Numbers::named(&names, file);
     assert_eq!(named("robot_2,2\nlost,3\nbase,1\n").expect("numbers").absent(), ["lost"]);
     assert_eq!(named("\u{feff}robot_2,2\r\nbase,1\r\n").expect("numbers").names(), ["base", "robot_2"]);
-    assert_eq!(named("robot_2,1\nbase\n"), Err(Misnamed::Line(2)));
-    assert_eq!(named("robot_2,0\n"), Err(Misnamed::Line(1)));
-    assert_eq!(named("robot_2,1\nbase,1\n"), Err(Misnamed::Twice(2)));
-    assert_eq!(named("robot_2,2\n"), Err(Misnamed::Gap(0)));
-    assert_eq!(named("a,1\nb,2\n"), Err(Misnamed::Nothing(names.to_vec())));
+    assert_eq!(named("robot_2,1\nbase\n"), Err(NamesError::Line(2)));
+    assert_eq!(named("robot_2,0\n"), Err(NamesError::Line(1)));
+    assert_eq!(named("robot_2,1\nbase,1\n"), Err(NamesError::Twice(2)));
+    assert_eq!(named("robot_2,2\n"), Err(NamesError::Gap(0)));
+    assert_eq!(named("a,1\nb,2\n"), Err(NamesError::Nothing(names.to_vec())));
 }

@@ -34,28 +34,28 @@ impl Demand for Neighbours {
 /// KIT-1, KIT-2 and KIT-12: robots hear each other directly or over others. Two robots of KIT are within 10 m. Nothing
 /// is said before every robot is heard within the gap: a silent one may be the link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Joined {
+pub struct Connectivity {
     /// The range.
     pub range_mm: u32,
     /// How far off the distance may be.
     pub tolerance_mm: u32,
 }
 
-impl Demand for Joined {
+impl Demand for Connectivity {
     fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         let most = self.range_mm.saturating_add(self.tolerance_mm);
         if track.heard().count() < track.robots() {
             return None;
         }
         for (number, robot) in track.robots.iter_mut().enumerate() {
-            robot.link = if number == 0 { Link::Joined } else { Link::Apart };
+            robot.link = if number == 0 { Link::Connectivity } else { Link::Apart };
         }
-        while let Some(asked) = track.robots.iter_mut().find(|robot| robot.link == Link::Joined) {
+        while let Some(asked) = track.robots.iter_mut().find(|robot| robot.link == Link::Connectivity) {
             asked.link = Link::Asked;
             let from = asked.place;
             let is_near =
                 |robot: &&mut Robot| robot.link == Link::Apart && !from.is_beyond(robot.place, most);
-            track.robots.iter_mut().filter(is_near).for_each(|robot| robot.link = Link::Joined);
+            track.robots.iter_mut().filter(is_near).for_each(|robot| robot.link = Link::Connectivity);
         }
         let track = &*track;
         let linked = |link: Link| track.heard().filter(move |&(robot, _)| track.robots[robot].link == link);
@@ -135,7 +135,7 @@ pub enum AnyDemand {
     /// CHAIN-3.
     Neighbours(Neighbours),
     /// KIT-1, KIT-2, KIT-12.
-    Joined(Joined),
+    Connectivity(Connectivity),
     /// KIT-3.
     Apart(Apart),
     /// CHAIN-2, FRONTIER-2, PACK-2.
@@ -146,7 +146,7 @@ impl Demand for AnyDemand {
     fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         match self {
             Self::Neighbours(demand) => demand.breach(track),
-            Self::Joined(demand) => demand.breach(track),
+            Self::Connectivity(demand) => demand.breach(track),
             Self::Apart(demand) => demand.breach(track),
             Self::Cells(demand) => demand.breach(track),
         }

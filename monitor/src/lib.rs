@@ -25,7 +25,7 @@ mod demands;
 
 use core::fmt;
 
-pub use demands::{AnyDemand, Apart, Cells, Joined, Neighbours, Own};
+pub use demands::{AnyDemand, Apart, Cells, Connectivity, Neighbours, Own};
 
 /// A position on a floor, in millimetres. The axes are those of the one who measures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -136,13 +136,13 @@ pub struct Robot {
     link: Link,
 }
 
-/// The links of a robot, as [`Joined`] finds them at each position.
+/// The links of a robot, as [`Connectivity`] finds them at each position.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Link {
     /// It is not joined to the first robot.
     Apart,
     /// It is joined to the first robot.
-    Joined,
+    Connectivity,
     /// It is joined, and who is near it is as well.
     Asked,
 }

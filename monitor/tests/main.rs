@@ -2,7 +2,7 @@
 //! it keeps every sample, and looks at all pairs and all ways at each one.
 
 use tautline_monitor::{
-    Apart, Cells, Demand, Doubt, Joined, Monitor, Neighbours, Own, Place, Robot, Track, Verdict,
+    Apart, Cells, Connectivity, Demand, Doubt, Monitor, Neighbours, Own, Place, Robot, Track, Verdict,
 };
 
 const ROBOTS: usize = 4;
@@ -24,7 +24,7 @@ enum Clause {
 const CLAUSES: [Clause; 5] = [Clause::Chain3, Clause::Kit12, Clause::Kit3, Clause::Chain2, Clause::Frontier2];
 const TOLERANCE_MM: u32 = 100;
 const RANGE: Neighbours = Neighbours { range_mm: 2_549, tolerance_mm: TOLERANCE_MM };
-const LINKS: Joined = Joined { range_mm: 2_549, tolerance_mm: TOLERANCE_MM };
+const LINKS: Connectivity = Connectivity { range_mm: 2_549, tolerance_mm: TOLERANCE_MM };
 const APART: Apart = Apart { least_mm: 1_000, tolerance_mm: TOLERANCE_MM };
 const PAIRS: Cells = Cells { cell_mm: 1_000, most: 2, base: Some([0, 0]), tolerance_mm: TOLERANCE_MM };
 const SINGLE: Cells = Cells { most: 1, base: None, ..PAIRS };

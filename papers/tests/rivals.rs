@@ -12,7 +12,7 @@ use tautline_papers::rivals::{CATALOGUE, COVERED, rival};
 use tautline_papers::rivals::{
     Cells, Deadlock, Links, Moves, Null, ParameterError, Parameters, Search, Team, Weights, full, pool,
 };
-use tautline_sim::explore::{Limits, Report, RuleId, Setup, Stopped, explore, run, team};
+use tautline_sim::explore::{Limits, Report, RuleId, Setup, StopReason, explore, run, team};
 
 fn layout(description: &str, seed: u64) -> Layout {
     description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
@@ -169,7 +169,7 @@ fn a_base_that_is_walled_in_ends_the_run() {
     }
     for parameters in [Parameters::FULL, Parameters::POOL] {
         let report = played(parameters, 3, &walled, 0);
-        assert_eq!((report.stopped, report.explored), (Stopped::Exhausted, 1), "{parameters:?}");
+        assert_eq!((report.stopped, report.explored), (StopReason::Exhausted, 1), "{parameters:?}");
     }
 }
 
@@ -178,7 +178,7 @@ fn a_team_that_is_stuck_ends_when_its_patience_does_and_a_scattered_one_goes_on(
     let layout = layout("rooms-a", 0);
     let stuck = Parameters { patience: 100, ..Parameters::FULL.linked(Links::Covered) };
     let waits = played(stuck, 8, &layout, 0);
-    assert_eq!(waits.stopped, Stopped::Endless);
+    assert_eq!(waits.stopped, StopReason::Endless);
     let scatters =
         played(Parameters { deadlock: Deadlock::Scatter { after: 10, moves: 10 }, ..stuck }, 8, &layout, 0);
     assert!(scatters.explored > waits.explored, "{} {}", scatters.explored, waits.explored);

@@ -10,8 +10,10 @@ use tautline_grids::chance::Probability;
 use tautline_grids::layout::Generator;
 use tautline_kernel::ground::Cell;
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::explore::{Asked, Limits, Profile, Rule, Scene, Scheme, Senses, Stopped, explore};
-use tautline_sim::failures::{Appearing, Compass, Failure};
+use tautline_sim::explore::{
+    ExplorationRequest, Limits, Profile, Rule, Scene, Scheme, Senses, StopReason, explore,
+};
+use tautline_sim::failures::{Compass, Failure, WallAppearance};
 use tautline_sim::options::Extra;
 
 /// The layouts, and how many robots explore each, the base counted.
@@ -49,7 +51,7 @@ impl Event {
         }
     }
 
-    fn befalls(self, asked: &mut Asked) {
+    fn befalls(self, asked: &mut ExplorationRequest) {
         let step = NonZeroU32::new(9).expect("not 0");
         match self {
             Self::Nothing => {}
@@ -61,7 +63,7 @@ impl Event {
             Self::ShortSight => (asked.options.sight_cells, asked.options.range_cells) = (Some(3), Some(6)),
             Self::Death => asked.options.fail = Some(Failure { robot: 3, step }),
             Self::Wall => {
-                asked.options.wall = Some(Appearing { cell: Cell::new(3, 3), side: Compass::E, step });
+                asked.options.wall = Some(WallAppearance { cell: Cell::new(3, 3), side: Compass::E, step });
             }
         }
     }
@@ -72,7 +74,12 @@ impl Event {
 fn run(scheme: Scheme, rule: &Rule, event: Event, layout: &str, robots: u64) -> Option<(String, u32)> {
     let generator: Generator = layout.parse().expect("a generator");
     let limits = Limits { max_moves: NonZeroU32::new(300), ..Limits::default() };
-    let mut asked = Asked { robots: Some(robots), seed: 7, limits, ..Asked::new(scheme, rule.name) };
+    let mut asked = ExplorationRequest {
+        robots: Some(robots),
+        seed: 7,
+        limits,
+        ..ExplorationRequest::new(scheme, rule.name)
+    };
     event.befalls(&mut asked);
     let setup = asked.setup(generator.generate(7).expect("a layout")).ok()?;
     let mut done = Hasher::new();
@@ -87,8 +94,8 @@ fn run(scheme: Scheme, rule: &Rule, event: Event, layout: &str, robots: u64) -> 
     });
     let report = report.ok()?;
     let sign = match report.stopped {
-        Stopped::Explored => "",
-        Stopped::Exhausted => "-",
+        StopReason::Explored => "",
+        StopReason::Exhausted => "-",
         _ => "+",
     };
     Some((format!("{}{sign}", report.steps), done.finalize()))

@@ -6,7 +6,7 @@ use std::num::NonZeroU32;
 use tautline_grids::chance::Probability;
 use tautline_grids::layout::{Generator, Layout};
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::explore::{Asked, By, Drawn, Limits, Rule, Scheme, explore};
+use tautline_sim::explore::{By, ExplorationRequest, Limits, RandomPart, Rule, Scheme, explore};
 use tautline_sim::options::Extra;
 
 const SEEDS: u64 = 6;
@@ -24,7 +24,7 @@ impl RunOption {
         [Self::Nothing, Self::Miss].into_iter().chain(Extra::ALL.map(Self::Extra))
     }
 
-    fn tell(self, asked: &mut Asked) {
+    fn tell(self, asked: &mut ExplorationRequest) {
         match self {
             Self::Nothing => {}
             Self::Miss => asked.miss = Probability::new(0.3),
@@ -53,7 +53,8 @@ impl RunOption {
 /// told that.
 fn run(scheme: Scheme, rule: &Rule, told: RunOption, layout: &Layout, seed: u64) -> Option<(bool, String)> {
     let limits = Limits { max_moves: NonZeroU32::new(60), ..Limits::default() };
-    let mut asked = Asked { robots: Some(4), seed, limits, ..Asked::new(scheme, rule.name) };
+    let mut asked =
+        ExplorationRequest { robots: Some(4), seed, limits, ..ExplorationRequest::new(scheme, rule.name) };
     told.tell(&mut asked);
     let setup = asked.setup(layout.clone()).ok()?;
     let mut moves = Vec::new();
@@ -72,7 +73,7 @@ fn run(scheme: Scheme, rule: &Rule, told: RunOption, layout: &Layout, seed: u64)
 #[test]
 fn each_scheme_says_what_its_seed_draws() {
     for scheme in CATALOGUE.schemes() {
-        let mut seen: Vec<&Drawn> = Vec::new();
+        let mut seen: Vec<&RandomPart> = Vec::new();
         for (rule, told) in
             scheme.rules.iter().flat_map(|rule| RunOption::all().map(move |told| (rule, told)))
         {

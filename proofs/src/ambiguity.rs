@@ -59,7 +59,7 @@ pub struct Paper {
 }
 
 /// An interpretation with the words that it is about.
-type Quoted = (&'static str, &'static Interpretation);
+type Quote = (&'static str, &'static Interpretation);
 
 /// Why no reading is what was asked for.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -72,7 +72,7 @@ pub enum ReadingError {
         known: Vec<&'static str>,
     },
     /// Two that contradict each other.
-    Contradiction(Quoted, Quoted),
+    Contradiction(Quote, Quote),
 }
 
 impl fmt::Display for ReadingError {
@@ -104,7 +104,7 @@ impl Paper {
     /// # Errors
     /// [`ReadingError`] if there is no such interpretation, or if two contradict each other.
     pub fn reading(&self, asked: &[&str]) -> Result<String, ReadingError> {
-        let mut taken: Vec<Option<Quoted>> = vec![None; self.ambiguities.len()];
+        let mut taken: Vec<Option<Quote>> = vec![None; self.ambiguities.len()];
         for &name in asked {
             let found = self
                 .ambiguities
@@ -120,10 +120,10 @@ impl Paper {
                 return Err(ReadingError::Contradiction(before, quoted));
             }
         }
-        let first = |(ambiguity, taken): (&Ambiguity, Option<Quoted>)| {
+        let first = |(ambiguity, taken): (&Ambiguity, Option<Quote>)| {
             taken.or_else(|| Some((ambiguity.words, ambiguity.interpretations.first()?)))
         };
-        let all: Vec<Quoted> = self.ambiguities.iter().zip(taken).filter_map(first).collect();
+        let all: Vec<Quote> = self.ambiguities.iter().zip(taken).filter_map(first).collect();
         let find = |name: &str| all.iter().copied().find(|(_, one)| one.name == name);
         for &(one, other) in self.excluded {
             if let (Some(one), Some(other)) = (find(one), find(other)) {

@@ -94,7 +94,7 @@ impl Demands for Rule {
 #[cfg(test)]
 mod tests {
     use rustc_hash::FxHashSet;
-    use tautline_kernel::floor::Replaced;
+    use tautline_kernel::floor::SensorFate;
 
     use super::*;
     use crate::engine::states::{Limits, search, steps};
@@ -152,7 +152,7 @@ mod tests {
     /// With one sensor missed no cell is missed that has two: whether these are missed one by one plays no part.
     #[test]
     fn one_missed_sensor_is_enough_where_the_old_one_stays() {
-        let subject = Subject::of(Rule { replaced: Replaced::Beside, ..Rule::PUBLISHED });
+        let subject = Subject::of(Rule { replaced: SensorFate::Beside, ..Rule::PUBLISHED });
         for demand in [Demand::Knowing, Demand::Explores, Demand::Ends] {
             let teams = Series::missing(Area::blocked(3, 3), 1, 1).teams(&subject, demand);
             let is_broken = |team: &Team<Rule>| !search(team, team.starts(), Limits::NONE).broken.is_empty();

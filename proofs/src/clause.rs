@@ -6,14 +6,14 @@ use std::fmt;
 
 use crate::ambiguity::Paper;
 use crate::decide::{
-    Answer, Cache, Context, Decided, Drawn, Evidence, Method, MethodError, Portion, RandomRuns,
-    RefutationPlay, Size, Systems, Verdict,
+    Answer, Cache, Context, DrawnCertificate, Evidence, Method, MethodError, MethodResult, Portion,
+    RandomRuns, RefutationPlay, Size, Systems, Verdict,
 };
 use crate::engine::states::{Limits, MemoryLimit};
 use crate::engine::tree::Watch;
 use crate::engine::{Choices, ScriptError, Until};
 use crate::judge::AnyCase;
-use crate::run::Scripted;
+use crate::run::ScriptedRun;
 
 /// A rule with the name that the ledger prints: "published", "repaired", "robust", or what is wrong with it.
 #[derive(Clone, Copy, Debug)]
@@ -207,7 +207,7 @@ impl Decision {
     /// The decision that `answer` makes about a check's own rule, and about the variants by their numbers.
     fn made(
         variants: Vec<Variant>,
-        answer: &mut dyn FnMut(Option<usize>, Until) -> Decided,
+        answer: &mut dyn FnMut(Option<usize>, Until) -> MethodResult,
     ) -> Result<Self, MethodError> {
         let mut decision = Self::of(answer(None, Until::Exhausted)?);
         for (number, variant) in variants.into_iter().enumerate() {
@@ -300,7 +300,12 @@ pub trait AnyCheck: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide_rule(&self, variant: Option<usize>, until: Until, context: &mut Context<'_, '_>) -> Decided;
+    fn decide_rule(
+        &self,
+        variant: Option<usize>,
+        until: Until,
+        context: &mut Context<'_, '_>,
+    ) -> MethodResult;
 
     /// Into how many parts it can be divided: see [`Method::portions`].
     fn portions(&self) -> usize;
@@ -315,7 +320,7 @@ pub trait AnyCheck: Sync {
         variant: Option<usize>,
         portion: Portion,
         context: &mut Context<'_, '_>,
-    ) -> Decided;
+    ) -> MethodResult;
 
     /// Decides it, and its variants, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
@@ -361,7 +366,7 @@ pub trait AnyCheck: Sync {
     fn case(&self, choices: &Choices) -> Option<Box<dyn AnyCase>>;
 
     /// The counterexample that these choices make, as a run of its scheme: see [`Method::scripted`].
-    fn scripted(&self, choices: &Choices) -> Option<Scripted>;
+    fn scripted(&self, choices: &Choices) -> Option<ScriptedRun>;
 
     /// The size of the counterexample that these choices make: see [`Method::size`].
     fn size(&self, choices: &Choices) -> Option<Size>;
@@ -370,7 +375,7 @@ pub trait AnyCheck: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn smallest(&self) -> Result<Option<Drawn>, MethodError>;
+    fn smallest(&self) -> Result<Option<DrawnCertificate>, MethodError>;
 }
 
 impl<R: Sync> AnyCheck for Check<R> {
@@ -413,7 +418,12 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.method.family(self.rule_of(variant)?)
     }
 
-    fn decide_rule(&self, variant: Option<usize>, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide_rule(
+        &self,
+        variant: Option<usize>,
+        until: Until,
+        context: &mut Context<'_, '_>,
+    ) -> MethodResult {
         let Some(rule) = self.rule_of(variant) else { return Ok(Answer::open()) };
         self.method.decide(rule, until, context)
     }
@@ -427,7 +437,7 @@ impl<R: Sync> AnyCheck for Check<R> {
         variant: Option<usize>,
         portion: Portion,
         context: &mut Context<'_, '_>,
-    ) -> Decided {
+    ) -> MethodResult {
         let Some(rule) = self.rule_of(variant) else { return Ok(Answer::open()) };
         let until = if variant.is_some() { Until::Violation } else { Until::Exhausted };
         self.method.decide_portion(rule, portion, until, context)
@@ -458,7 +468,7 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.case.map_or_else(|| self.method.case(rule, choices), |case| case(rule, choices))
     }
 
-    fn scripted(&self, choices: &Choices) -> Option<Scripted> {
+    fn scripted(&self, choices: &Choices) -> Option<ScriptedRun> {
         self.method.scripted(&self.about.rule, choices)
     }
 
@@ -466,7 +476,7 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.method.size(&self.about.rule, choices)
     }
 
-    fn smallest(&self) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self) -> Result<Option<DrawnCertificate>, MethodError> {
         self.method.smallest(&self.about.rule)
     }
 }

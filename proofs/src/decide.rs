@@ -9,7 +9,7 @@ use std::fmt;
 use tautline_kernel::choice::Oracle;
 
 pub use self::portion::Portion;
-use crate::engine::model::Started;
+use crate::engine::model::StatesModel;
 use crate::engine::smallest::Certificate;
 use crate::engine::states::{self, AnySystem, Limits, Room, Step, System};
 use crate::engine::tree::Watch;
@@ -17,7 +17,7 @@ use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, T
 use crate::floor_trace::Course;
 use crate::judge::AnyCase;
 use crate::plural::counted;
-use crate::run::{Run, Scripted};
+use crate::run::{Run, ScriptedRun};
 
 /// A check's verdict.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -205,7 +205,7 @@ impl fmt::Debug for Cache {
 }
 
 /// The answer of a method, or why it cannot begin.
-pub type Decided = Result<Answer, MethodError>;
+pub type MethodResult = Result<Answer, MethodError>;
 
 /// A method's surroundings.
 pub struct Context<'a, 'w> {
@@ -251,7 +251,7 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided;
+    fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> MethodResult;
 
     /// Into how many parts it can be divided, of which each is looked at by itself.
     fn portions(&self) -> usize {
@@ -263,7 +263,13 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn decide_portion(&self, rule: &R, _: Portion, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide_portion(
+        &self,
+        rule: &R,
+        _: Portion,
+        until: Until,
+        context: &mut Context<'_, '_>,
+    ) -> MethodResult {
         self.decide(rule, until, context)
     }
 
@@ -273,8 +279,7 @@ pub trait Method<R>: Sync {
     /// [`ScriptError`] if they are none.
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 
-    /// The answer about `rule` by random runs in place of all cases, up to the first that is a counterexample; `None`
-    /// if the method makes none.
+    /// The answer about `rule` by random runs, up to the first that is a counterexample; `None` if the method makes none.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
@@ -291,8 +296,7 @@ pub trait Method<R>: Sync {
         Ok(None)
     }
 
-    /// A file that Rocq checks, with the theorem that the clause holds of `rule` beyond every bound; `None` if the
-    /// method has none.
+    /// A file for Rocq with the theorem that the clause holds of `rule` beyond every bound; `None` if it has none.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or if the file would be too large.
@@ -300,8 +304,7 @@ pub trait Method<R>: Sync {
         None
     }
 
-    /// The systems whose states or runs it searches for `rule`, all of them, each of which a section of a certificate
-    /// is about.
+    /// All systems whose states or runs it searches for `rule`: a section of a certificate is about each.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or searches something else.
@@ -316,7 +319,7 @@ pub trait Method<R>: Sync {
     }
 
     /// The counterexample to `rule` that these choices make, as a run of its scheme; `None` if it is none.
-    fn scripted(&self, _: &R, _: &Choices) -> Option<Scripted> {
+    fn scripted(&self, _: &R, _: &Choices) -> Option<ScriptedRun> {
         None
     }
 
@@ -330,7 +333,7 @@ pub trait Method<R>: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
-    fn smallest(&self, _: &R) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, _: &R) -> Result<Option<DrawnCertificate>, MethodError> {
         Ok(None)
     }
 }
@@ -342,7 +345,7 @@ pub type Systems = Vec<Box<dyn AnySystem>>;
 pub type Size = (String, usize);
 
 /// The smallest counterexample, drawn, and all that is smaller, each class in words.
-pub type Drawn = Certificate<String, String>;
+pub type DrawnCertificate = Certificate<String, String>;
 
 /// A body: one case of a clause about `rule`, made by the choices that the oracle answers.
 pub type Body<R> = fn(rule: &R, oracle: &mut dyn Oracle) -> Outcome;
@@ -384,7 +387,7 @@ impl<R: Sync> Method<R> for EveryAnswer<R> {
         (self.range)()
     }
 
-    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> MethodResult {
         let tally = engine::exhaust(|oracle| (self.body)(rule, oracle));
         Ok(Answer::of_tally(tally, self.covers, self.shows()))
     }
@@ -407,7 +410,7 @@ impl<R: Sync> Method<R> for RandomAnswers<R> {
         Verdict::Unrefuted
     }
 
-    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, _: Until, _: &mut Context<'_, '_>) -> MethodResult {
         let tally = engine::sample(self.runs, SEED, |oracle| (self.body)(rule, oracle));
         Ok(Answer::of_tally(tally, self.covers, self.shows()))
     }
@@ -486,7 +489,7 @@ where
     }
 
     /// The choices are the number of the start, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let system = (self.system)(rule);
         states::repeats(&system, (self.starts)(&system)).map_err(MethodError::new)?;
         let limits = Limits { room: context.room, ..Limits::steps(self.most_steps.into()) };
@@ -503,7 +506,7 @@ where
     fn systems(&self, rule: &R) -> Result<Systems, MethodError> {
         let system = (self.system)(rule);
         states::repeats(&system, (self.starts)(&system)).map_err(MethodError::new)?;
-        Ok(vec![Box::new(Started::new(system, self.starts))])
+        Ok(vec![Box::new(StatesModel::new(system, self.starts))])
     }
 
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError> {

@@ -11,7 +11,7 @@ use std::iter;
 use crate::clause::{AnyCheck, Clause, Decision};
 use crate::decide::Verdict;
 
-pub use certificates::{Examined, Misfit, certificate, examine};
+pub use certificates::{Examination, Misfit, certificate, examine};
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all};
 

@@ -11,7 +11,7 @@ use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};
 
 /// The senders or packets that k counts where a packet comes twice.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Counted {
+pub enum CountOf {
     /// The senders that a node hears besides the first.
     Senders,
     /// The packets after the first one.
@@ -37,13 +37,13 @@ pub struct Subject {
     /// How they take k, if not for what it is.
     pub miscount: Option<Miscount>,
     /// The senders or packets that k counts.
-    pub counted: Counted,
+    pub counted: CountOf,
 }
 
 impl Subject {
     /// As published.
     pub const PUBLISHED: Self =
-        Self { conditions: Conditions::PUBLISHED, miscount: None, counted: Counted::Senders };
+        Self { conditions: Conditions::PUBLISHED, miscount: None, counted: CountOf::Senders };
 
     /// Repaired.
     pub const REPAIRED: Self = Self { conditions: Conditions::REPAIRED, ..Self::PUBLISHED };

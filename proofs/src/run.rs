@@ -52,7 +52,7 @@ pub struct Run {
 /// A run that a search has made by its choices: the layout that it met, without frames, and the choices that make it
 /// again there, as the runs of its scheme read them.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Scripted {
+pub struct ScriptedRun {
     /// Where it takes place, and what it breaks.
     pub run: Run,
     /// The choices.

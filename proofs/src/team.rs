@@ -19,7 +19,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
-pub use self::graph::{Crew, Deployed, Graph, Graphs, Kind, Known, Task, Teams, conflicts};
+pub use self::graph::{Crew, Deployment, Graph, Graphs, Kind, KnownGraph, Task, Teams, conflicts};
 pub use self::ground::{Ground, Map, Which};
 pub use self::keeps::Keeps;
 pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep, View};

@@ -3,17 +3,17 @@
 use tautline_proofs::decide::RefutationPlay;
 use tautline_proofs::engine::{Choices, ScriptError};
 
-use crate::refuted::{Refuted, of};
+use crate::refuted::{Refutation, of};
 
 /// The refuted checks that take no long time.
-fn short() -> impl Iterator<Item = &'static Refuted> {
+fn short() -> impl Iterator<Item = &'static Refutation> {
     let short = ["CHAIN-14", "BRICKS-5", "BRICKS-6", "NOTICE-4", "NOTICE-5", "MRC-2"];
     of(move |id| short.contains(&id))
 }
 
 #[test]
 fn other_choices_refute_something_or_are_refused() {
-    for Refuted { check, found: evidence, .. } in short() {
+    for Refutation { check, found: evidence, .. } in short() {
         let choices = evidence.choices.clone();
         let RefutationPlay { of: options, evidence: again } = check.replay(&choices).expect("what was found");
         assert_eq!((again.choices.clone(), again.demand), (choices.clone(), evidence.demand));
@@ -36,7 +36,7 @@ fn other_choices_refute_something_or_are_refused() {
 
 #[test]
 fn choices_that_are_cut_or_go_on_are_refused() {
-    for Refuted { check, found: evidence, .. } in short() {
+    for Refutation { check, found: evidence, .. } in short() {
         let choices = evidence.choices.clone();
         for left in 0..choices.once.len() {
             let cut = Choices { once: choices.once[..left].to_vec(), ..choices.clone() };

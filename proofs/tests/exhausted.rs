@@ -8,11 +8,11 @@ use tautline_certificates::{Counts, File, Header, Refusal, check_states, put, re
 use tautline_kernel::mrc::Rule;
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::{Method, Verdict};
-use tautline_proofs::engine::model::Started;
+use tautline_proofs::engine::model::StatesModel;
 use tautline_proofs::engine::states::{self, AnySystem, Limits, NoCertificate, System};
 use tautline_proofs::ledger::{Misfit, certificate, clauses, examine};
 use tautline_proofs::mrc::space::{Space, Until};
-use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Served, Setting};
+use tautline_proofs::mrc::{Demand, Faults, Leases, LossKind, Server, Setting};
 
 /// Holds a verdict against the certificates of what `method` searches for `rule`: if it holds there is one of each
 /// system, which is accepted, and if it is refuted there is none of some.
@@ -195,7 +195,7 @@ fn a_state_left_out_a_wrong_rank_and_a_wrong_start_are_refused_by_what_they_are(
 const PUBLISHED: Setting = Setting {
     rule: Rule::PUBLISHED,
     misread: None,
-    served: Served::ByAny,
+    served: Server::ByAny,
     robots: 2,
     wfrs: 1,
     events: 2,
@@ -208,7 +208,7 @@ const PUBLISHED: Setting = Setting {
 #[test]
 fn a_demand_that_is_broken_is_not_shown_by_the_states_of_one_that_holds() {
     let setting = PUBLISHED;
-    let started = |setting, demand| Started {
+    let started = |setting, demand| StatesModel {
         system: Space { setting, until: Until::Broken(demand) },
         starts: |space: &Space| space.setting.starts(),
         is_asked: |space, demand| space.until == Until::Broken(demand),

@@ -189,9 +189,9 @@ fn two_thousand_random_systems_are_decided_as_a_naive_checker_decides_them() {
 /// A random system in three colours, which no move and no demand looks at: a move goes on by so many colours. With
 /// `TURNED`, states are taken for one that differ in their colours alone; a mark that a demand looks at spoils that.
 #[derive(Clone, Copy)]
-struct Coloured<const TURNED: bool>(Option<u8>);
+struct ColouredSystem<const TURNED: bool>(Option<u8>);
 
-impl<const TURNED: bool> Protocol for Coloured<TURNED> {
+impl<const TURNED: bool> Protocol for ColouredSystem<TURNED> {
     type Bound = Number;
     type State = (u8, u8);
     demands! {
@@ -223,9 +223,10 @@ impl<const TURNED: bool> Protocol for Coloured<TURNED> {
 fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
     let (mut all, mut least) = (0, 0);
     for (number, demand) in (0..200).flat_map(|number| [0, 1, 2].map(|demand| (number, demand))) {
-        let plain = Keeps::<Coloured<false>>(Number(number), demand).search(&Coloured(None), Limits::NONE);
+        let plain = Keeps::<ColouredSystem<false>>(Number(number), demand)
+            .search(&ColouredSystem(None), Limits::NONE);
         let plain = plain.expect("a search");
-        let (rule, method) = (Coloured(None), Keeps::<Coloured<true>>(Number(number), demand));
+        let (rule, method) = (ColouredSystem(None), Keeps::<ColouredSystem<true>>(Number(number), demand));
         let turned = method.search(&rule, Limits::NONE).expect("a search");
         (all, least) = (all + plain.states, least + turned.states);
         let lengths = |run: &Run<&'static str>| (run.steps.len(), run.round().is_empty());
@@ -245,8 +246,8 @@ fn states_that_are_taken_for_one_change_no_verdict_and_no_length_of_a_run() {
 #[test]
 fn states_that_are_not_alike_are_not_taken_for_one() {
     let marked = |mark| {
-        let method = Keeps::<Coloured<true>>(Number(1), 2);
-        method.search(&Coloured(mark), Limits::NONE).map(|found| found.is_whole)
+        let method = Keeps::<ColouredSystem<true>>(Number(1), 2);
+        method.search(&ColouredSystem(mark), Limits::NONE).map(|found| found.is_whole)
     };
     assert_eq!(marked(None), Ok(true));
     let refused = marked(Some(2)).expect_err("a demand tells them apart").to_string();

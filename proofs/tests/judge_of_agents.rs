@@ -7,7 +7,7 @@ use tautline_proofs::decide::Depiction;
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::judge::floor::{Exhibit, Judgement, Objection, Place, Turn, judge};
 
-use crate::refuted::{Refuted, of};
+use crate::refuted::{Refutation, of};
 
 fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
@@ -37,7 +37,7 @@ fn exhibits() -> impl Iterator<Item = Exhibit> {
     of(|id| ["BRICKS-5", "BRICKS-6"].contains(&id)).map(exhibit)
 }
 
-fn exhibit(refuted: &Refuted) -> Exhibit {
+fn exhibit(refuted: &Refutation) -> Exhibit {
     let Depiction::Agents(course) = &refuted.found.seen else {
         panic!("no run of agents: {:?}", refuted.found)
     };

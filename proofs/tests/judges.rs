@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use crate::refuted::{Refuted, of};
+use crate::refuted::{Refutation, of};
 
 /// Whether a clause has a judge in the file of its scheme, or is tried elsewhere.
 fn is_here(clause: &str) -> bool {
@@ -15,7 +15,7 @@ fn every_refutation_is_judged_and_no_single_change_of_it_passes_unnoticed() {
     let mut table = "clause       rule       engine      changes refused\n".to_owned();
     let mut unjudged = Vec::new();
     let (mut refutations, mut tried, mut by_right) = (0, 0, 0);
-    for Refuted { clause, check, found } in of(is_here) {
+    for Refutation { clause, check, found } in of(is_here) {
         let Some(case) = check.case(&found.choices) else {
             unjudged.push(format!("{} {} {}", clause.id, check.rule(), check.engine()));
             continue;

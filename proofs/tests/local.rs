@@ -5,13 +5,15 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
-use tautline_proofs::decide::{Cache, Context, Decided, Depiction, Method, Verdict};
+use tautline_proofs::decide::{Cache, Context, Depiction, Method, MethodResult, Verdict};
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
-use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Kept, Local, Plan, Robot, chain, in_a_row};
+use tautline_proofs::local::{
+    Act, EveryNumber, Far, GuardedPlanner, Invariant, Local, Plan, Robot, chain, in_a_row,
+};
 
-pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> Decided {
+pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> MethodResult {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
     let mut context = Context { memory, watch, room: MemoryLimit::any() };
     method.decide(rule, Until::Exhausted, &mut context)
@@ -236,7 +238,7 @@ fn any_planner_that_is_kept_to_the_relation_keeps_the_promise() {
         acts[any_acts(&DRAWN) as usize % acts.len()].clone()
     };
     let planner = move |robots: &[Robot<u8>]| robots.iter().map(any).collect::<Vec<_>>();
-    let kept = Kept { rule: LEASH, planner };
+    let kept = GuardedPlanner { rule: LEASH, planner };
     let check = Check::holds(NamedRule::new("kept", kept), &EveryNumber::DEFAULT, &[]);
     assert_eq!(check.bound(), "every N, every layout; what runs, each plan kept to the relation");
     assert_eq!(decided(&kept).0, Verdict::Holds);
@@ -266,9 +268,9 @@ fn any_planner_that_is_kept_to_the_relation_keeps_the_promise() {
 }
 
 /// A leash in a layout whose cells have colours: those of a team that starts may be wrong.
-struct Coloured(u8);
+struct ColouredLeash(u8);
 
-impl Local for Coloured {
+impl Local for ColouredLeash {
     type State = u8;
     type Act = Step;
 
@@ -313,8 +315,8 @@ impl Local for Coloured {
 fn a_team_that_starts_in_cells_without_a_colour_is_refused() {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
     let mut context = Context { memory, watch, room: MemoryLimit::any() };
-    assert_eq!(decided(&Coloured(1)).0, Verdict::Refuted);
-    let refusal = EveryNumber::DEFAULT.decide(&Coloured(2), Until::Exhausted, &mut context);
+    assert_eq!(decided(&ColouredLeash(1)).0, Verdict::Refuted);
+    let refusal = EveryNumber::DEFAULT.decide(&ColouredLeash(2), Until::Exhausted, &mut context);
     insta::assert_snapshot!(
         refusal.expect_err("there is no such colour"),
         @"a team of 2 starts in cells that have no colour below 2, or two"

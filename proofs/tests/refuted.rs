@@ -11,16 +11,16 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::ledger::{Room, rooms};
 
 /// A check that is refuted.
-pub(crate) struct Refuted {
+pub(crate) struct Refutation {
     pub(crate) clause: &'static Clause,
     pub(crate) check: &'static dyn AnyCheck,
     pub(crate) found: Evidence,
 }
 
-static REFUTED: LazyLock<Vec<Refuted>> = LazyLock::new(|| rooms().par_iter().flat_map(in_room).collect());
+static REFUTED: LazyLock<Vec<Refutation>> = LazyLock::new(|| rooms().par_iter().flat_map(in_room).collect());
 
 /// Checks of a room are decided one after the other: what one has found, the next one need not search again.
-fn in_room(room: &Room) -> Vec<Refuted> {
+fn in_room(room: &Room) -> Vec<Refutation> {
     let memory = &mut Cache::default();
     let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
     let checks =
@@ -28,12 +28,16 @@ fn in_room(room: &Room) -> Vec<Refuted> {
     let refuted = checks.filter(|(_, check)| check.expected() == Verdict::Refuted);
     let decide = |(clause, check): (&'static Clause, &'static dyn AnyCheck)| {
         let answer = check.decide_rule(None, Until::Exhausted, &mut context).expect("registered checks fit");
-        Refuted { clause, check, found: answer.counterexample.expect("what is refuted has a counterexample") }
+        Refutation {
+            clause,
+            check,
+            found: answer.counterexample.expect("what is refuted has a counterexample"),
+        }
     };
     refuted.map(decide).collect()
 }
 
 /// The refuted checks of these clauses, in the order of the ledger.
-pub(crate) fn of(is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = &'static Refuted> {
+pub(crate) fn of(is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = &'static Refutation> {
     REFUTED.iter().filter(move |refuted| is_wanted(refuted.clause.id))
 }

@@ -3,12 +3,12 @@
 
 use std::fmt::Write;
 
-use crate::refuted::{Refuted, of};
+use crate::refuted::{Refutation, of};
 
 /// The refuted checks of which smaller counterexamples can be asked for.
-fn table(is_wanted: impl Fn(&Refuted) -> bool) -> String {
+fn table(is_wanted: impl Fn(&Refutation) -> bool) -> String {
     let mut table = String::new();
-    for Refuted { clause, check, found } in of(|_| true).filter(|refuted| is_wanted(refuted)) {
+    for Refutation { clause, check, found } in of(|_| true).filter(|refuted| is_wanted(refuted)) {
         let Some(made) = check.smallest().expect("registered checks fit") else { continue };
         assert!(made.is_whole, "{} was cut off", clause.id);
         let (class, moves) = check.size(&found.choices).expect("it has a size");
@@ -26,7 +26,7 @@ fn table(is_wanted: impl Fn(&Refuted) -> bool) -> String {
 }
 
 /// Those that take minutes: that of contact at nodes looks at 22 million states.
-fn is_long(refuted: &Refuted) -> bool {
+fn is_long(refuted: &Refutation) -> bool {
     let ids = ["CHAIN-14", "BRICKS-", "KIT-2"];
     ids.iter().any(|long| refuted.clause.id.starts_with(long))
         || refuted.check.bound().contains("where both stand")

@@ -162,7 +162,7 @@ impl Lots for Counter {
     type Stage = ();
     type Lot = ();
     type Look = Glance;
-    type Found = u64;
+    type Findings = u64;
     type Error = Infallible;
 
     fn stages(&self) -> Vec<()> {

@@ -4,7 +4,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::decide::{
-    Cache, Context, Decided, EveryAnswer, EveryState, Method, RandomAnswers, Verdict,
+    Cache, Context, EveryAnswer, EveryState, Method, MethodResult, RandomAnswers, Verdict,
 };
 use tautline_proofs::engine::states::{MemoryLimit, System};
 use tautline_proofs::engine::tree::unwatched;
@@ -14,7 +14,7 @@ use tautline_proofs::team::{
     Act, Cover, Demand, Ground, Keeps, Places, Rule, Setting, Strategy, View, Which,
 };
 
-fn decide<R>(method: &impl Method<R>, rule: &R) -> Decided {
+fn decide<R>(method: &impl Method<R>, rule: &R) -> MethodResult {
     let (memory, watch) = (&mut Cache::default(), &mut unwatched);
     method.decide(rule, Until::Violation, &mut Context { memory, watch, room: MemoryLimit::any() })
 }

@@ -35,7 +35,7 @@ const EXPLORED: u8 = 1 << SIDES.len();
 type Observation<'py> = [Bound<'py, PyAny>; 3];
 /// An observation, and of each environment the reward, whether its episode is done, whether it is cut short, how many
 /// cells are explored, and whether all neighbours are in contact.
-type Stepped<'py> = (Observation<'py>, [Bound<'py, PyAny>; 5]);
+type StepResult<'py> = (Observation<'py>, [Bound<'py, PyAny>; 5]);
 
 /// By the numbers of environments, the seeds of the layouts on which they begin an episode.
 type Fresh = BTreeMap<usize, u64>;
@@ -132,7 +132,11 @@ impl Environments {
     }
 
     /// Begins an episode in each of these environments, and steps the others. Nothing changes where an error is raised.
-    fn step<'py>(slf: &Bound<'py, Self>, actions: Bound<'py, PyAny>, fresh: Fresh) -> PyResult<Stepped<'py>> {
+    fn step<'py>(
+        slf: &Bound<'py, Self>,
+        actions: Bound<'py, PyAny>,
+        fresh: Fresh,
+    ) -> PyResult<StepResult<'py>> {
         let (py, this) = (slf.py(), &mut *held(slf)?);
         let is_over = |(place, episode): &(usize, &Episode)| !episode.is_on && !fresh.contains_key(place);
         if let Some((place, _)) = this.episodes.iter().enumerate().find(is_over) {

@@ -9,7 +9,9 @@ use tautline_grids::chance::Probability;
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::chain;
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Play, Profile, RuleId, Scheme};
+use tautline_sim::explore::{
+    ExplorationRequest, Limits, Milestone, OnViolation, Play, Profile, RuleId, Scheme,
+};
 use tautline_sim::options::Options;
 
 use crate::diagnostic::{Kind, error};
@@ -104,7 +106,7 @@ pub(crate) fn explore(
         ..usual
     };
     let seed = Int(seed).within(py, "seed", 0..=u64::MAX)?;
-    let asked = Asked {
+    let asked = ExplorationRequest {
         robots: self::robots(py, robots)?,
         seed,
         base: base.map(|At(cell)| cell),
@@ -112,7 +114,7 @@ pub(crate) fn explore(
         miss: probability(py, "miss", miss)?,
         options,
         limits: limits(py, until, max_moves)?,
-        ..Asked::new(scheme, rule)
+        ..ExplorationRequest::new(scheme, rule)
     };
     let ((setup, report), name) = layout.load(py, seed, |ground, is_stopped| {
         let setup = asked.setup(ground)?;

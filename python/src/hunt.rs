@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use serde::Serialize;
 use tautline_grids::layout::{MAX_SIDE_CELLS, Size};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_sim::explore::hunt::{Far, Finding, HuntRequest, Hunter, Shown};
+use tautline_sim::explore::hunt::{Exhibit, Far, Finding, HuntRequest, Hunter};
 
 use crate::diagnostic::raised;
 use crate::explore::{robots, rule, scheme};
@@ -158,11 +158,11 @@ fn facts(py: Python<'_>, facts: &impl Serialize) -> PyResult<Py<PyAny>> {
 fn told(py: Python<'_>, quarry: &Finding) -> PyResult<Py<Counterexample>> {
     let name = quarry.clause.to_owned();
     let run = match &quarry.shown {
-        Shown::Run(clause) | Shown::Story(clause, _) => {
+        Exhibit::Run(clause) | Exhibit::Story(clause, _) => {
             let run = Run::of(py, quarry.setup.clone(), name.clone(), Some(*clause))?;
             Some(Py::new(py, run)?)
         }
-        Shown::Endless | Shown::Told(_) => None,
+        Exhibit::Endless | Exhibit::Told(_) => None,
     };
     let layout = Layout { ground: quarry.setup.layout.clone(), name };
     let (clause, title) = (quarry.clause, quarry.title.clone());

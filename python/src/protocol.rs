@@ -19,7 +19,7 @@ use tautline_proofs::protocol::Keeps;
 use tautline_sim::counterexample::refutation::{self, Meant};
 
 pub(crate) use self::run::StateRun;
-use self::script::{Posed, StateScript, Wanted, Words};
+use self::script::{ScriptCheck, ScriptDemand, StateScript, Words};
 use crate::diagnostic::{Kind, error, raised};
 use crate::given::{Int, whole};
 use crate::hunt::verdict;
@@ -130,7 +130,7 @@ pub(crate) fn hunt_protocol(
             return Err(error(py, Kind::Input, "no run can begin", "let starts return at least one state"));
         }
         let hunted = |demand| -> PyResult<_> {
-            let Asked { clause, check } = Asked::of(&script, demand);
+            let DemandCheck { clause, check } = DemandCheck::of(&script, demand);
             script.take_met();
             let found = check.hunt(&runs);
             script.script.checked(py)?;
@@ -155,7 +155,8 @@ pub(crate) fn replay_protocol(
     let script = Arc::new(StateScript::read(&rule)?);
     script.script.work(py, patience_s, |py| {
         script.begin(py)?;
-        let asked: Vec<Asked> = (0..script.demands.len()).map(|demand| Asked::of(&script, demand)).collect();
+        let asked: Vec<DemandCheck> =
+            (0..script.demands.len()).map(|demand| DemandCheck::of(&script, demand)).collect();
         let known: Vec<Meant<'_>> = asked.iter().map(|asked| (&asked.clause, &asked.check as _)).collect();
         let read = refutation::replay_by(&path, &known);
         script.script.checked(py)?;
@@ -167,22 +168,22 @@ pub(crate) fn replay_protocol(
 
 /// The checks that there were, by their bounds and the kinds of their demands. They are as few as the bounds, and are
 /// kept as long as the process.
-static KEEPS: Mutex<BTreeMap<(&str, usize), &Keeps<Posed>>> = Mutex::new(BTreeMap::new());
+static KEEPS: Mutex<BTreeMap<(&str, usize), &Keeps<ScriptCheck>>> = Mutex::new(BTreeMap::new());
 
-fn keeps(bound: &'static str, kind: usize) -> &'static Keeps<Posed> {
+fn keeps(bound: &'static str, kind: usize) -> &'static Keeps<ScriptCheck> {
     held(&KEEPS).entry((bound, kind)).or_insert_with(|| Box::leak(Box::new(Keeps(Words(bound), kind))))
 }
 
 /// A demand of a rule as a clause, and the check that decides it.
-struct Asked {
+struct DemandCheck {
     clause: Clause,
-    check: Check<Posed>,
+    check: Check<ScriptCheck>,
 }
 
-impl Asked {
+impl DemandCheck {
     fn of(script: &Arc<StateScript>, demand: usize) -> Self {
-        let Wanted { clause, words, kind, .. } = script.demands[demand];
-        let about = NamedRule::new(script.script.name, Posed(Arc::clone(script), demand));
+        let ScriptDemand { clause, words, kind, .. } = script.demands[demand];
+        let about = NamedRule::new(script.script.name, ScriptCheck(Arc::clone(script), demand));
         Self {
             clause: Clause { id: clause, sentence: words, checks: &[] },
             check: Check::new(about, keeps(script.bound, kind), Verdict::Holds, &[]),
@@ -197,9 +198,9 @@ fn decide(
     demand: usize,
     budget: Option<u64>,
 ) -> PyResult<Decision> {
-    let Wanted { clause, words, kind, .. } = script.demands[demand];
+    let ScriptDemand { clause, words, kind, .. } = script.demands[demand];
     script.take_met();
-    let posed = Posed(Arc::clone(script), demand);
+    let posed = ScriptCheck(Arc::clone(script), demand);
     let found = keeps(script.bound, kind).search(&posed, Limits::steps(budget.unwrap_or(u64::MAX)));
     script.script.checked(py)?;
     let found = found.map_err(|why| refused(py, script, &why))?;
@@ -232,7 +233,7 @@ fn refused(py: Python<'_>, script: &StateScript, why: &MethodError) -> PyErr {
 
 /// The run that these choices make.
 fn run_of(py: Python<'_>, script: &Arc<StateScript>, demand: usize, choices: &Choices) -> PyResult<StateRun> {
-    let Asked { clause, check } = Asked::of(script, demand);
+    let DemandCheck { clause, check } = DemandCheck::of(script, demand);
     let played = check.replay(choices);
     script.script.checked(py)?;
     let evidence = played.map_err(|_| script.script.not_pure(py))?.evidence;

@@ -14,7 +14,9 @@ use pyo3::types::{PyCapsule, PyList};
 use rayon::prelude::*;
 use tautline_grids::layout;
 use tautline_io::diagnostic::Halt;
-use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, Scheme, explore};
+use tautline_sim::explore::{
+    ExplorationRequest, Limits, Milestone, Profile, Report, RuleId, Scheme, explore,
+};
 
 use crate::diagnostic::halted;
 use crate::explore::{limits, rule, scheme};
@@ -96,7 +98,12 @@ fn made(
     watch: &dyn Fn() -> Result<(), Halt>,
 ) -> Result<(u16, Report), Halt> {
     let layout = layout::load(job.layout, job.seed, None)?;
-    let asked = Asked { robots: job.robots, seed: job.seed, limits, ..Asked::new(scheme, job.rule) };
+    let asked = ExplorationRequest {
+        robots: job.robots,
+        seed: job.seed,
+        limits,
+        ..ExplorationRequest::new(scheme, job.rule)
+    };
     let setup = asked.setup(layout)?;
     Ok((setup.robots, explore(&setup, &mut |_| watch())?))
 }

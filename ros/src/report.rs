@@ -5,7 +5,7 @@ use super::messages::{
     Color, DiagnosticArray, DiagnosticStatus, Header, KeyValue, Marker, MarkerArray, Point, Pose, Quaternion,
     Time,
 };
-use super::watch::{Status, Watch, Watched};
+use super::watch::{Status, Watch, WatchedClause};
 use tautline_monitor::Breach;
 
 /// How long a viewer shows a marker that is not renewed.
@@ -53,7 +53,7 @@ fn title(config: &Config, clause: &Clause) -> String {
     format!("tautline: {} of {}", clause.id, names(config, &clause.robots).join(", "))
 }
 
-impl Watched {
+impl WatchedClause {
     /// The diagnostic of a clause. `trouble` says why a robot is not heard, where that is known.
     fn diagnostic(&self, watch: &Watch, trouble: &impl Fn(&Robot) -> Option<String>) -> DiagnosticStatus {
         let (config, id) = (&watch.config, self.clause.id);

@@ -6,7 +6,7 @@ use super::messages::{Header, Point, Time};
 use super::tell;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use tautline_monitor::{
-    AnyDemand, Apart, Breach, Cells, Doubt, Joined, Monitor, Neighbours, Place, Robot, Verdict,
+    AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, Verdict,
 };
 
 /// How far a stamp may be ahead of this machine's clock. One that is farther ahead would make all other robots look
@@ -22,7 +22,9 @@ fn monitor(clause: &Clause, gap: Duration) -> Monitor<AnyDemand, Vec<Robot>> {
     let cells = |most| AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm });
     let demand = match id {
         Id::Chain3 => AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm }),
-        Id::Kit1 | Id::Kit2 | Id::Kit12 => AnyDemand::Joined(Joined { range_mm: length_mm, tolerance_mm }),
+        Id::Kit1 | Id::Kit2 | Id::Kit12 => {
+            AnyDemand::Connectivity(Connectivity { range_mm: length_mm, tolerance_mm })
+        }
         Id::Kit3 => AnyDemand::Apart(Apart { least_mm: length_mm, tolerance_mm }),
         Id::Chain2 => cells(2),
         Id::Frontier2 | Id::Pack2 => cells(1),
@@ -52,7 +54,7 @@ impl Status {
 }
 
 /// A clause, and what is known of it.
-pub(crate) struct Watched {
+pub(crate) struct WatchedClause {
     pub(crate) clause: Clause,
     monitor: Monitor<AnyDemand, Vec<Robot>>,
     pub(crate) status: Status,
@@ -64,7 +66,7 @@ pub(crate) struct Watched {
 
 /// The positions heard of a robot.
 #[derive(Clone, Default)]
-pub(crate) struct Heard {
+pub(crate) struct Reception {
     /// When a position was last taken, by this machine, and which.
     pub(crate) last: Option<(Instant, Point)>,
     /// Why the last message was refused, if it was.
@@ -77,8 +79,8 @@ pub(crate) struct Heard {
 pub struct Watch {
     pub(crate) config: Config,
     pub(crate) frame: Option<String>,
-    pub(crate) heard: Vec<Heard>,
-    pub(crate) clauses: Vec<Watched>,
+    pub(crate) heard: Vec<Reception>,
+    pub(crate) clauses: Vec<WatchedClause>,
 }
 
 /// A coordinate in millimetres, to the nearest. One that is beyond all places stays beyond.
@@ -92,12 +94,12 @@ impl Watch {
         let watched = |clause: &Clause| {
             let (clause, monitor, status) =
                 (clause.clone(), monitor(clause, config.gap), Status::Silent(clause.robots[0]));
-            Watched { clause, monitor, status, moment: Time::default(), told: status }
+            WatchedClause { clause, monitor, status, moment: Time::default(), told: status }
         };
         let clauses = config.clauses.iter().map(watched).collect();
         Self {
             frame: config.frame.clone(),
-            heard: vec![Heard::default(); config.robots.len()],
+            heard: vec![Reception::default(); config.robots.len()],
             clauses,
             config,
         }
@@ -176,7 +178,7 @@ impl Watch {
     }
     /// Notes that all of this is published, and says of each clause whether it is news.
     pub fn mark_told(&mut self) -> Vec<bool> {
-        let told = |watched: &mut Watched| {
+        let told = |watched: &mut WatchedClause| {
             let is_news = watched.status.is_news(watched.told);
             watched.told = watched.status;
             is_news

@@ -1,6 +1,6 @@
 //! An hour of four robots, told in a minute: how long breaches take to be seen, and what memory the node has.
 
-use super::team::{Running, Team, at, domain, until};
+use super::team::{NodeProcess, Team, at, domain, until};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tautline_ros::messages::{DiagnosticArray, DiagnosticStatus, Header, PoseStamped, Time};
@@ -28,7 +28,7 @@ fn an_hour_in_a_minute_loses_no_breach() {
     let clause = "{ clause = 'CHAIN-3', range_m = 2.549, tolerance_m = 0.1 }";
     let config = format!("gap_s = 1.0\nrobots = [{}]\nclauses = [{clause}]", robots.join(", "));
     let domain = domain(3);
-    let node = Running::start(domain, &config);
+    let node = NodeProcess::start(domain, &config);
     let team = Team::new(domain);
     let mouths: Vec<_> = (1..=ROBOTS)
         .map(|robot| team.mouth::<PoseStamped>(&format!("/robot_{robot}/pose"), "geometry_msgs/PoseStamped"))

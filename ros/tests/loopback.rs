@@ -1,6 +1,6 @@
 //! The node's program over loopback: poses go in, and diagnostics and markers come out.
 
-use super::team::{Ear, Running, Team, at, domain, header, pose, until};
+use super::team::{Ear, NodeProcess, Team, at, domain, header, pose, until};
 use tautline_ros::messages::{
     DiagnosticArray, DiagnosticStatus, Marker, MarkerArray, Odometry, PoseStamped, PoseWithCovariance,
 };
@@ -33,7 +33,7 @@ fn values(status: &DiagnosticStatus) -> Vec<[&str; 2]> {
 #[test]
 fn a_planted_breach_comes_back_as_a_diagnostic_and_a_line_and_goes_with_its_robots() {
     let domain = domain(0);
-    let node = Running::start(domain, CHAIN);
+    let node = NodeProcess::start(domain, CHAIN);
     let team = Team::new(domain);
     let poses = ["/robot_1/pose", "/robot_2/pose"]
         .map(|topic| team.mouth::<PoseStamped>(topic, "geometry_msgs/PoseStamped"));
@@ -85,7 +85,7 @@ fn a_planted_breach_comes_back_as_a_diagnostic_and_a_line_and_goes_with_its_robo
 #[test]
 fn a_robot_that_nobody_publishes_and_one_of_another_type_are_named() {
     let domain = domain(1);
-    let node = Running::start(domain, CHAIN);
+    let node = NodeProcess::start(domain, CHAIN);
     let team = Team::new(domain);
     let diagnostics = team.ear::<DiagnosticArray>("/diagnostics", "diagnostic_msgs/DiagnosticArray");
     let poses =

@@ -33,12 +33,12 @@ pub(crate) fn program() -> Command {
 }
 
 /// A node that runs. It ends with the test.
-pub(crate) struct Running {
+pub(crate) struct NodeProcess {
     child: Child,
     folder: TempDir,
 }
 
-impl Running {
+impl NodeProcess {
     pub(crate) fn start(domain: u16, config: &str) -> Self {
         let folder = TempDir::new().expect("a folder");
         let file = folder.path().join("tautline.toml");
@@ -64,7 +64,7 @@ impl Running {
     }
 }
 
-impl Drop for Running {
+impl Drop for NodeProcess {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();

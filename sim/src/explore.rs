@@ -29,20 +29,22 @@ mod setup;
 mod states;
 mod together;
 
-pub use self::catalogue::{By, Catalogue, Drawn, Knowledge, Look, Profile, Scheme, Senses, Starts, Told};
+pub use self::catalogue::{
+    By, Catalogue, Completeness, Knowledge, Look, Profile, RandomPart, Scheme, Senses, Starts,
+};
 pub use self::clause::{Clause, ClauseId};
-pub use self::course::{Course, Made};
+pub use self::course::{Course, CourseMove};
 pub use self::own::Own;
 pub use self::own_rule::OwnRule;
 pub use self::rule::{Rule, RuleId, RuleName, Start, Switches};
 pub use self::run::{
-    End, Limits, Milestone, OnViolation, Reach, Report, Stopped, Surroundings, Survey, Team, TeamMove,
+    End, Limits, Milestone, OnViolation, Reach, Report, StopReason, Surroundings, Survey, Team, TeamMove,
     Violation, Watcher, run,
 };
 pub use self::scene::{
     Change, Hearers, Ink, Joins, Kind, Layer, Mark, Place, Refusal, Scene, Shape, Value, Zone,
 };
-pub use self::setup::{Asked, Play, Setup, explore, team};
+pub use self::setup::{ExplorationRequest, Play, Setup, explore, team};
 pub use self::together::{has_double, unlinked};
 
 tautline_io::written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::ColumnRow;
 
 /// A robot dies on its way: it does not go in this team move, and says nothing from then on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -43,9 +43,9 @@ impl FromStr for Failure {
 /// A wall appears on a side of a cell: from this team move on no robot crosses it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Appearing {
+pub struct WallAppearance {
     /// The cell.
-    #[schemars(with = "CellWritten")]
+    #[schemars(with = "ColumnRow")]
     pub cell: Cell,
     /// Which side of it.
     pub side: Compass,
@@ -78,20 +78,20 @@ impl Compass {
     }
 }
 
-impl Appearing {
+impl WallAppearance {
     /// Where the wall stands.
     pub const fn edge(&self) -> Edge {
         Edge::new(self.cell, self.side.side())
     }
 }
 
-impl fmt::Display for Appearing {
+impl fmt::Display for WallAppearance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{},{:?}@{}", self.cell, self.side, self.step)
     }
 }
 
-impl FromStr for Appearing {
+impl FromStr for WallAppearance {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -121,7 +121,7 @@ impl FromStr for Appearing {
 /// In what order the robots go in a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Going {
+pub enum MoveOrder {
     /// All at once.
     #[default]
     AtOnce,
@@ -129,7 +129,7 @@ pub enum Going {
     OneByOne,
 }
 
-impl Going {
+impl MoveOrder {
     /// Whether nobody has said anything about it.
     pub const fn is_usual(&self) -> bool {
         matches!(self, Self::AtOnce)

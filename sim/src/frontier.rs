@@ -15,7 +15,7 @@ mod team;
 mod waves;
 
 pub use allowance::Allowance;
-pub use assigned::{Assigned, Assignment};
+pub use assigned::{AssignedTeam, Assignment};
 pub use radio::cell_at;
 pub use team::Explorers;
 
@@ -57,7 +57,7 @@ impl Moves {
 
 /// The outcome of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Ended {
+pub enum TeamEnd {
     /// No robot will ever do anything, and every robot knows that nothing is left.
     Known,
     /// No robot will ever do anything.

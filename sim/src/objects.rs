@@ -118,12 +118,12 @@ pub struct ObjectReport {
     /// Its column and row.
     pub at: [f64; 2],
     /// Where the robots that have seen it take it to be, together.
-    pub found: Option<Found>,
+    pub found: Option<ObjectEstimate>,
 }
 
 /// Where an object is taken to be, to thousandths.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Found {
+pub struct ObjectEstimate {
     /// Its column and row.
     pub at: [f64; 2],
     /// How far it is from there.
@@ -140,7 +140,7 @@ impl ObjectReport {
         let thousandths = |number: f64| (1000.0 * number).round() / 1000.0;
         let found = known.map(|Sighting { at: there, covariance }| {
             let (deviations, correlation) = spread(*covariance);
-            Found {
+            ObjectEstimate {
                 at: [there.x_m, there.y_m].map(thousandths),
                 error: thousandths(at.distance_m(*there)),
                 deviations: deviations.map(thousandths),
@@ -176,7 +176,7 @@ pub fn table(objects: &[ObjectReport]) -> String {
         let object = format!("  {x}:{y}");
         table.row(match found {
             None => [object, "not found".to_owned(), String::new(), String::new()],
-            Some(Found { at: [there, far], error, deviations: [of_x, of_y], .. }) => {
+            Some(ObjectEstimate { at: [there, far], error, deviations: [of_x, of_y], .. }) => {
                 [object, format!("{there}:{far}"), format!("{error:.3}"), format!("{of_x:.3}, {of_y:.3}")]
             }
         });

@@ -11,7 +11,7 @@ use tautline_kernel::frontier::Threshold;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Odometry, Signal};
 
-use crate::failures::{Appearing, Failure, Going};
+use crate::failures::{Failure, MoveOrder, WallAppearance};
 use crate::objects::Objects;
 use tautline_grids::chance::Probability;
 use tautline_grids::layout::Layout;
@@ -65,10 +65,10 @@ pub struct Options {
     pub fail: Option<Failure>,
     /// Which wall appears, and when.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wall: Option<Appearing>,
+    pub wall: Option<WallAppearance>,
     /// In what order robots go.
-    #[serde(default, skip_serializing_if = "Going::is_usual")]
-    pub going: Going,
+    #[serde(default, skip_serializing_if = "MoveOrder::is_usual")]
+    pub going: MoveOrder,
 }
 
 impl Options {
@@ -90,7 +90,7 @@ impl Options {
         spread: None,
         fail: None,
         wall: None,
-        going: Going::AtOnce,
+        going: MoveOrder::AtOnce,
     };
 
     /// How many beacons of each anchor a robot averages at each stop.
@@ -433,7 +433,7 @@ impl Extra {
     pub const SPEEDS: &'static Self = &Self {
         about: "The robots of a chain go one after the other, in a new random order in each team move",
         read: |_, options| {
-            options.going = Going::OneByOne;
+            options.going = MoveOrder::OneByOne;
             Ok(())
         },
         typed: |options| (!options.going.is_usual()).then(String::new),

@@ -25,19 +25,19 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
 use crate::explore::{
-    Catalogue, ClauseId, Limits, OnViolation, Play, Report, RuleId, Scheme, Setup, Stopped, TeamMove,
+    Catalogue, ClauseId, Limits, OnViolation, Play, Report, RuleId, Scheme, Setup, StopReason, TeamMove,
     Violation, Watcher, explore,
 };
 use crate::options::Options;
 use tautline_grids::chance::Probability;
-use tautline_grids::layout::{CellWritten, Layout};
+use tautline_grids::layout::{ColumnRow, Layout};
 
 pub use foreign::ForeignRun;
 pub(crate) use foreign::Player;
 pub use summary::Summary;
 
 /// The header of a run that this program can make again.
-type Known = Header<Limits>;
+type KnownHeader = Header<Limits>;
 
 /// A stored run of which the header is read.
 #[derive(Debug)]
@@ -67,15 +67,15 @@ pub fn open_text(name: &str, text: String, catalogue: Catalogue) -> Result<Store
 fn read(mut lines: Lines, catalogue: Catalogue) -> Result<StoredRun, Diagnostic> {
     /// The part of a header that tells whether the scheme is known.
     #[derive(Deserialize)]
-    struct Named {
+    struct SchemeName {
         scheme: String,
     }
     let text = lines.header(FORMAT, VERSION, MAX_FILE_BYTES)?;
-    let is_foreign = |Named { scheme }| catalogue.scheme(&scheme).is_none();
+    let is_foreign = |SchemeName { scheme }| catalogue.scheme(&scheme).is_none();
     if serde_json::from_str(&text).is_ok_and(is_foreign) {
         return ForeignRun::read(lines, &text).map(StoredRun::Foreign);
     }
-    let header: Known = lines.parse(&text, AGAIN)?;
+    let header: KnownHeader = lines.parse(&text, AGAIN)?;
     Trace::check(lines, &text, catalogue, header).map(StoredRun::Known)
 }
 
@@ -108,7 +108,12 @@ impl Trace {
     }
 
     /// The setup of a header.
-    fn check(lines: Lines, text: &str, catalogue: Catalogue, header: Known) -> Result<Self, Diagnostic> {
+    fn check(
+        lines: Lines,
+        text: &str,
+        catalogue: Catalogue,
+        header: KnownHeader,
+    ) -> Result<Self, Diagnostic> {
         let Some(scheme) = catalogue.scheme(&header.scheme) else {
             return Err(lines.fault(text, "scheme", "this program does not know the scheme", AGAIN));
         };
@@ -272,7 +277,7 @@ pub struct StoredMove {
     /// The numbers of the robots that met a wall; the base of a chain is 1.
     blocked: Vec<usize>,
     /// Where the robots are now.
-    #[schemars(with = "Vec<CellWritten>")]
+    #[schemars(with = "Vec<ColumnRow>")]
     cells: Vec<Cell>,
 }
 
@@ -280,7 +285,7 @@ pub struct StoredMove {
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StoredEnd {
-    stopped: Stopped,
+    stopped: StopReason,
     steps: u32,
     explored: u32,
     cells: u32,

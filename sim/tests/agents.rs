@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs, thread};
 
-use crate::common::{Unwatched, generated};
+use crate::common::{NoWatcher, generated};
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use tautline_grids::chance::Probability;
@@ -21,8 +21,8 @@ use tautline_sim::explore::agents::{Agents, PREMATURE};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
-use tautline_sim::explore::hunt::{HuntReport, HuntRequest, Shown};
-use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
+use tautline_sim::explore::hunt::{Exhibit, HuntReport, HuntRequest};
+use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, StopReason, explore, team};
 
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;
@@ -89,7 +89,7 @@ proptest! {
     ) {
         let report = run(&Setup { scheme: scheme.into(), ..setup.clone() });
         prop_assert_eq!(&report.violations, &[]);
-        prop_assert_eq!(report.stopped, Stopped::Explored);
+        prop_assert_eq!(report.stopped, StopReason::Explored);
         let due: BTreeSet<Cell> = setup.starts().iter().flat_map(|&start| connected(&setup.layout, start)).collect();
         let whole = report.whole();
         prop_assert_eq!(due.len() as u32, report.cells);
@@ -111,7 +111,7 @@ proptest! {
     ) {
         let report = run(&Setup { scheme: scheme.into(), rule, ..setup.clone() });
         prop_assert_eq!(&report.violations, &[]);
-        prop_assert_eq!(report.stopped, Stopped::Explored);
+        prop_assert_eq!(report.stopped, StopReason::Explored);
         let whole = report.whole();
         prop_assert_eq!((whole.visited, whole.explored, whole.active), (report.cells, report.cells, 0));
     }
@@ -131,7 +131,7 @@ proptest! {
     #[test]
     fn ants_explore_everything(setup in setups(), rule in prop::sample::select(RuleName::ALL.to_vec())) {
         let report = run(&Setup { scheme: (&ANTS).into(), rule: rule.into(), ..setup });
-        prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
+        prop_assert_eq!((report.stopped, report.explored), (StopReason::Explored, report.cells));
         prop_assert_eq!(report.violations, []);
     }
 
@@ -144,7 +144,7 @@ proptest! {
         let miss = Probability::new(miss).expect("a probability");
         let report = run(&Setup { scheme: scheme.into(), miss, ..setup });
         prop_assert_eq!(&report.violations, &[]);
-        prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
+        prop_assert_eq!((report.stopped, report.explored), (StopReason::Explored, report.cells));
     }
 }
 
@@ -280,7 +280,7 @@ fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8
         ..HuntRequest::new(scheme, rule)
     };
     let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");
-    rule.hunt.expect("a hunt").hunt(&asked, &mut Unwatched).expect("it can be searched")
+    rule.hunt.expect("a hunt").hunt(&asked, &mut NoWatcher).expect("it can be searched")
 }
 
 #[test]
@@ -293,7 +293,7 @@ fn hunts_of_trees_find_the_smallest_early_end_and_it_is_a_run() {
         let [quarry] = &hunted.found[..] else { panic!("{hunted:?}") };
         assert_eq!(
             (quarry.title.as_str(), &quarry.shown),
-            (title, &Shown::Run(PREMATURE)),
+            (title, &Exhibit::Run(PREMATURE)),
             "{}",
             scheme.name
         );

@@ -17,22 +17,22 @@ use tautline_kernel::kit::Rule as Touch;
 use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::pack::PACK;
-use tautline_sim::explore::{Asked, RuleId, Setup, Stopped, explore};
-use tautline_sim::failures::{Appearing, Compass, Failure, Going};
+use tautline_sim::explore::{ExplorationRequest, RuleId, Setup, StopReason, explore};
+use tautline_sim::failures::{Compass, Failure, MoveOrder, WallAppearance};
 use tautline_sim::frontier::Explorers;
 use tautline_sim::kit::{self, Pace};
 use tautline_sim::options::Options;
 
 /// Runs by one rule.
 #[derive(Debug, Default)]
-struct Counted {
+struct RunCounts {
     runs: u64,
     moves: u64,
     /// By clause: how many runs break it, and the first of them.
     broken: BTreeMap<&'static str, (u64, String)>,
 }
 
-impl Counted {
+impl RunCounts {
     /// So many runs, each of team moves that it tells, with what it breaks; `None` where a team does not find room.
     fn of(
         runs: u64,
@@ -126,8 +126,8 @@ fn starts(
 }
 
 /// Robots that explore cells, some of whose messages are lost or not heard from afar.
-fn frontier(rule: Cells, runs: u64, is_lossy: bool) -> Counted {
-    Counted::of(runs, |oracle| {
+fn frontier(rule: Cells, runs: u64, is_lossy: bool) -> RunCounts {
+    RunCounts::of(runs, |oracle| {
         let (text, layout) = drawn(oracle, &["cells"], 16);
         let robots = between(oracle, 1, 12) as usize;
         let starts = starts(oracle, &layout, robots, false)?;
@@ -160,17 +160,17 @@ fn frontier(rule: Cells, runs: u64, is_lossy: bool) -> Counted {
 }
 
 /// Robots that see and start side by side.
-fn pack(rule: RuleId, runs: u64) -> Counted {
-    Counted::of(runs, |oracle| {
+fn pack(rule: RuleId, runs: u64) -> RunCounts {
+    RunCounts::of(runs, |oracle| {
         let (text, layout) = drawn(oracle, &["cells"], 24);
         let robots = between(oracle, 1, 10) as usize;
         let starts = starts(oracle, &layout, robots, true)?;
         let (sight, range) = (between(oracle, 1, 8) as u16, between(oracle, 3, 14) as u16);
-        let asked = Asked {
+        let asked = ExplorationRequest {
             robots: Some(robots as u64),
             starts: starts.clone(),
             options: Options { sight_cells: Some(sight), range_cells: Some(range), ..Options::USUAL },
-            ..Asked::new(&PACK, rule)
+            ..ExplorationRequest::new(&PACK, rule)
         };
         let setup = asked.setup(layout).expect("a pack");
         let floor = floor(&setup.layout);
@@ -183,7 +183,7 @@ fn pack(rule: RuleId, runs: u64) -> Counted {
             Ok(())
         });
         let report = report.map_err(|_| ()).expect("a run");
-        let judged = judged.and_then(|()| judge.end(report.stopped != Stopped::Endless));
+        let judged = judged.and_then(|()| judge.end(report.stopped != StopReason::Endless));
         Some((
             format!("{text}, starts {starts:?}, sight {sight}, range {range}"),
             report.steps.into(),
@@ -193,8 +193,8 @@ fn pack(rule: RuleId, runs: u64) -> Counted {
 }
 
 /// Robots that keep in touch, at speeds of their own.
-fn kit(rule: Touch, robots: [u32; 2], runs: u64) -> Counted {
-    Counted::of(runs, |oracle| {
+fn kit(rule: Touch, robots: [u32; 2], runs: u64) -> RunCounts {
+    RunCounts::of(runs, |oracle| {
         let (text, layout) = drawn(oracle, &["walls", "cells"], 14);
         let robots = between(oracle, robots[0], robots[1]) as usize;
         // Two robots may start anywhere in contact.
@@ -228,8 +228,8 @@ fn kit(rule: Touch, robots: [u32; 2], runs: u64) -> Counted {
 }
 
 /// Reels in which bytes are lost, robots go one by one, and a robot dies or a wall appears.
-fn reel(rule: RuleId, runs: u64) -> Counted {
-    Counted::of(runs, |oracle| {
+fn reel(rule: RuleId, runs: u64) -> RunCounts {
+    RunCounts::of(runs, |oracle| {
         let (text, mut layout) = drawn(oracle, &["walls", "cells"], 21);
         let robots = between(oracle, 3, 14) as u16;
         let base = starts(oracle, &layout, 1, false)?[0];
@@ -247,7 +247,7 @@ fn reel(rule: RuleId, runs: u64) -> Counted {
             _ => {
                 let cells: Vec<Cell> = layout.cells().collect();
                 let side = one_of(oracle, &[Compass::E, Compass::S, Compass::W, Compass::N]);
-                let wall = Appearing { cell: one_of(oracle, &cells), side, step };
+                let wall = WallAppearance { cell: one_of(oracle, &cells), side, step };
                 options.wall = Some(wall);
                 trouble = Trouble::Wall(ends(wall.edge()), step.get());
             }
@@ -256,7 +256,7 @@ fn reel(rule: RuleId, runs: u64) -> Counted {
             options.loss = one_of(oracle, &["0.05", "0.2", "0.4"]).parse().expect("a probability");
         }
         if oracle.flip() {
-            options.going = Going::OneByOne;
+            options.going = MoveOrder::OneByOne;
         }
         let seed = u64::from(oracle.pick(u32::MAX));
         let setup =
@@ -273,7 +273,7 @@ fn reel(rule: RuleId, runs: u64) -> Counted {
             Ok(())
         });
         let report = report.map_err(|_| ()).expect("a run");
-        let by_itself = matches!(report.stopped, Stopped::Explored | Stopped::Exhausted);
+        let by_itself = matches!(report.stopped, StopReason::Explored | StopReason::Exhausted);
         let judged = judged.and_then(|()| judge.end(by_itself));
         let told = format!(
             "{text}, base {base}, {robots} robots, {trouble:?}, loss {}, {:?}",
@@ -307,7 +307,7 @@ fn nothing_is_broken_in_two_thousand_runs_of_each() {
 /// Runs of the rules as published break clauses, and the judges find which.
 #[test]
 fn the_judges_find_what_the_published_rules_break() {
-    let finds = |counted: Counted, clauses: &[&str]| {
+    let finds = |counted: RunCounts, clauses: &[&str]| {
         let found: Vec<&str> = counted.broken.keys().copied().collect();
         assert_eq!(found, clauses, "{:?}", counted.broken);
     };

@@ -15,7 +15,8 @@ use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::run::Frame;
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
-    Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,
+    Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, StopReason, TeamMove,
+    explore,
 };
 use tautline_sim::trace::{Trace, Writer};
 
@@ -153,7 +154,7 @@ proptest! {
         let free = setup.layout.cells().filter(|&cell| setup.layout.is_free(cell)).filter(near).count();
         prop_assert_eq!(report.cells as usize, free);
         prop_assert_eq!(report.reached(Milestone::Whole).is_some(), report.explored == report.cells);
-        prop_assert!(report.stopped == Stopped::Explored || report.stopped == Stopped::Exhausted);
+        prop_assert!(report.stopped == StopReason::Explored || report.stopped == StopReason::Exhausted);
     }
 
     #[test]
@@ -202,7 +203,7 @@ fn open_areas_take_the_optimum_under_both_rules() {
             let setup = setup(rule, robots, Layout::open(side.into(), side.into()).expect("a size"));
             let report = explore(&setup, &mut |_| Ok(())).expect("a run");
             assert_eq!(report.steps, 9 * (u32::from(robots) - 1) - 1, "{rule}, {robots} robots");
-            assert_eq!((report.explored, report.stopped), (report.cells, Stopped::Explored));
+            assert_eq!((report.explored, report.stopped), (report.cells, StopReason::Explored));
             assert_eq!(report.violations, []);
         }
     }
@@ -229,10 +230,10 @@ fn a_run_stops_where_it_is_told_to() {
     let open = setup(RuleName::Repaired, 8, generated("open:15x15", 0));
     let limited = |limits| explore(&Setup { limits, ..open.clone() }, &mut |_| Ok(())).expect("a run");
     let until = limited(Limits { until: Some(Milestone::Half), ..Limits::default() });
-    assert_eq!((until.stopped, Some(until.steps)), (Stopped::Until, until.reached(Milestone::Half)));
+    assert_eq!((until.stopped, Some(until.steps)), (StopReason::Until, until.reached(Milestone::Half)));
     // Without walls the leader enters a cell in every team move.
     let moves = limited(Limits { max_moves: 20.try_into().ok(), ..Limits::default() });
-    assert_eq!((moves.stopped, moves.steps), (Stopped::MaxMoves, 20));
+    assert_eq!((moves.stopped, moves.steps), (StopReason::MaxMoves, 20));
 }
 
 #[test]
@@ -241,7 +242,7 @@ fn blocked_cells_are_neither_entered_nor_counted() {
     layout.block(Cell::new(1, 0));
     let report = explore(&setup(RuleName::Repaired, 2, layout), &mut |_| Ok(())).expect("a run");
     // The team does not know that the blocked cell is none to explore, and tries all its sides.
-    assert_eq!((report.explored, report.cells, report.stopped), (8, 8, Stopped::Exhausted));
+    assert_eq!((report.explored, report.cells, report.stopped), (8, 8, StopReason::Exhausted));
     assert!(report.reached(Milestone::Whole) < Some(report.steps));
 }
 

@@ -3,8 +3,8 @@
 use crate::common::generated;
 use tautline_grids::chance::Probability;
 use tautline_sim::explore::chain::{ANY_ORDER, CHAIN, REEL, UNHELD};
-use tautline_sim::explore::{Report, RuleId, Setup, Stopped, explore};
-use tautline_sim::failures::{Failure, Going};
+use tautline_sim::explore::{Report, RuleId, Setup, StopReason, explore};
+use tautline_sim::failures::{Failure, MoveOrder};
 use tautline_sim::options::Options;
 
 fn ran(rule: RuleId, robots: u16, density: f64, seed: u64, options: Options) -> Report {
@@ -34,7 +34,7 @@ fn lost_bytes_delay_a_run_and_change_nothing_of_it() {
 /// Runs of 8 robots at each density in which the order of going breaks contact: of the reel, of the reel without
 /// *Hold*, and of the repaired rule.
 fn broken_by_orders(runs: u64) -> [[usize; 5]; 3] {
-    let speeds = Options { going: Going::OneByOne, ..Options::USUAL };
+    let speeds = Options { going: MoveOrder::OneByOne, ..Options::USUAL };
     [REEL, UNHELD, RuleId::REPAIRED].map(|rule| {
         [0.01, 0.05, 0.1, 0.15, 0.2].map(|density| {
             let is_broken = |seed| {
@@ -114,6 +114,6 @@ fn a_failure_after_the_end_of_a_run_changes_nothing() {
     let late = ran(REEL, 8, 0.1, 3, Options { fail: Some(failure(4, 100_000)), ..Options::USUAL });
     let never = ran(REEL, 8, 0.1, 3, Options::USUAL);
     assert_eq!((late.steps, late.stopped), (never.steps, never.stopped));
-    assert_ne!(late.stopped, Stopped::Silent);
+    assert_ne!(late.stopped, StopReason::Silent);
     assert_eq!(late.failures.and_then(|failures| failures.died), None);
 }

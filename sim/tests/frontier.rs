@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::common::{Unwatched, generated, run_again};
+use crate::common::{NoWatcher, generated, run_again};
 use tautline_grids::layout::{Layout, Size};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Condition, Rule};
@@ -10,8 +10,8 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::SeededOracle;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::hunt::{HuntReport, HuntRequest};
-use tautline_sim::explore::{Change, RuleId, Scene, Setup, Stopped, explore, has_double};
-use tautline_sim::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
+use tautline_sim::explore::{Change, RuleId, Scene, Setup, StopReason, explore, has_double};
+use tautline_sim::frontier::{Allowance, AssignedTeam, Assignment, Explorers, TeamEnd};
 use tautline_sim::objects::Objects;
 use tautline_sim::options::{Options, Wheels};
 
@@ -33,7 +33,7 @@ fn hunted(rule: &'static str, robots: u64, size: (u64, u64), max_losses: u8) -> 
     let asked = asked(rule, robots, size, max_losses);
     let hunt = FRONTIER.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
     asked.check(hunt).expect("it takes that");
-    hunt.hunt(&asked, &mut Unwatched).expect("a hunt")
+    hunt.hunt(&asked, &mut NoWatcher).expect("a hunt")
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn setup(robots: u16, (width, height): (u64, u64)) -> Setup {
 fn a_repaired_team_explores_an_open_area_and_knows_it() {
     for robots in [1, 2, 4, 8] {
         let report = explore(&setup(robots, (6, 7)), &mut |_| Ok(())).expect("a run");
-        assert_eq!((report.stopped, report.explored), (Stopped::Explored, 42), "{robots} robots");
+        assert_eq!((report.stopped, report.explored), (StopReason::Explored, 42), "{robots} robots");
         assert!(report.violations.is_empty(), "{:?}", report.violations);
     }
 }
@@ -90,7 +90,7 @@ fn clean_runs(rule: Rule, options: &Options, runs: u64) -> usize {
         let mut team = Explorers::new(rule, &layout, &starts, options.clone(), *seed);
         loop {
             match team.advance() {
-                Err(ended) => return ended == Ended::Known,
+                Err(ended) => return ended == TeamEnd::Known,
                 Ok(_) if team.is_wrong() || has_double(team.cells()) => return false,
                 Ok(_) => {}
             }
@@ -246,10 +246,10 @@ fn an_error_below_zero_is_none() {
     let off = |error_cells| HuntRequest { error_cells, ..asked("repaired", 1, (2, 1), 0) };
     let hunt = FRONTIER.rule(off(None).rule).and_then(|rule| rule.hunt).expect("it is hunted");
     for error in [-1.0, -0.5, -0.01, 0.3, 2.0, f64::NAN] {
-        let refused = hunt.hunt(&off(Some(error)), &mut Unwatched).map(|_| ()).expect_err("no error");
+        let refused = hunt.hunt(&off(Some(error)), &mut NoWatcher).map(|_| ()).expect_err("no error");
         assert!(refused.to_string().contains("is not searched"), "{error}: {refused}");
     }
-    let states = |error| hunt.hunt(&off(error), &mut Unwatched).expect("a hunt").title;
+    let states = |error| hunt.hunt(&off(error), &mut NoWatcher).expect("a hunt").title;
     assert_eq!(states(Some(-0.0)), states(None));
 }
 
@@ -259,7 +259,7 @@ fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
         let rule = RuleId::new(rule);
         let asked = HuntRequest { rule, robots: Some(robots), ..asked("repaired", 1, (3, 3), 0) };
         let hunt = FRONTIER.rule(rule).and_then(|rule| rule.hunt).expect("it is hunted");
-        hunt.hunt(&asked, &mut Unwatched).expect_err("no hunt").to_string()
+        hunt.hunt(&asked, &mut NoWatcher).expect_err("no hunt").to_string()
     };
     assert_eq!(
         refused("repaired", 5),
@@ -295,13 +295,13 @@ fn end_of_runs_with_assignments_anew(layouts: u64) -> usize {
                 let layout = generated(&format!("cells:{size}:{share}"), seed);
                 for robots in 2..=8 {
                     let starts = any_starts(&layout, robots, &mut SeededOracle::new(seed, robots as u64));
-                    let mut team = Assigned::new(Assignment::HungarianAnew, &layout, &starts);
+                    let mut team = AssignedTeam::new(Assignment::HungarianAnew, &layout, &starts);
                     let ended = loop {
                         if let Err(ended) = team.advance() {
                             break ended;
                         }
                     };
-                    assert_eq!(ended, Ended::Known, "{size}, {share}, seed {seed}, {robots} robots");
+                    assert_eq!(ended, TeamEnd::Known, "{size}, {share}, seed {seed}, {robots} robots");
                     runs += 1;
                 }
             }

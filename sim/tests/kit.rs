@@ -5,7 +5,7 @@ use std::fs;
 use std::num::NonZeroU32;
 use std::path::Path;
 
-use crate::common::{Unwatched, generated, run_again};
+use crate::common::{NoWatcher, generated, run_again};
 use tautline_grids::layout::{Layout, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
@@ -13,7 +13,7 @@ use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::{minimise::minimise, refutation};
 use tautline_sim::explore::hunt::{Finding, HuntReport, HuntRequest, RunSize};
 use tautline_sim::explore::kit::{AHEAD, APART, CONNECTED, CONTACT, ENDS, KIT};
-use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, Stopped, explore};
+use tautline_sim::explore::{Catalogue, Report, RuleId, RuleName, Setup, StopReason, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
 use tautline_sim::options::Options;
 use tautline_sim::trace::Trace;
@@ -70,7 +70,7 @@ fn three_robots_and_more_stay_connected_and_apart() {
         for (seed, report) in repaired(robots) {
             let is_kept = |clause| report.violations.iter().all(|broken| broken.clause != clause);
             assert!(is_kept(CONNECTED) && is_kept(APART), "{robots} robots, seed {seed}");
-            whole += u32::from(report.stopped == Stopped::Explored);
+            whole += u32::from(report.stopped == StopReason::Explored);
         }
         assert!(whole > 30, "{robots} robots: {whole} runs drive everything");
     }
@@ -147,7 +147,7 @@ fn teams_that_cannot_start_say_why() {
 #[test]
 fn two_robots_drive_all_paths_of_a_large_map() {
     let report = run(&setup(RuleName::Repaired, 2, generated("walls:24x24:0.1", 3), 3));
-    assert_eq!((report.stopped, report.violations), (Stopped::Explored, vec![]));
+    assert_eq!((report.stopped, report.violations), (StopReason::Explored, vec![]));
 }
 
 /// The fault of a setup: where it is, what is wrong, and what would be right.
@@ -193,7 +193,7 @@ fn robots_are_never_farther_apart_than_their_range() {
             Ok(())
         });
         let report = report.expect("a run");
-        assert_eq!((report.violations, report.stopped), (vec![], Stopped::Explored), "range {range}");
+        assert_eq!((report.violations, report.stopped), (vec![], StopReason::Explored), "range {range}");
         assert!(widest <= range * range && widest > (range - 1) * (range - 1), "range {range}: {widest}");
     }
     let wrong = |range, robots| wrong(&with(range, robots)).unwrap_or_default();
@@ -202,7 +202,7 @@ fn robots_are_never_farther_apart_than_their_range() {
     assert!(wrong(6, 2).contains("more than the 5"), "{}", wrong(6, 2));
     for range in [2, 3, 4, 5] {
         let report = run(&with(range, 3));
-        assert_eq!((report.violations, report.stopped), (vec![], Stopped::Explored), "range {range}");
+        assert_eq!((report.violations, report.stopped), (vec![], StopReason::Explored), "range {range}");
     }
 }
 
@@ -241,7 +241,7 @@ fn asked(rule: impl Into<RuleId>, robots: u64, (columns, rows): (u64, u64)) -> H
 fn hunted(asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
     let hunt = KIT.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
     asked.check(hunt)?;
-    hunt.hunt(asked, &mut Unwatched)
+    hunt.hunt(asked, &mut NoWatcher)
 }
 
 /// The clauses that are broken, each with its columns, rows, walls and drives.
@@ -263,12 +263,12 @@ fn the_smallest_runs_that_break_the_published_rule() {
     }
     let is_endless = |quarry: &&Finding| quarry.clause == ENDS.as_str();
     let endless = hunted.found.iter().find(is_endless).expect("a run that goes on for ever");
-    assert_eq!(run(&endless.setup).stopped, Stopped::Endless);
+    assert_eq!(run(&endless.setup).stopped, StopReason::Endless);
     // Before the robots are where they were, nothing is known of it.
     let mut short = endless.setup.clone();
     short.choices.truncate(4);
     let short = run(&short);
-    assert_eq!(short.stopped, Stopped::Exhausted);
+    assert_eq!(short.stopped, StopReason::Exhausted);
     assert!(short.violations.iter().all(|broken| broken.clause != ENDS), "{:?}", short.violations);
     assert_eq!(run_again(&hunted), found.len(), "{found:?}");
 }

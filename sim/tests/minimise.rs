@@ -18,7 +18,8 @@ use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::judge_input::exhibit;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{
-    Asked, Catalogue, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
+    Catalogue, ClauseId, ExplorationRequest, Limits, OnViolation, RuleId, RuleName, Setup, StopReason,
+    explore,
 };
 use tautline_sim::trace::{Trace, store};
 
@@ -164,7 +165,7 @@ fn check(found: &Minimal) {
         Ok(())
     });
     let report = report.expect("a run");
-    let stopped = if *clause == Breach::Completeness { Stopped::Exhausted } else { Stopped::Violation };
+    let stopped = if *clause == Breach::Completeness { StopReason::Exhausted } else { StopReason::Violation };
     assert_eq!((report.stopped, report.steps), (stopped, after.steps));
     assert_eq!(judge(&exhibit(setup, clause.as_str(), &frames)), Ok(()), "{setup:?}");
     let case = Case::of(setup);
@@ -306,7 +307,11 @@ fn a_minimal_run_of_robots_that_see_blocked_cells_breaks_its_clause() {
     let mut minimised = 0;
     for (seed, robots) in (0..12).flat_map(|seed| [2, 3, 4].map(|robots| (seed, robots))) {
         let layout = generated("cells:5x5:0.3", seed);
-        let asked = Asked { robots: Some(robots), seed, ..Asked::new(&KIT, RuleName::Published) };
+        let asked = ExplorationRequest {
+            robots: Some(robots),
+            seed,
+            ..ExplorationRequest::new(&KIT, RuleName::Published)
+        };
         let setup = asked.setup(layout).expect("a setup");
         if explore(&setup, &mut |_| Ok(())).expect("a run").violations.is_empty() {
             continue;

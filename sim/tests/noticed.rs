@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 
 use crate::common::generated;
 use tautline_sim::explore::{Catalogue, ClauseId, Limits, RuleId, Setup, run};
-use tautline_sim::failures::{Failure, Going};
+use tautline_sim::failures::{Failure, MoveOrder};
 
 /// The settings of a team besides its rule, robots and layout.
 #[derive(Clone, Copy, Debug)]
-enum Told {
+enum TeamSetting {
     Nothing,
     Miss,
     /// A robot dies in a team move.
@@ -23,11 +23,11 @@ enum Told {
     SightAndRange(u16),
 }
 
-use Told::{Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRange};
+use TeamSetting::{Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRange};
 
 /// A clause, and whether the end of a run breaks it or a team move; the scheme, the rule, and the condition that it
 /// lacks, if it lacks one; the layout, the robots, the seed, and what else is told.
-type Case = (&'static str, bool, [&'static str; 3], (&'static str, u16, u64), Told);
+type Case = (&'static str, bool, [&'static str; 3], (&'static str, u16, u64), TeamSetting);
 
 const CASES: [Case; 21] = [
     ("CHAIN-1", false, ["chain", "published", ""], ("cells:6x5:0.2", 6, 0), Nothing),
@@ -72,7 +72,7 @@ fn broken((_, _, [scheme, rule, lacks], (layout, robots, seed), told): Case) -> 
         Dies(robot, step) => {
             setup.options.fail = Some(Failure { robot, step: step.try_into().expect("from 1 on") });
         }
-        OneByOne => setup.options.going = Going::OneByOne,
+        OneByOne => setup.options.going = MoveOrder::OneByOne,
         Noise => setup.options.noise_db = 2.0,
         Range(cells) => setup.options.range_cells = Some(cells),
         SightAndRange(cells) => {

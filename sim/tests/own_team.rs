@@ -17,7 +17,7 @@ use tautline_sim::counterexample::minimise::{Broken, Case, Obstacles, minimise, 
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
     Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Setup,
-    Starts, Stopped, Surroundings, Team, run,
+    Starts, StopReason, Surroundings, Team, run,
 };
 use tautline_sim::trace::{self, StoredRun, Writer};
 
@@ -135,7 +135,7 @@ fn a_team_of_ones_own_runs_in_a_building_and_its_run_reads_back_as_it_was() {
     let path = folder.path().join("run.jsonl");
     let (layout, base) = loaded("rooms-a");
     let report = store(&path, &layout, base, Limits::default());
-    assert_eq!((report.stopped, report.explored, report.cells), (Stopped::Exhausted, 197, 225));
+    assert_eq!((report.stopped, report.explored, report.cells), (StopReason::Exhausted, 197, 225));
     assert!(!report.violations.is_empty());
     let read = foreign(&path).expect("a stored run");
     assert_eq!(read.clause, None);
@@ -191,7 +191,7 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
             Ok(())
         })?;
         let met = Some(Obstacles { area: report.chart.area(), edges });
-        Ok((report.stopped == Stopped::Violation).then_some(Broken { steps: report.steps, met }))
+        Ok((report.stopped == StopReason::Violation).then_some(Broken { steps: report.steps, met }))
     };
     let case = Case { robots: 2, layout, base, starts: Vec::new(), missed: Vec::new() };
     let steps = breaks(&case).expect("a run").expect("it breaks the clause").steps;

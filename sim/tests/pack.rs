@@ -4,18 +4,18 @@ use crate::common::generated;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::pack::PACK;
-use tautline_sim::explore::{Asked, Report, RuleId, Stopped, explore};
+use tautline_sim::explore::{ExplorationRequest, Report, RuleId, StopReason, explore};
 use tautline_sim::options::Options;
 
-fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> Asked {
-    Asked {
+fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> ExplorationRequest {
+    ExplorationRequest {
         robots: Some(4),
         options: Options { sight_cells: Some(sight_cells), range_cells: Some(range_cells), ..Options::USUAL },
-        ..Asked::new(&PACK, rule)
+        ..ExplorationRequest::new(&PACK, rule)
     }
 }
 
-fn ran(asked: Asked, ground: &str, seed: u64) -> Result<Report, Diagnostic> {
+fn ran(asked: ExplorationRequest, ground: &str, seed: u64) -> Result<Report, Diagnostic> {
     let setup = asked.setup(generated(ground, seed))?;
     Ok(explore(&setup, &mut |_| Ok(())).map_err(|_| ()).expect("a run"))
 }
@@ -27,7 +27,7 @@ fn a_pack_explores_all_that_one_robot_could_and_stays_connected() {
             let report =
                 ran(asked(RuleId::REPAIRED, sight, range), "cells:20x20:0.25", seed).expect("a pack");
             assert_eq!(report.violations, [], "R_s {sight}, R_c {range}, seed {seed}");
-            assert_eq!((report.explored, report.stopped), (report.cells, Stopped::Explored));
+            assert_eq!((report.explored, report.stopped), (report.cells, StopReason::Explored));
         }
     }
 }
@@ -36,14 +36,14 @@ fn a_pack_explores_all_that_one_robot_could_and_stays_connected() {
 fn robots_that_only_follow_the_definitions_wait_for_each_other() {
     let stuck = |seed| {
         let report = ran(asked(RuleId::PUBLISHED, 3, 4), "cells:20x20:0.25", seed).expect("a pack");
-        report.stopped == Stopped::Exhausted && report.explored < report.cells
+        report.stopped == StopReason::Exhausted && report.explored < report.cells
     };
     assert!((0..6).any(stuck));
 }
 
 #[test]
 fn what_is_no_pack_is_refused() {
-    let refused = |asked: Asked| {
+    let refused = |asked: ExplorationRequest| {
         let setup = asked.setup(generated("open:9x9", 0)).expect("it fits its scheme");
         tautline_sim::explore::team(&setup).map(|_| ()).expect_err("it is refused").to_string()
     };
@@ -53,7 +53,7 @@ fn what_is_no_pack_is_refused() {
         (asked(RuleId::REPAIRED, 32, 4), "from 1 to 31 cells"),
         (asked(RuleId::REPAIRED, 3, 2), "3 cells far or more"),
         (
-            Asked { starts: far, ..asked(RuleId::REPAIRED, 3, 4) },
+            ExplorationRequest { starts: far, ..asked(RuleId::REPAIRED, 3, 4) },
             "is not connected: links join 2 of its 4 robots",
         ),
     ] {

@@ -49,7 +49,7 @@ fn corner(text: &str) -> Result<Metres<2>, String> {
 
 /// The cells under a log, and the map of them if there is one. The rows of a map are counted southwards from 0; those
 /// of a grid northwards from its corner.
-pub(super) struct Given {
+pub(super) struct MapOfLog {
     layout: Option<Layout>,
     grid: Grid,
     base: Option<Cell>,
@@ -86,7 +86,7 @@ impl MapArgs {
         Ok(())
     }
 
-    pub(super) fn load(&self, is_map_needed: bool) -> Result<Given, Diagnostic> {
+    pub(super) fn load(&self, is_map_needed: bool) -> Result<MapOfLog, Diagnostic> {
         let mut corner = [0.0, 0.0];
         let mut cell_m = self.cell.unwrap_or(1.0);
         let layout = match &self.map {
@@ -131,11 +131,11 @@ impl MapArgs {
         }
         let base = base.or_else(|| layout.as_ref()?.base());
         let grid = Grid { origin_mm: corner.map(|along| along * 1e3), cell_mm: milli(cell_m).max(1) };
-        Ok(Given { layout, grid, base })
+        Ok(MapOfLog { layout, grid, base })
     }
 }
 
-impl Given {
+impl MapOfLog {
     pub(super) const fn grid(&self) -> Grid {
         self.grid
     }
@@ -204,7 +204,7 @@ impl Given {
     }
 }
 
-impl Ground for Given {
+impl Ground for MapOfLog {
     fn is_free(&self, cell: [i32; 2]) -> bool {
         self.southward(cell)
             .is_some_and(|cell| self.layout.as_ref().is_none_or(|layout| layout.is_free(cell)))

@@ -6,22 +6,22 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::diagnostic::{Diagnostic, one_line};
 use tautline_io::svg::Panel;
-use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Misplaced, Numbers, Tracks, Verdict};
+use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Numbers, Strays, Tracks, Verdict};
 use tautline_proofs::plural::counted;
 
-use super::given::Given;
+use super::given::MapOfLog;
 use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 
 /// The report of a log.
-pub(super) struct Told<'a> {
+pub(super) struct LogReport<'a> {
     pub(super) file: String,
     pub(super) log: &'a Log,
     pub(super) numbers: &'a Numbers,
     pub(super) tracks: &'a Tracks,
     pub(super) limits: &'a Limits,
-    pub(super) given: &'a Given,
-    pub(super) misplaced: Option<Misplaced>,
+    pub(super) given: &'a MapOfLog,
+    pub(super) misplaced: Option<Strays>,
     pub(super) verdicts: &'a [(&'static str, Demand, Verdict)],
 }
 
@@ -100,7 +100,7 @@ fn seconds(us: i64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-impl Told<'_> {
+impl LogReport<'_> {
     /// A robot by its number, from 1, and its name.
     fn robot(&self, robot: u32) -> String {
         let name = self.numbers.names().get(robot as usize).map_or_else(String::new, |name| one_line(name));

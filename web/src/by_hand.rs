@@ -33,10 +33,10 @@ pub(crate) struct ByHand {
 }
 
 /// Searches every order of what may happen in the world of these settings, for at most so many steps.
-pub(crate) type Search = fn(&Settings, u64) -> Result<Hunted, Diagnostic>;
+pub(crate) type Search = fn(&Settings, u64) -> Result<HuntFindings, Diagnostic>;
 
 /// The findings of such a search.
-pub(crate) struct Hunted {
+pub(crate) struct HuntFindings {
     pub(crate) states: u64,
     pub(crate) is_complete: bool,
     pub(crate) found: Vec<Order>,
@@ -60,7 +60,7 @@ fn search<W: System>(
     state: &W::State,
     most_steps: u64,
     clause: impl Fn(W::Demand) -> Option<&'static str>,
-) -> Hunted {
+) -> HuntFindings {
     let limits = Limits { most_steps, ..Limits::NONE };
     let findings = states::search(world, [state.clone()], limits);
     let mut found: Vec<Order> = Vec::new();
@@ -84,7 +84,7 @@ fn search<W: System>(
         found.push(order);
     }
     found.sort_by_key(|order| order.clause);
-    Hunted { states: findings.states, is_complete: findings.is_whole, found }
+    HuntFindings { states: findings.states, is_complete: findings.is_whole, found }
 }
 
 /// How the world of these settings is hunted, if no catalogue has it.
@@ -139,7 +139,7 @@ fn too_large() -> Diagnostic {
 }
 
 /// A world whose states can be shown.
-trait Shown: World {
+trait SceneWorld: World {
     /// The part that stands still.
     fn scene(&self) -> Scene;
 
@@ -181,7 +181,7 @@ struct Picture {
 }
 
 /// A world on its way.
-struct Played<W: Shown> {
+struct WorldRun<W: SceneWorld> {
     world: W,
     state: W::State,
     log: Vec<u8>,
@@ -189,7 +189,7 @@ struct Played<W: Shown> {
     step: u32,
 }
 
-impl<W: Shown + 'static> Played<W> {
+impl<W: SceneWorld + 'static> WorldRun<W> {
     fn boxed(world: W, state: W::State, seed: u64) -> Box<dyn Play>
     where
         W::State: 'static,
@@ -198,7 +198,7 @@ impl<W: Shown + 'static> Played<W> {
     }
 }
 
-impl<W: Shown> Played<W> {
+impl<W: SceneWorld> WorldRun<W> {
     fn delta(&self, picture: Picture) -> Delta {
         let Scene { area, layers, .. } = self.world.scene();
         let Picture { cells, explored, known, put, say, failed } = picture;
@@ -234,7 +234,7 @@ impl<W: Shown> Played<W> {
     }
 }
 
-impl<W: Shown> Play for Played<W> {
+impl<W: SceneWorld> Play for WorldRun<W> {
     fn board(&self) -> Board {
         let Scene { area, actor, squares, names, layers } = self.world.scene();
         Board {
@@ -265,7 +265,7 @@ impl<W: Shown> Play for Played<W> {
         };
         let options = world.options(state, &plan);
         let (planned, sent) = (state.clone(), log.len());
-        let mut asked = Asked { answers, dice, options, taken: String::new() };
+        let mut asked = AnswerSource { answers, dice, options, taken: String::new() };
         let event = world.settle(state, &plan, log, &mut asked);
         let words = asked.taken;
         let (before, planned, after) = (&before, &planned, &*state);
@@ -279,7 +279,7 @@ impl<W: Shown> Play for Played<W> {
 }
 
 /// Answers as somebody gives them, or as the dice fall.
-struct Asked<'a> {
+struct AnswerSource<'a> {
     answers: &'a mut Answers,
     dice: &'a mut SeededOracle,
     /// The events that may happen, until one of them is picked.
@@ -288,7 +288,7 @@ struct Asked<'a> {
     taken: String,
 }
 
-impl Oracle for Asked<'_> {
+impl Oracle for AnswerSource<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         let usual = self.dice.pick(below);
         let mut options = std::mem::take(&mut self.options);

@@ -10,9 +10,11 @@ use tautline_grids::layout::Size;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::plural::counted;
 use tautline_sim::explore::Scheme;
-use tautline_sim::explore::hunt::{Begun, Bound, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, Shown};
+use tautline_sim::explore::hunt::{
+    Bound, Exhibit, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, OngoingHunt,
+};
 
-use crate::by_hand::{self, Hunted, Order, Search};
+use crate::by_hand::{self, HuntFindings, Order, Search};
 use crate::clauses::sentence;
 use crate::play::json as written;
 use crate::settings::Settings;
@@ -83,7 +85,7 @@ pub(crate) struct WorldHunt {
     settings: Settings,
     search: Search,
     budget: u64,
-    last: Option<Hunted>,
+    last: Option<HuntFindings>,
 }
 
 impl WorldHunt {
@@ -98,7 +100,9 @@ impl WorldHunt {
     }
 
     fn found(&self) -> Value {
-        let Some(Hunted { states, is_complete, found }) = &self.last else { return json!({ "found": [] }) };
+        let Some(HuntFindings { states, is_complete, found }) = &self.last else {
+            return json!({ "found": [] });
+        };
         let outcome = match (found.is_empty(), is_complete) {
             (true, true) => "No clause is broken, whatever happens in which order.",
             (true, false) => "No clause is broken so far.",
@@ -144,7 +148,7 @@ pub(crate) struct RowHunt {
 
 enum How {
     /// A little at a time.
-    Begun(Box<dyn Begun>),
+    Begun(Box<dyn OngoingHunt>),
     /// With a budget for the next slice, and what the last one has found.
     Again(u64, Option<HuntReport>),
 }
@@ -170,7 +174,7 @@ impl RowHunt {
             || Diagnostic::usage(format!("nothing is hunted of {}", scheme.name), "hunt another scheme");
         let hunt = match (settings.switched(), rule.switches) {
             (Some(on), Some(switches)) => switches.hunt(on).ok_or_else(nothing)?,
-            _ => Box::new(Fixed(rule.hunt.ok_or_else(nothing)?)),
+            _ => Box::new(CatalogueHunt(rule.hunt.ok_or_else(nothing)?)),
         };
         let mut hunting = Self {
             scheme,
@@ -290,8 +294,8 @@ impl RowHunt {
 
     fn finding(&self, finding: &Finding) -> Value {
         let story = match &finding.shown {
-            Shown::Run(_) | Shown::Endless => None,
-            Shown::Story(_, story) | Shown::Told(story) => Some(story),
+            Exhibit::Run(_) | Exhibit::Endless => None,
+            Exhibit::Story(_, story) | Exhibit::Told(story) => Some(story),
         };
         json!({
             "clause": finding.clause,
@@ -306,9 +310,9 @@ impl RowHunt {
 
 /// A hunt that stands in a catalogue.
 #[derive(Debug)]
-struct Fixed(&'static dyn Hunt);
+struct CatalogueHunt(&'static dyn Hunt);
 
-impl Hunt for Fixed {
+impl Hunt for CatalogueHunt {
     fn takes(&self) -> &'static [Bound] {
         self.0.takes()
     }
@@ -321,7 +325,7 @@ impl Hunt for Fixed {
         self.0.hunt(asked, hunter)
     }
 
-    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn OngoingHunt>>, Diagnostic> {
         self.0.begin(asked)
     }
 }

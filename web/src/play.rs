@@ -15,7 +15,7 @@ pub(crate) trait Play {
     fn step(&mut self, world: &mut Answers) -> Step;
 
     /// The steps that robots cannot take next, and what refuses them.
-    fn refusals(&self) -> Vec<Refused> {
+    fn refusals(&self) -> Vec<Refusal> {
         Vec::new()
     }
 }
@@ -122,7 +122,7 @@ pub(crate) struct Over {
 
 /// A step that a robot cannot take.
 #[derive(Serialize)]
-pub(crate) struct Refused {
+pub(crate) struct Refusal {
     pub(crate) robot: usize,
     /// The cell to which it would go.
     pub(crate) to: u32,

@@ -8,13 +8,13 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Edge, Step as Move};
 use tautline_sim::draw::page::{film, number_of, place_of, side_of};
 use tautline_sim::explore::{
-    Change, ClauseId, Course, Hearers, Look, Made, Play as _, Scene, Setup, Surroundings, Team,
+    Change, ClauseId, Course, CourseMove, Hearers, Look, Play as _, Scene, Setup, Surroundings, Team,
 };
 use tautline_sim::trace;
 
 use crate::ask::{Answers, Question};
 use crate::clauses::sentence;
-use crate::play::{Board, Broken, Delta, Over, Play, Refused, Step};
+use crate::play::{Board, Broken, Delta, Over, Play, Refusal, Step};
 use crate::settings::Settings;
 
 /// A run on a layout.
@@ -41,7 +41,7 @@ impl Run {
     }
 
     /// The changes of the team move `made`.
-    fn delta(&self, made: &Made, walls: Vec<(Edge, bool)>) -> Delta {
+    fn delta(&self, made: &CourseMove, walls: Vec<(Edge, bool)>) -> Delta {
         let area = self.area();
         let number = |cell| place_of(area, cell);
         let team_move = self.course.team_move(made, &*self.team);
@@ -134,7 +134,7 @@ impl Delta {
 }
 
 /// Asks whoever decides about sides, each once, and about what no layout knows.
-struct Asking<'a> {
+struct SideOracle<'a> {
     layout: &'a Layout,
     world: &'a mut Answers,
     asked: &'a mut BTreeMap<Edge, bool>,
@@ -142,7 +142,7 @@ struct Asking<'a> {
     walls: Vec<(Edge, bool)>,
 }
 
-impl Surroundings for Asking<'_> {
+impl Surroundings for SideOracle<'_> {
     fn is_open(&mut self, edge: Edge) -> bool {
         let Self { layout, world, asked, walls } = self;
         let cells = [edge.cell(), edge.cell().beyond(edge.side())];
@@ -207,7 +207,7 @@ impl Play for Run {
 
     fn step(&mut self, world: &mut Answers) -> Step {
         let Self { setup, team, course, asked } = self;
-        let mut asking = Asking { layout: &setup.layout, world, asked, walls: Vec::new() };
+        let mut asking = SideOracle { layout: &setup.layout, world, asked, walls: Vec::new() };
         let made = course.step(&mut **team, &setup.layout, setup.limits, &mut asking);
         let walls = asking.walls;
         for &(edge, is_wall) in &walls {
@@ -238,11 +238,11 @@ impl Play for Run {
         Step::Over(Over { words: report.stopped.words().to_owned(), broken: broken.collect() })
     }
 
-    fn refusals(&self) -> Vec<Refused> {
+    fn refusals(&self) -> Vec<Refusal> {
         let (area, cells) = (self.area(), self.team.cells());
         let refused = |refusal: tautline_sim::explore::Refusal| {
             let to = place_of(area, cells.get(refusal.robot)?.after(refusal.step))?;
-            Some(Refused { robot: refusal.robot, to, by: refusal.by })
+            Some(Refusal { robot: refusal.robot, to, by: refusal.by })
         };
         self.team.refusals().into_iter().filter_map(refused).collect()
     }

@@ -8,7 +8,7 @@ use tautline_grids::layout::{Layout, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_sim::draw::page::film;
-use tautline_sim::explore::{Asked, Limits, Rule, Scheme, Setup, Starts, Team};
+use tautline_sim::explore::{ExplorationRequest, Limits, Rule, Scheme, Setup, Starts, Team};
 use tautline_sim::options::{Extra, Options};
 
 use crate::own;
@@ -150,7 +150,7 @@ impl Settings {
         let miss = Probability::new(self.miss).ok_or_else(probability)?;
         let scheme = self.scheme()?;
         let starts = if scheme.starts == Starts::Base { Vec::new() } else { self.starts.clone() };
-        let asked = Asked {
+        let asked = ExplorationRequest {
             robots: Some(self.robots.into()),
             seed: self.seed,
             base: self.base,
@@ -161,7 +161,7 @@ impl Settings {
                 Some(clause) => Limits::stopping_at(Some(own::catalogue().clause(clause)?)),
                 None => Limits::default(),
             },
-            ..Asked::new(scheme, self.rule()?.name)
+            ..ExplorationRequest::new(scheme, self.rule()?.name)
         };
         let setup = asked.setup(self.layout()?)?;
         Ok(Setup { missed: self.missed.clone(), choices: self.choices.clone(), ..setup })

@@ -1,7 +1,7 @@
 //! The rule of Brick&Mortar as a set of named conditions.
 
 use crate::conditions;
-use crate::floor::Replaced;
+use crate::floor::SensorFate;
 
 conditions! {
     /// One condition of the rule, by the sentence it stands for.
@@ -48,7 +48,7 @@ pub struct Rule {
     /// Moves after which the first lap is cut short, under [`Condition::Laps`].
     pub reach: u8,
     /// The fate of a missed sensor where a new one is placed. Under [`Condition::SecondPass`] it is lost.
-    pub replaced: Replaced,
+    pub replaced: SensorFate,
 }
 
 impl Rule {
@@ -58,7 +58,7 @@ impl Rule {
         precedence: Precedence::Higher,
         patience: 32,
         reach: 255,
-        replaced: Replaced::Lost,
+        replaced: SensorFate::Lost,
     };
 
     /// With loop closure.

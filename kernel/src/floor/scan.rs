@@ -1,7 +1,7 @@
 //! An agent's scan of the cells around it [Ferranti 2009, I: localisation and querying].
 
 use super::ring::AROUND;
-use super::{COMPASS, Claim, Entry, Floor, Mark, Replaced, Ring, Sensor};
+use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor, SensorFate};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, Side, Step};
 
@@ -132,13 +132,13 @@ impl Scan {
 
     /// How the neighbour beyond `side`, which has a sensor, is entered; `replaced` is the fate of a sensor that was
     /// missed.
-    pub const fn entry(&self, side: Side, replaced: Replaced) -> Entry {
+    pub const fn entry(&self, side: Side, replaced: SensorFate) -> Entry {
         if self.unexplored.has(side) { Entry::New { crossings: 0, replaced } } else { Entry::Known }
     }
 
     /// As [`Self::entry`]; if a sensor is placed, it counts on from this cell's, and one that was missed is lost.
     pub fn entry_counting_on(&self, side: Side) -> Entry {
-        match self.entry(side, Replaced::Lost) {
+        match self.entry(side, SensorFate::Lost) {
             Entry::New { replaced, .. } => {
                 Entry::New { crossings: self.here.crossings.saturating_sub(1), replaced }
             }

@@ -2,7 +2,7 @@
 
 use core::hash::{Hash, Hasher};
 
-use super::Replaced;
+use super::SensorFate;
 use crate::ground::Steps;
 
 /// The state of a cell [Ferranti 2009, II.A]. Walls have no sensor.
@@ -66,12 +66,12 @@ impl Sensor {
     }
 
     /// The sensor, just placed in a cell in which `old` may lie, once one agent has entered.
-    pub(super) fn entered_beside(self, old: Self, replaced: Replaced) -> Self {
+    pub(super) fn entered_beside(self, old: Self, replaced: SensorFate) -> Self {
         let placed = self.entered();
         let crossings = match replaced {
-            Replaced::Lost => return placed,
-            Replaced::Beside => old.crossings.max(placed.crossings),
-            Replaced::Counted => old.crossings.max(self.crossings).saturating_add(1),
+            SensorFate::Lost => return placed,
+            SensorFate::Beside => old.crossings.max(placed.crossings),
+            SensorFate::Counted => old.crossings.max(self.crossings).saturating_add(1),
         };
         let Self { serial, agents, .. } = placed;
         Self { mark: old.mark.max(placed.mark), serial, agents, crossings, ..old }
@@ -157,11 +157,11 @@ mod tests {
         let placed = Sensor { serial: 8, agents: 1, ..Sensor::default() };
         let entered = |replaced| placed.entered_beside(old, replaced);
         let new = Sensor { mark: Mark::Explored, crossings: 1, agents: 2, serial: 8, ..Sensor::default() };
-        assert_eq!(entered(Replaced::Lost), new);
+        assert_eq!(entered(SensorFate::Lost), new);
         let beside = Sensor { mark: Mark::Visited, crossings: 5, shut: side, ..new };
-        assert_eq!(entered(Replaced::Beside), beside);
-        assert_eq!(entered(Replaced::Counted), Sensor { crossings: 6, ..beside });
-        for replaced in [Replaced::Lost, Replaced::Beside, Replaced::Counted] {
+        assert_eq!(entered(SensorFate::Beside), beside);
+        assert_eq!(entered(SensorFate::Counted), Sensor { crossings: 6, ..beside });
+        for replaced in [SensorFate::Lost, SensorFate::Beside, SensorFate::Counted] {
             let known = placed.entered_beside(Sensor::default(), replaced);
             assert_eq!(known, placed.entered(), "no old one, {replaced:?}");
             let fewer = Sensor { crossings: 2, ..Sensor::default() };

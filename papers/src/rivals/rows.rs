@@ -9,8 +9,8 @@ use tautline_grids::layout::{self, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::SCHEMES;
 use tautline_sim::explore::{
-    By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Surroundings,
-    Team, Zone,
+    By, Catalogue, End, Joins, Layer, Look, Profile, RandomPart, Rule, RuleId, Setup, Shape, Starts,
+    Surroundings, Team, Zone,
 };
 
 use super::{Cells, Deadlock, Links, Moves, ParameterError, Parameters, Standstill};
@@ -62,7 +62,7 @@ macro_rules! rival {
             robots: 2..=MAX_ROBOTS,
             starts: Starts::Base,
             look: Look::Tree { is_linked: |one, other| Circle::COVERED.covers(one, other) },
-            drawn: &[Drawn { what: "which of the team moves is made that are as good", by: By::Every }],
+            drawn: &[RandomPart { what: "which of the team moves is made that are as good", by: By::Every }],
             ..Profile::named($name)
         }
     };

@@ -12,7 +12,7 @@ mod printed;
 use std::fmt;
 
 use tautline_kernel::bricks::tree;
-use tautline_kernel::floor::Replaced;
+use tautline_kernel::floor::SensorFate;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
@@ -108,8 +108,8 @@ pub const TEAMS: [Team; 7] = [
 
 /// Ants by the other readings of what becomes of a missed sensor, whose old content those of [`TEAMS`] lose.
 const READINGS: [Team; 2] = [
-    Team::new(&ANTS, RuleId::new("beside"), &ants::Rule::Published(Replaced::Beside)),
-    Team::new(&ANTS, RuleId::new("counted"), &ants::Rule::Published(Replaced::Counted)),
+    Team::new(&ANTS, RuleId::new("beside"), &ants::Rule::Published(SensorFate::Beside)),
+    Team::new(&ANTS, RuleId::new("counted"), &ants::Rule::Published(SensorFate::Counted)),
 ];
 
 /// The sensors that the paper's agents miss, of all.

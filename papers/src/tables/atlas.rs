@@ -10,7 +10,7 @@ use tautline_proofs::chain::search::{Bounds, Counterexample};
 use tautline_proofs::run::walls;
 
 use super::prelude::*;
-use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::ColumnRow;
 use tautline_sim::explore::RuleName;
 use tautline_sim::explore::chain::hunt::start;
 
@@ -149,7 +149,7 @@ pub struct ViolationCount {
     /// How many.
     pub runs: u64,
     /// Walls of the smallest.
-    #[schemars(with = "Vec<[CellWritten; 2]>")]
+    #[schemars(with = "Vec<[ColumnRow; 2]>")]
     pub walls: Vec<[Cell; 2]>,
     /// Its team moves.
     pub steps: usize,

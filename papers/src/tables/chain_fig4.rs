@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Area, Cell};
 
 use super::prelude::*;
 use crate::nxt::{Body, Odometer};
-use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::ColumnRow;
 use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::chain::CHAIN;
@@ -60,7 +60,7 @@ pub struct Run {
     places: u32,
     /// The cells of R_2 … R_N.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(with = "Vec<Vec<CellWritten>>")]
+    #[schemars(with = "Vec<Vec<ColumnRow>>")]
     ways: Vec<Vec<Cell>>,
 }
 

@@ -249,7 +249,7 @@ pub struct Summary {
 }
 
 /// A case: the number of nodes, the shape of the obstacle, and the settings with that obstacle.
-type Measured = (usize, Option<&'static str>, Settings);
+type Case = (usize, Option<&'static str>, Settings);
 
 impl Journeys {
     /// The settings with what the figure has where nothing was asked for.
@@ -273,7 +273,7 @@ impl Journeys {
     }
 
     /// The case at this place.
-    fn case(&self, settings: &Settings, place: usize) -> Result<Measured, Halt> {
+    fn case(&self, settings: &Settings, place: usize) -> Result<Case, Halt> {
         let (mut own, shapes) = (self.whole(settings), self.shapes());
         let (nodes, shape) = (own.nodes[place / shapes.len()], shapes[place % shapes.len()]);
         if let Some(shape) = shape {
@@ -284,7 +284,7 @@ impl Journeys {
     }
 
     /// The cases, place by place.
-    fn cases(&self, settings: &Settings) -> Result<Vec<Measured>, Halt> {
+    fn cases(&self, settings: &Settings) -> Result<Vec<Case>, Halt> {
         let count = self.whole(settings).nodes.len() * self.shapes().len();
         (0..count).map(|place| self.case(settings, place)).collect()
     }

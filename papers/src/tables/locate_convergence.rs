@@ -188,7 +188,7 @@ impl Table for LocateConvergence {
 
     /// The paper's bounds on errors.
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        let judged = |(what, paper_m, ours_m, interval_m): Printed| {
+        let judged = |(what, paper_m, ours_m, interval_m): Comparison| {
             let verdict = below(interval_m, Some([paper_m; 2]));
             Judgement::new(
                 format!("an error below {paper_m} m"),
@@ -218,10 +218,10 @@ impl Table for LocateConvergence {
 }
 
 /// A number of the paper and ours: of what, how many metres, and the 95 % interval of ours.
-type Printed = (String, f64, f64, Option<[f64; 2]>);
+type Comparison = (String, f64, f64, Option<[f64; 2]>);
 
 /// The paper's numbers and ours.
-fn numbers(merged: &Summary) -> Vec<Printed> {
+fn numbers(merged: &Summary) -> Vec<Comparison> {
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);

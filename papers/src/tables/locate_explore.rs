@@ -11,7 +11,7 @@ use super::prelude::*;
 use super::sentences::below;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::{RuleId, Setup, has_double};
-use tautline_sim::frontier::{Allowance, Ended, Explorers};
+use tautline_sim::frontier::{Allowance, Explorers, TeamEnd};
 use tautline_sim::objects::scattered;
 use tautline_sim::options::{Options, Wheels};
 
@@ -311,7 +311,8 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
         }
     };
     // Robots that wander never end; they are done when every cell is explored.
-    let is_over = matches!(ended, Some(Ended::Known | Ended::Still | Ended::Endless)) || whole.is_some();
+    let is_over =
+        matches!(ended, Some(TeamEnd::Known | TeamEnd::Still | TeamEnd::Endless)) || whole.is_some();
     let off = team.objects().iter().filter_map(|(object, known)| {
         let known = known.as_ref()?;
         let thousandths = |sides: f64| (1000.0 * sides) as u32;

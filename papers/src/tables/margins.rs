@@ -42,7 +42,7 @@ fn positive(text: &str) -> Result<f64, String> {
 /// The measure of two robots.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kept {
+pub enum Measure {
     /// From the one to the other.
     Centres,
     /// From the one to the farthest corner of the other's cell.
@@ -53,7 +53,7 @@ pub enum Kept {
 #[derive(Clone, Copy)]
 struct Row {
     rule: &'static str,
-    kept: Kept,
+    kept: Measure,
     lattice: Lattice,
     /// Squared: at rest, and at any moment. Of the chain in quarters of a squared cell, of KIT in squared paths.
     farthest: fn() -> [u32; 2],
@@ -66,21 +66,21 @@ enum Lattice {
     Paths,
 }
 
-const fn chain(rule: &'static str, kept: Kept, farthest: fn() -> [u32; 2]) -> Row {
+const fn chain(rule: &'static str, kept: Measure, farthest: fn() -> [u32; 2]) -> Row {
     Row { rule, kept, lattice: Lattice::Cells, farthest }
 }
 
 const fn paths(rule: &'static str, farthest: fn() -> [u32; 2]) -> Row {
-    Row { rule, kept: Kept::Centres, lattice: Lattice::Paths, farthest }
+    Row { rule, kept: Measure::Centres, lattice: Lattice::Paths, farthest }
 }
 
 const ROWS: [Row; 11] = [
-    chain("chain, published", Kept::Centres, || published().centres),
-    chain("chain, published", Kept::Cells, || published().cells),
-    chain("chain, repaired", Kept::Centres, || covered(&chain::Rule::REPAIRED).centres),
-    chain("chain, repaired", Kept::Cells, || covered(&chain::Rule::REPAIRED).cells),
-    chain("reel", Kept::Centres, || covered(&chain::Rule::REEL).centres),
-    chain("reel", Kept::Cells, || covered(&chain::Rule::REEL).cells),
+    chain("chain, published", Measure::Centres, || published().centres),
+    chain("chain, published", Measure::Cells, || published().cells),
+    chain("chain, repaired", Measure::Centres, || covered(&chain::Rule::REPAIRED).centres),
+    chain("chain, repaired", Measure::Cells, || covered(&chain::Rule::REPAIRED).cells),
+    chain("reel", Measure::Centres, || covered(&chain::Rule::REEL).centres),
+    chain("reel", Measure::Cells, || covered(&chain::Rule::REEL).cells),
     paths("KIT, repaired, 10 m", || within(Reach::PAPER)),
     paths("KIT, --range 3", || Reach::of_paths(3).map_or([0; 2], within)),
     paths("KIT, --range 2", || Reach::of_paths(2).map_or([0; 2], within)),
@@ -118,7 +118,7 @@ pub struct Line {
     /// The rule.
     pub rule: &'static str,
     /// The measure.
-    pub kept: Kept,
+    pub kept: Measure,
     /// The side of a cell, or a path, in metres.
     pub side_m: f64,
     /// The farthest that two robots at rest are apart, in metres.
@@ -202,7 +202,7 @@ impl Table for Margins {
     }
 }
 
-impl Kept {
+impl Measure {
     const fn word(self) -> &'static str {
         match self {
             Self::Centres => "centres",
@@ -254,14 +254,14 @@ mod tests {
     fn margins_are_those_that_one_counts_by_hand() {
         let settings = Settings::default();
         let lines = ROWS.map(|row| Line::of(row, (row.farthest)(), &settings));
-        let margin = |rule: &str, kept: Kept| {
+        let margin = |rule: &str, kept: Measure| {
             let line = lines.iter().find(|line| line.rule == rule && line.kept == kept).expect("a row");
             (line.moving_m, line.margin_m, line.of_r_cov_m)
         };
         // 3·√10 m of 10 m; 4·√5 m of 10 m and of 4·√26/2 m.
-        assert_eq!(margin("KIT, repaired, 10 m", Kept::Centres), (9.487, 0.513, None));
-        assert_eq!(margin("chain, published", Kept::Centres), (8.944, 1.056, Some(1.254)));
+        assert_eq!(margin("KIT, repaired, 10 m", Measure::Centres), (9.487, 0.513, None));
+        assert_eq!(margin("chain, published", Measure::Centres), (8.944, 1.056, Some(1.254)));
         // A cell wholly covered ends at r_cov.
-        assert_eq!(margin("reel", Kept::Cells), (10.198, -0.198, Some(0.0)));
+        assert_eq!(margin("reel", Measure::Cells), (10.198, -0.198, Some(0.0)));
     }
 }

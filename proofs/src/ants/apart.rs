@@ -21,26 +21,26 @@ const SENSORS: usize = 3;
 pub(super) struct Pile([u32; SENSORS]);
 
 /// The sensors of a cell that are seen, a bit for each.
-type Seen = u8;
+type SensorSet = u8;
 
 /// How a cell is entered whose sensors are seen in part.
-pub(super) type Entered = fn(Pile, Seen) -> Pile;
+pub(super) type EntryRule = fn(Pile, SensorSet) -> Pile;
 
 impl Pile {
     /// The sensors that an ant sees; `world` says which it misses.
-    fn seen(self, world: &mut (impl Oracle + ?Sized)) -> Seen {
+    fn seen(self, world: &mut (impl Oracle + ?Sized)) -> SensorSet {
         let there = (0..SENSORS).filter(|&place| self.0[place] > 0);
         there.fold(0, |seen, place| if world.mishap() { seen } else { seen | 1 << place })
     }
 
     /// The highest count of those that are seen.
-    fn reads(self, seen: Seen) -> u32 {
+    fn reads(self, seen: SensorSet) -> u32 {
         let counts = (0..).zip(self.0).filter(|(place, _)| seen >> place & 1 == 1);
         counts.map(|(_, count)| count).max().unwrap_or(0)
     }
 
     /// The sensors once an ant has entered. Where it sees none it places a new one.
-    pub(super) fn entered(mut self, seen: Seen) -> Self {
+    pub(super) fn entered(mut self, seen: SensorSet) -> Self {
         let count = self.reads(seen).saturating_add(1);
         let place = self.0.iter().position(|&count| count == 0).filter(|_| seen == 0);
         for (number, sensor) in self.0.iter_mut().enumerate() {
@@ -53,14 +53,14 @@ impl Pile {
 }
 
 /// The cell whose old sensors are lost when a new one is placed.
-pub(super) fn losing(pile: Pile, seen: Seen) -> Pile {
+pub(super) fn losing(pile: Pile, seen: SensorSet) -> Pile {
     if seen == 0 { Pile::default().entered(seen) } else { pile.entered(seen) }
 }
 
 /// A look at the side neighbours, and which of their sensors it shows.
 pub(super) struct Look {
     scan: Scan,
-    seen: [Seen; 4],
+    seen: [SensorSet; 4],
 }
 
 impl SensorData for Pile {
@@ -98,7 +98,7 @@ impl SensorData for Pile {
     }
 
     fn crossings(&self) -> u32 {
-        self.reads(Seen::MAX)
+        self.reads(SensorSet::MAX)
     }
 
     fn with_crossings(self, crossings: u32) -> Self {
@@ -113,7 +113,7 @@ pub(super) struct Apart;
 impl Scheme for Apart {
     type Sensor = Pile;
     type Memory = ();
-    type Act = Option<(Side, Seen)>;
+    type Act = Option<(Side, SensorSet)>;
 
     fn memory(&self, _: u8) {}
 
@@ -162,7 +162,7 @@ pub(super) fn piles() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub(super) fn keeps(entered: &Entered, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn keeps(entered: &EntryRule, oracle: &mut dyn Oracle) -> Outcome {
     let [old, new] = [(); 2].map(|()| 1 + oracle.pick(MOST));
     let before = Pile([old, new, 0]);
     let seen = before.seen(oracle);

@@ -3,9 +3,9 @@
 use std::convert::Infallible;
 
 use tautline_kernel::ants::Rule;
-use tautline_kernel::floor::Replaced::{Beside, Counted};
+use tautline_kernel::floor::SensorFate::{Beside, Counted};
 
-use super::apart::{self, Apart, Entered, Pile};
+use super::apart::{self, Apart, EntryRule, Pile};
 use super::{replaced, ties};
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
@@ -13,7 +13,7 @@ use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::EveryAnswer;
 use crate::floor::plans::Area;
 use crate::floor::series::Deception::CountsNothing;
-use crate::floor::series::Given::{Dark, UncountedStart};
+use crate::floor::series::FloorProperty::{Dark, UncountedStart};
 use crate::floor::series::{Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::{Demand, Series};
 
@@ -131,7 +131,7 @@ pub const CLAUSES: [Clause; 3] = [
             &Check::holds(BESIDE, &KEEPS, LOST),
             &Check::holds(COUNTED, &KEEPS, LOST),
             &Check::holds(
-                NamedRule::new("apart", Pile::entered as Entered),
+                NamedRule::new("apart", Pile::entered as EntryRule),
                 &EveryAnswer {
                     body: apart::keeps,
                     range: apart::piles,

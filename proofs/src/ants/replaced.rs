@@ -3,7 +3,7 @@
 
 use tautline_kernel::ants::{Rule, carry_out, decide};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Floor, Mark, Replaced, Scan, Sensor};
+use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, SensorFate};
 use tautline_kernel::ground::{Cell, Edge};
 
 use crate::engine::{Choices, Outcome, Replay, Stop, require};
@@ -42,7 +42,7 @@ impl Floor for Pair {
 }
 
 /// A move of the ant between the cells.
-struct Entered {
+struct Entry {
     is_missed: bool,
     /// The count of the cell that it leaves.
     from: u32,
@@ -52,7 +52,7 @@ struct Entered {
 }
 
 /// The move that these answers make.
-fn entered(rule: Rule, oracle: &mut dyn Oracle) -> Result<Entered, Stop> {
+fn entered(rule: Rule, oracle: &mut dyn Oracle) -> Result<Entry, Stop> {
     let [from, before] = [(); 2].map(|()| 1 + oracle.pick(MOST));
     let sensor = |crossings| Sensor { mark: Mark::Explored, crossings, ..Sensor::default() };
     let (home, beyond) = (Cell::new(0, 0), Cell::new(1, 0));
@@ -61,7 +61,7 @@ fn entered(rule: Rule, oracle: &mut dyn Oracle) -> Result<Entered, Stop> {
     let is_there = carry_out(&mut floor, home, decide(rule, &scan)) == beyond;
     require(is_there, "an ant goes to its only neighbour")?;
     let after = floor.sensor(beyond).map_or(0, |sensor| sensor.crossings);
-    Ok(Entered { is_missed: scan.detected == 0, from, before, after })
+    Ok(Entry { is_missed: scan.detected == 0, from, before, after })
 }
 
 /// ANTS-3: a cell that an ant enters.
@@ -69,7 +69,7 @@ fn entered(rule: Rule, oracle: &mut dyn Oracle) -> Result<Entered, Stop> {
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn keeps(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
-    let Entered { is_missed, before, after, .. } = entered(*rule, oracle)?;
+    let Entry { is_missed, before, after, .. } = entered(*rule, oracle)?;
     require(after >= before, "a cell counts no fewer agents after a missed sensor was replaced")?;
     Ok(if is_missed { "a missed sensor" } else { "a sensor that is seen" })
 }
@@ -78,11 +78,11 @@ pub(super) fn keeps(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
 pub(super) fn replacement(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let answers: Vec<u32> = choices.all().collect();
     let mut replay = Replay::new(&answers);
-    let Entered { is_missed, from, before, after } = entered(*rule, &mut replay).ok()?;
+    let Entry { is_missed, from, before, after } = entered(*rule, &mut replay).ok()?;
     let count = match rule {
-        Rule::Published(Replaced::Lost) => Count::FromNothing,
-        Rule::Published(Replaced::Beside) => Count::TheHigher,
-        Rule::Published(Replaced::Counted) => Count::OnFromOld,
+        Rule::Published(SensorFate::Lost) => Count::FromNothing,
+        Rule::Published(SensorFate::Beside) => Count::TheHigher,
+        Rule::Published(SensorFate::Counted) => Count::OnFromOld,
         Rule::Repaired => Count::OnFromCell,
     };
     let [from, before, after] = [from, before, after].map(|count| count as i32);

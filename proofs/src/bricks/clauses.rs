@@ -6,7 +6,7 @@ use tautline_kernel::bricks::tree::Condition::{
 };
 use tautline_kernel::bricks::tree::Rule as TreeRule;
 use tautline_kernel::bricks::{Precedence, Rule};
-use tautline_kernel::floor::{Replaced, Ring, Scan};
+use tautline_kernel::floor::{Ring, Scan, SensorFate};
 
 use super::floors::{
     ALONE, AS_SHIPPED, AT_ONCE, BEHIND_A_WALL, COUNTED, FAILING, HALF_BLIND, HALF_BLIND_PAIR, HELPING,
@@ -15,12 +15,12 @@ use super::floors::{
 };
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
-use super::tree::{Going, Own, To, children, labels};
+use super::tree::{Own, To, Travel, children, labels};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::EveryAnswer;
-use crate::floor::series::Given::Dark;
+use crate::floor::series::FloorProperty::Dark;
 use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
 use crate::floor::team::{Demand, Demands};
@@ -44,16 +44,19 @@ const ROBUST: NamedRule<Subject<Rule>> = named("robust", Rule::ROBUST);
 /// where some sensors are missed, which ones, and what becomes of them.
 const READINGS: [(&str, Subject<Rule>); 11] = [
     ("alone", Subject::of(Rule::PUBLISHED.with(Alone))),
-    ("beside", replacing(Rule::PUBLISHED, Replaced::Beside)),
-    ("alone + beside", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside)),
-    ("counted", replacing(Rule::PUBLISHED, Replaced::Counted)),
-    ("alone + counted", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted)),
+    ("beside", replacing(Rule::PUBLISHED, SensorFate::Beside)),
+    ("alone + beside", replacing(Rule::PUBLISHED.with(Alone), SensorFate::Beside)),
+    ("counted", replacing(Rule::PUBLISHED, SensorFate::Counted)),
+    ("alone + counted", replacing(Rule::PUBLISHED.with(Alone), SensorFate::Counted)),
     ("in the dark", Subject::of(Rule::PUBLISHED).on(&[Dark])),
     ("alone + in the dark", Subject::of(Rule::PUBLISHED.with(Alone)).on(&[Dark])),
-    ("beside + in the dark", replacing(Rule::PUBLISHED, Replaced::Beside).on(&[Dark])),
-    ("alone + beside + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Beside).on(&[Dark])),
-    ("counted + in the dark", replacing(Rule::PUBLISHED, Replaced::Counted).on(&[Dark])),
-    ("alone + counted + in the dark", replacing(Rule::PUBLISHED.with(Alone), Replaced::Counted).on(&[Dark])),
+    ("beside + in the dark", replacing(Rule::PUBLISHED, SensorFate::Beside).on(&[Dark])),
+    ("alone + beside + in the dark", replacing(Rule::PUBLISHED.with(Alone), SensorFate::Beside).on(&[Dark])),
+    ("counted + in the dark", replacing(Rule::PUBLISHED, SensorFate::Counted).on(&[Dark])),
+    (
+        "alone + counted + in the dark",
+        replacing(Rule::PUBLISHED.with(Alone), SensorFate::Counted).on(&[Dark]),
+    ),
 ];
 
 static PAPER: Paper = Paper {
@@ -72,7 +75,7 @@ static PAPER: Paper = Paper {
     repairs: &["repaired", "robust"],
 };
 
-const fn replacing(rule: Rule, replaced: Replaced) -> Subject<Rule> {
+const fn replacing(rule: Rule, replaced: SensorFate) -> Subject<Rule> {
     Subject::of(Rule { replaced, ..rule })
 }
 
@@ -124,13 +127,13 @@ const PARENTS_MARKED: NamedRule<Subject<TreeRule>> =
 const BELIEVING: NamedRule<Subject<TreeRule>> = named("what is seen is believed", TreeRule::TREE);
 
 /// Helpers that go where `to` says.
-const fn going(name: &'static str, to: To) -> NamedRule<Subject<Going>> {
-    named(name, Going { rule: TreeRule::HELPERS, to })
+const fn going(name: &'static str, to: To) -> NamedRule<Subject<Travel>> {
+    named(name, Travel { rule: TreeRule::HELPERS, to })
 }
 
 /// Agents of brick-tree that go where `to` says.
-const fn choosing(name: &'static str, to: To) -> NamedRule<Going> {
-    NamedRule::new(name, Going { rule: TreeRule::TREE, to })
+const fn choosing(name: &'static str, to: To) -> NamedRule<Travel> {
+    NamedRule::new(name, Travel { rule: TreeRule::TREE, to })
 }
 
 /// The words for a rule against missed sensors with [`Bricks`].
@@ -358,7 +361,7 @@ pub const CLAUSES: [Clause; 15] = [
             &Floors::new(&COUNTED, own(Own::Bounded)),
             &[
                 going("open cells beside a visited one before its parent", To::OpenBeside),
-                named(TWICE_ADOPTED, Going { rule: TreeRule::HELPERS.without(LowerOnly), to: To::Ruled }),
+                named(TWICE_ADOPTED, Travel { rule: TreeRule::HELPERS.without(LowerOnly), to: To::Ruled }),
             ],
         )],
     },

@@ -16,7 +16,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Scan};
 use tautline_kernel::ground::{Cell, Side, Step};
 
-pub(super) use self::demands::{Going, Own, To};
+pub(super) use self::demands::{Own, To, Travel};
 use crate::floor::crew::{Scheme, SensorData, Sight};
 
 /// A rule by which agents search in trees.

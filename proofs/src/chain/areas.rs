@@ -12,7 +12,7 @@ use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
 use super::observed::Subject;
 use super::search::{Findings as OfOne, Search, Unsearchable, search as search_one};
-use crate::engine::smallest::{Certificate, Class, Most, Searched, areas, smallest};
+use crate::engine::smallest::{Certificate, Class, ClassFindings, Most, areas, smallest};
 use crate::engine::tree::Watch;
 
 /// Areas to search, and for what.
@@ -222,7 +222,7 @@ pub fn smallest_run(
 ) -> Result<Certificate<Class, Smallest>, Unsearchable> {
     smallest(most, |Class { area, barriers, robots }, until| {
         let walls = barriers.min(area.edges().count() as u32);
-        let mut all = Searched::default();
+        let mut all = ClassFindings::default();
         for base in area.cells() {
             let bounds = Bounds { area, base, until, ..Bounds::new(observed, robots, walls) };
             let bounds = Bounds { invariants: vec![invariant], ..bounds };
@@ -232,7 +232,7 @@ pub fn smallest_run(
             let OfOne { runs, complete, counterexamples, given_up, .. } = search_one(&bounds, watch)?;
             let broken = counterexamples.into_iter().find(|one| one.broken == invariant);
             let shortest = broken.map(|found| (found.frames.len(), Smallest { bounds, found }));
-            all.add(Searched { cases: runs, is_whole: complete && given_up == 0, shortest });
+            all.add(ClassFindings { cases: runs, is_whole: complete && given_up == 0, shortest });
         }
         Ok(all)
     })

@@ -9,7 +9,8 @@ use super::invariant::Invariant;
 use super::observed::Subject;
 use super::search::replay;
 use crate::decide::{
-    self, Answer, Context, Decided, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
+    self, Answer, Context, DrawnCertificate, Evidence, Method, MethodError, MethodResult, RefutationPlay,
+    Verdict,
 };
 use crate::engine::smallest::{Certificate, Class, Most};
 use crate::engine::tree::{Watch, unwatched};
@@ -88,7 +89,7 @@ impl Method<Subject> for EveryArea {
         format!("{areas}, N = {fewest} to {most}, at most {barriers} walls")
     }
 
-    fn decide(&self, observed: &Subject, _: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, observed: &Subject, _: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let made = self.look(observed, context.watch)?;
         let evidence = made.smallest.as_ref().map(|smallest| Self::evidence(&smallest.found));
         let cases = made.exhausted.iter().map(|(_, cases)| cases).sum();
@@ -106,7 +107,7 @@ impl Method<Subject> for EveryArea {
         Some((class.to_string(), run.frames.len()))
     }
 
-    fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, observed: &Subject) -> Result<Option<DrawnCertificate>, MethodError> {
         Ok(Some(self.look(observed, &mut unwatched)?.drawn_by_cells(|run| run.to_string())))
     }
 }

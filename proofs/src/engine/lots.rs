@@ -24,7 +24,7 @@ pub trait Lots: Sync {
     /// The result of a lot.
     type Look: Look;
     /// The result of all lots together.
-    type Found: Default;
+    type Findings: Default;
     /// Why a lot cannot be looked at.
     type Error: Send;
 
@@ -50,10 +50,10 @@ pub trait Lots: Sync {
     ///
     /// # Errors
     /// Its fault, if what was seen cannot be told.
-    fn add(&self, found: &mut Self::Found, lot: &Self::Lot, look: Self::Look) -> Result<(), Self::Error>;
+    fn add(&self, found: &mut Self::Findings, lot: &Self::Lot, look: Self::Look) -> Result<(), Self::Error>;
 
     /// All lots of a stage were looked at, and a later one may follow.
-    fn cover(&self, found: &mut Self::Found, stage: Self::Stage);
+    fn cover(&self, found: &mut Self::Findings, stage: Self::Stage);
 }
 
 /// The result of a lot.
@@ -76,8 +76,8 @@ pub trait Look: Send {
 pub fn search<L: Lots>(
     lots: &L,
     budget_steps: Option<u64>,
-    watch: &mut dyn FnMut(&L::Found) -> ControlFlow<()>,
-) -> Result<(L::Found, bool), L::Error> {
+    watch: &mut dyn FnMut(&L::Findings) -> ControlFlow<()>,
+) -> Result<(L::Findings, bool), L::Error> {
     gather(lots, budget_steps, |_, stage, wave, most_steps| looks(lots, stage, wave, most_steps), watch)
 }
 
@@ -86,7 +86,7 @@ pub fn search<L: Lots>(
 ///
 /// # Errors
 /// The fault of a lot.
-pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::Found, bool), L::Error> {
+pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::Findings, bool), L::Error> {
     let owners = deal(lots, shards.len())?;
     let mut shards: Vec<Vec<_>> =
         shards.into_iter().map(|stages| stages.into_iter().map(Vec::into_iter).collect()).collect();
@@ -112,9 +112,9 @@ fn gather<L: Lots>(
     lots: &L,
     budget_steps: Option<u64>,
     mut take: impl FnMut(usize, L::Stage, &[L::Lot], u64) -> Result<Vec<L::Look>, L::Error>,
-    watch: &mut dyn FnMut(&L::Found) -> ControlFlow<()>,
-) -> Result<(L::Found, bool), L::Error> {
-    let (mut found, mut left) = (L::Found::default(), budget_steps.unwrap_or(u64::MAX));
+    watch: &mut dyn FnMut(&L::Findings) -> ControlFlow<()>,
+) -> Result<(L::Findings, bool), L::Error> {
+    let (mut found, mut left) = (L::Findings::default(), budget_steps.unwrap_or(u64::MAX));
     for (number, stage) in lots.stages().into_iter().enumerate() {
         let mut is_enough = false;
         for wave in lots.lots(stage)?.chunks(WAVE) {
@@ -339,7 +339,7 @@ mod tests {
         type Lot = (u64, u64);
         type Look = Glance;
         /// The lots in the order in which they were added, and the stages that were covered.
-        type Found = (Vec<(u64, u64)>, Vec<u64>);
+        type Findings = (Vec<(u64, u64)>, Vec<u64>);
         type Error = Infallible;
 
         fn stages(&self) -> Vec<(u64, u64)> {
@@ -359,25 +359,25 @@ mod tests {
             Ok(Glance { steps: lot.1 % 7, is_whole: !is(self.endless), is_enough: is(self.enough) })
         }
 
-        fn add(&self, found: &mut Self::Found, lot: &(u64, u64), _: Glance) -> Result<(), Infallible> {
+        fn add(&self, found: &mut Self::Findings, lot: &(u64, u64), _: Glance) -> Result<(), Infallible> {
             found.0.push(*lot);
             Ok(())
         }
 
-        fn cover(&self, found: &mut Self::Found, (stage, _): (u64, u64)) {
+        fn cover(&self, found: &mut Self::Findings, (stage, _): (u64, u64)) {
             found.1.push(stage);
         }
     }
 
     const STAGES: [u64; 5] = [1, 300, 0, 17, 400];
 
-    fn whole(lots: &Numbers) -> (<Numbers as Lots>::Found, bool) {
+    fn whole(lots: &Numbers) -> (<Numbers as Lots>::Findings, bool) {
         let Ok(found) = search(lots, None, &mut |_| ControlFlow::Continue(()));
         found
     }
 
     /// Each shard is left after every wave and taken up again.
-    fn in_shards(new: impl Fn() -> Numbers, of: usize) -> (<Numbers as Lots>::Found, bool) {
+    fn in_shards(new: impl Fn() -> Numbers, of: usize) -> (<Numbers as Lots>::Findings, bool) {
         let all = (0..of).map(|number| {
             let mut looks = Vec::new();
             loop {

@@ -15,7 +15,7 @@ use super::world::Turn;
 pub(super) const LOST: &str = "a state does not come back from its bytes";
 
 /// A system with its starts, and which demands count.
-pub struct Started<S: System> {
+pub struct StatesModel<S: System> {
     /// The system.
     pub system: S,
     /// Its starts.
@@ -24,7 +24,7 @@ pub struct Started<S: System> {
     pub is_asked: fn(&S, S::Demand) -> bool,
 }
 
-impl<S: System> Started<S> {
+impl<S: System> StatesModel<S> {
     /// A system of which one thing alone is demanded.
     pub fn new(system: S, starts: fn(&S) -> Vec<S::State>) -> Self {
         Self { system, starts, is_asked: |_, _| true }
@@ -37,7 +37,7 @@ impl<S: System> Started<S> {
     }
 }
 
-impl<S> Model for Started<S>
+impl<S> Model for StatesModel<S>
 where
     S: System + Sync,
     S::State: Send,
@@ -108,7 +108,7 @@ where
 }
 
 /// A team whose runs are told apart, with at most so many mishaps, of which one thing is demanded.
-pub struct Played<'a, G: Game> {
+pub struct RunsModel<'a, G: Game> {
     /// The team.
     pub game: &'a G,
     /// Mishaps in a run, at most.
@@ -117,14 +117,14 @@ pub struct Played<'a, G: Game> {
     pub demand: G::Demand,
 }
 
-impl<G: Game> Played<'_, G> {
+impl<G: Game> RunsModel<'_, G> {
     /// The demand in words, if it is broken.
     fn words(&self, broken: &[G::Demand]) -> Option<String> {
         broken.contains(&self.demand).then(|| format!("{:?}", self.demand))
     }
 }
 
-impl<G: Game> Runs for Played<'_, G> {
+impl<G: Game> Runs for RunsModel<'_, G> {
     type State = G::State;
     type Plan = G::Plan;
 

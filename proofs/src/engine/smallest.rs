@@ -41,7 +41,7 @@ impl Class {
 
 /// The findings in a class.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Searched<F> {
+pub struct ClassFindings<F> {
     /// Runs or states; none if there is no such team.
     pub cases: u64,
     /// Whether all were looked at, or enough to know the shortest counterexample.
@@ -50,13 +50,13 @@ pub struct Searched<F> {
     pub shortest: Option<(usize, F)>,
 }
 
-impl<F> Default for Searched<F> {
+impl<F> Default for ClassFindings<F> {
     fn default() -> Self {
         Self { cases: 0, is_whole: true, shortest: None }
     }
 }
 
-impl<F> Searched<F> {
+impl<F> ClassFindings<F> {
     /// Adds what is found elsewhere in the class; of equally short counterexamples the first counts.
     pub fn add(&mut self, other: Self) {
         self.cases += other.cases;
@@ -115,7 +115,7 @@ impl<K, F> Default for Certificate<K, F> {
 /// Whatever `search` returns.
 pub fn smallest<F, E>(
     most: &Most,
-    mut search: impl FnMut(Class, Until) -> Result<Searched<F>, E>,
+    mut search: impl FnMut(Class, Until) -> Result<ClassFindings<F>, E>,
 ) -> Result<Certificate<Class, F>, E> {
     let mut made = Certificate::default();
     let level = |cells, barriers, robots| areas(cells).map(move |area| Class { area, barriers, robots });
@@ -149,7 +149,7 @@ impl<K: Copy, F> Certificate<K, F> {
     /// Whatever `search` returns.
     pub fn in_order<E>(
         classes: impl IntoIterator<Item = K>,
-        mut search: impl FnMut(K) -> Result<Searched<F>, E>,
+        mut search: impl FnMut(K) -> Result<ClassFindings<F>, E>,
     ) -> Result<Self, E> {
         let mut made = Self::default();
         for class in classes {
@@ -168,10 +168,10 @@ impl<K: Copy, F> Certificate<K, F> {
     pub fn look<E>(
         &mut self,
         classes: impl IntoIterator<Item = K>,
-        search: &mut impl FnMut(K) -> Result<Searched<F>, E>,
+        search: &mut impl FnMut(K) -> Result<ClassFindings<F>, E>,
     ) -> Result<(), E> {
         for class in classes {
-            let Searched { cases, is_whole, shortest } = search(class)?;
+            let ClassFindings { cases, is_whole, shortest } = search(class)?;
             self.is_whole &= is_whole;
             match shortest {
                 Some((moves, found)) if self.smallest.as_ref().is_none_or(|best| moves < best.moves) => {
@@ -250,14 +250,14 @@ mod tests {
 
     /// Three robots break something in 2×3 and 3×2 with a barrier, sooner in the former; four do without one, in 6×1.
     #[expect(clippy::unnecessary_wraps, reason = "a search may fail")]
-    fn search(class: Class, _: Until) -> Result<Searched<&'static str>, Infallible> {
+    fn search(class: Class, _: Until) -> Result<ClassFindings<&'static str>, Infallible> {
         let shortest = match (class.size(), class.robots, class.barriers) {
             ((6, 1), 4, _) => Some((9, "four")),
             ((3, 2), 3, 1..) => Some((5, "wide")),
             ((2, 3), 3, 1..) => Some((4, "high")),
             _ => None,
         };
-        Ok(Searched { cases: 1, is_whole: true, shortest })
+        Ok(ClassFindings { cases: 1, is_whole: true, shortest })
     }
 
     #[test]

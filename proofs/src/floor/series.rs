@@ -11,10 +11,11 @@ use super::team::{Demand, Demands, Series, Team, Turns};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation};
 use crate::decide::{
-    Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+    Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult, RefutationPlay, Size,
+    Systems,
 };
-use crate::engine::model::Started;
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::engine::model::StatesModel;
+use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::states::{AnySystem, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, Case};
@@ -49,7 +50,7 @@ pub(crate) const HOW_OFTEN: Ambiguity = Ambiguity {
 
 conditions! {
     /// A property of the floor by another reading than the published one; agents know nothing of it.
-    pub enum Given {
+    pub enum FloorProperty {
         /// The cell in which an agent starts counts nothing until the agent enters it.
         UncountedStart,
         /// In some cells, as many as sensors may be missed, sensors are always missed.
@@ -88,7 +89,7 @@ impl<S: Copy> Subject<S> {
     }
 
     /// The agents on such a floor.
-    pub(crate) const fn on(self, given: &[Given]) -> Self {
+    pub(crate) const fn on(self, given: &[FloorProperty]) -> Self {
         Self { given: Conditions::of(given), ..self }
     }
 
@@ -134,7 +135,7 @@ impl Series {
             (Deception::ActsAtOnce, Turns::Overlapping) => Self { turns: Turns::Free, ..self },
             (Deception::CountsNothing, _) => Self { most_crossings: Some(1), ..self },
             // Ants that go to and fro in the dark count up for ever; they come to no more elsewhere.
-            (Deception::None, _) if subject.given.has(Given::Dark) => {
+            (Deception::None, _) if subject.given.has(FloorProperty::Dark) => {
                 Self { most_crossings: Some(IN_THE_DARK), ..self }
             }
             (Deception::None | Deception::ActsAtOnce, _) => self,
@@ -144,7 +145,7 @@ impl Series {
         plans.sort_by_key(FloorPlan::barriers);
         let (given, most) = (subject.given, u32::from(self.max_misses));
         let team = move |plan: FloorPlan| {
-            let free = if given.has(Given::Dark) && most > 0 { plan.free } else { 0 };
+            let free = if given.has(FloorProperty::Dark) && most > 0 { plan.free } else { 0 };
             let dark = (0..=free).filter(move |dark| dark & !free == 0 && dark.count_ones() <= most);
             dark.map(move |dark| Team { plan, scheme, series, demand, given, dark })
         };
@@ -252,7 +253,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
 
     /// Looks at the demands of several clauses on the same floors in one pass. Where something is broken there, each
     /// clause looks for its own first violation.
-    fn decide(&self, subject: &Subject<S>, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, subject: &Subject<S>, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let limits = Limits { room: context.room, ..Limits::NONE };
         let shown = Method::<Subject<S>>::shows(self);
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
@@ -270,7 +271,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
     fn systems(&self, subject: &Subject<S>) -> Result<Systems, MethodError> {
         let teams = self.all().flat_map(|series| series.teams(subject, self.demand));
         let started = |team| -> Box<dyn AnySystem> {
-            Box::new(Started::new(team, |team: &Team<S>| team.starts().collect()))
+            Box::new(StatesModel::new(team, |team: &Team<S>| team.starts().collect()))
         };
         Ok(teams.map(started).collect())
     }
@@ -299,7 +300,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
         Some((class.to_string(), course.turns.len()))
     }
 
-    fn smallest(&self, subject: &Subject<S>) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, subject: &Subject<S>) -> Result<Option<DrawnCertificate>, MethodError> {
         // What is missed, and which turns are taken, as in the series with least of it.
         let least = self.all().min_by_key(|series| (series.patience, series.max_misses));
         let Some(least) = least else { return Ok(None) };
@@ -311,7 +312,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
 }
 
 /// From how many each choice was made, the team, its start, and the run.
-type Found<S> = (Vec<u32>, Team<S>, StateOf<S>, Run<&'static str>);
+type Witness<S> = (Vec<u32>, Team<S>, StateOf<S>, Run<&'static str>);
 
 impl<D: Copy> Floors<D> {
     /// The run that these choices make.
@@ -319,7 +320,7 @@ impl<D: Copy> Floors<D> {
         &self,
         subject: &Subject<S>,
         choices: &Choices,
-    ) -> Result<Found<S>, ScriptError> {
+    ) -> Result<Witness<S>, ScriptError> {
         let mut script = Script::new(choices);
         let all: Vec<Series> = self.all().collect();
         let series = all[script.choose(all.len())?];
@@ -352,9 +353,9 @@ impl<D: Copy> Floors<D> {
         subject: &Subject<S>,
         class: Class,
         (least, until): (Series, Until),
-    ) -> Searched<String> {
+    ) -> ClassFindings<String> {
         let ((width, height), agents) = (class.size(), class.robots as u32);
-        let mut all = Searched::default();
+        let mut all = ClassFindings::default();
         for area in [Area::blocked(width, height), Area::walled(width, height)] {
             let series = Series { area, agents, ..least };
             let mut teams = series.teams(subject, self.demand);
@@ -364,7 +365,7 @@ impl<D: Copy> Floors<D> {
                 let run = found.broken.into_iter().next();
                 let shortest = run.map(|run| (run.length(), team.plan.to_string()));
                 let is_enough = shortest.is_some() && until == Until::Violation;
-                all.add(Searched { cases: found.states, is_whole: found.is_whole, shortest });
+                all.add(ClassFindings { cases: found.states, is_whole: found.is_whole, shortest });
                 if is_enough {
                     return all;
                 }

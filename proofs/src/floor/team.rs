@@ -11,7 +11,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View};
 use super::plans::{Area, FloorPlan};
-use super::series::{Conditions, Given};
+use super::series::{Conditions, FloorProperty};
 use super::small::{Misses, PartOf, Small, StateOf};
 use crate::engine::states::{Bits, Places, Run, Step as Made, System};
 use crate::engine::world::{self, World, any_of, picked};
@@ -157,7 +157,7 @@ impl<S: Demands> Team<S> {
     /// The start with the agents in these cells.
     fn start(&self, cells: &[Cell]) -> StateOf<S> {
         let mut state = StateOf::<S>::start(&self.scheme, &self.plan, cells);
-        if self.given.has(Given::UncountedStart) {
+        if self.given.has(FloorProperty::UncountedStart) {
             state.sensors.count_to(0);
         }
         self.forget(&mut state);
@@ -370,7 +370,7 @@ impl<S: Demands> World for Team<S> {
         let (act, is_due) = if let Some(act) = body.pending.take() {
             (act, true)
         } else {
-            let most = if self.given.has(Given::Dark) { 0 } else { self.series.max_misses };
+            let most = if self.given.has(FloorProperty::Dark) { 0 } else { self.series.max_misses };
             let mut world = Misses::new(world, &mut state.misses, most);
             // The sensor underfoot is always found.
             floor.dark = self.dark & !self.plan.place(body.cell).map_or(0, |place| 1 << place);

@@ -116,7 +116,7 @@ impl<S: Scheme> Lots for Bounds<S> {
     type Stage = Stage;
     type Lot = FloorPlan;
     type Look = Look;
-    type Found = TrapReport;
+    type Findings = TrapReport;
     type Error = Infallible;
 
     /// No miss before one, and the smallest area first.

@@ -6,15 +6,16 @@ use tautline_kernel::ground::{Area, Cell};
 
 use super::world::{Demand, Event, Setting, World};
 use crate::decide::{
-    self, Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
+    self, Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
+    RefutationPlay, Systems,
 };
-use crate::engine::model::Started;
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::engine::model::StatesModel;
+use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::states::{AnySystem, Findings, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::counted;
-use crate::run::{self, Ending, Scripted};
+use crate::run::{self, Ending, ScriptedRun};
 
 /// Columns and rows.
 pub type Size = (i16, i16);
@@ -99,7 +100,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 
     /// The choices that make the run in an area that has the obstacles that it met: the first two say how many messages
     /// are lost and how many fixes are wrong at most. Obstacles that are smaller than a cell are in no layout.
-    pub fn scripted(&self) -> Option<Scripted> {
+    pub fn scripted(&self) -> Option<ScriptedRun> {
         if self.setting.max_small > 0 {
             return None;
         }
@@ -122,7 +123,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
             breaks,
             ending,
         };
-        Some(Scripted { run, choices: [&bounds[..], &steps].concat() })
+        Some(ScriptedRun { run, choices: [&bounds[..], &steps].concat() })
     }
 
     /// The run by a rule without repairs, written down for the judge.
@@ -280,7 +281,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     /// search.
     ///
     /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let limits = Limits { room: context.room, ..Limits::NONE };
         let answer = |found: &Findings<Demand>, evidence| {
             let is_covered = self.covers.iter().all(|situation| found.covered.contains(situation));
@@ -303,7 +304,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
 
     fn systems(&self, rule: &Rule) -> Result<Systems, MethodError> {
         let started = |&size: &Size| -> Result<Box<dyn AnySystem>, MethodError> {
-            Ok(Box::new(Started::new(self.setting(rule, size)?, Setting::starts)))
+            Ok(Box::new(StatesModel::new(self.setting(rule, size)?, Setting::starts)))
         };
         self.sizes.iter().map(started).collect()
     }
@@ -317,7 +318,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         self.found(rule, choices).ok()?.1.case()
     }
 
-    fn scripted(&self, rule: &Rule, choices: &Choices) -> Option<Scripted> {
+    fn scripted(&self, rule: &Rule, choices: &Choices) -> Option<ScriptedRun> {
         self.found(rule, choices).ok()?.1.scripted()
     }
 
@@ -327,12 +328,12 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         Some((class.to_string(), run.length()))
     }
 
-    fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, rule: &Rule) -> Result<Option<DrawnCertificate>, MethodError> {
         let most = Most { cells: 4, barriers: 4, robots: 1..=2 };
         let of = |class: Class, _| match class.robots {
             1 => Areas::<1>::of(self).shortest(rule, class),
             2 => Areas::<2>::of(self).shortest(rule, class),
-            _ => Ok(Searched::default()),
+            _ => Ok(ClassFindings::default()),
         };
         Ok(Some(smallest(&most, of)?.drawn_by_cells(|story| story)))
     }
@@ -346,13 +347,13 @@ impl<const ROBOTS: usize> Areas<ROBOTS> {
     }
 
     /// The shortest run in a class that breaks the demand.
-    fn shortest(&self, rule: &Rule, class: Class) -> Result<Searched<String>, MethodError> {
+    fn shortest(&self, rule: &Rule, class: Class) -> Result<ClassFindings<String>, MethodError> {
         let setting = self.setting(rule, class.size())?;
         let setting = Setting { max_obstacles: class.barriers as u8, ..setting };
         let found = search(&setting, setting.starts(), Limits::NONE);
         let run = found.broken.into_iter().next();
         let shortest = run.map(|run| (run.length(), Counterexample { setting, run }.story()));
-        Ok(Searched { cases: found.states, is_whole: found.is_whole, shortest })
+        Ok(ClassFindings { cases: found.states, is_whole: found.is_whole, shortest })
     }
 
     /// From how many each choice is made, and the run.

@@ -9,7 +9,7 @@ use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 use super::areas::{Areas, Size};
 use super::detour::{self, Round};
 use super::drift::{self, Drift, PARTS};
-use super::fused::{self, FusedBudget, Standing};
+use super::fused::{self, FusedBudget, Stander};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
@@ -369,15 +369,15 @@ pub const CLAUSES: [Clause; 12] = [
         sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, \
             and fixes MUST make one that knows its heading sure after finitely many.",
         checks: &[&Check::holds(
-            NamedRule::new("repaired", Standing::REPAIRED),
+            NamedRule::new("repaired", Stander::REPAIRED),
             &EveryAnswer {
                 body: fused::is_sure_again,
                 range: fused::stops,
                 covers: &["it moves on", "it stands"],
             },
             &[
-                NamedRule::new(repaired(Sure).name, Standing::UNSURE),
-                NamedRule::new("wheels alone", Standing::WHEELS_ALONE),
+                NamedRule::new(repaired(Sure).name, Stander::UNSURE),
+                NamedRule::new("wheels alone", Stander::WHEELS_ALONE),
             ],
         )],
     },

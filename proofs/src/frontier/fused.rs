@@ -85,12 +85,12 @@ pub(super) fn stays(bears: &FusedBudget, oracle: &mut dyn Oracle) -> Outcome {
 
 /// A robot that may have to stand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Standing {
+pub(super) struct Stander {
     rule: Rule,
     takes_fixes: bool,
 }
 
-impl Standing {
+impl Stander {
     pub(super) const REPAIRED: Self = Self { rule: Rule::REPAIRED, takes_fixes: true };
     pub(super) const UNSURE: Self = Self { rule: Rule::REPAIRED.without(Condition::Sure), takes_fixes: true };
     pub(super) const WHEELS_ALONE: Self = Self { takes_fixes: false, ..Self::REPAIRED };
@@ -118,7 +118,7 @@ pub(super) fn stops() -> String {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn is_sure_again(standing: &Standing, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn is_sure_again(standing: &Stander, oracle: &mut dyn Oracle) -> Outcome {
     let any = |numbers: &[f64], oracle: &mut dyn Oracle| {
         numbers.get(oracle.pick(numbers.len() as u32) as usize).copied().unwrap_or_default()
     };

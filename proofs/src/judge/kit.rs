@@ -11,8 +11,8 @@ use std::collections::BTreeSet;
 use super::change::plain;
 use super::{Case, Lattice, Objection, Place, beside, must, path};
 pub use party::Party;
-pub use talk::{Act, Said, Talk, Word};
-pub use wire::{Sent, Wire};
+pub use talk::{Act, Talk, TalkEvent, Word};
+pub use wire::{Wire, WireMessage};
 
 /// A run of robots on a lattice.
 #[derive(Clone, PartialEq, Eq, Debug)]

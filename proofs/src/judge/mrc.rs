@@ -160,7 +160,7 @@ impl Case for Run {
 
 /// Demands that a step has broken, and no state shows.
 #[derive(Clone, Copy, Default)]
-struct Happened {
+struct StepBreaches {
     /// A robot has heard a new call, and its SBit is set.
     is_set: bool,
     /// A robot has taken the lease of a call for which it did not ask, or for which it was not chosen.
@@ -170,10 +170,10 @@ struct Happened {
 }
 
 impl Court<'_> {
-    fn step(&mut self, step: &Step) -> Result<Happened, &'static str> {
+    fn step(&mut self, step: &Step) -> Result<StepBreaches, &'static str> {
         let &Step { what, fate, wfr, robot, epoch, chosen } = step;
         must(wfr < self.wfrs.len() && robot < self.robots.len(), "there is no such robot or WFR")?;
-        let mut happened = Happened::default();
+        let mut happened = StepBreaches::default();
         if let What::Notice | What::Move | What::Resb = what {
             let message = Message { what, wfr, robot, epoch, chosen };
             let place = self
@@ -220,9 +220,9 @@ impl Court<'_> {
         Ok(happened)
     }
 
-    fn arrives(&mut self, message: Message) -> Happened {
+    fn arrives(&mut self, message: Message) -> StepBreaches {
         let Message { what, wfr, robot, epoch, chosen } = message;
-        let mut happened = Happened::default();
+        let mut happened = StepBreaches::default();
         let task = self.robots[robot].task;
         match what {
             What::Notice => {
@@ -310,7 +310,7 @@ impl Court<'_> {
         }
     }
 
-    fn is_broken(&self, happened: Happened) -> Result<bool, &'static str> {
+    fn is_broken(&self, happened: StepBreaches) -> Result<bool, &'static str> {
         let chosen = |wfr: &Wfr| wfr.choice.filter(|_| wfr.waits);
         let wfrs =
             || self.wfrs.iter().enumerate().filter_map(|(number, wfr)| Some((number, wfr, chosen(wfr)?)));
@@ -340,14 +340,14 @@ pub struct Record {
     /// The clause that it is said to break.
     pub clause: &'static str,
     /// The NOTICEs that were heard, in order.
-    pub heard: Vec<Heard>,
+    pub heard: Vec<NoticeRecord>,
     /// The record of the WFR of the last NOTICE, with the hop count of the robot.
-    pub record: Heard,
+    pub record: NoticeRecord,
 }
 
 /// A NOTICE, or a record of it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Heard {
+pub struct NoticeRecord {
     /// The WFR that calls.
     pub wfr: usize,
     /// The number of its call.
@@ -359,7 +359,7 @@ pub struct Heard {
 }
 
 plain!(Record { heard, record });
-plain!(Heard { wfr, epoch, hops, sender });
+plain!(NoticeRecord { wfr, epoch, hops, sender });
 
 impl Case for Record {
     fn clause(&self) -> &'static str {
@@ -368,7 +368,7 @@ impl Case for Record {
 
     fn judge(&self) -> Result<(), Objection> {
         must(self.clause == "MRC-10", "the judge does not know this clause")?;
-        let is_notice = |heard: &Heard| heard.epoch >= 1 && heard.hops >= 0 && heard.sender >= 0;
+        let is_notice = |heard: &NoticeRecord| heard.epoch >= 1 && heard.hops >= 0 && heard.sender >= 0;
         must(self.heard.iter().all(is_notice), "that is no NOTICE")?;
         let wfr = self.record.wfr;
         must(self.heard.last().is_some_and(|last| last.wfr == wfr), "the last NOTICE is of another WFR")?;
@@ -376,7 +376,8 @@ impl Case for Record {
             let object = |what| Objection { at: length, what };
             let of_wfr = || self.heard[..length].iter().filter(|heard| heard.wfr == wfr);
             let Some(newest) = of_wfr().map(|heard| heard.epoch).max() else { continue };
-            let one_hop_more = |heard: &Heard| Heard { epoch: newest, hops: heard.hops + 1, ..*heard };
+            let one_hop_more =
+                |heard: &NoticeRecord| NoticeRecord { epoch: newest, hops: heard.hops + 1, ..*heard };
             // As published the event of a NOTICE is not told: the least hop count of all counts.
             let record = of_wfr().min_by_key(|heard| heard.hops).map(one_hop_more);
             let due = of_wfr()

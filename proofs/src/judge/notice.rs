@@ -132,16 +132,16 @@ pub struct Later {
     /// The clause that it is said to break.
     pub clause: &'static str,
     /// The NOTICEs that it has heard before, in order.
-    pub before: Vec<Heard>,
+    pub before: Vec<NoticeMessage>,
     /// The NOTICE of the newer event.
-    pub news: Heard,
+    pub news: NoticeMessage,
     /// Whether it takes that for a first one: it begins to wait, and the sender is its parent.
     pub is_first: bool,
 }
 
 /// A NOTICE of the source 0 that the node 1 hears.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Heard {
+pub struct NoticeMessage {
     /// The number of the event.
     pub event: i32,
     /// The node that has sent it.
@@ -151,7 +151,7 @@ pub struct Heard {
 }
 
 plain!(Later { before, news, is_first });
-plain!(Heard { event, sender, hops });
+plain!(NoticeMessage { event, sender, hops });
 
 impl Case for Later {
     fn clause(&self) -> &'static str {
@@ -160,8 +160,9 @@ impl Case for Later {
 
     fn judge(&self) -> Result<(), Objection> {
         must(self.clause == "NOTICE-4", "the judge does not know this clause")?;
-        let is_notice =
-            |heard: &Heard| heard.event >= 1 && heard.hops >= 0 && heard.sender >= 0 && heard.sender != 1;
+        let is_notice = |heard: &NoticeMessage| {
+            heard.event >= 1 && heard.hops >= 0 && heard.sender >= 0 && heard.sender != 1
+        };
         must(self.before.iter().chain([&self.news]).all(is_notice), "that is no NOTICE that a node hears")?;
         let is_newer = self.before.iter().all(|heard| heard.event < self.news.event);
         must(is_newer, "the last NOTICE is of no newer event")?;

@@ -33,7 +33,7 @@ pub struct Strongest {
 
 /// Three anchors and distances to them, before and after a motion, by the published way.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Moved {
+pub struct FixPair {
     /// The clause that it is said to break.
     pub clause: &'static str,
     /// A, B and C, in metres.
@@ -48,7 +48,7 @@ pub struct Moved {
 
 plain!(Exact { anchors, robot, is_told });
 plain!(Strongest { anchors, robot, is_told });
-plain!(Moved { anchors, distances, motion, is_told });
+plain!(FixPair { anchors, distances, motion, is_told });
 
 /// Whether three places are on one line, or two of them are one.
 fn is_line([a, b, c]: [Place; 3]) -> bool {
@@ -97,7 +97,7 @@ impl Case for Strongest {
     }
 }
 
-impl Case for Moved {
+impl Case for FixPair {
     fn clause(&self) -> &'static str {
         self.clause
     }

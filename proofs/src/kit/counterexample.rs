@@ -8,7 +8,7 @@ use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{Limits, Run, search};
 use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
-use crate::run::{self, Ending, Scripted};
+use crate::run::{self, Ending, ScriptedRun};
 
 /// The first choice of runs at any speeds, and of those at equal ones.
 pub const ANY_SPEEDS: u32 = 0;
@@ -77,7 +77,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 
     /// The choices that make the run on a lattice that has the walls that it met: the first one says whether robots
     /// drive at equal speeds. `None` if a search of such runs is none of robots that drive side by side.
-    pub fn scripted(&self) -> Option<Scripted> {
+    pub fn scripted(&self) -> Option<ScriptedRun> {
         let Self { setting, run } = self;
         let (speeds, clause) = match (setting.speeds, run.demand) {
             // A run that loses contact where both stand has lost it before.
@@ -92,7 +92,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         let (frames, obstacles, breaks) = (Vec::new(), Vec::new(), Some(clause));
         let run =
             run::Run { scheme: "kit", area: setting.area, starts, walls, obstacles, frames, breaks, ending };
-        Some(Scripted { run, choices: [&[speeds], &steps[..]].concat() })
+        Some(ScriptedRun { run, choices: [&[speeds], &steps[..]].concat() })
     }
 
     /// Drives from the start on, those of a round once.

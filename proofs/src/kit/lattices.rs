@@ -7,14 +7,15 @@ use tautline_kernel::kit::Rule;
 use super::counterexample::Counterexample;
 use super::world::{Answers, Demand, Setting, Speeds, Starts, World};
 use crate::decide::{
-    self, Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Systems,
+    self, Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
+    RefutationPlay, Systems,
 };
-use crate::engine::model::Started;
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::engine::model::StatesModel;
+use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::states::{AnySystem, END, Findings, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::AnyCase;
-use crate::run::Scripted;
+use crate::run::ScriptedRun;
 
 /// Columns, rows, and the most walls that one run meets.
 pub(super) type Size = (i16, i16, u8);
@@ -148,7 +149,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     }
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let limits = Limits { room: context.room, ..Limits::NONE };
         if self.pass == Pass::Together && until == Until::Exhausted {
             let key = (self.family(rule), *rule);
@@ -166,7 +167,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         let started = |&size: &Size| -> Result<Box<dyn AnySystem>, MethodError> {
             let setting = self.setting(rule, size, Some(self.demand));
             let setting = setting.ok_or_else(|| MethodError::new("the lattice is too large"))?;
-            Ok(Box::new(Started::new(setting, Setting::starts)))
+            Ok(Box::new(StatesModel::new(setting, Setting::starts)))
         };
         self.sizes.iter().map(started).collect()
     }
@@ -186,7 +187,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         Some((class.to_string(), run.length()))
     }
 
-    fn smallest(&self, rule: &Rule) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, rule: &Rule) -> Result<Option<DrawnCertificate>, MethodError> {
         let most = Most { cells: 10, barriers: 4, robots: 1..=3 };
         let of = |class: Class, _| match class.robots {
             1 => Ok(Lattices::<1>::of(self).shortest(rule, class)),
@@ -196,7 +197,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         Ok(Some(smallest(&most, of)?.drawn_by_cells(|story| story)))
     }
 
-    fn scripted(&self, rule: &Rule, choices: &Choices) -> Option<Scripted> {
+    fn scripted(&self, rule: &Rule, choices: &Choices) -> Option<ScriptedRun> {
         self.found(rule, choices).ok()?.1.scripted()
     }
 }
@@ -209,13 +210,13 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     }
 
     /// The shortest run in a class that breaks the demand; nothing where the lattice is too large.
-    fn shortest(&self, rule: &Rule, class: Class) -> Searched<String> {
+    fn shortest(&self, rule: &Rule, class: Class) -> ClassFindings<String> {
         let ((width, height), walls) = (class.size(), class.barriers as u8);
         let mut looked = Findings::NONE;
         let context = (Limits::NONE, &mut looked);
         let found = self.search(rule, (width, height, walls), Some(self.demand), context);
         let shortest = found.map(|found| (found.run.length(), found.story()));
-        Searched { cases: looked.states, is_whole: looked.is_whole, shortest }
+        ClassFindings { cases: looked.states, is_whole: looked.is_whole, shortest }
     }
 
     /// From how many each choice is made, and the run.

@@ -15,7 +15,7 @@ pub(super) const AT_NODES: EveryNumber = EveryNumber { teams: "two robots where 
 
 /// The act of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Doing {
+pub enum Activity {
     /// It leaves its node through a side.
     Leaves(Side),
     /// It arrives.
@@ -32,26 +32,26 @@ fn stance(at: Cell, step: Step) -> Stance {
     }
 }
 
-fn acts(state: Step) -> Vec<Act<Step, Doing>> {
+fn acts(state: Step) -> Vec<Act<Step, Activity>> {
     let act = |act, step, ends| Act { act, step, ends, needs_open: false };
     let own = match state {
         Step::Stay => Side::ALL
-            .map(|side| act(Doing::Leaves(side), Step::Stay, vec![(false, Step::Cross(side))]))
+            .map(|side| act(Activity::Leaves(side), Step::Stay, vec![(false, Step::Cross(side))]))
             .to_vec(),
-        Step::Cross(_) => vec![act(Doing::Arrives, state, vec![(true, Step::Stay)])],
+        Step::Cross(_) => vec![act(Activity::Arrives, state, vec![(true, Step::Stay)])],
     };
-    [own, vec![act(Doing::Idles, Step::Stay, vec![(false, state)])]].concat()
+    [own, vec![act(Activity::Idles, Step::Stay, vec![(false, state)])]].concat()
 }
 
 /// Whether each robot that leaves may do so beside the other one, which does nothing.
-fn admits(plans: &[Plan<Step, Doing>], may_drive: impl Fn(Stance, Stance) -> bool) -> bool {
-    let is_admitted = |own: &Plan<Step, Doing>, other: &Plan<Step, Doing>| match own.act {
-        Doing::Leaves(side) => {
+fn admits(plans: &[Plan<Step, Activity>], may_drive: impl Fn(Stance, Stance) -> bool) -> bool {
+    let is_admitted = |own: &Plan<Step, Activity>, other: &Plan<Step, Activity>| match own.act {
+        Activity::Leaves(side) => {
             may_drive(stance(own.robot.at, Step::Cross(side)), stance(other.robot.at, other.robot.state))
         }
-        Doing::Arrives | Doing::Idles => true,
+        Activity::Arrives | Activity::Idles => true,
     };
-    plans.iter().any(|plan| plan.act == Doing::Idles)
+    plans.iter().any(|plan| plan.act == Activity::Idles)
         && is_admitted(&plans[0], &plans[1])
         && is_admitted(&plans[1], &plans[0])
 }
@@ -102,17 +102,17 @@ impl Two {
 
 impl Local for Two {
     type State = Step;
-    type Act = Doing;
+    type Act = Activity;
 
     fn states(&self) -> Vec<Step> {
         Step::ALL.to_vec()
     }
 
-    fn acts(&self, state: Step) -> Vec<Act<Step, Doing>> {
+    fn acts(&self, state: Step) -> Vec<Act<Step, Activity>> {
         acts(state)
     }
 
-    fn admits(&self, plans: &[Plan<Step, Doing>]) -> bool {
+    fn admits(&self, plans: &[Plan<Step, Activity>]) -> bool {
         admits(plans, |path, other| match self.promise {
             Promise::Contact | Promise::AtNodes => self.rule.hears(other, path),
             Promise::Apart => self.rule.keeps_apart(path, other),
@@ -157,13 +157,13 @@ impl Local for Two {
     }
 
     /// Paths of a lattice are known.
-    fn is_sure(&self, act: Doing) -> bool {
-        act == Doing::Arrives
+    fn is_sure(&self, act: Activity) -> bool {
+        act == Activity::Arrives
     }
 }
 
 /// The step that a robot takes, and when it has left: a third of those that leave one after the other.
-type Timed = (Step, u8);
+type TimedStep = (Step, u8);
 
 /// Two robots by this rule at equal speeds: of two that drive, the one that has left first arrives first (KIT-2).
 #[derive(Clone, Copy, Debug)]
@@ -175,49 +175,49 @@ const fn is_before(time: u8, other: u8) -> bool {
 }
 
 impl Local for AtEqualSpeeds {
-    type State = Timed;
-    type Act = (Doing, u8);
+    type State = TimedStep;
+    type Act = (Activity, u8);
 
-    fn states(&self) -> Vec<Timed> {
+    fn states(&self) -> Vec<TimedStep> {
         let drive = |side| [0, 1, 2].map(|time| (Step::Cross(side), time));
         [(Step::Stay, 0)].into_iter().chain(Side::ALL.into_iter().flat_map(drive)).collect()
     }
 
-    fn acts(&self, (step, time): Timed) -> Vec<Act<Timed, (Doing, u8)>> {
-        let timed = |act: &Act<Step, Doing>, time: u8| {
+    fn acts(&self, (step, time): TimedStep) -> Vec<Act<TimedStep, (Activity, u8)>> {
+        let timed = |act: &Act<Step, Activity>, time: u8| {
             let end =
                 |&(goes, step): &(bool, Step)| (goes, (step, if step == Step::Stay { 0 } else { time }));
             let ends = act.ends.iter().map(end).collect();
             Act { act: (act.act, time), step: act.step, ends, needs_open: act.needs_open }
         };
         let all = acts(step);
-        let times = |act: &Act<Step, Doing>| match act.act {
-            Doing::Leaves(_) => vec![timed(act, 0), timed(act, 1), timed(act, 2)],
-            Doing::Arrives | Doing::Idles => vec![timed(act, time)],
+        let times = |act: &Act<Step, Activity>| match act.act {
+            Activity::Leaves(_) => vec![timed(act, 0), timed(act, 1), timed(act, 2)],
+            Activity::Arrives | Activity::Idles => vec![timed(act, time)],
         };
         all.iter().flat_map(times).collect()
     }
 
-    fn admits(&self, plans: &[Plan<Timed, (Doing, u8)>]) -> bool {
-        let is_admitted = |own: &Plan<Timed, (Doing, u8)>, other: &Plan<Timed, (Doing, u8)>| {
+    fn admits(&self, plans: &[Plan<TimedStep, (Activity, u8)>]) -> bool {
+        let is_admitted = |own: &Plan<TimedStep, (Activity, u8)>, other: &Plan<TimedStep, (Activity, u8)>| {
             let (step, time) = other.robot.state;
             let stands = step == Step::Stay;
             match own.act {
-                (Doing::Leaves(side), new) => {
+                (Activity::Leaves(side), new) => {
                     let path = stance(own.robot.at, Step::Cross(side));
                     let is_next = if stands { new == 0 } else { is_before(time, new) };
                     is_next && self.0.hears(stance(other.robot.at, step), path)
                 }
-                (Doing::Arrives, own) => stands || is_before(own, time),
-                (Doing::Idles, _) => true,
+                (Activity::Arrives, own) => stands || is_before(own, time),
+                (Activity::Idles, _) => true,
             }
         };
-        plans.iter().any(|plan| plan.act.0 == Doing::Idles)
+        plans.iter().any(|plan| plan.act.0 == Activity::Idles)
             && is_admitted(&plans[0], &plans[1])
             && is_admitted(&plans[1], &plans[0])
     }
 
-    fn keeps(&self, robots: &[Robot<Timed>]) -> bool {
+    fn keeps(&self, robots: &[Robot<TimedStep>]) -> bool {
         let [one, other] = [0, 1].map(|robot| stance(robots[robot].at, robots[robot].state.0));
         let near = |one: Cell, other: Cell| Reach::PAPER.joins(one, other);
         let [time, later] = [0, 1].map(|robot| robots[robot].state.1);
@@ -233,15 +233,15 @@ impl Local for AtEqualSpeeds {
         (4, Far::Broken)
     }
 
-    fn may_start(&self, robots: &[Robot<Timed>]) -> bool {
+    fn may_start(&self, robots: &[Robot<TimedStep>]) -> bool {
         are_in_a_row(robots, &(Step::Stay, 0))
     }
 
-    fn start(&self, robots: usize) -> Vec<Robot<Timed>> {
+    fn start(&self, robots: usize) -> Vec<Robot<TimedStep>> {
         in_a_row(robots, (Step::Stay, 0))
     }
 
-    fn is_sure(&self, (act, _): (Doing, u8)) -> bool {
-        act == Doing::Arrives
+    fn is_sure(&self, (act, _): (Activity, u8)) -> bool {
+        act == Activity::Arrives
     }
 }

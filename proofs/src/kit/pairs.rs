@@ -6,7 +6,7 @@ use tautline_kernel::kit::{Condition, Message, Reach, Rule, Stance};
 
 use crate::engine::{Choices, Outcome, Replay, assume, outcomes, require};
 use crate::judge::AnyCase;
-use crate::judge::kit::{Sent, Wire};
+use crate::judge::kit::{Wire, WireMessage};
 
 /// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in the
 /// paper's reach.
@@ -173,7 +173,7 @@ pub(super) fn wire(rule: &Rule, choices: &Choices) -> Option<Box<dyn AnyCase>> {
         };
         let order = [Side::North, Side::East, Side::South, Side::West];
         let sides = order.map(|side| sides.has(Step::Cross(side)));
-        Sent { kind, node: (node.x.into(), node.y.into()), sides, number: number.into() }
+        WireMessage { kind, node: (node.x.into(), node.y.into()), sides, number: number.into() }
     };
     let wire = Wire {
         clause: "KIT-9",

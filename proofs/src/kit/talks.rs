@@ -10,7 +10,7 @@ use crate::engine::Choices;
 use crate::engine::states::{Bits, System, steps};
 use crate::engine::world::{Turn, World, any_of, bit};
 use crate::judge::AnyCase;
-use crate::judge::kit::{Act, Said, Talk as Written, Word};
+use crate::judge::kit::{Act, Talk as Written, TalkEvent, Word};
 
 /// A demand on the talks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -372,12 +372,12 @@ fn act(event: Event) -> Option<Act> {
     };
     let does = |robot, said| Some(Act { robot, said, word: None });
     match event {
-        Event::Arrives(robot) => does(robot, Said::Arrives),
-        Event::Drives(robot) => does(robot, Said::Drives),
-        Event::Stays(robot) => does(robot, Said::Stays),
-        Event::Hears(robot, letter) => of(robot, Said::Hears, letter),
-        Event::Loses(robot, letter) => of(robot, Said::Misses, letter),
-        Event::Doubles(robot, letter) => of(robot, Said::Doubled, letter),
+        Event::Arrives(robot) => does(robot, TalkEvent::Arrives),
+        Event::Drives(robot) => does(robot, TalkEvent::Drives),
+        Event::Stays(robot) => does(robot, TalkEvent::Stays),
+        Event::Hears(robot, letter) => of(robot, TalkEvent::Hears, letter),
+        Event::Loses(robot, letter) => of(robot, TalkEvent::Misses, letter),
+        Event::Doubles(robot, letter) => of(robot, TalkEvent::Doubled, letter),
         Event::Start | Event::Repeats(_) => None,
     }
 }

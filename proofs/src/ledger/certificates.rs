@@ -66,7 +66,7 @@ impl std::error::Error for Misfit {}
 
 /// The judgement of a certificate of a check of ours.
 #[derive(Debug)]
-pub struct Examined {
+pub struct Examination {
     /// The clause.
     pub clause: &'static Clause,
     /// The number of the check among those of the clause.
@@ -109,7 +109,10 @@ pub fn certificate(clause: &Clause, number: usize, limits: Limits<'_>) -> Result
 ///
 /// # Errors
 /// [`Misfit`] if it is none.
-pub fn examine(bytes: &[u8], clauses: impl IntoIterator<Item = &'static Clause>) -> Result<Examined, Misfit> {
+pub fn examine(
+    bytes: &[u8],
+    clauses: impl IntoIterator<Item = &'static Clause>,
+) -> Result<Examination, Misfit> {
     let File { header, sections, digest } = read(bytes).map_err(Misfit::File)?;
     let Header { program, clause: id, check: number, rule, claim: claimed, states } = header;
     if program != PROGRAM {
@@ -142,5 +145,5 @@ pub fn examine(bytes: &[u8], clauses: impl IntoIterator<Item = &'static Clause>)
     if outcome.as_ref().is_ok_and(|counts| counts.states != states) {
         return Err(Misfit::Count);
     }
-    Ok(Examined { clause, number, systems: systems.len(), outcome })
+    Ok(Examination { clause, number, systems: systems.len(), outcome })
 }

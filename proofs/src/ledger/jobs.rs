@@ -16,7 +16,7 @@ use rayon::Yield;
 
 use super::{Row, checks};
 use crate::clause::{Clause, Decision, Variant};
-use crate::decide::{Answer, Cache, Context, Decided, MethodError};
+use crate::decide::{Answer, Cache, Context, MethodError, MethodResult};
 use crate::engine::Until;
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Progress;
@@ -397,7 +397,7 @@ impl Job {
         question: Question,
         checks: &[(&'static Clause, usize)],
         context: &mut Context<'_, '_>,
-    ) -> Decided {
+    ) -> MethodResult {
         let (clause, number) = checks[question.place];
         clause.checks[number].decide_rule(question.variant, self.until, context)
     }

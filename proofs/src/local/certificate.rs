@@ -7,7 +7,7 @@ use std::fmt::Write;
 use tautline_kernel::ground::Cell;
 
 use super::invariant::{Tuple, is_within, offsets, promised};
-use super::{Act, Far, Invariant, Numbered, Robot};
+use super::{Act, Far, Invariant, NumberRule, Robot};
 use crate::decide::MethodError;
 
 /// A set of offsets for each sequence of kinds of robots.
@@ -75,7 +75,7 @@ impl Tree {
 
 /// A rule in tables.
 struct Tables<'r> {
-    rule: &'r dyn Numbered,
+    rule: &'r dyn NumberRule,
     states: Vec<u32>,
     acts: Vec<Vec<Act<u32, u32>>>,
 }
@@ -156,7 +156,7 @@ impl Tables<'_> {
 const MOST_ENTRIES: usize = 2_000_000;
 
 /// The rule, the invariant, and the theorem that it is one, in Rocq's words.
-pub(super) fn terms(rule: &dyn Numbered, invariant: &Invariant) -> Result<String, MethodError> {
+pub(super) fn terms(rule: &dyn NumberRule, invariant: &Invariant) -> Result<String, MethodError> {
     let states = rule.states();
     let acts: Vec<_> = states.iter().map(|&state| rule.acts(state)).collect();
     let tables = Tables { rule, states, acts };

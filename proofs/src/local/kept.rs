@@ -7,14 +7,14 @@ use super::{ActOf, Far, Local, Plan, RobotOf};
 
 /// A planner, and the rule to which it is kept. It returns an act for each robot.
 #[derive(Clone, Copy, Debug)]
-pub struct Kept<R, P> {
+pub struct GuardedPlanner<R, P> {
     /// The rule.
     pub rule: R,
     /// The planner.
     pub planner: P,
 }
 
-impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> Kept<R, P> {
+impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> GuardedPlanner<R, P> {
     /// The acts that the planner returns, if the rule admits them; `None` if it does not: then no robot may act. Known
     /// of the layout are which edges are open, and the colours of the cells in and beside which robots are.
     pub fn plan(
@@ -48,7 +48,7 @@ impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> Kept<R, P> {
     }
 }
 
-impl<R: Local, P: Sync> Local for Kept<R, P> {
+impl<R: Local, P: Sync> Local for GuardedPlanner<R, P> {
     type State = R::State;
     type Act = R::Act;
 

@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 
 use super::invariant::{agree, promised, words};
 use super::wider::seen;
-use super::{Act, Numbered, Robot};
+use super::{Act, NumberRule, Robot};
 use crate::decide::{Depiction, MethodError};
 use crate::engine::states::{Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
@@ -44,11 +44,11 @@ impl Layout {
 }
 
 /// An act, and the colour of the cell to which it leads.
-type Aimed<'a> = (&'a Act<u32, u32>, u8);
+type ColouredAct<'a> = (&'a Act<u32, u32>, u8);
 
 /// So many robots that follow a rule.
 pub(super) struct Team<'r> {
-    rule: &'r dyn Numbered,
+    rule: &'r dyn NumberRule,
     tuples: Vec<Vec<usize>>,
     start: Vec<Robot<u32>>,
 }
@@ -59,7 +59,7 @@ type Next = (String, Start);
 impl<'r> Team<'r> {
     /// # Errors
     /// [`MethodError`] if the team does not start as the rule says.
-    pub(super) fn new(rule: &'r dyn Numbered, robots: usize) -> Result<Self, MethodError> {
+    pub(super) fn new(rule: &'r dyn NumberRule, robots: usize) -> Result<Self, MethodError> {
         let team = Self { rule, tuples: rule.tuples(robots), start: rule.start(robots) };
         if team.start.len() != robots {
             let why = format!("{} robots start where {robots} should", team.start.len());
@@ -112,7 +112,11 @@ impl<'r> Team<'r> {
     }
 
     /// Every plan of all robots that the rule admits, each robot's act one of `acts`.
-    fn plans<'a>(&self, (robots, layout): &Start, acts: &'a [Vec<Act<u32, u32>>]) -> Vec<Vec<Aimed<'a>>> {
+    fn plans<'a>(
+        &self,
+        (robots, layout): &Start,
+        acts: &'a [Vec<Act<u32, u32>>],
+    ) -> Vec<Vec<ColouredAct<'a>>> {
         let mut all = vec![Vec::new()];
         for (me, (robot, acts)) in robots.iter().zip(acts).enumerate() {
             let is_possible = |act: &&Act<u32, u32>| match act.step {
@@ -124,7 +128,7 @@ impl<'r> Team<'r> {
                 }
             };
             let possible: Vec<_> = acts.iter().filter(is_possible).collect();
-            let with = |plan: Vec<Aimed<'a>>| {
+            let with = |plan: Vec<ColouredAct<'a>>| {
                 let aimed = |&act: &&'a Act<u32, u32>| {
                     let goal = robot.at.after(act.step);
                     let before = robots
@@ -144,7 +148,7 @@ impl<'r> Team<'r> {
     }
 
     /// Whether the rule admits the plans of the first robots, `last` the last of them, in every tuple that has it.
-    fn admits(&self, robots: &[Robot<u32>], plan: &[Aimed<'_>], last: usize) -> bool {
+    fn admits(&self, robots: &[Robot<u32>], plan: &[ColouredAct<'_>], last: usize) -> bool {
         let is_due = |tuple: &&Vec<usize>| tuple.contains(&last) && tuple.iter().all(|&robot| robot <= last);
         self.tuples.iter().filter(is_due).all(|tuple| {
             let plans: Vec<_> =
@@ -154,7 +158,7 @@ impl<'r> Team<'r> {
     }
 
     /// Whatever comes of a plan, by the edges and by what robots do.
-    fn outcomes(&self, (robots, layout): &Start, plan: &[Aimed<'_>]) -> Vec<Start> {
+    fn outcomes(&self, (robots, layout): &Start, plan: &[ColouredAct<'_>]) -> Vec<Start> {
         let mut outcomes = Vec::new();
         'ends: for ends in combinations(plan.iter().map(|(act, _)| act.ends.clone())) {
             let (mut after, mut met) = (Vec::new(), layout.clone());

@@ -7,7 +7,7 @@ use tautline_kernel::mrc::Condition::{
 use tautline_kernel::mrc::{Condition, Rule};
 
 use super::within::Within;
-use super::{Demand, Faults, Leases, LossKind, Misreading, Served, Setting, Subject, records};
+use super::{Demand, Faults, Leases, LossKind, Misreading, Server, Setting, Subject, records};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
@@ -116,7 +116,7 @@ static PAPER: Paper = Paper {
 
 /// The reading whose robots take the SBit for their own service.
 const fn own(subject: Subject) -> Subject {
-    Subject { served: Served::ByItself, ..subject }
+    Subject { served: Server::ByItself, ..subject }
 }
 
 /// The readings of a WFR's choice and of late MOVEs.
@@ -168,7 +168,7 @@ const ACCEPTS: NamedRule<Subject> =
 const TWO: Setting = Setting {
     rule: Rule::REPAIRED,
     misread: None,
-    served: Served::ByAny,
+    served: Server::ByAny,
     robots: 2,
     wfrs: 2,
     events: 2,

@@ -10,7 +10,7 @@ use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 use super::{Misreading, Subject};
 use crate::engine::{Choices, Outcome, Replay, require};
 use crate::judge::AnyCase;
-use crate::judge::mrc::{Heard, Record};
+use crate::judge::mrc::{NoticeRecord, Record};
 
 /// Messages that arrive at a robot or a node.
 const MESSAGES: usize = 3;
@@ -45,7 +45,7 @@ pub(super) fn recorded(observed: &Subject, choices: &Choices) -> Option<Box<dyn 
     let (mut robot, mut heard) = (Robot::<{ WFRS as usize }>::new(observed.rule, ROBOT), Vec::new());
     let written = |call: Call, hops: u16, sender: NodeId| {
         let [epoch, sender] = [call.epoch.0, sender.0].map(|number| number as i32);
-        Heard { wfr: call.wfr.0 as usize, epoch, hops: hops.into(), sender }
+        NoticeRecord { wfr: call.wfr.0 as usize, epoch, hops: hops.into(), sender }
     };
     let mut last = None;
     while replay.asked().len() < answers.len() {

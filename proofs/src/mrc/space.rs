@@ -6,7 +6,7 @@
 use tautline_kernel::choice::Oracle;
 
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
-use crate::engine::model::Started;
+use crate::engine::model::StatesModel;
 use crate::engine::states::{self, AnySystem, Bits, Limits, Places, Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Script, ScriptError};
@@ -72,7 +72,7 @@ pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Findings {
 pub(super) fn started(setting: Setting, demand: Demand) -> Box<dyn AnySystem> {
     let system = Space { setting, until: Until::Broken(demand) };
     let is_asked = |space: &Space, demand| space.until == Until::Broken(demand);
-    Box::new(Started { system, starts: |space| space.setting.starts(), is_asked })
+    Box::new(StatesModel { system, starts: |space| space.setting.starts(), is_asked })
 }
 
 /// Plays a run that breaks `demand` again: from how many each choice was made, and the run.

@@ -7,11 +7,12 @@ use tautline_kernel::mrc::{Rule, Upward, Word};
 use super::chart::chart;
 use super::space::{self, Refutation};
 use super::state::{Action, Message, place};
-use super::{Demand, Faults, Served, Setting, Subject};
+use super::{Demand, Faults, Server, Setting, Subject};
 use crate::decide::{
-    Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+    Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
+    RefutationPlay, Size, Systems,
 };
-use crate::engine::smallest::{Certificate, Searched};
+use crate::engine::smallest::{Certificate, ClassFindings};
 use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, mrc as judge};
@@ -47,7 +48,7 @@ impl Method<Subject> for Within {
         Some(format!("{:?}", self.setting(observed)))
     }
 
-    fn decide(&self, observed: &Subject, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, observed: &Subject, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let (demand, setting) = (self.0, self.setting(observed));
         let until = match until {
             Until::Exhausted => space::Until::Exhausted,
@@ -85,7 +86,7 @@ impl Method<Subject> for Within {
     }
 
     /// Fewest WFRs first, then faults, robots, hops and events.
-    fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, observed: &Subject) -> Result<Option<DrawnCertificate>, MethodError> {
         let (demand, most) = (self.0, self.setting(observed));
         let search = |Counts([wfrs, faults, robots, max_hops, events]): Counts| {
             let faults = Faults::any(faults as u8);
@@ -94,7 +95,7 @@ impl Method<Subject> for Within {
             let found = space::search(&setting, space::Until::Broken(demand), Limits::NONE);
             let broken = found.broken(demand);
             let shortest = broken.map(|broken| (broken.run.length(), chart(&setting, broken)));
-            Ok::<_, MethodError>(Searched { cases: found.states, is_whole: found.complete, shortest })
+            Ok::<_, MethodError>(ClassFindings { cases: found.states, is_whole: found.complete, shortest })
         };
         Ok(Some(Certificate::in_order(Counts::up_to(&most), search)?.drawn(|chart| chart)))
     }
@@ -138,7 +139,7 @@ impl fmt::Display for Counts {
 /// A run by the published rule, written down for the judge; `None` if more happens in it than the judge knows.
 fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
     let Refutation { run, actions, round } = broken;
-    if setting.rule != Rule::PUBLISHED || setting.served != Served::ByAny || !round.is_empty() {
+    if setting.rule != Rule::PUBLISHED || setting.served != Server::ByAny || !round.is_empty() {
         return None;
     }
     let mut state = setting.start(run.start as u32);

@@ -3,7 +3,7 @@
 use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 
 use super::spread::Demand;
-use super::{Counted, Miscount, Subject, networks, random};
+use super::{CountOf, Miscount, Subject, networks, random};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding, readings};
@@ -14,7 +14,7 @@ const PUBLISHED: NamedRule<Subject> = NamedRule::new("published", Subject::PUBLI
 const REPAIRED: NamedRule<Subject> = NamedRule::new("repaired", Subject::REPAIRED);
 
 const PACKETS: [(&str, Subject); 1] =
-    [("packets", Subject { counted: Counted::Packets, ..Subject::PUBLISHED })];
+    [("packets", Subject { counted: CountOf::Packets, ..Subject::PUBLISHED })];
 const UNREFUTED: &[Reading<Subject>] = &readings(PACKETS, [Verdict::Unrefuted]);
 const REFUTED: &[Reading<Subject>] = &holding(PACKETS, []);
 

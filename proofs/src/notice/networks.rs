@@ -8,12 +8,13 @@ use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 pub use super::shapes::SMALL;
 use super::shapes::shapes;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
-use super::{Counted, Subject};
+use super::{CountOf, Subject};
 use crate::decide::{
-    Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Size, Systems,
+    Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
+    RefutationPlay, Size, Systems,
 };
-use crate::engine::model::Started;
-use crate::engine::smallest::{Certificate, Searched};
+use crate::engine::model::StatesModel;
+use crate::engine::smallest::{Certificate, ClassFindings};
 use crate::engine::states::{AnySystem, Limits, Run, System, search};
 use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Choices, Script, ScriptError, Stop, Tally, Until, cover, threads};
@@ -24,7 +25,7 @@ use crate::plural::counted;
 pub struct Case {
     links: Links<SMALL>,
     rule: Rule,
-    counted: Counted,
+    counted: CountOf,
     demands: &'static [Demand],
 }
 
@@ -94,7 +95,7 @@ impl Case {
     pub fn new(pairs: impl IntoIterator<Item = (usize, usize)>, rule: Rule) -> Self {
         let mut links = Links::NONE;
         pairs.into_iter().for_each(|(one, other)| links.add(one, other));
-        Self { links, rule, counted: Counted::Senders, demands: &Demand::ALL }
+        Self { links, rule, counted: CountOf::Senders, demands: &Demand::ALL }
     }
 
     /// The network after its source has sent.
@@ -315,7 +316,7 @@ impl Method<Subject> for Networks {
 
     /// Demands of several clauses on the same networks are looked at in one pass. Each clause looks for its own
     /// violations.
-    fn decide(&self, observed: &Subject, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, observed: &Subject, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let kept = match until {
             Until::Violation => None,
             Until::Exhausted => {
@@ -333,8 +334,9 @@ impl Method<Subject> for Networks {
     }
 
     fn systems(&self, observed: &Subject) -> Result<Systems, MethodError> {
-        let started =
-            |case| -> Box<dyn AnySystem> { Box::new(Started::new(case, |case: &Case| vec![case.start()])) };
+        let started = |case| -> Box<dyn AnySystem> {
+            Box::new(StatesModel::new(case, |case: &Case| vec![case.start()]))
+        };
         Ok(self.cases(observed).map(started).collect())
     }
 
@@ -354,19 +356,19 @@ impl Method<Subject> for Networks {
     }
 
     /// Fewest nodes first, then links, then events.
-    fn smallest(&self, observed: &Subject) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, observed: &Subject) -> Result<Option<DrawnCertificate>, MethodError> {
         let cases: Vec<(u32, Case)> = (0..).zip(self.cases(observed)).collect();
         let mut classes: Vec<Class> = cases.iter().map(|(_, case)| Class::of(case)).collect();
         classes.dedup();
         let search = |class| {
-            let mut searched = Searched::default();
+            let mut searched = ClassFindings::default();
             for (place, case) in cases.iter().filter(|(_, case)| Class::of(case) == class) {
                 let found = search(case, [case.start()], Limits::NONE);
                 let run = found.broken.into_iter().next();
                 let shortest = run.map(|Run { steps, .. }| {
                     (steps.len(), self.story(observed, &[&[*place], &steps[..]].concat()))
                 });
-                searched.add(Searched { cases: found.looked_at, is_whole: found.is_whole, shortest });
+                searched.add(ClassFindings { cases: found.looked_at, is_whole: found.is_whole, shortest });
             }
             Ok::<_, MethodError>(searched)
         };
@@ -374,7 +376,7 @@ impl Method<Subject> for Networks {
     }
 
     fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
-        let (Demand::Reaches, Rules::Only(k @ 1..), Counted::Senders) =
+        let (Demand::Reaches, Rules::Only(k @ 1..), CountOf::Senders) =
             (self.demand, self.rules, observed.counted)
         else {
             return None;
@@ -500,7 +502,7 @@ mod tests {
     /// Where k counts packets, the copy of one silences the only node on the way: three nodes in a row are enough.
     #[test]
     fn a_packet_that_comes_twice_silences_the_only_node_on_the_way() {
-        let packets = Subject { counted: Counted::Packets, ..Subject::PUBLISHED };
+        let packets = Subject { counted: CountOf::Packets, ..Subject::PUBLISHED };
         let (_, story) = broken(REACH_WITH_ONE, packets);
         let expected = "The source is 0, the links are 0-1 1-2.\n1 hears 0, not for the last time, and waits.\n\
                         1 hears 0 and is silent.\nNothing more happens; 2 has not heard of the event.\n";
@@ -511,7 +513,7 @@ mod tests {
     /// states would be too many.
     #[test]
     fn where_packets_are_counted_parents_make_the_same_kind_of_tree() {
-        let packets = Subject { counted: Counted::Packets, ..Subject::PUBLISHED };
+        let packets = Subject { counted: CountOf::Packets, ..Subject::PUBLISHED };
         let rule = packets.farthest(Some(Count::ONE));
         for links in shapes().into_iter().filter(|links| links.component().count_ones() < SMALL as u32) {
             let case = Case { links, rule, counted: packets.counted, demands: &Demand::ALL };

@@ -11,7 +11,7 @@ use super::shapes::SMALL;
 use super::spread::{Demand, Links, Point, Spread, call, hear, notice};
 use crate::engine::{Choices, Outcome, Replay, require};
 use crate::judge::AnyCase;
-use crate::judge::notice::{Heard, Later};
+use crate::judge::notice::{Later, NoticeMessage};
 
 /// The largest of the random networks.
 const LARGE: usize = 40;
@@ -156,7 +156,7 @@ pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn Any
     let (node, reaction) = heard(observed, k, fate, news);
     let written = |notice: Notice| {
         let [event, sender] = [notice.call.epoch.0, notice.sender.0].map(|number| number as i32);
-        Heard { event, sender, hops: notice.hops.into() }
+        NoticeMessage { event, sender, hops: notice.hops.into() }
     };
     let begins = matches!(reaction, Reaction::Armed { .. });
     let is_first = begins && node.parent() == Some(news.sender);

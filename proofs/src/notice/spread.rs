@@ -7,7 +7,7 @@ use core::num::NonZeroU32;
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Count, Node, Reaction, Rule, Stage, Surroundings};
 
-use super::Counted;
+use super::CountOf;
 use crate::engine::{Stop, Tape, require};
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
@@ -67,7 +67,7 @@ pub enum Event {
 /// An event on its way through a network.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Spread<const NODES: usize> {
-    counted: Counted,
+    counted: CountOf,
     /// The nodes.
     pub nodes: [Node; NODES],
     /// The hop count of each node's last NOTICE.
@@ -101,7 +101,7 @@ pub(super) fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
 
 impl<const NODES: usize> Spread<NODES> {
     /// The source has sent.
-    pub(super) fn start(links: &Links<NODES>, counted: Counted) -> Self {
+    pub(super) fn start(links: &Links<NODES>, counted: CountOf) -> Self {
         let mut spread = Self {
             counted,
             nodes: core::array::from_fn(|id| Node::new(NodeId(id as u32), NodeId(0))),
@@ -131,7 +131,7 @@ impl<const NODES: usize> Spread<NODES> {
         let mut node = self.nodes[to];
         hear(&mut node, rule, Notice { hops: self.sent[from], ..notice(from) });
         let comes_again = node == self.nodes[to] && matches!(node.stage(), Stage::Waiting { .. });
-        if comes_again && self.counted == Counted::Packets {
+        if comes_again && self.counted == CountOf::Packets {
             // A copy counts as a sender that nobody has heard, and that is nobody's parent: the source is nearer.
             (1..=Count::MOST).map(usize::from).find(|copy| {
                 let copy = Notice { hops: u16::MAX - 1, ..notice(from + copy * NODES) };

@@ -7,9 +7,10 @@ use super::gains::Gains;
 use super::played::{Demand, Floor, RunOutcome, play, story};
 use super::readings::{Subject, place};
 use crate::decide::{
-    self, Answer, Context, Decided, Depiction, Drawn, Evidence, Method, MethodError, RefutationPlay, Verdict,
+    self, Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
+    RefutationPlay, Verdict,
 };
-use crate::engine::smallest::{Class, Most, Searched, smallest};
+use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, pack as judge};
@@ -173,15 +174,15 @@ impl Floors {
         subject: &Subject,
         class: Class,
         until: Until,
-    ) -> Result<Searched<String>, MethodError> {
+    ) -> Result<ClassFindings<String>, MethodError> {
         let (subject, area) = (self.bounds.subject(subject)?, Bounds::area(class.size())?);
         // Where cells are R_c apart, whether robots are linked rests on equality.
         let range_cells = usize::from(self.bounds.range_cells);
         if self.demand == Demand::Connected && area.width().max(area.height()) > range_cells {
-            return Ok(Searched::default());
+            return Ok(ClassFindings::default());
         }
         let bounds = Bounds { robots: class.robots, ..self.bounds };
-        let mut all = Searched::default();
+        let mut all = ClassFindings::default();
         let sets = 0..1_u64 << (area.width() * area.height());
         for obstacles in sets.filter(|set| set.count_ones() <= class.barriers) {
             for starts in bounds.starts(area, obstacles) {
@@ -190,7 +191,7 @@ impl Floors {
                 let is_broken = played.broken.contains(&self.demand);
                 let shortest =
                     is_broken.then(|| (self.moves(&played), story(&subject.rule, &floor, &played)));
-                all.add(Searched { cases: 1, is_whole: true, shortest });
+                all.add(ClassFindings { cases: 1, is_whole: true, shortest });
                 if is_broken && until == Until::Violation {
                     return Ok(all);
                 }
@@ -270,7 +271,7 @@ impl Method<Subject> for Floors {
     }
 
     /// The choices are the numbers of the size, of the set of obstacles, and of the starts.
-    fn decide(&self, subject: &Subject, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, subject: &Subject, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let once;
         let found = match until {
             Until::Exhausted => {
@@ -310,7 +311,7 @@ impl Method<Subject> for Floors {
         Some((class.to_string(), self.moves(&played)))
     }
 
-    fn smallest(&self, subject: &Subject) -> Result<Option<Drawn>, MethodError> {
+    fn smallest(&self, subject: &Subject) -> Result<Option<DrawnCertificate>, MethodError> {
         let most = Most { cells: 12, barriers: 2, robots: 1..=3 };
         Ok(Some(
             smallest(&most, |class, until| self.shortest(subject, class, until))?

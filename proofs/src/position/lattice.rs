@@ -7,7 +7,7 @@ use tautline_kernel::position::{Area, Point, Range};
 use super::way::{Way, WayResult, strongest};
 use crate::engine::{Choices, Outcome, Replay, Stop, assume, require};
 use crate::judge::AnyCase;
-use crate::judge::position::{Exact, Moved, Strongest};
+use crate::judge::position::{Exact, FixPair, Strongest};
 
 /// The side of the lattice of three anchors and a robot, and of that of four.
 const SIDES: [u32; 2] = [4, 3];
@@ -178,7 +178,7 @@ pub(super) fn turned(way: &Way, choices: &Choices) -> Option<Box<dyn AnyCase>> {
     let motion = [(xx, xy), (yx, yy), (x_m, y_m)].map(|(x_m, y_m)| written(Point::new(x_m, y_m), 10.0));
     let distances = [distances[0], distances[1], distances[2]].map(|far| (10.0 * far).round() as i32);
     let anchors = [anchors[0], anchors[1], anchors[2]].map(|anchor| written(anchor, 1.0));
-    Some(Box::new(Moved { clause: "POSITION-4", anchors, distances, motion, is_told }))
+    Some(Box::new(FixPair { clause: "POSITION-4", anchors, distances, motion, is_told }))
 }
 
 /// POSITION-4: the same anchors and distances after a motion.

@@ -9,7 +9,7 @@ use crate::engine::states::Bits;
 
 /// A state by its bytes.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub(super) struct Packed {
+pub(super) struct StateBytes {
     pub(super) bytes: Vec<u8>,
     /// The bytes of the one that stands for those like it, if that is another one.
     pub(super) canonical: Option<Vec<u8>>,
@@ -19,7 +19,7 @@ pub(super) struct Packed {
 
 /// A move as it is told.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct Made {
+pub(super) struct MoveWords {
     pub(super) actors: Bits,
     pub(super) words: &'static str,
     /// Whether it breaks the demand.
@@ -27,7 +27,7 @@ pub(super) struct Made {
 }
 
 /// A protocol of any types, of whose demands one is looked at. States are given by their bytes.
-pub(super) trait Erased: Sync {
+pub(super) trait AnyProtocol: Sync {
     /// The demand in words.
     fn demand(&self) -> &'static str;
 
@@ -38,15 +38,15 @@ pub(super) trait Erased: Sync {
     fn covers(&self) -> &'static [&'static str];
 
     /// The states in which runs begin, each tried whether it comes back from its bytes.
-    fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_>;
+    fn starts(&self) -> Box<dyn Iterator<Item = StateBytes> + '_>;
 
     /// Every move from a state, each with the one to which it leads, made in the memory of `to`: none once the demand
     /// is met.
     fn each_move(
         &self,
         state: &[u8],
-        to: &mut Packed,
-        take: &mut dyn FnMut(Made, &mut Packed) -> ControlFlow<()>,
+        to: &mut StateBytes,
+        take: &mut dyn FnMut(MoveWords, &mut StateBytes) -> ControlFlow<()>,
     );
 
     /// The actors of all moves that are possible in a state.
@@ -59,7 +59,7 @@ pub(super) trait Erased: Sync {
     fn is_broken_at_end(&self, state: &[u8]) -> bool;
 
     /// The states that are taken for one with a state.
-    fn alike(&self, state: &[u8]) -> Vec<Packed>;
+    fn alike(&self, state: &[u8]) -> Vec<StateBytes>;
 
     /// A drawing of a state.
     fn draw(&self, state: &[u8]) -> String;
@@ -75,7 +75,7 @@ pub(super) trait Erased: Sync {
 }
 
 /// A protocol in its surroundings, of whose demands one is looked at.
-pub(super) struct Typed<P: Protocol> {
+pub(super) struct TypedProtocol<P: Protocol> {
     pub(super) rule: P,
     pub(super) here: Surroundings<P>,
     pub(super) demand: &'static Demand<P>,
@@ -85,14 +85,14 @@ pub(super) struct Typed<P: Protocol> {
     pub(super) lost: OnceLock<String>,
 }
 
-impl<P: Protocol> Typed<P> {
-    fn packed(&self, state: &P::State) -> Packed {
-        let mut packed = Packed { bytes: Vec::with_capacity(SOME), ..Packed::default() };
+impl<P: Protocol> TypedProtocol<P> {
+    fn packed(&self, state: &P::State) -> StateBytes {
+        let mut packed = StateBytes { bytes: Vec::with_capacity(SOME), ..StateBytes::default() };
         self.pack(state, &mut packed);
         packed
     }
 
-    fn pack(&self, state: &P::State, to: &mut Packed) {
+    fn pack(&self, state: &P::State, to: &mut StateBytes) {
         to.bytes.clear();
         state.write(&mut to.bytes);
         let least = self.rule.alike(&self.here, state).iter().map(bytes).min();
@@ -101,7 +101,7 @@ impl<P: Protocol> Typed<P> {
     }
 
     /// Tries whether a state comes back from its bytes.
-    fn try_to_read(&self, state: &P::State, packed: &mut Packed) {
+    fn try_to_read(&self, state: &P::State, packed: &mut StateBytes) {
         packed.is_lost = read::<P>(&packed.bytes) != *state;
         if packed.is_lost {
             self.lost.get_or_init(|| self.rule.words(state));
@@ -109,7 +109,7 @@ impl<P: Protocol> Typed<P> {
     }
 }
 
-impl<P: Protocol> Erased for Typed<P> {
+impl<P: Protocol> AnyProtocol for TypedProtocol<P> {
     fn demand(&self) -> &'static str {
         self.demand.words
     }
@@ -122,7 +122,7 @@ impl<P: Protocol> Erased for Typed<P> {
         P::COVERS
     }
 
-    fn starts(&self) -> Box<dyn Iterator<Item = Packed> + '_> {
+    fn starts(&self) -> Box<dyn Iterator<Item = StateBytes> + '_> {
         let packed = |state| {
             let mut packed = self.packed(&state);
             self.try_to_read(&state, &mut packed);
@@ -134,8 +134,8 @@ impl<P: Protocol> Erased for Typed<P> {
     fn each_move(
         &self,
         state: &[u8],
-        to: &mut Packed,
-        take: &mut dyn FnMut(Made, &mut Packed) -> ControlFlow<()>,
+        to: &mut StateBytes,
+        take: &mut dyn FnMut(MoveWords, &mut StateBytes) -> ControlFlow<()>,
     ) {
         let (before, here) = (&read::<P>(state), &self.here);
         if matches!(self.demand.when, When::Eventually(is_so) if is_so(&self.rule, here, before)) {
@@ -150,7 +150,7 @@ impl<P: Protocol> Erased for Typed<P> {
                 When::Always(is_kept) => !is_kept(&self.rule, here, before, &made.to),
                 When::AtTheEnd(_) | When::Eventually(_) | When::AgainAndAgain(_) => false,
             };
-            if take(Made { actors: made.actors, words: made.words, is_broken }, to).is_break() {
+            if take(MoveWords { actors: made.actors, words: made.words, is_broken }, to).is_break() {
                 return;
             }
         }
@@ -176,7 +176,7 @@ impl<P: Protocol> Erased for Typed<P> {
         }
     }
 
-    fn alike(&self, state: &[u8]) -> Vec<Packed> {
+    fn alike(&self, state: &[u8]) -> Vec<StateBytes> {
         self.rule.alike(&self.here, &read::<P>(state)).iter().map(|other| self.packed(other)).collect()
     }
 

@@ -3,7 +3,7 @@
 
 use super::{Move, Protocol, with};
 use crate::demands;
-use crate::team::{Crew, Deployed, Known};
+use crate::team::{Crew, Deployment, KnownGraph};
 
 /// How robots choose where to go.
 pub trait Explorers: Copy + Sync + 'static {
@@ -20,7 +20,7 @@ pub trait Explorers: Copy + Sync + 'static {
 #[derive(Debug)]
 pub struct Team<'a> {
     /// The map.
-    pub map: Known<'a>,
+    pub map: KnownGraph<'a>,
     /// Where they are.
     pub cells: &'a [u8],
     /// The frontier for which each has set out.
@@ -49,7 +49,8 @@ impl<R: Explorers> Protocol for Exploration<R> {
     type Bound = Crew;
     type State = State;
     demands! {
-        eventually "all cells are on the map", |_, crew, &(cells, ..)| Known { graph: &crew.graph, cells }.is_whole();
+        eventually "all cells are on the map",
+            |_, crew, &(cells, ..)| KnownGraph { graph: &crew.graph, cells }.is_whole();
         always "no two robots have set out for one frontier", |_, _, _, (_, _, targets)| {
             let mut set: Vec<_> = targets.iter().flatten().collect();
             set.sort_unstable();
@@ -57,18 +58,18 @@ impl<R: Explorers> Protocol for Exploration<R> {
         };
     }
 
-    fn starts(&self, crew: &Deployed) -> impl IntoIterator<Item = State> {
+    fn starts(&self, crew: &Deployment) -> impl IntoIterator<Item = State> {
         let known = |cells: &Vec<u8>| {
-            let see = |known, &cell: &u8| Known { graph: &crew.graph, cells: known }.with_sight(cell);
+            let see = |known, &cell: &u8| KnownGraph { graph: &crew.graph, cells: known }.with_sight(cell);
             cells.iter().fold(0, see)
         };
         let none = vec![None; crew.robots];
         crew.graph.places(crew.robots).into_iter().map(move |cells| (known(&cells), cells, none.clone()))
     }
 
-    fn moves(&self, crew: &Deployed, state: &State) -> Vec<Move<State>> {
+    fn moves(&self, crew: &Deployment, state: &State) -> Vec<Move<State>> {
         let (known, cells, targets) = state;
-        let map = Known { graph: &crew.graph, cells: *known };
+        let map = KnownGraph { graph: &crew.graph, cells: *known };
         let team = Team { map, cells, targets, goes_round: self.0.goes_round() };
         let act = |me: usize| {
             let target = self.0.target(&team, me);
@@ -82,8 +83,8 @@ impl<R: Explorers> Protocol for Exploration<R> {
         (0..cells.len()).map(act).filter(|next| next.to != *state).collect()
     }
 
-    fn draw(&self, crew: &Deployed, (known, cells, targets): &State) -> String {
-        let map = Known { graph: &crew.graph, cells: *known };
+    fn draw(&self, crew: &Deployment, (known, cells, targets): &State) -> String {
+        let map = KnownGraph { graph: &crew.graph, cells: *known };
         let sign = |cell: u8| {
             let here = cells.iter().position(|&other| other == cell);
             let set_out = targets.iter().position(|&target| target == Some(cell));

@@ -5,14 +5,14 @@ use std::num::NonZeroUsize;
 
 use tautline_kernel::choice::Oracle;
 
-use super::erased::Packed;
-use super::playing::Playing;
+use super::erased::StateBytes;
+use super::playing::ErasedProtocol;
 use super::{Bound, Protocol};
 use crate::decide::{
-    Answer, Context, Decided, Evidence, Method, MethodError, Portion, RandomRuns, RefutationPlay, Systems,
-    Verdict,
+    Answer, Context, Evidence, Method, MethodError, MethodResult, Portion, RandomRuns, RefutationPlay,
+    Systems, Verdict,
 };
-use crate::engine::model::Started;
+use crate::engine::model::StatesModel;
 use crate::engine::states::{self, AnySystem, Findings, Limits};
 use crate::engine::{Choices, Replay, Script, ScriptError, Stop, Until, sample, threads};
 
@@ -30,12 +30,12 @@ type Run = states::Run<&'static str>;
 impl<P: Protocol> Keeps<P> {
     /// The protocol in each of its surroundings. With `tries_all`, and in debug builds, each state that is met is tried
     /// whether it comes back from its bytes; else starts are, and the first state to which each leads.
-    fn playing(&self, rule: &P, tries_all: bool) -> Result<Vec<Playing>, MethodError> {
+    fn playing(&self, rule: &P, tries_all: bool) -> Result<Vec<ErasedProtocol>, MethodError> {
         let none = || MethodError::new(format_args!("there is no demand {}", self.1));
         let demand = P::DEMANDS.get(self.1).ok_or_else(none)?;
         let how = (demand, tries_all || cfg!(debug_assertions));
         let each = self.0.each()?.into_iter();
-        Ok(each.map(|here| Playing::new(rule.clone(), here, how)).collect())
+        Ok(each.map(|here| ErasedProtocol::new(rule.clone(), here, how)).collect())
     }
 
     /// The states, and the shortest run that breaks the demand if there is one.
@@ -57,7 +57,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         self.0.to_string()
     }
 
-    fn decide(&self, rule: &P, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &P, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         self.decide_portion(rule, Portion::WHOLE, until, context)
     }
 
@@ -73,7 +73,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         portion: Portion,
         until: Until,
         context: &mut Context<'_, '_>,
-    ) -> Decided {
+    ) -> MethodResult {
         let limits = Limits { room: context.room, ..Limits::NONE };
         answered((&self.playing(rule, false)?, P::COVERS), portion, (until, limits), self.shows())
     }
@@ -102,12 +102,12 @@ impl<P: Protocol> Method<P> for Keeps<P> {
 }
 
 /// Every start, each in its surroundings.
-fn starts(all: &[Playing]) -> impl Iterator<Item = (&Playing, Packed)> {
+fn starts(all: &[ErasedProtocol]) -> impl Iterator<Item = (&ErasedProtocol, StateBytes)> {
     all.iter().flat_map(|playing| playing.starts().map(move |start| (playing, start)))
 }
 
 /// From how many each of these choices is made, and the run that they make.
-fn play(all: &[Playing], choices: &Choices) -> Result<(Vec<u32>, Run), ScriptError> {
+fn play(all: &[ErasedProtocol], choices: &Choices) -> Result<(Vec<u32>, Run), ScriptError> {
     let mut script = Script::new(choices);
     let number = script.choose(starts(all).count())?;
     let (playing, start) = starts(all).nth(number).ok_or(ScriptError::Unbroken)?;
@@ -116,38 +116,38 @@ fn play(all: &[Playing], choices: &Choices) -> Result<(Vec<u32>, Run), ScriptErr
 
 /// The answer of a search to a check that is to show `shown` and meet each of `covers`.
 fn answered(
-    (all, covers): (&[Playing], &[&str]),
+    (all, covers): (&[ErasedProtocol], &[&str]),
     portion: Portion,
     (until, limits): (Until, Limits<'_>),
     shown: Verdict,
-) -> Decided {
+) -> MethodResult {
     let found = searched(all, portion, until, limits)?;
     let evidence = found.broken.first().and_then(|run| evidence(all, run));
     let is_covered = covers.iter().all(|words| found.covered.contains(words));
     Ok(Answer::new(evidence, found.is_whole && is_covered, shown, found.states))
 }
 
-fn replayed(all: &[Playing], choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+fn replayed(all: &[ErasedProtocol], choices: &Choices) -> Result<RefutationPlay, ScriptError> {
     let (of, run) = play(all, choices)?;
     Ok(RefutationPlay { of, evidence: evidence(all, &run).ok_or(ScriptError::Unbroken)? })
 }
 
 /// Those that have a start, each with its starts; all of them, if none has one.
-fn systems(mut all: Vec<Playing>) -> Result<Systems, MethodError> {
+fn systems(mut all: Vec<ErasedProtocol>) -> Result<Systems, MethodError> {
     is_sound(&all)?;
-    all.iter().try_for_each(Playing::starts_come_back)?;
-    let has_start = |playing: &Playing| playing.starts().next().is_some();
+    all.iter().try_for_each(ErasedProtocol::starts_come_back)?;
+    let has_start = |playing: &ErasedProtocol| playing.starts().next().is_some();
     if all.iter().any(has_start) {
         all.retain(has_start);
     }
     let of = |playing| -> Box<dyn AnySystem> {
-        Box::new(Started::new(playing, |playing: &Playing| playing.starts().collect()))
+        Box::new(StatesModel::new(playing, |playing: &ErasedProtocol| playing.starts().collect()))
     };
     Ok(all.into_iter().map(of).collect())
 }
 
 /// The findings of random runs.
-fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
+fn hunted(all: &[ErasedProtocol], runs: &RandomRuns) -> Result<Answer, MethodError> {
     is_sound(all)?;
     let starts: Vec<_> = starts(all).collect();
     if starts.is_empty() {
@@ -162,7 +162,7 @@ fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
         Some(run) => Err(Stop::Violated(run.demand)),
         None => Ok("a run"),
     });
-    all.iter().try_for_each(Playing::states_came_back)?;
+    all.iter().try_for_each(ErasedProtocol::states_came_back)?;
     let again = tally.violation.as_ref().and_then(|(choices, _)| made(&mut Replay::new(choices)));
     let evidence = again.map(|run| starts[run.start].0.evidence(&starts[run.start].1, &run));
     Ok(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases))
@@ -170,7 +170,7 @@ fn hunted(all: &[Playing], runs: &RandomRuns) -> Result<Answer, MethodError> {
 
 /// A shortest run from the start of another one, or that one without its detours; and whether it is a shortest one.
 fn shortened(
-    all: &[Playing],
+    all: &[ErasedProtocol],
     choices: &Choices,
     limits: Limits<'_>,
 ) -> Result<Option<(Choices, bool)>, MethodError> {
@@ -184,7 +184,7 @@ fn shortened(
     }))
 }
 
-fn evidence(all: &[Playing], run: &Run) -> Option<Evidence> {
+fn evidence(all: &[ErasedProtocol], run: &Run) -> Option<Evidence> {
     let (playing, start) = starts(all).nth(run.start)?;
     Some(playing.evidence(&start, run))
 }
@@ -193,7 +193,7 @@ fn evidence(all: &[Playing], run: &Run) -> Option<Evidence> {
 ///
 /// # Errors
 /// [`MethodError`] if it cannot.
-fn is_sound(all: &[Playing]) -> Result<(), MethodError> {
+fn is_sound(all: &[ErasedProtocol]) -> Result<(), MethodError> {
     let mut left = states::TRIED;
     for playing in all {
         playing.is_sound()?;
@@ -208,7 +208,7 @@ fn is_sound(all: &[Playing]) -> Result<(), MethodError> {
 /// The findings of a search that can be believed: of all surroundings in a portion, or up to the first in which the
 /// demand is broken. The run is a shortest one, in the first of them that has one.
 fn searched(
-    all: &[Playing],
+    all: &[ErasedProtocol],
     portion: Portion,
     until: Until,
     limits: Limits<'_>,

@@ -6,32 +6,32 @@ use std::sync::OnceLock;
 
 use tautline_kernel::choice::Oracle;
 
-use super::erased::{Erased, Made, Packed, Typed};
+use super::erased::{AnyProtocol, MoveWords, StateBytes, TypedProtocol};
 use super::{Demand, Protocol, Surroundings, beside};
 use crate::decide::{Depiction, Evidence, MethodError};
 use crate::engine::states::{self, Bits, Ending, Findings, Limits, Run, Scratch, Step, System, Unsound};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 
 /// A protocol in its surroundings, of whose demands one is looked at.
-pub(super) struct Playing(Box<dyn Erased>);
+pub(super) struct ErasedProtocol(Box<dyn AnyProtocol>);
 
-impl Deref for Playing {
-    type Target = dyn Erased;
+impl Deref for ErasedProtocol {
+    type Target = dyn AnyProtocol;
 
     fn deref(&self) -> &Self::Target {
         &*self.0
     }
 }
 
-impl World for Playing {
-    type State = Packed;
-    type Plan = Vec<(Made, Packed)>;
-    type Event = Made;
+impl World for ErasedProtocol {
+    type State = StateBytes;
+    type Plan = Vec<(MoveWords, StateBytes)>;
+    type Event = MoveWords;
     type Demand = &'static str;
 
-    fn plan(&self, state: &mut Packed, _: &[u8]) -> Option<Self::Plan> {
+    fn plan(&self, state: &mut StateBytes, _: &[u8]) -> Option<Self::Plan> {
         let mut moves = Vec::new();
-        self.each_move(&state.bytes, &mut Packed::default(), &mut |made, to| {
+        self.each_move(&state.bytes, &mut StateBytes::default(), &mut |made, to| {
             moves.push((made, mem::take(to)));
             ControlFlow::Continue(())
         });
@@ -40,11 +40,11 @@ impl World for Playing {
 
     fn settle(
         &self,
-        state: &mut Packed,
+        state: &mut StateBytes,
         moves: &Self::Plan,
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
-    ) -> Made {
+    ) -> MoveWords {
         let (made, to) = picked(moves, world);
         *state = to;
         made
@@ -54,59 +54,59 @@ impl World for Playing {
         self.broken(turn.event.is_broken)
     }
 
-    fn broken_at_end(&self, state: &Packed, _: &[u8]) -> Vec<&'static str> {
+    fn broken_at_end(&self, state: &StateBytes, _: &[u8]) -> Vec<&'static str> {
         self.broken(self.is_broken_at_end(&state.bytes))
     }
 
     fn covers(&self) -> Vec<&'static str> {
-        Erased::covers(&*self.0).to_vec()
+        AnyProtocol::covers(&*self.0).to_vec()
     }
 
     fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        bit(Erased::covers(&*self.0), turn.event.words)
+        bit(AnyProtocol::covers(&*self.0), turn.event.words)
     }
 }
 
-impl System for Playing {
+impl System for ErasedProtocol {
     /// A state has no parts.
     type Part = ();
 
-    fn places(&self, _: &Packed) -> usize {
+    fn places(&self, _: &StateBytes) -> usize {
         0
     }
 
-    fn part(&self, _: &Packed, _: usize) {}
+    fn part(&self, _: &StateBytes, _: usize) {}
 
-    fn put(&self, _: &mut Packed, _: usize, (): &()) {}
+    fn put(&self, _: &mut StateBytes, _: usize, (): &()) {}
 
-    fn write(&self, state: &Packed, to: &mut Vec<u8>) {
+    fn write(&self, state: &StateBytes, to: &mut Vec<u8>) {
         to.extend_from_slice(&state.bytes);
     }
 
-    fn read(&self, state: &mut Packed, bytes: &[u8]) {
+    fn read(&self, state: &mut StateBytes, bytes: &[u8]) {
         state.bytes.clear();
         state.bytes.extend_from_slice(bytes);
         (state.canonical, state.is_lost) = (None, false);
     }
 
-    fn make_canonical(&self, state: &mut Packed) {
+    fn make_canonical(&self, state: &mut StateBytes) {
         if let Some(canonical) = state.canonical.take() {
             state.bytes = canonical;
         }
     }
 
-    fn is_lost(&self, state: &Packed) -> bool {
+    fn is_lost(&self, state: &StateBytes) -> bool {
         state.is_lost
     }
 
     /// Takes the moves as they are, without a copy of each.
     fn each_step<B>(
         &self,
-        state: &Packed,
-        scratch: &mut Scratch<Packed>,
-        mut take: impl FnMut(Step<Self, &mut Packed>) -> ControlFlow<B>,
+        state: &StateBytes,
+        scratch: &mut Scratch<StateBytes>,
+        mut take: impl FnMut(Step<Self, &mut StateBytes>) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let (covers, mut flow) = (Erased::covers(&*self.0), ControlFlow::Continue(()));
+        let (covers, mut flow) = (AnyProtocol::covers(&*self.0), ControlFlow::Continue(()));
         self.each_move(&state.bytes, scratch.after(state), &mut |event, state| {
             let (occurs, acting) = (bit(covers, event.words), event.actors);
             let breaks = self.broken(event.is_broken);
@@ -128,35 +128,35 @@ impl System for Playing {
         self.may_be_endless().then(|| self.demand())
     }
 
-    fn owed(&self, state: &Packed) -> Bits {
+    fn owed(&self, state: &StateBytes) -> Bits {
         self.0.owed(&state.bytes)
     }
 
-    fn awake(&self, state: &Packed) -> Bits {
+    fn awake(&self, state: &StateBytes) -> Bits {
         self.0.awake(&state.bytes)
     }
 }
 
-impl Playing {
+impl ErasedProtocol {
     pub(super) fn new<P: Protocol>(
         rule: P,
         here: Surroundings<P>,
         (demand, tries_all): (&'static Demand<P>, bool),
     ) -> Self {
-        Self(Box::new(Typed { rule, here, demand, tries_all, lost: OnceLock::new() }))
+        Self(Box::new(TypedProtocol { rule, here, demand, tries_all, lost: OnceLock::new() }))
     }
 
     fn broken(&self, is_broken: bool) -> Vec<&'static str> {
         if is_broken { vec![self.demand()] } else { Vec::new() }
     }
 
-    fn canonical(&self, mut state: Packed) -> Packed {
+    fn canonical(&self, mut state: StateBytes) -> StateBytes {
         self.make_canonical(&mut state);
         state
     }
 
     /// All that must be the same of states that are taken for one: what their moves are and lead to, and what is owed.
-    fn outlook(&self, state: &Packed) -> impl Eq + use<> {
+    fn outlook(&self, state: &StateBytes) -> impl Eq + use<> {
         let of = |step: Step<Self>| (step.event, self.canonical(step.state).bytes);
         let mut moves: Vec<_> = states::steps(self, state).map(of).collect();
         moves.sort_unstable();
@@ -182,7 +182,7 @@ impl Playing {
     }
 
     /// The run from `start` itself that a search has found among states of which each stands for those like it.
-    pub(super) fn unfolded(&self, start: &Packed, run: Run<&'static str>) -> Run<&'static str> {
+    pub(super) fn unfolded(&self, start: &StateBytes, run: Run<&'static str>) -> Run<&'static str> {
         let (mut seen, mut state) = (self.canonical(start.clone()), start.clone());
         let mut follow = |&number: &u32| {
             let step = states::steps(self, &seen).nth(number as usize)?;
@@ -250,15 +250,15 @@ impl Playing {
         came_back(self.lost().map(str::to_owned))
     }
 
-    pub(super) fn evidence(&self, start: &Packed, run: &Run<&'static str>) -> Evidence {
+    pub(super) fn evidence(&self, start: &StateBytes, run: &Run<&'static str>) -> Evidence {
         Evidence { choices: run.choices(), demand: run.demand, seen: self.story(start, run) }
     }
 
     /// The run, drawn state by state.
-    fn story(&self, start: &Packed, run: &Run<&'static str>) -> Depiction {
+    fn story(&self, start: &StateBytes, run: &Run<&'static str>) -> Depiction {
         let mut frames = vec![("start".to_owned(), self.draw(&start.bytes))];
         for (place, (_, step)) in run.played(self, start.clone()).enumerate() {
-            let Made { actors, words, .. } = step.event;
+            let MoveWords { actors, words, .. } = step.event;
             let again = if place == run.steps.len() { "again: " } else { "" };
             let title = if actors.is_power_of_two() {
                 format!("{again}{} {words}", actors.trailing_zeros())

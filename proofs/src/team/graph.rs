@@ -163,7 +163,7 @@ impl fmt::Display for Crew {
 
 /// A layout, and how many robots start in it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Deployed {
+pub struct Deployment {
     /// The layout.
     pub graph: Graph,
     /// How many robots.
@@ -172,24 +172,24 @@ pub struct Deployed {
 
 /// Layouts without room for the robots are left out.
 impl Bound for Crew {
-    type Surroundings = Deployed;
+    type Surroundings = Deployment;
 
-    fn each(&self) -> Result<Vec<Deployed>, MethodError> {
+    fn each(&self) -> Result<Vec<Deployment>, MethodError> {
         let graphs = self.graphs.all()?.into_iter().filter(|graph| graph.len() >= self.robots);
-        Ok(graphs.map(|graph| Deployed { graph, robots: self.robots }).collect())
+        Ok(graphs.map(|graph| Deployment { graph, robots: self.robots }).collect())
     }
 }
 
 /// A layout of at most 64 cells as far as robots know it, or have covered it.
 #[derive(Clone, Copy, Debug)]
-pub struct Known<'a> {
+pub struct KnownGraph<'a> {
     /// The layout.
     pub graph: &'a Graph,
     /// The cells that are known, a bit for each.
     pub cells: u64,
 }
 
-impl Known<'_> {
+impl KnownGraph<'_> {
     /// Whether a cell is known.
     pub const fn has(&self, cell: u8) -> bool {
         self.cells >> cell & 1 == 1

@@ -6,9 +6,9 @@ use super::ground::{Map, words};
 use super::rule::{Rule, Scene, When};
 use super::{Moves, Places, Promise, Setting, Strategy, TeamWorld};
 use crate::decide::{
-    Answer, Context, Decided, Depiction, Evidence, Method, MethodError, RefutationPlay, Systems, Verdict,
+    Answer, Context, Depiction, Evidence, Method, MethodError, MethodResult, RefutationPlay, Systems, Verdict,
 };
-use crate::engine::model::Started;
+use crate::engine::model::StatesModel;
 use crate::engine::states;
 use crate::engine::tree::{self, AllRuns, Waves};
 use crate::engine::{Choices, Script, ScriptError, Until};
@@ -120,7 +120,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         })
     }
 
-    fn in_tree(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn in_tree(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let playing = self.0.playing(rule, &[Promise(self.1)])?;
         let start = playing.start.clone();
         states::repeats(&playing, [start.clone()]).map_err(MethodError::new)?;
@@ -133,7 +133,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
-    fn in_states(&self, rule: &R, context: &Context<'_, '_>) -> Decided {
+    fn in_states(&self, rule: &R, context: &Context<'_, '_>) -> MethodResult {
         let starts = self.0.starts(rule)?;
         let Some(start) = starts.first().cloned() else {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
@@ -186,7 +186,7 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
 
     /// The choices are the answers of the world in a tree; among states, the number of the start and those of the
     /// steps.
-    fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> Decided {
+    fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         match self.0.strategy() {
             Strategy::Tree => self.in_tree(rule, until, context),
             Strategy::States => self.in_states(rule, context),
@@ -208,7 +208,7 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             Strategy::States => {
                 let starts =
                     |playing: &TeamWorld<'_, R>| playing.setting.starts(&playing.rule).unwrap_or_default();
-                Box::new(Started::new(playing, starts))
+                Box::new(StatesModel::new(playing, starts))
             }
         }])
     }

@@ -3,7 +3,7 @@
 
 use tautline_kernel::ants::{Rule, carry_out, decide};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{COMPASS, Floor, Mark, Replaced, Scan, Sensor, settle};
+use tautline_kernel::floor::{COMPASS, Floor, Mark, Scan, Sensor, SensorFate, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::ground::Ground;
@@ -12,8 +12,8 @@ use crate::draw::Draw;
 
 const RULES: [(&str, Rule); 4] = [
     ("Lost", Rule::PUBLISHED),
-    ("Beside", Rule::Published(Replaced::Beside)),
-    ("Counted", Rule::Published(Replaced::Counted)),
+    ("Beside", Rule::Published(SensorFate::Beside)),
+    ("Counted", Rule::Published(SensorFate::Counted)),
     ("Repaired", Rule::Repaired),
 ];
 

@@ -16,12 +16,12 @@ const RUNS: usize = 12;
 /// A grid that hides from the leader what is beside it while it is told to: then nothing is touched, and what is
 /// rehearsed can be seen to its end.
 #[derive(Clone, Copy)]
-struct Hiding<'a> {
+struct HidingGrid<'a> {
     grid: MediumGrid,
     hides: &'a Switch<bool>,
 }
 
-impl Grid for Hiding<'_> {
+impl Grid for HidingGrid<'_> {
     type Bearings = <MediumGrid as Grid>::Bearings;
     fn area(&self) -> Area {
         self.grid.area()
@@ -71,7 +71,7 @@ impl Grid for Hiding<'_> {
     }
 }
 
-type Reel<'a> = Chain<Hiding<'a>, MOST>;
+type Reel<'a> = Chain<HidingGrid<'a>, MOST>;
 
 /// The situations that a set of runs must contain for the comparison to mean something.
 #[derive(Default, Debug)]
@@ -115,7 +115,7 @@ fn measure(chain: &Reel<'_>) -> String {
 fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Situations) -> String {
     let (area, inside) = drawn(robots, draw);
     let hides = Switch::new(false);
-    let grid = Hiding { grid: MediumGrid::new(area).expect("it is small"), hides: &hides };
+    let grid = HidingGrid { grid: MediumGrid::new(area).expect("it is small"), hides: &hides };
     let mut chain = Reel::new(rule, robots, BASE, grid).expect("a chain");
     let (mut log, mut moves) = (Vec::new(), Vec::new());
     loop {

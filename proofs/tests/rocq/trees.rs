@@ -33,9 +33,9 @@ impl Oracle for Eyes {
 }
 
 /// A sensor's words but the crossings.
-type Said = (State, Label, Option<Side>);
+type SensorWords = (State, Label, Option<Side>);
 
-const fn said(note: Note) -> Said {
+const fn said(note: Note) -> SensorWords {
     (note.state, note.label, note.side)
 }
 
@@ -103,7 +103,7 @@ fn run(
         *at = then;
         *is_done = action.next == Next::Done;
         let changes = floor.sensors.iter().map(|(&at, &note)| (Cell::from(at), said(note)));
-        let changes: Vec<(Cell, Said)> =
+        let changes: Vec<(Cell, SensorWords)> =
             changes.filter(|&(cell, note)| before.sensor(cell).map(said) != Some(note)).collect();
         assert!(changes.iter().all(|&(cell, _)| cell == here || cell == then), "it writes where it is");
         labels.extend(changes.iter().filter(|(_, said)| said.0 == State::Open).map(|(_, said)| said.1));
@@ -118,12 +118,12 @@ fn run(
         actions.push((format!("({turn},{},{way})%nat", eyes.misses < misses), here, [own, other].concat()));
     }
     let number = |label: Label| labels.iter().position(|&other| other == label).unwrap_or_default();
-    let change = |(at, (state, label, side)): (Cell, Said)| {
+    let change = |(at, (state, label, side)): (Cell, SensorWords)| {
         let label = if state == State::Open { number(label) } else { 0 };
         let side = side.map_or(0, |side| 1 + side as usize);
         format!("({},({},{label},{side})%nat)", cell(at), state as usize)
     };
-    let action = |(turn, here, changes): (String, Cell, Vec<(Cell, Said)>)| {
+    let action = |(turn, here, changes): (String, Cell, Vec<(Cell, SensorWords)>)| {
         format!("({turn},{},{})", cell(here), list(changes.into_iter().map(change)))
     };
     format!(

@@ -10,7 +10,7 @@ use tautline_proofs::decide::{Depiction, Evidence};
 use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Move, Protocol};
 
-use super::script::{Posed, StateScript};
+use super::script::{ScriptCheck, StateScript};
 use crate::diagnostic::raised;
 
 /// A run of a rule over states that breaks a demand.
@@ -42,7 +42,7 @@ impl StateRun {
     ) -> PyResult<Self> {
         let wanted = &script.demands[demand];
         let class = py.import("pytautline._protocol")?.getattr("Move")?;
-        let posed = Posed(Arc::clone(script), demand);
+        let posed = ScriptCheck(Arc::clone(script), demand);
         let (start, once) = evidence.choices.once.split_first().unwrap_or((&0, &[]));
         let mut state = script.starts().get(*start as usize).copied().unwrap_or_default();
         let start = script.script.state(py, state);

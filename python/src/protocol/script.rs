@@ -23,10 +23,10 @@ const MOVES: &str = "return a list of pytautline.Move, each with the numbers of 
                      and with the next state";
 
 /// A demand of the rule.
-pub(super) struct Wanted {
+pub(super) struct ScriptDemand {
     pub(super) clause: &'static str,
     pub(super) words: &'static str,
-    /// The number of its kind among the demands of [`Posed`].
+    /// The number of its kind among the demands of [`ScriptCheck`].
     pub(super) kind: usize,
     asked: Py<PyAny>,
 }
@@ -36,7 +36,7 @@ pub(super) struct StateScript {
     /// The rule as Python has it.
     pub(super) script: Script,
     pub(super) bound: &'static str,
-    pub(super) demands: Vec<Wanted>,
+    pub(super) demands: Vec<ScriptDemand>,
     pub(super) covers: Vec<String>,
     starts: OnceLock<Vec<u32>>,
     /// The words of moves that were possible.
@@ -157,7 +157,7 @@ impl StateScript {
     }
 }
 
-fn wanted(demand: &Bound<'_, PyAny>) -> PyResult<Wanted> {
+fn wanted(demand: &Bound<'_, PyAny>) -> PyResult<ScriptDemand> {
     let py = demand.py();
     let made_by = "demands made by pytautline.always, at_the_end, eventually and again_and_again";
     let text = |name: &str| attribute_of::<String>("the demand", demand, name, made_by);
@@ -167,15 +167,15 @@ fn wanted(demand: &Bound<'_, PyAny>) -> PyResult<Wanted> {
         error(py, Kind::WrongType, what, format_args!("give the rule {made_by}"))
     })?;
     let asked = attribute_of("the demand", demand, "kept", made_by)?;
-    Ok(Wanted { clause: word(py, "the id", &id)?, words: kept(&words), kind, asked })
+    Ok(ScriptDemand { clause: word(py, "the id", &id)?, words: kept(&words), kind, asked })
 }
 
-/// The kinds of demands, in the order of those of [`Posed`].
+/// The kinds of demands, in the order of those of [`ScriptCheck`].
 const KINDS: [&str; 4] = ["always", "at-the-end", "eventually", "again-and-again"];
 
 /// A rule over states that was written in Python, and the number of the demand that is looked at.
 #[derive(Clone)]
-pub(super) struct Posed(pub(super) Arc<StateScript>, pub(super) usize);
+pub(super) struct ScriptCheck(pub(super) Arc<StateScript>, pub(super) usize);
 
 /// A bound in the words of its rule.
 pub(super) struct Words(pub(super) &'static str);
@@ -195,11 +195,11 @@ impl StateBound for Words {
     }
 }
 
-impl Posed {
+impl ScriptCheck {
     /// Whether the demand says yes to states.
     fn says<const N: usize>(&self, states: [u32; N]) -> bool {
         let Self(rule, demand) = self;
-        let Wanted { clause, asked, .. } = &rule.demands[*demand];
+        let ScriptDemand { clause, asked, .. } = &rule.demands[*demand];
         rule.answer(|py| {
             let states = PyTuple::new(py, states.map(|state| rule.script.state(py, state)))?;
             Ok(rule.script.says(py, clause, asked, states))
@@ -209,7 +209,7 @@ impl Posed {
     /// The obligations that the demand has owed in a state.
     fn owed(&self, state: u32) -> Bits {
         let Self(rule, demand) = self;
-        let Wanted { clause, asked, .. } = &rule.demands[*demand];
+        let ScriptDemand { clause, asked, .. } = &rule.demands[*demand];
         let remedy = "return a list of what is owed, numbers from 0 to 15";
         rule.answer(|py| {
             let state = (rule.script.state(py, state),);
@@ -225,7 +225,7 @@ impl Posed {
     }
 }
 
-impl Protocol for Posed {
+impl Protocol for ScriptCheck {
     type Bound = Words;
     type State = u32;
     demands! {

@@ -13,7 +13,7 @@ use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, TeamMove, Violat
 use crate::trace::{Player, Writer};
 
 /// A rule of one's own, in the layout of a run that was found.
-pub struct Found<'a, R: Rule> {
+pub struct OwnRun<'a, R: Rule> {
     /// The surroundings in which the rule was searched, and what is demanded of it.
     pub setting: &'a Setting<'a, R>,
     /// The rule, by its name.
@@ -22,7 +22,7 @@ pub struct Found<'a, R: Rule> {
     pub run: &'a Run,
 }
 
-impl<R: Rule> Found<'_, R> {
+impl<R: Rule> OwnRun<'_, R> {
     /// Makes the run again, in the layout that has the walls and blocked cells that it met and no others, and writes it
     /// to a file at `path`, which `tautline replay` plays. The file has yet to be put in its place.
     ///

@@ -15,7 +15,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
-use super::catalogue::{By, Drawn, Look, Profile, Senses, Told};
+use super::catalogue::{By, Completeness, Look, Profile, RandomPart, Senses};
 use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, is_visited};
 use super::run::{End, Surroundings, Survey, Team};
@@ -32,8 +32,8 @@ const MAX_AGENTS: usize = 255;
 pub(super) const AGENTS: Profile = Profile {
     robots: 1..=MAX_AGENTS,
     senses: Senses::Floor,
-    told: Told::All,
-    drawn: &[Drawn { what: "which sensors are missed", by: By::Miss }],
+    told: Completeness::All,
+    drawn: &[RandomPart { what: "which sensors are missed", by: By::Miss }],
     look: Look::Apart,
     ..Profile::named("")
 };

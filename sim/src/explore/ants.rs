@@ -1,7 +1,7 @@
 //! Ants [Ferranti 2009]: agents that go where they have been least. Their row; the team is that of all agents.
 
 use tautline_kernel::ants::Rule as Ants;
-use tautline_kernel::floor::Replaced::{Beside, Counted};
+use tautline_kernel::floor::SensorFate::{Beside, Counted};
 
 use super::agents::AGENTS;
 use super::catalogue::{Knowledge, Profile};

@@ -3,7 +3,7 @@
 
 use tautline_kernel::bricks::tree::Rule as Trees;
 use tautline_kernel::bricks::{Condition, Rule as Bricks};
-use tautline_kernel::floor::{Mark, Replaced};
+use tautline_kernel::floor::{Mark, SensorFate};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::judge::Case;
 use tautline_proofs::judge::floor::{self, Judgement};
@@ -19,8 +19,8 @@ use super::run::{Survey, TeamMove};
 use super::setup::Setup;
 
 const ALONE: Bricks = Bricks::PUBLISHED.with(Condition::Alone);
-const BESIDE: Bricks = Bricks { replaced: Replaced::Beside, ..Bricks::PUBLISHED };
-const COUNTED: Bricks = Bricks { replaced: Replaced::Counted, ..Bricks::PUBLISHED };
+const BESIDE: Bricks = Bricks { replaced: SensorFate::Beside, ..Bricks::PUBLISHED };
+const COUNTED: Bricks = Bricks { replaced: SensorFate::Counted, ..Bricks::PUBLISHED };
 
 /// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
 pub static BRICKS: Profile = Profile {

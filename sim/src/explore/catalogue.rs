@@ -235,9 +235,9 @@ pub struct Profile {
     pub extras: &'static [&'static Extra],
     /// Whether a program that is told where robots are and what they bump into, or the open sides around them on a
     /// sensor floor, can plan as they do.
-    pub told: Told,
+    pub told: Completeness,
     /// The things that its runs draw by their seed.
-    pub drawn: &'static [Drawn],
+    pub drawn: &'static [RandomPart],
     /// How its team is drawn.
     pub look: Look,
     /// The knowledge that its team has of a sensor floor, if it is on one.
@@ -267,7 +267,7 @@ pub enum Starts {
 
 /// Something that runs of a scheme draw by their seed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Drawn {
+pub struct RandomPart {
     /// Its name in words.
     pub what: &'static str,
     /// In which runs it is drawn.
@@ -287,7 +287,7 @@ pub enum By {
     Rule(RuleId),
 }
 
-impl Drawn {
+impl RandomPart {
     /// Whether it is drawn in a run.
     fn is_in(&self, setup: &Setup) -> bool {
         match self.by {
@@ -300,7 +300,7 @@ impl Drawn {
 }
 
 /// Says what is drawn, and by which field.
-impl fmt::Display for Drawn {
+impl fmt::Display for RandomPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { what, by } = self;
         match by {
@@ -376,7 +376,7 @@ pub enum Senses {
 
 /// How much of what robots learn their cells, their bumps and the open sides around them are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Told {
+pub enum Completeness {
     /// All of it.
     All,
     /// Not all: robots also see cells farther away, hear messages, or act in an order that is drawn.
@@ -431,7 +431,7 @@ impl Profile {
             starts: Starts::Anywhere,
             senses: Senses::Bumps,
             extras: &[],
-            told: Told::Part,
+            told: Completeness::Part,
             drawn: &[],
             look: Look::Robots,
             knowledge: None,

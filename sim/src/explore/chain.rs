@@ -18,10 +18,10 @@ use tautline_proofs::plural::counted;
 use self::hunt::Walls;
 use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH, HEARD};
-use super::catalogue::{By, Drawn, Look, Profile, Starts, Told};
+use super::catalogue::{By, Completeness, Look, Profile, RandomPart, Starts};
 use super::clause::Clause;
 use super::judge_input::exhibit;
-use super::rule::{Rule, RuleId, Switched};
+use super::rule::{Rule, RuleId, SwitchRule};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
 use crate::options::Extra;
@@ -56,11 +56,11 @@ pub static CHAIN: Profile = Profile {
     team: "chain",
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
-    told: Told::All,
+    told: Completeness::All,
     extras: &[Extra::LOSS, Extra::FAIL, Extra::WALL, Extra::SPEEDS],
     drawn: &[
-        Drawn { what: "which bytes are lost", by: By::Told(Extra::LOSS) },
-        Drawn { what: "in which order the robots go", by: By::Told(Extra::SPEEDS) },
+        RandomPart { what: "which bytes are lost", by: By::Told(Extra::LOSS) },
+        RandomPart { what: "in which order the robots go", by: By::Told(Extra::SPEEDS) },
     ],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
@@ -84,8 +84,8 @@ pub static CHAIN: Profile = Profile {
 };
 
 /// A chain's rule whose conditions can be switched: a mutant still claims to follow it.
-const fn switched(rule: chain::Rule) -> Switched<chain::Rule> {
-    Switched {
+const fn switched(rule: chain::Rule) -> SwitchRule<chain::Rule> {
+    SwitchRule {
         rule,
         start,
         hunt: |rule, intended| Some(Box::new(Walls(Subject { rule, intended, ..Subject::PUBLISHED }))),

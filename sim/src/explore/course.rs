@@ -4,7 +4,7 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::run::{End, Limits, Report, Stopped, Surroundings, Team, TeamMove, Violation, limit};
+use super::run::{End, Limits, Report, StopReason, Surroundings, Team, TeamMove, Violation, limit};
 use tautline_grids::layout::Layout;
 
 /// A run that is made one team move at a time.
@@ -18,7 +18,7 @@ pub struct Course {
 
 /// A team move that was made.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct CourseMove {
     /// Where the robots were.
     pub before: Vec<Cell>,
     /// The steps that they made.
@@ -41,7 +41,7 @@ impl Course {
         layout: &Layout,
         limits: Limits,
         world: &mut dyn Surroundings,
-    ) -> Option<Made> {
+    ) -> Option<CourseMove> {
         let report = &mut self.report;
         if let Some(stopped) = limit(limits, report, &self.entered) {
             report.end(stopped, team);
@@ -52,11 +52,11 @@ impl Course {
             Ok(frame) => frame,
             Err(end) => {
                 let stopped = match end {
-                    End::Explored => Stopped::Explored,
-                    End::Exhausted => Stopped::Exhausted,
-                    End::Endless => Stopped::Endless,
-                    End::Silent => Stopped::Silent,
-                    End::Refused => Stopped::Refused,
+                    End::Explored => StopReason::Explored,
+                    End::Exhausted => StopReason::Exhausted,
+                    End::Endless => StopReason::Endless,
+                    End::Silent => StopReason::Silent,
+                    End::Refused => StopReason::Refused,
                 };
                 let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
                 report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));
@@ -72,12 +72,12 @@ impl Course {
         let broken = team.broken_in_move(&before, &frame);
         let step = report.steps;
         report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
-        Some(Made { before, frame, broken })
+        Some(CourseMove { before, frame, broken })
     }
 
     /// The last team move of the `team`, as a watcher sees it.
-    pub fn team_move<'a>(&self, made: &'a Made, team: &'a dyn Team) -> TeamMove<'a> {
-        let Made { before, frame, broken } = made;
+    pub fn team_move<'a>(&self, made: &'a CourseMove, team: &'a dyn Team) -> TeamMove<'a> {
+        let CourseMove { before, frame, broken } = made;
         TeamMove { step: self.report.steps, before, frame, unseen: team.unseen(), broken, team }
     }
 }

@@ -47,7 +47,7 @@ pub(super) trait Each: fmt::Debug + Sync {
 }
 
 /// The findings of a hunt.
-pub(super) type FoundBy<E> = <<E as Each>::Layouts as Lots>::Found;
+pub(super) type FoundBy<E> = <<E as Each>::Layouts as Lots>::Findings;
 
 impl<E: Each> Hunt for E {
     fn takes(&self) -> &'static [Bound] {

@@ -12,15 +12,15 @@ use tautline_kernel::frontier::{Condition, Rule as Frontier};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
-use self::hunt::{Searched, Simulated};
-use super::catalogue::{By, Drawn, Look, Profile, Starts};
+use self::hunt::{KernelHunt, RivalHunt};
+use super::catalogue::{By, Look, Profile, RandomPart, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId, Switched};
+use super::rule::{Rule, RuleId, SwitchRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
 use super::together::has_double;
-use crate::frontier::{Allowance, Assigned, Assignment, Ended, Explorers};
+use crate::frontier::{Allowance, AssignedTeam, Assignment, Explorers, TeamEnd};
 use crate::objects::ObjectReport;
 use crate::options::{Extra, Options};
 use tautline_grids::chance::Dice;
@@ -55,18 +55,16 @@ const MISSED: &str = "Within reach and unexplored";
 /// A rule of the kernel, hunted through all states.
 macro_rules! searched {
     ($name:expr, $about:expr, $rule:expr) => {
-        Rule::new($name, $about, |setup| start(setup, $rule)).hunted(&Searched($rule)).switched(&Switched {
-            rule: $rule,
-            start,
-            hunt: |rule, _| Some(Box::new(Searched(rule))),
-        })
+        Rule::new($name, $about, |setup| start(setup, $rule))
+            .hunted(&KernelHunt($rule))
+            .switched(&SwitchRule { rule: $rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) })
     };
 }
 
 /// A rival, of which every layout is tried.
 macro_rules! assigned {
     ($name:expr, $about:expr, $assignment:expr) => {
-        Rule::new(RuleId::new($name), $about, |setup| start_assigned(setup, $assignment)).hunted(&Simulated)
+        Rule::new(RuleId::new($name), $about, |setup| start_assigned(setup, $assignment)).hunted(&RivalHunt)
     };
 }
 
@@ -101,13 +99,13 @@ pub static FRONTIER: Profile = Profile {
         Extra::SMALL,
     ],
     drawn: &[
-        Drawn { what: "which messages are lost", by: By::Told(Extra::LOSS) },
-        Drawn { what: "how far off each position is", by: By::Told(Extra::NOISE) },
-        Drawn { what: "how far off each move is", by: By::Told(Extra::ODOMETRY) },
-        Drawn { what: "where small obstacles are", by: By::Told(Extra::SMALL) },
-        Drawn { what: "where objects are, and are seen", by: By::Told(Extra::OBJECTS) },
-        Drawn { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
-        Drawn { what: "where a robot wanders", by: By::Rule(WANDERS) },
+        RandomPart { what: "which messages are lost", by: By::Told(Extra::LOSS) },
+        RandomPart { what: "how far off each position is", by: By::Told(Extra::NOISE) },
+        RandomPart { what: "how far off each move is", by: By::Told(Extra::ODOMETRY) },
+        RandomPart { what: "where small obstacles are", by: By::Told(Extra::SMALL) },
+        RandomPart { what: "where objects are, and are seen", by: By::Told(Extra::OBJECTS) },
+        RandomPart { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
+        RandomPart { what: "where a robot wanders", by: By::Rule(WANDERS) },
     ],
     look: Look::Apart,
     clauses: &[
@@ -123,7 +121,7 @@ pub static FRONTIER: Profile = Profile {
 /// Who explores.
 enum Who {
     Robots(Box<Explorers>),
-    Assigned(Box<Assigned>),
+    AssignedTeam(Box<AssignedTeam>),
 }
 
 struct FrontierTeam {
@@ -133,7 +131,7 @@ struct FrontierTeam {
     /// Those of them that no robot was in.
     left: BTreeSet<Cell>,
     /// How it has ended.
-    ended: Option<Ended>,
+    ended: Option<TeamEnd>,
 }
 
 /// The team of `setup`, each robot at its start.
@@ -162,8 +160,8 @@ fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>
             "leave `range`, `loss`, `noise-db` and `threshold` out, or take `rule` repaired",
         ));
     }
-    let robots = Assigned::new(assignment, &setup.layout, &setup.starts());
-    Ok(team(setup, Who::Assigned(Box::new(robots))))
+    let robots = AssignedTeam::new(assignment, &setup.layout, &setup.starts());
+    Ok(team(setup, Who::AssignedTeam(Box::new(robots))))
 }
 
 fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
@@ -201,14 +199,14 @@ impl Team for FrontierTeam {
     fn cells(&self) -> &[Cell] {
         match &self.who {
             Who::Robots(robots) => robots.cells(),
-            Who::Assigned(robots) => robots.cells(),
+            Who::AssignedTeam(robots) => robots.cells(),
         }
     }
 
     fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         let made = match &mut self.who {
             Who::Robots(robots) => robots.advance(),
-            Who::Assigned(robots) => robots.advance(),
+            Who::AssignedTeam(robots) => robots.advance(),
         };
         if let Ok(frame) = &made {
             for cell in &frame.cells {
@@ -218,9 +216,9 @@ impl Team for FrontierTeam {
         made.map_err(|ended| {
             self.ended = Some(ended);
             match ended {
-                Ended::Known if self.left.is_empty() => End::Explored,
-                Ended::Known | Ended::Still => End::Exhausted,
-                Ended::Endless => End::Endless,
+                TeamEnd::Known if self.left.is_empty() => End::Explored,
+                TeamEnd::Known | TeamEnd::Still => End::Exhausted,
+                TeamEnd::Endless => End::Endless,
             }
         })
     }
@@ -237,7 +235,7 @@ impl Team for FrontierTeam {
         let is_double = has_double(&frame.cells);
         let is_wrong = match &self.who {
             Who::Robots(robots) => robots.is_wrong(),
-            Who::Assigned(_) => false,
+            Who::AssignedTeam(_) => false,
         };
         [is_double.then_some(ALONE), is_wrong.then_some(MARKS)].into_iter().flatten().collect()
     }
@@ -245,7 +243,7 @@ impl Team for FrontierTeam {
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         let is_short = end != End::Endless && !self.missed(layout, chart).is_empty();
         let is_endless = end == End::Endless;
-        let knows_not = self.ended == Some(Ended::Still);
+        let knows_not = self.ended == Some(TeamEnd::Still);
         [is_short.then_some(COVERS), is_endless.then_some(ENDS), knows_not.then_some(KNOWS)]
             .into_iter()
             .flatten()
@@ -257,21 +255,21 @@ impl Team for FrontierTeam {
             Who::Robots(robots) => {
                 robots.objects().iter().map(|(at, known)| ObjectReport::new(*at, known.as_ref())).collect()
             }
-            Who::Assigned(_) => Vec::new(),
+            Who::AssignedTeam(_) => Vec::new(),
         }
     }
 
     fn layers(&self) -> Vec<Layer> {
         match &self.who {
             Who::Robots(robots) => shown::layers(robots),
-            Who::Assigned(_) => shown::layers_of_assigned(),
+            Who::AssignedTeam(_) => shown::layers_of_assigned(),
         }
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
         match &self.who {
             Who::Robots(robots) => shown::show(robots, scene),
-            Who::Assigned(robots) => shown::show_assigned(robots, scene),
+            Who::AssignedTeam(robots) => shown::show_assigned(robots, scene),
         }
     }
 }

@@ -56,14 +56,14 @@ pub trait Hunt: fmt::Debug + Sync {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be searched so.
-    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn OngoingHunt>>, Diagnostic> {
         let _ = asked;
         Ok(None)
     }
 }
 
 /// A hunt that is made a little at a time.
-pub trait Begun {
+pub trait OngoingHunt {
     /// Hunts a little further. Returns whether there is more to do, and to spend.
     fn step(&mut self) -> bool;
 
@@ -429,12 +429,12 @@ pub struct Finding {
     /// The run.
     pub setup: Setup,
     /// How it is shown, and whether it is stored.
-    pub shown: Shown,
+    pub shown: Exhibit,
 }
 
 /// How a run that was found is shown.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Shown {
+pub enum Exhibit {
     /// By its last team move. It is stored as a run that breaks this clause.
     Run(ClauseId),
     /// By its layout. A run without end is not stored.
@@ -445,7 +445,7 @@ pub enum Shown {
     Told(String),
 }
 
-impl Shown {
+impl Exhibit {
     /// Of a run that breaks `clause`, or of one without end.
     pub(super) fn of(clause: Option<ClauseId>) -> Self {
         clause.map_or(Self::Endless, Self::Run)

@@ -9,8 +9,8 @@ use tautline_proofs::plural::counted;
 use super::agents::{self, PREMATURE};
 use super::catalogue::Scheme;
 use super::each::Each;
-use super::hunt::{Bound, Done, Facts, Finding, HuntReport, HuntRequest, RunSize, Shown};
-use super::rule::{RuleId, Switched};
+use super::hunt::{Bound, Done, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
+use super::rule::{RuleId, SwitchRule};
 use super::setup::Setup;
 use tautline_grids::layout::{Layout, Size};
 
@@ -42,8 +42,8 @@ macro_rules! crew {
 pub(super) use crew;
 
 /// The rule of a crew whose conditions can be switched.
-pub(super) const fn switched<C: Crew>(rule: C) -> Switched<C> {
-    Switched {
+pub(super) const fn switched<C: Crew>(rule: C) -> SwitchRule<C> {
+    SwitchRule {
         rule,
         start: |setup, crew| Ok(agents::start(setup, crew)),
         hunt: |crew, _| Some(Box::new(Traps(crew))),
@@ -154,8 +154,8 @@ fn finding(asked: &HuntRequest<'_>, trap: &Trap) -> Result<Finding, Diagnostic> 
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
     let (clause, shown) = match trap.end {
-        End::Done => (PREMATURE.as_str(), Shown::Run(PREMATURE)),
-        End::Endless => (ENDLESS, Shown::Endless),
+        End::Done => (PREMATURE.as_str(), Exhibit::Run(PREMATURE)),
+        End::Endless => (ENDLESS, Exhibit::Endless),
     };
     let facts = RunSize::Misses { misses, columns: width, rows: height, steps: moves };
     let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));

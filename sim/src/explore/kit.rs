@@ -18,11 +18,11 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::kit::{Reach, Rule as Kit, SetupError, Stance};
 use tautline_proofs::run::Frame;
 
-use self::hunt::Searched;
+use self::hunt::KernelHunt;
 
-use super::catalogue::{By, Drawn, Profile, Starts};
+use super::catalogue::{By, Profile, RandomPart, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId, Switched};
+use super::rule::{Rule, RuleId, SwitchRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -76,20 +76,23 @@ const PATIENCE: usize = 20;
 pub static KIT: Profile = Profile {
     about: "Keep In Touch: robots that drive every path between two cells, and keep in radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, Kit::PUBLISHED), &Searched(Kit::PUBLISHED))
+        Rule::published(|setup| start(setup, Kit::PUBLISHED), &KernelHunt(Kit::PUBLISHED))
             .switched(&switched(Kit::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, Kit::REPAIRED), &Searched(Kit::REPAIRED))
+        Rule::repaired(|setup| start(setup, Kit::REPAIRED), &KernelHunt(Kit::REPAIRED))
             .switched(&switched(Kit::REPAIRED)),
         Rule::new(AHEAD, "As published, KIT only where the way ahead is blocked", |setup| {
             start(setup, Kit::AHEAD)
         })
-        .hunted(&Searched(Kit::AHEAD))
+        .hunted(&KernelHunt(Kit::AHEAD))
         .switched(&switched(Kit::AHEAD)),
     ],
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
     extras: &[Extra::RANGE, Extra::SPEED, Extra::SPREAD],
-    drawn: &[Drawn { what: "which of several sides a robot takes, and how fast it drives", by: By::Every }],
+    drawn: &[RandomPart {
+        what: "which of several sides a robot takes, and how fast it drives",
+        by: By::Every,
+    }],
     clauses: &[
         Clause::new(CONTACT.as_str()),
         Clause::new(EQUAL.as_str()),
@@ -120,8 +123,8 @@ struct KitTeam {
 }
 
 /// A rule whose conditions can be switched.
-const fn switched(rule: Kit) -> Switched<Kit> {
-    Switched { rule, start, hunt: |rule, _| Some(Box::new(Searched(rule))) }
+const fn switched(rule: Kit) -> SwitchRule<Kit> {
+    SwitchRule { rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) }
 }
 
 /// The team of `setup`, each robot at its start.

@@ -17,7 +17,7 @@ use tautline_proofs::team::{Keeps, Places, Rule, Setting, Strategy};
 
 use super::hunt::setup as found_setup;
 use super::hunt::{
-    Bound, Done, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, outcome,
+    Bound, Done, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, outcome,
 };
 use super::own::Own;
 use super::run::Team;
@@ -96,8 +96,8 @@ impl<R: Rule + PartialEq + 'static> OwnRule<R> {
             facts: RunSize::Area { columns, rows, walls, steps },
             title: format!("{} and {}", counted(walls, "wall"), counted(steps, "team move")),
             shown: match run.ending {
-                Ending::Endless => Shown::Endless,
-                Ending::Move | Ending::Over => Shown::Run(super::ClauseId::new(clause)),
+                Ending::Endless => Exhibit::Endless,
+                Ending::Move | Ending::Over => Exhibit::Run(super::ClauseId::new(clause)),
             },
             setup,
         })

@@ -266,7 +266,7 @@ pub enum End {
 /// Why a run is over.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Stopped {
+pub enum StopReason {
     /// Every cell of the area is explored.
     Explored,
     /// The cells that are left cannot be reached.
@@ -285,7 +285,7 @@ pub enum Stopped {
     Violation,
 }
 
-impl Stopped {
+impl StopReason {
     /// The reason in words.
     pub const fn words(self) -> &'static str {
         match self {
@@ -342,7 +342,7 @@ pub struct Report {
     /// In which team move each [`Milestone`] was reached, if it was.
     pub milestones: [Option<u32>; Milestone::ALL.len()],
     /// Why it is over.
-    pub stopped: Stopped,
+    pub stopped: StopReason,
     /// The clauses that were broken, in order.
     pub violations: Vec<Violation>,
     /// Which cell was explored when, and how it was marked.
@@ -383,7 +383,7 @@ impl Report {
             explored: 0,
             cells: team.due(layout),
             milestones: [None; Milestone::ALL.len()],
-            stopped: Stopped::Exhausted,
+            stopped: StopReason::Exhausted,
             violations: Vec::new(),
             chart: Survey::new(team.area(layout)),
             team: team.cells().to_vec(),
@@ -413,7 +413,7 @@ impl Report {
     }
 
     /// The run is over.
-    pub(super) fn end(&mut self, stopped: Stopped, team: &dyn Team) {
+    pub(super) fn end(&mut self, stopped: StopReason, team: &dyn Team) {
         self.stopped = stopped;
         (self.team, self.components) = (team.cells().to_vec(), team.components().to_vec());
         (self.milliseconds, self.failures, self.objects) =
@@ -439,15 +439,15 @@ pub fn run(
 }
 
 /// Why the limits stop a run, if they do.
-pub(super) fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
+pub(super) fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<StopReason> {
     let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
     let is_broken = report.violations.iter().any(|broken| limits.violation.is_final(broken.clause));
     if is_broken {
-        Some(Stopped::Violation)
+        Some(StopReason::Violation)
     } else if limits.until.is_some_and(|milestone| report.reached(milestone).is_some()) {
-        Some(Stopped::Until)
+        Some(StopReason::Until)
     } else if limits.max_moves.is_some_and(is_far) {
-        Some(Stopped::MaxMoves)
+        Some(StopReason::MaxMoves)
     } else {
         None
     }

@@ -7,7 +7,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
-use super::catalogue::{Drawn, Scheme, Senses, Starts};
+use super::catalogue::{RandomPart, Scheme, Senses, Starts};
 use super::clause::ClauseId;
 use super::rule::{Rule, RuleId};
 use super::run::{Limits, Report, Survey, Team, TeamMove, Watcher, run};
@@ -114,7 +114,7 @@ const DEFAULT_ROBOTS: u16 = 8;
 
 /// An exploration that is asked for.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct ExplorationRequest {
     /// The scheme.
     pub scheme: Scheme,
     /// One of its rules.
@@ -137,7 +137,7 @@ pub struct Asked {
     pub limits: Limits,
 }
 
-impl Asked {
+impl ExplorationRequest {
     /// A run of `rule` of which nothing else is said.
     pub fn new(scheme: impl Into<Scheme>, rule: impl Into<RuleId>) -> Self {
         Self {
@@ -294,7 +294,7 @@ impl Scheme {
     /// The fault of a seed by which nothing is drawn.
     pub fn needless_seed(self) -> Diagnostic {
         let name = self.name;
-        let drawn: Vec<String> = self.drawn.iter().map(Drawn::to_string).collect();
+        let drawn: Vec<String> = self.drawn.iter().map(RandomPart::to_string).collect();
         let remedy = match drawn[..] {
             [] => {
                 format!(

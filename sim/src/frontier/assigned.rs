@@ -14,7 +14,7 @@ use tautline_kernel::ground::{Area, Cell, Side};
 use tautline_proofs::run::Frame;
 
 use super::chart::Chart;
-use super::{Ended, Moves, PATIENCE};
+use super::{Moves, PATIENCE, TeamEnd};
 use tautline_grids::layout::Layout;
 
 /// How frontier cells are assigned.
@@ -36,7 +36,7 @@ type Ways = BTreeMap<Cell, u32>;
 
 /// A team whose cells are assigned.
 #[derive(Clone, Debug)]
-pub struct Assigned {
+pub struct AssignedTeam {
     assignment: Assignment,
     layout: Layout,
     area: Area,
@@ -51,7 +51,7 @@ pub struct Assigned {
 /// The sides of a cell, in the order of the numbers of the cells beyond them.
 const BY_NUMBER: [Side; 4] = [Side::North, Side::West, Side::East, Side::South];
 
-impl Assigned {
+impl AssignedTeam {
     /// A team in these starts.
     pub fn new(assignment: Assignment, layout: &Layout, starts: &[Cell]) -> Self {
         let area = layout.size().area();
@@ -83,11 +83,11 @@ impl Assigned {
     /// Makes a team move.
     ///
     /// # Errors
-    /// [`Ended`] if there is none.
-    pub fn advance(&mut self) -> Result<Frame, Ended> {
+    /// [`TeamEnd`] if there is none.
+    pub fn advance(&mut self) -> Result<Frame, TeamEnd> {
         let frontier = self.frontier();
         if frontier.is_empty() {
-            return Err(Ended::Known);
+            return Err(TeamEnd::Known);
         }
         self.aims = self.assigned(&frontier);
         let before = self.chart.len();
@@ -121,7 +121,7 @@ impl Assigned {
         // Who assigns anew does the same again when nobody has moved.
         let waits = is_still && matches!(self.assignment, Assignment::Earlier | Assignment::HungarianAnew);
         if waits || self.idle > PATIENCE * self.area.width() * self.area.height() {
-            return Err(Ended::Endless);
+            return Err(TeamEnd::Endless);
         }
         Ok(moves.frame(&self.cells))
     }

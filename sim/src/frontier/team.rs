@@ -12,7 +12,7 @@ use tautline_proofs::run::Frame;
 use super::chart::{Chart, Memory};
 use super::radio::{Pose, Radio, cell_at, cell_of, place_of};
 use super::waves::{Knowledge, Waves};
-use super::{Ended, Moves, PATIENCE};
+use super::{Moves, PATIENCE, TeamEnd};
 use crate::options::Options;
 use tautline_grids::layout::Layout;
 
@@ -200,13 +200,13 @@ impl Explorers {
     /// Makes a team move.
     ///
     /// # Errors
-    /// [`Ended`] if there is none.
-    pub fn advance(&mut self) -> Result<Frame, Ended> {
+    /// [`TeamEnd`] if there is none.
+    pub fn advance(&mut self) -> Result<Frame, TeamEnd> {
         self.advance_by(Self::next)
     }
 
     /// Makes a team move, each robot by what `next` says of it.
-    fn advance_by(&mut self, next: impl Fn(&mut Self, usize) -> Next) -> Result<Frame, Ended> {
+    fn advance_by(&mut self, next: impl Fn(&mut Self, usize) -> Next) -> Result<Frame, TeamEnd> {
         let robots = self.robots.len();
         let mut moves = Moves::none(robots);
         self.is_wrong = false;
@@ -254,7 +254,7 @@ impl Explorers {
             }
         }
         if !does_any {
-            return Err(if know_all { Ended::Known } else { Ended::Still });
+            return Err(if know_all { TeamEnd::Known } else { TeamEnd::Still });
         }
         for (robot, to) in entering.into_iter().enumerate() {
             if stands[robot] {
@@ -282,7 +282,7 @@ impl Explorers {
         let after: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
         self.idle = if after == before { self.idle + 1 } else { 0 };
         if self.idle > PATIENCE * self.area.width() * self.area.height() {
-            return Err(Ended::Endless);
+            return Err(TeamEnd::Endless);
         }
         Ok(moves.frame(&self.cells))
     }

@@ -41,13 +41,13 @@ pub struct ForeignRun {
 }
 
 /// A header that does not say when a run is stopped.
-type Named = Header<IgnoredAny>;
+type ForeignHeader = Header<IgnoredAny>;
 
 impl ForeignRun {
     /// Reads the lines of a run behind its header, which is `text`.
     pub(super) fn read(lines: Lines, text: &str) -> Result<Self, Diagnostic> {
         let mut lines = lines.made_by(AGAIN);
-        let header: Named = lines.parse(text, AGAIN)?;
+        let header: ForeignHeader = lines.parse(text, AGAIN)?;
         let layout = drawn(&lines, text, &header.layout, header.base, AGAIN)?;
         if let Err((key, what)) = check_header(&header, &layout) {
             return Err(lines.fault(text, key, what, AGAIN));
@@ -121,12 +121,12 @@ impl Play for ForeignRun {
 }
 
 /// Where the robots of a header start.
-fn starts(header: &Named) -> Vec<Cell> {
+fn starts(header: &ForeignHeader) -> Vec<Cell> {
     header.starts.clone().unwrap_or_else(|| vec![header.base; header.robots.into()])
 }
 
 /// Checks what a header says of the team: else the key that is wrong, and what is wrong with it.
-fn check_header(header: &Named, layout: &Layout) -> Result<(), (&'static str, String)> {
+fn check_header(header: &ForeignHeader, layout: &Layout) -> Result<(), (&'static str, String)> {
     let Header { scheme, rule, robots, clause, .. } = header;
     for (key, name) in [("scheme", Some(scheme)), ("rule", Some(rule)), ("clause", clause.as_ref())] {
         if let Some(name) = name.filter(|name| !is_word(name)) {

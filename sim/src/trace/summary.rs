@@ -8,11 +8,11 @@ use tautline_kernel::ground::Cell;
 
 use super::StoredViolation;
 use crate::explore::floor::Component;
-use crate::explore::{Knowledge, Milestone, Play, Report, Setup, Stopped, Violation};
+use crate::explore::{Knowledge, Milestone, Play, Report, Setup, StopReason, Violation};
 use crate::failures::Failures;
 use crate::objects::ObjectReport;
 use tautline_grids::chance::Probability;
-use tautline_grids::layout::CellWritten;
+use tautline_grids::layout::ColumnRow;
 
 /// The JSON of a run.
 #[derive(JsonSchema, Serialize)]
@@ -22,7 +22,7 @@ pub struct Summary<'a> {
     robots: u16,
     seed: u64,
     layout: &'a str,
-    #[schemars(with = "CellWritten")]
+    #[schemars(with = "ColumnRow")]
     base: Cell,
     #[serde(flatten)]
     floor: Option<FloorSummary<'a>>,
@@ -31,7 +31,7 @@ pub struct Summary<'a> {
     cells: u32,
     #[schemars(with = "BTreeMap<String, Option<u32>>")]
     milestones: BTreeMap<u32, Option<u32>>,
-    stopped: Stopped,
+    stopped: StopReason,
     /// The failures, where something was to fail.
     #[serde(skip_serializing_if = "Option::is_none")]
     faults: Option<Failures>,
@@ -47,7 +47,7 @@ pub struct Summary<'a> {
 struct FloorSummary<'a> {
     miss: Probability,
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Option<Vec<CellWritten>>")]
+    #[schemars(with = "Option<Vec<ColumnRow>>")]
     starts: Option<&'a [Cell]>,
     #[serde(flatten)]
     marked: Option<MarkSummary>,

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use tautline_grids::layout::{Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::explore;
-use tautline_sim::explore::hunt::{Far, HuntReport, Hunter, Shown};
+use tautline_sim::explore::hunt::{Exhibit, Far, HuntReport, Hunter};
 
 /// The layout of this seed that a description stands for.
 pub(crate) fn generated(description: &str, seed: u64) -> Layout {
@@ -15,8 +15,8 @@ pub(crate) fn generated(description: &str, seed: u64) -> Layout {
 /// Runs each counterexample that has a file once more, checks that it breaks its clause, and counts them.
 pub(crate) fn run_again(hunted: &HuntReport) -> usize {
     let stored = hunted.found.iter().filter_map(|quarry| match quarry.shown {
-        Shown::Run(clause) | Shown::Story(clause, _) => Some((clause, quarry)),
-        Shown::Endless | Shown::Told(_) => None,
+        Exhibit::Run(clause) | Exhibit::Story(clause, _) => Some((clause, quarry)),
+        Exhibit::Endless | Exhibit::Told(_) => None,
     });
     let mut count = 0;
     for (clause, quarry) in stored {
@@ -29,9 +29,9 @@ pub(crate) fn run_again(hunted: &HuntReport) -> usize {
 }
 
 /// Nobody watches; the hunts of these tests keep no file.
-pub(crate) struct Unwatched;
+pub(crate) struct NoWatcher;
 
-impl Hunter for Unwatched {
+impl Hunter for NoWatcher {
     fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }

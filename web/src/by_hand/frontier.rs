@@ -7,7 +7,7 @@ use tautline_proofs::frontier::areas::{setting, words};
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor, World};
 use tautline_sim::explore::{Ink, Layer, Place, Shape, Value};
 
-use super::{ByHand, Picture, Played, Scene, Shown, chosen, small_team, too_large};
+use super::{ByHand, Picture, Scene, SceneWorld, WorldRun, chosen, small_team, too_large};
 use crate::play::Play;
 use crate::settings::Settings;
 
@@ -45,10 +45,10 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
     let cells = setup.starts();
     let world = <[Cell; ROBOTS]>::try_from(cells.as_slice()).ok().and_then(|cells| setting.start(cells));
     let world = world.ok_or_else(too_large)?;
-    Ok(Played::boxed(setting, world, settings.seed))
+    Ok(WorldRun::boxed(setting, world, settings.seed))
 }
 
-impl<const ROBOTS: usize> Shown for Setting<ROBOTS> {
+impl<const ROBOTS: usize> SceneWorld for Setting<ROBOTS> {
     fn scene(&self) -> Scene {
         let about = "what the followed robot has noted of cells";
         Scene {

@@ -7,7 +7,7 @@ use tautline_proofs::kit::counterexample::words;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Successor, World};
 use tautline_sim::explore::{Ink, Joins, Layer, Place, Shape, Value, Zone};
 
-use super::{ByHand, Picture, Played, Scene, Shown, chosen, small_team, too_large};
+use super::{ByHand, Picture, Scene, SceneWorld, WorldRun, chosen, small_team, too_large};
 use crate::play::Play;
 use crate::settings::Settings;
 
@@ -48,10 +48,10 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
     let world = world.ok_or_else(|| {
         Diagnostic::of_field("starts", "the robots cannot start so", "start each of them beside another one")
     })?;
-    Ok(Played::boxed(setting, world, settings.seed))
+    Ok(WorldRun::boxed(setting, world, settings.seed))
 }
 
-impl<const ROBOTS: usize> Shown for Setting<ROBOTS> {
+impl<const ROBOTS: usize> SceneWorld for Setting<ROBOTS> {
     fn scene(&self) -> Scene {
         Scene {
             area: self.area,

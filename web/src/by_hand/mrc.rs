@@ -6,11 +6,11 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::mrc::{Phase, Rule, Task};
 use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{
-    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Served, Setting, State, WFRS, chart,
+    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Server, Setting, State, WFRS, chart,
 };
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, Hunted, Picture, Played, Scene, Shown, chosen, number, search};
+use super::{ByHand, HuntFindings, Picture, Scene, SceneWorld, WorldRun, chosen, number, search};
 use crate::play::Play;
 use crate::schemes::of_world;
 use crate::settings::Settings;
@@ -48,10 +48,10 @@ fn row() -> Json {
 
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
     let setting = setting(settings)?;
-    Ok(Played::boxed(Space { setting, until: Until::Exhausted }, setting.start(0), settings.seed))
+    Ok(WorldRun::boxed(Space { setting, until: Until::Exhausted }, setting.start(0), settings.seed))
 }
 
-fn hunt(settings: &Settings, most_steps: u64) -> Result<Hunted, Diagnostic> {
+fn hunt(settings: &Settings, most_steps: u64) -> Result<HuntFindings, Diagnostic> {
     let setting = setting(settings)?;
     let space = Space { setting, until: Until::Exhausted };
     Ok(search(&space, &setting.start(0), most_steps, |demand: Demand| Some(demand.clause())))
@@ -66,7 +66,7 @@ fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
     Ok(Setting {
         rule: chosen(&[("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED)], settings)?,
         misread: None,
-        served: Served::ByAny,
+        served: Server::ByAny,
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),
         events: number(settings, "events", 2, 9)?,
@@ -90,7 +90,7 @@ fn actors(setting: &Setting) -> Vec<Actor> {
     (0..setting.wfrs).map(Actor::Wfr).chain((0..setting.robots).map(Actor::Robot)).collect()
 }
 
-impl Shown for Space {
+impl SceneWorld for Space {
     fn scene(&self) -> Scene {
         let columns = 2 * self.setting.robots.max(self.setting.wfrs) as i16;
         let first = Cell::new(0, 0);

@@ -12,7 +12,7 @@ use tautline_proofs::notice::networks::{Case, SMALL};
 use tautline_proofs::notice::spread::{Demand, Event, Spread};
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, Hunted, Picture, Played, Scene, Shown, chosen, number, search, starts};
+use super::{ByHand, HuntFindings, Picture, Scene, SceneWorld, WorldRun, chosen, number, search, starts};
 use crate::play::Play;
 use crate::schemes::of_world;
 use crate::settings::Settings;
@@ -60,10 +60,10 @@ struct Network {
 fn start(settings: &Settings) -> Result<Box<dyn Play>, Diagnostic> {
     let network = network(settings)?;
     let state = network.case.start();
-    Ok(Played::boxed(network, state, settings.seed))
+    Ok(WorldRun::boxed(network, state, settings.seed))
 }
 
-fn hunt(settings: &Settings, most_steps: u64) -> Result<Hunted, Diagnostic> {
+fn hunt(settings: &Settings, most_steps: u64) -> Result<HuntFindings, Diagnostic> {
     let Network { case, rule, .. } = network(settings)?;
     Ok(search(&case, &case.start(), most_steps, |(demand, _)| {
         is_asked(&rule, demand).then(|| clause(demand))
@@ -140,7 +140,7 @@ impl World for Network {
     }
 }
 
-impl Shown for Network {
+impl SceneWorld for Network {
     fn scene(&self) -> Scene {
         Scene {
             area: self.area,

@@ -14,7 +14,7 @@ use super::limits::{Limits, MemoryLimit, MemoryShare};
 use super::rounds::{NONE, TooLarge};
 use super::search::{Search, search};
 use super::{Bits, Scratch, System};
-use crate::engine::model::{LOST, Started};
+use crate::engine::model::{LOST, StatesModel};
 
 /// Why there is no certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -64,7 +64,7 @@ pub trait AnySystem: Sync {
     fn search(&self, limits: Limits<'_>) -> u64;
 }
 
-impl<S> AnySystem for Started<S>
+impl<S> AnySystem for StatesModel<S>
 where
     S: System + Sync,
     S::State: Send,

@@ -39,7 +39,7 @@ impl<P: Clone + Eq> Parts<P> {
 
 /// A state that is shown, and the numbers of its parts: of the next one only the parts are put that they do not share.
 #[derive(Clone)]
-pub(super) struct Shown<T> {
+pub(super) struct Cursor<T> {
     pub(super) state: T,
     pub(super) code: Code,
 }
@@ -151,7 +151,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         &mut self,
         system: &S,
         node: usize,
-        shown: &mut Shown<S::State>,
+        shown: &mut Cursor<S::State>,
     ) -> Option<()> {
         self.load(node..node + 1).then(|| self.show_loaded(system, node, shown))?
     }
@@ -161,7 +161,7 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         &self,
         system: &S,
         node: usize,
-        Shown { state, code: shown }: &mut Shown<S::State>,
+        Cursor { state, code: shown }: &mut Cursor<S::State>,
     ) -> Option<()> {
         let code = self.code(node)?;
         if self.places == 0 {
@@ -284,12 +284,12 @@ mod tests {
     }
 
     /// The table, and the state that is shown.
-    struct Known(StateTable<u32>, Shown<[u32; 3]>);
+    struct TestTable(StateTable<u32>, Cursor<[u32; 3]>);
 
-    impl Known {
+    impl TestTable {
         fn new() -> Self {
             let table = StateTable { places: 3, ..StateTable::new() };
-            Self(table, Shown { state: [0; 3], code: Code::default() })
+            Self(table, Cursor { state: [0; 3], code: Code::default() })
         }
 
         fn meet(&mut self, states: &[[u32; 3]], differing: Places) -> Vec<(u32, bool)> {
@@ -312,7 +312,7 @@ mod tests {
     /// The parts of the last one need numbers of two bytes.
     #[test]
     fn states_that_are_looked_up_together_are_met_in_their_order() {
-        let mut known = Known::new();
+        let mut known = TestTable::new();
         known.meet(&[[0, 0, 0]], Places::MAX);
         let many: Vec<_> = (0..84).map(|state| [3 * state + 1, 3 * state + 2, 3 * state + 3]).collect();
         known.meet(&many, Places::MAX);
@@ -325,7 +325,7 @@ mod tests {
     /// The second queue was begun before the parts of the first one were taken, and has one of them.
     #[test]
     fn parts_that_two_queues_have_numbered_are_one() {
-        let Known(mut table, shown) = Known::new();
+        let TestTable(mut table, shown) = TestTable::new();
         let mut queues = [[[1, 2, 3], [1, 2, 2]], [[4, 2, 1], [3, 2, 1]]].map(|states| {
             let mut queue = Queue::for_table(&table);
             for state in &states {
@@ -349,10 +349,10 @@ mod tests {
     /// Among so many states some have the hash of another one.
     #[test]
     fn states_with_one_hash_are_found_each_for_itself() {
-        let mut known = Known::new();
+        let mut known = TestTable::new();
         let states: Vec<_> = (0..200_000).map(|state| [state, state / 2, state % 7]).collect();
         known.meet(&states, Places::MAX);
-        let Known(table, _) = known;
+        let TestTable(table, _) = known;
         let mut collisions = 0;
         for (node, state) in (0..).zip(&states) {
             let hash = table.queue_of(&Triples, state).front().map(|(hash, _)| hash);
@@ -366,7 +366,7 @@ mod tests {
     #[test]
     fn states_stay_apart_and_come_back_when_their_numbers_grow() {
         const STATES: u32 = 70_000;
-        let mut known = Known::new();
+        let mut known = TestTable::new();
         let parts = |state: u32| [state, state + 1, 7];
         for state in 0..STATES {
             assert_eq!(known.meet(&[parts(state)], 0b011), [(state, true)]);

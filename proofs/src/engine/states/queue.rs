@@ -8,14 +8,14 @@ use std::mem;
 
 use super::code::{Code, HashOfState, hash_of, hash_of_part, number};
 use super::known::{Parts, StateTable};
-use super::spill::Wanted;
+use super::spill::Lookup;
 use super::{Places, System};
 
 /// States that wait to be looked up in a table, in the order in which they are to be met.
 pub(super) struct Queue<P> {
     /// Their codes, one after the other.
     bytes: Vec<u8>,
-    states: Vec<Queued>,
+    states: Vec<QueueEntry>,
     /// How many were met, and where the code of the next one begins.
     met: usize,
     first: usize,
@@ -31,7 +31,7 @@ pub(super) struct Queue<P> {
     made: Code,
 }
 
-struct Queued {
+struct QueueEntry {
     hash: HashOfState,
     /// Where its code ends.
     end: usize,
@@ -122,7 +122,7 @@ impl<P: Clone + Eq + Hash> Queue<P> {
     }
 
     fn push(&mut self, hash: HashOfState, has_new: bool) {
-        self.states.push(Queued { hash, end: self.bytes.len(), node: None, has_new });
+        self.states.push(QueueEntry { hash, end: self.bytes.len(), node: None, has_new });
     }
 
     /// Gives the next new parts their numbers in the table.
@@ -137,7 +137,7 @@ impl<P: Clone + Eq + Hash> Queue<P> {
     /// The next state, whose new parts have their numbers: its hash, its code in a table of numbers of so many bytes,
     /// and its own number if it was found.
     pub(super) fn next(&mut self, width: usize) -> (HashOfState, &[u8], Option<u32>) {
-        let Queued { hash, end, node, has_new } = self.states[self.met];
+        let QueueEntry { hash, end, node, has_new } = self.states[self.met];
         let code = &self.bytes[mem::replace(&mut self.first, end)..end];
         self.met += 1;
         let is_renumbered = has_new && self.is_renumbered;
@@ -168,11 +168,11 @@ impl<P: Clone + Eq + Hash> Queue<P> {
     }
 
     /// The states that were not found, to be looked for on disk.
-    pub(super) fn unknown(&mut self) -> impl Iterator<Item = Wanted<'_>> {
+    pub(super) fn unknown(&mut self) -> impl Iterator<Item = Lookup<'_>> {
         let (bytes, mut first) = (&self.bytes, 0);
         let all = self.states.iter_mut().map(move |state| {
             let code = &bytes[mem::replace(&mut first, state.end)..state.end];
-            (!state.has_new).then_some(Wanted { hash: state.hash, code, node: &mut state.node })
+            (!state.has_new).then_some(Lookup { hash: state.hash, code, node: &mut state.node })
         });
         all.flatten().filter(|wanted| wanted.node.is_none())
     }
@@ -189,6 +189,6 @@ impl<P: Clone + Eq + Hash> Queue<P> {
 
     /// The bytes that it takes while its states are looked for on disk.
     pub(super) const fn bytes(&self) -> usize {
-        self.bytes.len() + self.states.len() * (size_of::<Queued>() + size_of::<Wanted<'_>>())
+        self.bytes.len() + self.states.len() * (size_of::<QueueEntry>() + size_of::<Lookup<'_>>())
     }
 }

@@ -7,12 +7,12 @@ use std::{io, iter, mem};
 
 use super::code::Code;
 use super::graph::{Arc, Graph};
-use super::known::{Shown, StateTable};
+use super::known::{Cursor, StateTable};
 use super::limits::{Limits, MemoryShare, Room};
 use super::queue::Queue;
 use super::rounds::{Round, TooLarge};
 use super::spill::{Disk, Numbers};
-use super::together::{self, Chunk, Expanded};
+use super::together::{self, Chunk, Expansion};
 use super::{Bits, END, Ending, Findings, Places, Run, System, TRIED, steps};
 use crate::engine::threads;
 
@@ -71,7 +71,7 @@ pub(super) struct Search<'a, S: System> {
     steps: u64,
     /// The bytes of steps that are made and not taken yet, where states are on disk.
     making: u64,
-    pub(super) shown: Option<Box<Shown<S::State>>>,
+    pub(super) shown: Option<Box<Cursor<S::State>>>,
     /// A chunk that was taken.
     spare: Chunk<S>,
     room: Room<'a>,
@@ -161,7 +161,7 @@ impl<'a, S: System> Search<'a, S> {
                 let Some(mut state) = starts.next() else { break };
                 self.system.make_canonical(&mut state);
                 queue.put((self.system, &self.known), &Code::default(), &state, Places::MAX);
-                self.shown.get_or_insert_with(|| Box::new(Shown { state, code: Code::default() }));
+                self.shown.get_or_insert_with(|| Box::new(Cursor { state, code: Code::default() }));
                 queued += 1;
             }
             if queued == 0 {
@@ -187,7 +187,7 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     /// The state of a node, to be given back as what is shown.
-    pub(super) fn show(&mut self, node: usize) -> Option<Box<Shown<S::State>>> {
+    pub(super) fn show(&mut self, node: usize) -> Option<Box<Cursor<S::State>>> {
         let mut shown = self.shown.take()?;
         self.known.show(self.system, node, &mut shown)?;
         Some(shown)
@@ -339,7 +339,7 @@ impl<'a, S: System> Search<'a, S> {
         let mut state = start.clone();
         self.system.make_canonical(&mut state);
         let is_first = self.known.is_at(self.system, &state, 0);
-        self.shown = Some(Box::new(Shown { state, code: Code::default() }));
+        self.shown = Some(Box::new(Cursor { state, code: Code::default() }));
         let ends = [0..self.looked_at.min(TRIED), self.looked_at.saturating_sub(TRIED)..self.looked_at];
         is_first && ends.into_iter().all(|nodes| self.finds_again(nodes))
     }
@@ -383,7 +383,7 @@ impl<'a, S: System> Search<'a, S> {
     ) -> ControlFlow<Stop> {
         let Chunk { queue, steps, nodes, .. } = &mut chunk;
         let mut steps = steps.drain(..);
-        for Expanded { steps: count, new_parts, owed, at_end } in nodes.drain(..) {
+        for Expansion { steps: count, new_parts, owed, at_end } in nodes.drain(..) {
             self.may_go_on(watch)?;
             self.known.take_parts(queue, new_parts);
             let node = self.looked_at;

@@ -21,7 +21,7 @@ use std::sync::{Mutex, PoisonError};
 use tautline_certificates::digest;
 
 pub use self::file::HEAD;
-pub(super) use self::file::{Numbers, Wanted};
+pub(super) use self::file::{Lookup, Numbers};
 use self::file::{Segment, Writer};
 use super::tables::Codes;
 use crate::engine::threads;
@@ -281,10 +281,10 @@ impl Disk {
     }
 
     /// Looks for states in all files, by so many workers. False if one cannot be read.
-    pub(super) fn look_up(&mut self, mut wanted: Vec<Wanted<'_>>, workers: usize) -> bool {
+    pub(super) fn look_up(&mut self, mut wanted: Vec<Lookup<'_>>, workers: usize) -> bool {
         wanted.sort_unstable_by_key(|wanted| wanted.hash);
         let segments = &self.segments;
-        let sweep = |part: &mut [Wanted<'_>]| {
+        let sweep = |part: &mut [Lookup<'_>]| {
             let failed =
                 |segment: &Segment| segment.look_up(part).err().map(|error| (segment.path.clone(), error));
             segments.iter().find_map(failed)

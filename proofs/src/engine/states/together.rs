@@ -4,7 +4,7 @@
 
 use std::ops::{ControlFlow, Range};
 
-use super::known::{Shown, StateTable};
+use super::known::{Cursor, StateTable};
 use super::queue::Queue;
 use super::{Bits, Scratch, Step, System};
 use crate::engine::threads;
@@ -21,12 +21,12 @@ pub(super) struct Chunk<S: System> {
     pub(super) queue: Queue<S::Part>,
     /// Of each step the situations that it is, who acts if it is bound to be made, and the demands that it breaks.
     pub(super) steps: Vec<(u64, Option<Bits>, Vec<S::Demand>)>,
-    pub(super) nodes: Vec<Expanded<S::Demand>>,
+    pub(super) nodes: Vec<Expansion<S::Demand>>,
     scratch: Scratch<S::State>,
 }
 
 /// A state from which all steps were made.
-pub(super) struct Expanded<D> {
+pub(super) struct Expansion<D> {
     pub(super) steps: usize,
     /// The parts of the states to which they lead that neither the table had nor a state of the chunk before.
     pub(super) new_parts: usize,
@@ -46,7 +46,7 @@ impl<S: System> Chunk<S> {
         &mut self,
         (system, known): (&S, &StateTable<S::Part>),
         range: Range<usize>,
-        shown: &mut Shown<S::State>,
+        shown: &mut Cursor<S::State>,
     ) {
         let making = Steps::begin();
         let Self { queue, steps, nodes, scratch } = self;
@@ -59,7 +59,7 @@ impl<S: System> Chunk<S> {
             if known.show_loaded(system, node, shown).is_none() {
                 break;
             }
-            let Shown { state, code } = &*shown;
+            let Cursor { state, code } = &*shown;
             let (steps_before, parts_before, mut is_still) = (steps.len(), queue.new_parts(), true);
             let mut flow = system.each_step(state, scratch, |step| {
                 making.next();
@@ -76,7 +76,7 @@ impl<S: System> Chunk<S> {
             if at_end.as_deref().is_some_and(is_enough) {
                 flow = ControlFlow::Break(());
             }
-            nodes.push(Expanded {
+            nodes.push(Expansion {
                 steps: steps.len() - steps_before,
                 new_parts: queue.new_parts() - parts_before,
                 owed: system.owed(state),
@@ -106,7 +106,7 @@ pub fn pieces(nodes: Range<usize>, workers: usize) -> impl Iterator<Item = Range
 /// The steps from all these nodes, by so many workers.
 pub(super) fn share_out<S: System>(
     of: (&S, &StateTable<S::Part>),
-    shown: &Shown<S::State>,
+    shown: &Cursor<S::State>,
     nodes: Range<usize>,
     workers: usize,
 ) -> Vec<Chunk<S>> {

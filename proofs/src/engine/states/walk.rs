@@ -48,9 +48,9 @@ pub fn walk<S: System>(
 }
 
 /// A state, as far as it is kept.
-type Kept<S> = (Vec<<S as System>::Part>, Vec<u8>);
+type StateParts<S> = (Vec<<S as System>::Part>, Vec<u8>);
 
-pub(super) fn kept<S: System>(system: &S, state: &S::State) -> Kept<S> {
+pub(super) fn kept<S: System>(system: &S, state: &S::State) -> StateParts<S> {
     let mut bytes = Vec::new();
     system.write(state, &mut bytes);
     ((0..system.places(state)).map(|place| system.part(state, place)).collect(), bytes)

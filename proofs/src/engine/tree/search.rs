@@ -12,7 +12,7 @@ use super::forecast::Forecast;
 use super::lane::{self, Lane, Place, Rerun};
 use super::share::Share;
 use super::{Counterexample, Findings, Game, Level, Limits, Progress, Unsearchable, Watch};
-use crate::engine::model::Played;
+use crate::engine::model::RunsModel;
 use crate::engine::watchdog::Steps;
 use crate::engine::{ScriptError, Until, threads};
 
@@ -427,6 +427,6 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
 
     fn check(&self, demand: G::Demand, section: &[u8]) -> Result<Counts, Refusal> {
         let most_mishaps = self.limits.max_walls;
-        check_runs(&Played { game: &self.game, most_mishaps, demand }, section)
+        check_runs(&RunsModel { game: &self.game, most_mishaps, demand }, section)
     }
 }

@@ -22,14 +22,14 @@ pub struct Act {
     /// The robot that acts, or to which the message is sent.
     pub robot: usize,
     /// Its act, or the fate of the message.
-    pub said: Said,
+    pub said: TalkEvent,
     /// The message, of one that is on its way.
     pub word: Option<Word>,
 }
 
 /// An act of a robot, or the fate of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Said {
+pub enum TalkEvent {
     /// A robot comes to its node.
     Arrives,
     /// A robot decides and drives to another node.
@@ -58,7 +58,7 @@ pub enum Word {
 
 plain!(Talk { has_turns, faults, acts });
 plain!(Act { robot, said, word });
-plain!(Said one of Arrives, Drives, Stays, Hears, Misses, Doubled);
+plain!(TalkEvent one of Arrives, Drives, Stays, Hears, Misses, Doubled);
 
 impl super::super::change::Plain for Word {
     fn change(&mut self, change: &mut super::super::change::Change) {
@@ -113,7 +113,7 @@ impl Case for Talk {
         let second = Robot { phase: Phase::Asks, has_turn: false, ..first };
         let mut court = Court { has_turns: self.has_turns, robots: [first, second], letters: Vec::new() };
         court.send(0, Word::Request);
-        let is_fault = |act: &&Act| matches!(act.said, Said::Misses | Said::Doubled);
+        let is_fault = |act: &&Act| matches!(act.said, TalkEvent::Misses | TalkEvent::Doubled);
         let faults = self.acts.iter().filter(is_fault).count();
         must(faults == self.faults, "there are more faults, or fewer")?;
         for (number, act) in (1..).zip(&self.acts) {
@@ -151,7 +151,8 @@ impl Court {
     fn act(&mut self, act: &Act) -> Result<bool, &'static str> {
         let robot = act.robot;
         must(robot < 2, "there is no such robot")?;
-        let is_about = |said: Said| matches!(said, Said::Hears | Said::Misses | Said::Doubled);
+        let is_about =
+            |said: TalkEvent| matches!(said, TalkEvent::Hears | TalkEvent::Misses | TalkEvent::Doubled);
         must(act.word.is_some() == is_about(act.said), "what happens has a message, or has none")?;
         if let Some(word) = act.word {
             // Of a message and its copy the message itself keeps more from happening.
@@ -164,9 +165,9 @@ impl Court {
                 .ok_or("no such message is on its way")?;
             let letter = self.letters.remove(place);
             match act.said {
-                Said::Doubled => self.letters.extend([letter, Letter { is_copy: true, ..letter }]),
-                Said::Hears => self.hear(robot, word),
-                Said::Arrives | Said::Drives | Said::Stays | Said::Misses => {}
+                TalkEvent::Doubled => self.letters.extend([letter, Letter { is_copy: true, ..letter }]),
+                TalkEvent::Hears => self.hear(robot, word),
+                TalkEvent::Arrives | TalkEvent::Drives | TalkEvent::Stays | TalkEvent::Misses => {}
             }
             return Ok(false);
         }
@@ -175,13 +176,13 @@ impl Court {
         must(!is_late, "a message takes less time than two acts of a robot")?;
         self.letters.iter_mut().for_each(|letter| letter.acted[robot] = true);
         let own = self.robots[robot];
-        let phase = if act.said == Said::Arrives { Phase::Drives } else { Phase::Decides };
+        let phase = if act.said == TalkEvent::Arrives { Phase::Drives } else { Phase::Decides };
         must(own.phase == phase, "a robot does what it cannot do now")?;
-        let is_stale = act.said != Said::Arrives && own.told != self.robots[1 - robot].node;
+        let is_stale = act.said != TalkEvent::Arrives && own.told != self.robots[1 - robot].node;
         match act.said {
-            Said::Arrives if self.has_turns && own.has_turn => self.robots[robot].phase = Phase::Decides,
-            Said::Arrives => self.ask(robot),
-            Said::Drives => {
+            TalkEvent::Arrives if self.has_turns && own.has_turn => self.robots[robot].phase = Phase::Decides,
+            TalkEvent::Arrives => self.ask(robot),
+            TalkEvent::Drives => {
                 self.robots[robot] = Robot { phase: Phase::Drives, node: 1 - own.node, ..own };
                 self.pay(robot);
             }

@@ -11,16 +11,16 @@ pub struct Wire {
     /// How many flags there are: three as published, four with *Flags*.
     pub flags: i32,
     /// The message that is sent.
-    pub sent: Sent,
+    pub sent: WireMessage,
     /// Flag, column and row, north, east, south, west.
     pub fields: [i32; 7],
     /// The message that is read, if it is one.
-    pub read: Option<Sent>,
+    pub read: Option<WireMessage>,
 }
 
 /// A message with the number of its request.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Sent {
+pub struct WireMessage {
     /// Request, acknowledgement, response, acknowledgement of the response, from 0.
     pub kind: i32,
     /// The node that it tells.
@@ -32,9 +32,9 @@ pub struct Sent {
 }
 
 plain!(Wire { flags, sent, fields, read });
-plain!(Sent { kind, node, sides, number });
+plain!(WireMessage { kind, node, sides, number });
 
-impl Sent {
+impl WireMessage {
     /// A request and a response tell a node and its sides, an acknowledgement nothing.
     fn is_one(&self) -> bool {
         let is_plain = self.node == (0, 0) && self.sides == [false; 4];
@@ -67,7 +67,7 @@ impl Case for Wire {
         must(self.clause == "KIT-9" && [3, 4].contains(flags), "the judge does not know this")?;
         must(sent.is_one(), "that is no message")?;
         must(sent.fields(*flags) == *fields, "the message has other fields")?;
-        must(Sent::in_fields(*fields, *flags) == *read, "something else is read in these fields")?;
+        must(WireMessage::in_fields(*fields, *flags) == *read, "something else is read in these fields")?;
         Ok(must(*read != Some(*sent), "the message is read as it was sent")?)
     }
 }

@@ -2,7 +2,7 @@
 
 use tautline_kernel::mrc::Rule;
 
-use crate::mrc::{Misreading, Served};
+use crate::mrc::{Misreading, Server};
 
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;
@@ -89,7 +89,7 @@ pub struct Setting {
     /// How they misread what they hear.
     pub misread: Option<Misreading>,
     /// How robots understand the SBit.
-    pub served: Served,
+    pub served: Server,
     /// Robots, at most [`ROBOTS`].
     pub robots: usize,
     /// WFRs, at most [`WFRS`].

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
-use crate::explore::hunt::{Bound, Far, Finding, HuntRequest, Hunter, Shown};
+use crate::explore::hunt::{Bound, Exhibit, Far, Finding, HuntRequest, Hunter};
 use crate::explore::{ClauseId, Setup, explore};
 use tautline_grids::layout::Size;
 
@@ -67,7 +67,7 @@ pub(super) fn minimise(
             }
             watcher.progress.runs += 1;
             let is_wanted = |found: &Finding| match found.shown {
-                Shown::Run(clause) | Shown::Story(clause, _) => clause == violation.clause,
+                Exhibit::Run(clause) | Exhibit::Story(clause, _) => clause == violation.clause,
                 _ => false,
             };
             let Some(found) = hunted.found.into_iter().find(is_wanted) else { continue };

@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Cell, Side};
 
 use super::{CELL, Frame, lines, panel, stripes};
 use crate::explore::{Play, Report, Setup};
-use crate::objects::{Found, ObjectReport};
+use crate::objects::{ObjectEstimate, ObjectReport};
 
 /// The knowledge of a team about a cell: whether it is free, if that is known. A cell that a robot was in is, and a
 /// blocked one beside such a cell is not.
@@ -40,7 +40,7 @@ pub fn map(run: &dyn Play, report: &Report) -> Panel {
         let (x, y) = pixel(*at);
         let _ =
             write!(body, "<path class=\"way\" fill=\"none\" d=\"M{:.1} {:.1}h4v4h-4z\"/>", x - 2.0, y - 2.0);
-        let Some(Found { at, deviations, correlation, .. }) = found else { continue };
+        let Some(ObjectEstimate { at, deviations, correlation, .. }) = found else { continue };
         let (x, y) = pixel(*at);
         // Of Cholesky's factor of the covariance, which makes a circle the ellipse.
         let [across, down] = deviations.map(|sides| sides * f64::from(CELL) * WITHIN);

@@ -8,7 +8,7 @@ use tautline_proofs::plural::counted;
 use super::hunt::{bounds, fault, team};
 use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    Done, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, Shown, outcome, setup,
+    Done, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
 };
 
 /// Searches all areas of at most so many cells.
@@ -104,6 +104,6 @@ fn quarry(asked: &HuntRequest<'_>, Smallest { bounds, found }: &Smallest) -> Res
         facts: RunSize::Area { columns, rows, walls, steps },
         title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
         setup,
-        shown: Shown::of(found.broken.breach().map(ClauseId::from)),
+        shown: Exhibit::of(found.broken.breach().map(ClauseId::from)),
     })
 }

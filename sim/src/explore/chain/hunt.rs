@@ -13,8 +13,8 @@ use tautline_proofs::plural::counted;
 
 use super::areas;
 use crate::explore::hunt::{
-    Begun, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
-    RUN_AGAIN, RunSize, Shown, outcome, setup,
+    Bound, Deal, Deals, Dealt, Done, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
+    OngoingHunt, RUN_AGAIN, RunSize, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
 use tautline_grids::layout::Size;
@@ -60,7 +60,7 @@ impl Hunt for Walls {
         Some(self)
     }
 
-    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn Begun>>, Diagnostic> {
+    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn OngoingHunt>>, Diagnostic> {
         let bounds = self.bounds(asked)?;
         Ok(Some(Box::new(BegunWalls { search: start(&bounds)?, bounds })))
     }
@@ -72,7 +72,7 @@ struct BegunWalls {
     bounds: Bounds,
 }
 
-impl Begun for BegunWalls {
+impl OngoingHunt for BegunWalls {
     fn step(&mut self) -> bool {
         self.search.wave()
     }
@@ -182,7 +182,7 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
                 counted(runs, "run")
             ),
             setup: setup(asked.scheme, asked.rule, &run)?,
-            shown: Shown::of(counterexample.broken.breach().map(ClauseId::from)),
+            shown: Exhibit::of(counterexample.broken.breach().map(ClauseId::from)),
         })
     });
     let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;

@@ -18,7 +18,7 @@ use super::shown;
 use crate::explore::{
     Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Surroundings, Survey, Team,
 };
-use crate::failures::{Appearing, Failure, Failures, Going};
+use crate::failures::{Failure, Failures, MoveOrder, WallAppearance};
 use crate::options::Options;
 use tautline_grids::chance::{Dice, Probability};
 use tautline_grids::layout::Layout;
@@ -87,9 +87,9 @@ pub(super) struct ChainTeam<G, const ROBOTS: usize> {
     /// The places in `cells` of those that are left.
     left: Vec<usize>,
     failure: Option<Failure>,
-    wall: Option<Appearing>,
+    wall: Option<WallAppearance>,
     loss: Probability,
-    going: Going,
+    going: MoveOrder,
     chance: Dice,
     barriers: Vec<Barrier<ROBOTS>>,
     failures: Failures,
@@ -406,7 +406,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         {
             broken.push(Breach::Costly.into());
         }
-        if self.going == Going::OneByOne && !self.holds_one_by_one(before, &frame.cells) {
+        if self.going == MoveOrder::OneByOne && !self.holds_one_by_one(before, &frame.cells) {
             broken.push(ANY_ORDER);
         }
         broken

@@ -13,11 +13,11 @@ use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
 use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::plural::counted;
-use tautline_proofs::run::Scripted;
+use tautline_proofs::run::ScriptedRun;
 
-pub(super) use self::rivals::Simulated;
+pub(super) use self::rivals::RivalHunt;
 use crate::explore::hunt::{
-    Bound, Done, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, layout,
+    Bound, Done, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
 use crate::explore::states::{self, Count, Small, watched};
 use crate::explore::{ClauseId, Setup};
@@ -38,7 +38,7 @@ const SMALL: Small = Small {
 
 /// The kernel's robots, whose states are searched.
 #[derive(Debug)]
-pub(super) struct Searched(pub(super) Frontier);
+pub(super) struct KernelHunt(pub(super) Frontier);
 
 /// All areas up to a size, fewest cells first.
 fn areas(size: Size) -> Vec<(i16, i16)> {
@@ -54,7 +54,7 @@ fn bounds(asked: &HuntRequest<'_>, most: u64) -> Result<(Size, u64), Diagnostic>
     Ok((size, SMALL.robots(asked, most, size, &size.to_string())?))
 }
 
-impl Hunt for Searched {
+impl Hunt for KernelHunt {
     fn takes(&self) -> &'static [Bound] {
         &[Bound::Walls, Bound::Losses, Bound::Error]
     }
@@ -139,7 +139,7 @@ fn drifting(
                 facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: run.steps.len() },
                 title: title(size, walls, run.steps.len()),
                 setup: asked.setup(layout, vec![start], None)?,
-                shown: Shown::Told(story),
+                shown: Exhibit::Told(story),
             });
         }
         if !looked.is_whole {
@@ -204,7 +204,7 @@ fn finding<const ROBOTS: usize>(
     let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
     let clause = ClauseId::new(demand.clause());
     let (setup, walls) = match found.scripted() {
-        Some(Scripted { run, choices }) => {
+        Some(ScriptedRun { run, choices }) => {
             let (layout, starts) = layout(&run)?;
             (Setup { choices, ..asked.setup(layout, starts, Some(clause))? }, run.obstacles.len())
         }
@@ -217,7 +217,7 @@ fn finding<const ROBOTS: usize>(
         clause: demand.clause(),
         facts: RunSize::Area { columns, rows, walls, steps: moves },
         title: title([columns, rows], walls, moves),
-        shown: if is_stored { Shown::Story(clause, story) } else { Shown::Told(story) },
+        shown: if is_stored { Exhibit::Story(clause, story) } else { Exhibit::Told(story) },
         setup,
     })
 }

@@ -48,16 +48,16 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
         return Err(of_choices("the layout is too large for choices"));
     };
     let due = layout.reachable(&starts);
-    Ok(Box::new(Scripted { script: Script::new(setting, world, choices), cells: starts, due }))
+    Ok(Box::new(ScriptedTeam { script: Script::new(setting, world, choices), cells: starts, due }))
 }
 
-struct Scripted<const ROBOTS: usize> {
+struct ScriptedTeam<const ROBOTS: usize> {
     script: Script<Setting<ROBOTS>>,
     cells: Vec<Cell>,
     due: Vec<Cell>,
 }
 
-impl<const ROBOTS: usize> Scripted<ROBOTS> {
+impl<const ROBOTS: usize> ScriptedTeam<ROBOTS> {
     /// Makes the choices up to the next look.
     fn go_on(&mut self) {
         while self.script.choose(|turned| !is_look(turned)).is_some() {}
@@ -68,7 +68,7 @@ fn is_look<const ROBOTS: usize>(turned: &Successor<ROBOTS>) -> bool {
     matches!(turned.event, Event::Looks(..))
 }
 
-impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
+impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
     }

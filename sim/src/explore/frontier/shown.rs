@@ -6,7 +6,7 @@
 use tautline_kernel::frontier::Status;
 
 use crate::explore::{Change, Hearers, Ink, Kind, Layer, Mark, Place, Scene, Shape, Value};
-use crate::frontier::{Assigned, Explorers};
+use crate::frontier::{AssignedTeam, Explorers};
 
 /// The places among the layers.
 const REPOSITORIES: usize = 0;
@@ -57,7 +57,7 @@ pub(super) fn layers_of_assigned() -> Vec<Layer> {
 }
 
 /// The obstacles that robots have met in the last team move, and who is assigned to which cell from now on.
-pub(super) fn show_assigned(robots: &Assigned, scene: &mut Scene) {
+pub(super) fn show_assigned(robots: &AssignedTeam, scene: &mut Scene) {
     for cell in robots.met() {
         scene.put(OBSTACLES, Place::Cell(cell), 1);
     }

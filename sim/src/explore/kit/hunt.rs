@@ -9,11 +9,11 @@ use tautline_proofs::kit::counterexample::{Counterexample, fewest};
 use tautline_proofs::kit::symmetry::SymmetricLattice;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::plural::counted;
-use tautline_proofs::run::Scripted;
+use tautline_proofs::run::ScriptedRun;
 
 use super::{EQUAL, reach};
 use crate::explore::hunt::{
-    Bound, Done, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, Shown, layout,
+    Bound, Done, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
 use crate::explore::states::{Count, Small, report, watched};
 use crate::explore::{ClauseId, Setup};
@@ -34,7 +34,7 @@ const SMALL: Small = Small {
 
 /// A rule of the kernel, whose states are searched.
 #[derive(Debug)]
-pub(super) struct Searched(pub(super) Kit);
+pub(super) struct KernelHunt(pub(super) Kit);
 
 /// The demand that one search looks for.
 #[derive(Clone, Copy)]
@@ -105,7 +105,7 @@ fn what<const ROBOTS: usize>(setting: &Setting<ROBOTS>) -> String {
     format!("lattices up to {}×{}", setting.area.width(), setting.area.height())
 }
 
-impl Hunt for Searched {
+impl Hunt for KernelHunt {
     fn takes(&self) -> &'static [Bound] {
         &[Bound::Walls, Bound::Range]
     }
@@ -212,7 +212,7 @@ fn finding<const ROBOTS: usize>(
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
-    let Some(Scripted { run, choices }) = found.scripted() else {
+    let Some(ScriptedRun { run, choices }) = found.scripted() else {
         return Err(Diagnostic::usage(
             "a run was found that cannot be made again",
             "report it: this is a bug of tautline",
@@ -226,7 +226,7 @@ fn finding<const ROBOTS: usize>(
         clause: clause.as_str(),
         facts: RunSize::Area { columns, rows, walls, steps: drives },
         title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
-        shown: Shown::Story(*clause, story),
+        shown: Exhibit::Story(*clause, story),
         setup: Setup { choices, ..setup },
     })
 }

@@ -81,24 +81,24 @@ fn script<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Script<Settin
 
 fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
     let due = paths(&setup.layout, setup.base);
-    Ok(Box::new(Scripted { script: script::<ROBOTS>(setup, rule)?, cells: setup.starts(), due }))
+    Ok(Box::new(ScriptedTeam { script: script::<ROBOTS>(setup, rule)?, cells: setup.starts(), due }))
 }
 
-struct Scripted<const ROBOTS: usize> {
+struct ScriptedTeam<const ROBOTS: usize> {
     script: Script<Setting<ROBOTS>>,
     cells: Vec<Cell>,
     /// The paths within reach.
     due: Vec<Edge>,
 }
 
-impl<const ROBOTS: usize> Scripted<ROBOTS> {
+impl<const ROBOTS: usize> ScriptedTeam<ROBOTS> {
     fn clause(&self, demand: Demand) -> ClauseId {
         let is_at_equal_speeds = self.script.system.speeds == Speeds::Equal && demand == Demand::Contact;
         if is_at_equal_speeds { EQUAL } else { ClauseId::new(demand.clause(ROBOTS)) }
     }
 }
 
-impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
+impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
     }

@@ -17,7 +17,7 @@ use super::super::tables::Codes;
 pub const HEAD: &str = "tautline states 1\n";
 
 /// A state that is looked for, and its number once it is found.
-pub(in super::super) struct Wanted<'a> {
+pub(in super::super) struct Lookup<'a> {
     pub(in super::super) hash: HashOfState,
     pub(in super::super) code: &'a [u8],
     pub(in super::super) node: &'a mut Option<u32>,
@@ -75,9 +75,9 @@ impl Segment {
     }
 
     /// Looks for states, which are in the order of their hashes.
-    pub(super) fn look_up(&self, wanted: &mut [Wanted<'_>]) -> io::Result<()> {
+    pub(super) fn look_up(&self, wanted: &mut [Lookup<'_>]) -> io::Result<()> {
         let (mut blocks, mut loaded, mut before) = (Blocks::open(&self.path)?, usize::MAX, 0);
-        for Wanted { hash, code, node } in wanted.iter_mut().filter(|wanted| wanted.node.is_none()) {
+        for Lookup { hash, code, node } in wanted.iter_mut().filter(|wanted| wanted.node.is_none()) {
             while self.by_hash.get(before + 1).is_some_and(|(first, _)| first < hash) {
                 before += 1;
             }

@@ -8,7 +8,7 @@ use tautline_proofs::engine::lots::{self, Lots};
 use super::super::ENDS;
 use super::{SMALL, areas, bounds, report, title};
 use crate::explore::each::{Each, FoundBy};
-use crate::explore::hunt::{Bound, Finding, HuntReport, HuntRequest, RunSize, Shown};
+use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, RunSize};
 use crate::explore::run::{Limits, run};
 use crate::explore::states::Count;
 use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
@@ -19,9 +19,9 @@ const MOST_MOVES: u32 = 1000;
 
 /// Rivals, of which every layout is tried.
 #[derive(Debug)]
-pub(in crate::explore::frontier) struct Simulated;
+pub(in crate::explore::frontier) struct RivalHunt;
 
-impl Each for Simulated {
+impl Each for RivalHunt {
     type Layouts = Layouts;
 
     const TAKES: &'static [Bound] = &[Bound::Walls];
@@ -65,7 +65,7 @@ pub(in crate::explore::frontier) struct Layouts {
 
 /// An area, and which of its cells are blocked, row by row.
 #[derive(Clone, Copy)]
-pub(in crate::explore::frontier) struct Blocked {
+pub(in crate::explore::frontier) struct BlockedArea {
     area: (i16, i16),
     set: u32,
 }
@@ -73,7 +73,7 @@ pub(in crate::explore::frontier) struct Blocked {
 /// The findings in a layout.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::explore::frontier) struct Tried {
+pub(in crate::explore::frontier) struct LayoutFindings {
     /// Runs, one for each start.
     runs: u64,
     /// Team moves.
@@ -92,7 +92,7 @@ struct Broken {
     steps: u32,
 }
 
-impl lots::Look for Tried {
+impl lots::Look for LayoutFindings {
     fn steps(&self) -> u64 {
         self.steps
     }
@@ -108,28 +108,28 @@ impl lots::Look for Tried {
 
 impl Lots for Layouts {
     type Stage = (i16, i16);
-    type Lot = Blocked;
-    type Look = Tried;
-    type Found = (Count, Vec<Finding>);
+    type Lot = BlockedArea;
+    type Look = LayoutFindings;
+    type Findings = (Count, Vec<Finding>);
     type Error = Diagnostic;
 
     fn stages(&self) -> Vec<(i16, i16)> {
         self.areas.clone()
     }
 
-    fn lots(&self, area: (i16, i16)) -> Result<Vec<Blocked>, Diagnostic> {
+    fn lots(&self, area: (i16, i16)) -> Result<Vec<BlockedArea>, Diagnostic> {
         let mut sets: Vec<u32> = (0..1_u32 << (area.0 * area.1)).collect();
         sets.retain(|set| set.count_ones() <= self.max_walls);
         sets.sort_by_key(|set| (set.count_ones(), *set));
-        Ok(sets.into_iter().map(|set| Blocked { area, set }).collect())
+        Ok(sets.into_iter().map(|set| BlockedArea { area, set }).collect())
     }
 
-    fn weight(&self, _: (i16, i16), blocked: &Blocked) -> u64 {
+    fn weight(&self, _: (i16, i16), blocked: &BlockedArea) -> u64 {
         u64::from(blocked.cells(false).len() as u32).saturating_pow(self.robots as u32 + 1)
     }
 
-    fn look(&self, _: (i16, i16), blocked: &Blocked, _: u64) -> Result<Tried, Diagnostic> {
-        let mut tried = Tried { runs: 0, steps: 0, broken: Vec::new() };
+    fn look(&self, _: (i16, i16), blocked: &BlockedArea, _: u64) -> Result<LayoutFindings, Diagnostic> {
+        let mut tried = LayoutFindings { runs: 0, steps: 0, broken: Vec::new() };
         for (start, starts) in blocked.starts(self.robots).iter().enumerate() {
             let setup = self.setup(blocked, starts)?;
             if setup.layout.reachable(starts).len() < starts.len() {
@@ -150,8 +150,8 @@ impl Lots for Layouts {
     fn add(
         &self,
         (count, found): &mut (Count, Vec<Finding>),
-        blocked: &Blocked,
-        look: Tried,
+        blocked: &BlockedArea,
+        look: LayoutFindings,
     ) -> Result<(), Diagnostic> {
         count.states += look.runs;
         count.steps += look.steps;
@@ -170,7 +170,7 @@ impl Lots for Layouts {
     }
 }
 
-impl Blocked {
+impl BlockedArea {
     fn cells(&self, is_blocked: bool) -> Vec<Cell> {
         let (width, height) = self.area;
         let cells = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y)));
@@ -185,7 +185,7 @@ impl Blocked {
 }
 
 impl Layouts {
-    fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Diagnostic> {
+    fn setup(&self, blocked: &BlockedArea, starts: &[Cell]) -> Result<Setup, Diagnostic> {
         let (width, height) = blocked.area;
         let layout = Layout::open(width as u64, height as u64)?.with_blocked(blocked.cells(true));
         let setup = HuntRequest::new(self.scheme, self.rule).setup(layout, starts.to_vec(), None)?;
@@ -245,7 +245,7 @@ fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Finding {
         clause: clause.as_str(),
         facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: steps as usize },
         title: title(size, walls, steps as usize),
-        shown: if clause == ENDS { Shown::Told(endless(&setup)) } else { Shown::Run(clause) },
+        shown: if clause == ENDS { Exhibit::Told(endless(&setup)) } else { Exhibit::Run(clause) },
         setup: Setup { limits, ..setup },
     }
 }
