@@ -197,12 +197,11 @@ impl Hunt {
         let hunt = self.scheme.hunt(self.rule())?;
         let asked = self.asked();
         asked.check(hunt)?;
-        make_folder(&self.out)?;
         interrupt::defer();
         let start = Instant::now();
         let (bar, spinner) = (progress::bar("hunting", 1), progress::spinner("hunting"));
         let mut watcher = Watcher { bar, spinner, out: &mut *out };
-        let hunted = hunt.hunt(&asked, &mut watcher)?;
+        let hunted = in_folder(&self.out, || hunt.hunt(&asked, &mut watcher))?;
         watcher.bar.finish_and_clear();
         watcher.spinner.finish_and_clear();
         tracing::info!("hunted through {} in {:.3} s", hunted.through, start.elapsed().as_secs_f64());
@@ -375,10 +374,21 @@ fn picture(finding: &Finding) -> Result<String, Halt> {
 
 /// Makes the folder that --out names, if it is not there.
 pub(super) fn make_folder(out: &Path) -> Result<(), Diagnostic> {
-    fs::create_dir_all(out).map_err(|error| {
+    in_folder(out, || Ok(()))
+}
+
+/// The result of `work`, for which the folder that --out names is made. Of work that
+/// fails no folder is left that is new and empty.
+pub(super) fn in_folder<T, E: From<Diagnostic>>(
+    out: &Path,
+    work: impl FnOnce() -> Result<T, E>,
+) -> Result<T, E> {
+    let new: Vec<_> = out.ancestors().take_while(|folder| !folder.exists()).collect();
+    let made = fs::create_dir_all(out).map_err(|error| {
         let what = format!("the folder cannot be made: {error}");
-        Diagnostic::in_file(out, what, "name a folder, or a place where one can be made")
-    })
+        Diagnostic::in_file(out, what, "name a folder, or a place where one can be made").into()
+    });
+    made.and_then(|()| work()).inspect_err(|_| new.iter().for_each(|folder| drop(fs::remove_dir(folder))))
 }
 
 /// Puts the file of a counterexample in its place; where it stands then.

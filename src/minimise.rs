@@ -108,8 +108,9 @@ impl ShortenedJson {
             "More states are led to than may be looked at: nothing but detours was taken out."
         };
         format!(
-            "{clause} as {rule}: {name}\n{}\n               before   after\nmoves        {:>8}{:>8}\nfor ever     \
-                {:>8}{:>8}\n\n\
+            "{clause} as {rule}: {name}\n{}\n               before   after\n\
+             moves        {:>8}{:>8}\n\
+             for ever     {:>8}{:>8}\n\n\
              {why}\n\n",
             indented(2, bound),
             before.moves,
@@ -128,7 +129,10 @@ const MOST_BYTES: u64 = 1 << 31;
 
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        hunt::make_folder(&self.out)?;
+        hunt::in_folder(&self.out, || self.minimise(out))
+    }
+
+    fn minimise(&self, out: &mut Output) -> Result<Exit, Halt> {
         let (setup, clause) = if json_lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
             let found = evidence::read(&self.file)?;
             match evidence::run(found.clause, found.check, &found.evidence)? {

@@ -86,9 +86,9 @@ pub(super) struct DecisionArgs {
     /// Store a page with all of it: sentences, verdicts, what they rest on, and counterexamples that play.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Store a certificate for each check that holds as a file in DIR: of a search over all states or all layouts one
-    /// that `tautline check` checks, of a proof for every number of robots one that Rocq checks. DIR is made if it is
-    /// not there.
+    /// Store a certificate for each check that holds as a file in DIR: of a search over all states or
+    /// all layouts one that `tautline check` checks, of a proof for every number of robots one that
+    /// Rocq checks. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     certificate: Option<PathBuf>,
     /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice
@@ -261,9 +261,6 @@ impl DecisionArgs {
             );
         }
         let page = self.html.as_deref().map(|path| AtomicFile::new(path, &replaceable)).transpose()?;
-        for folder in self.out.iter().chain(&self.certificate) {
-            make_folder(folder)?;
-        }
         let checks = ledger::checks(clauses);
         let threads = rayon::current_num_threads() as u64;
         let room =
@@ -276,6 +273,9 @@ impl DecisionArgs {
             }
             None => (room, None),
         };
+        for folder in self.out.iter().chain(&self.certificate) {
+            make_folder(folder)?;
+        }
         let limits = Limits { room: Arc::new(room), patience_s: self.patience.get() };
         let room = &*limits.room;
         let bar = progress::bar("proving", 1);
@@ -378,11 +378,12 @@ fn cut_off(room: &MemoryLimit) -> Option<String> {
     if let Some(fault) = room.fault() {
         return Some(format!("A search over states could not go on in its folder: {fault}\n"));
     }
+    let or_spill = if room.has_folder() { "" } else { "; or give it a folder with --spill" };
     room.was_too_small().then(|| {
         format!(
-            "A search over states would have taken more than {} KiB: its check is open, or its mutant was not \
-                rejected.\n\
-             Give more with --memory: one search gets three quarters of it; or give it a folder with --spill.\n",
+            "A search over states would have taken more than {} KiB: its check \
+             is open, or its mutant was not rejected.\n\
+             Give more with --memory: one search gets three quarters of it{or_spill}.\n",
             room.most() >> 10
         )
     })

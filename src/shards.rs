@@ -191,8 +191,8 @@ pub(super) struct Merge {
     plan: PathBuf,
     /// The files of its shards. Without one, those beside the plan.
     files: Vec<PathBuf>,
-    /// The folder for the counterexamples. Without it those of a hunt are stored here, and those of the library are
-    /// not.
+    /// The folder for the counterexamples. Without it those of a hunt are
+    /// stored here, and those of the library are not.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
@@ -249,20 +249,18 @@ impl Merge {
         }
         match plan.of {
             Work::Library { .. } => {
+                let how = DecisionArgs::elsewhere(self.out.clone(), self.force, self.format);
+                let rows = library::rows(&plan, &shards)?;
                 self.out.as_deref().map(make_folder).transpose()?;
-                let (how, rows) = (
-                    DecisionArgs::elsewhere(self.out.clone(), self.force, self.format),
-                    library::rows(&plan, &shards)?,
-                );
                 let replaceable = self.force.replaceable(inputs);
                 how.tell((&rows, &MemoryLimit::unbounded()), (Detail::Rows, None), &replaceable, out)
             }
             Work::Hunt { .. } => {
                 let here = Path::new(".");
                 let folder = self.out.as_deref().unwrap_or(here);
-                make_folder(folder)?;
                 let asked = hunted(&plan, CATALOGUE)?;
                 let found = merge_hunt(&plan, &asked, &shards)?;
+                make_folder(folder)?;
                 let replaceable = self.force.replaceable(inputs);
                 hunt::tell((&asked, &found), (folder, &replaceable), self.format.format, out)
             }

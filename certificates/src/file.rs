@@ -151,10 +151,13 @@ pub fn read(bytes: &[u8]) -> Result<File<'_>, Fault> {
     let header = Header {
         program: program.to_owned(),
         clause: clause.to_owned(),
-        check: check.parse().map_err(|_| no_check)?,
+        check: check.parse().ok().filter(|number: &usize| number.to_string() == check).ok_or(no_check)?,
         rule: rule.to_owned(),
-        claim: u128::from_str_radix(claim, 16).map_err(|_| no_claim)?,
-        states: states.parse().map_err(|_| no_states)?,
+        claim: u128::from_str_radix(claim, 16)
+            .ok()
+            .filter(|digest| format!("{digest:032x}") == claim)
+            .ok_or(no_claim)?,
+        states: states.parse().ok().filter(|number: &u64| number.to_string() == states).ok_or(no_states)?,
     };
     let mut sections = Vec::new();
     while !rest.is_empty() {

@@ -160,7 +160,15 @@ fn a_header_that_is_none_and_sections_without_an_end_are_told_although_the_diges
         read(&bytes).expect_err("it is no certificate")
     };
     assert_eq!(fault(&content.replace("rule a rule", "role a rule")), Fault::Line(5, "rule"));
-    assert_eq!(fault(&content.replace("check 2", "check two")), Fault::Line(4, "check"));
+    for other in ["check two", "check +2", "check 02"] {
+        assert_eq!(fault(&content.replace("check 2", other)), Fault::Line(4, "check"));
+    }
+    assert_eq!(fault(&content.replace("claim 0", "claim ")), Fault::Line(6, "claim"));
+    assert_eq!(fault(&content.replace("claim 0", "claim +")), Fault::Line(6, "claim"));
+    assert_eq!(fault(&content.to_uppercase().replace("CLAIM", "claim")), Fault::Foreign);
+    for other in ["states +1", "states 01"] {
+        assert_eq!(fault(&content.replace("states 1", other)), Fault::Line(7, "states"));
+    }
     assert_eq!(fault(&content.replace("states 1000000\n", &"9".repeat(2000))), Fault::Line(7, "states"));
     assert_eq!(fault(&(content.clone() + "\u{7f}")), Fault::Sections);
     assert_eq!(fault(&content.replace("certificate 1", "certificate 2")), Fault::Foreign);

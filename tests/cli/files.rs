@@ -422,6 +422,8 @@ fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
         let said = refused(folder, &[command, "pipe"]);
         assert!(said.contains("pipe: this is a pipe or a device"), "{said}");
     }
+    refused(folder, &["minimise", "pipe", "--out", "new"]);
+    assert!(!folder.join("new").exists(), "no folder is left of what was refused");
     let mut explore = tautline(folder, &["explore", "/dev/stdin", "--robots", "3"]);
     let mut child = explore.stdin(Stdio::piped()).stdout(Stdio::null()).spawn().expect("the program runs");
     let drawing = printed(folder, &["show", "open:5x5"], 0);
@@ -482,8 +484,9 @@ fn two_hunts_are_not_kept_in_one_file() {
     let folder = folder.path();
     let first = hunting(tautline(folder, &LONG_HUNT), folder);
     for _ in 0..3 {
-        let said = refused(folder, &LONG_HUNT);
+        let said = refused(folder, &[&LONG_HUNT[..], &["--out", "new/found"]].concat());
         assert!(said.contains("kept.json: another process is at work with this file"), "{said}");
+        assert!(!folder.join("new").exists(), "no folder is left of what was refused");
     }
     send("-KILL", &first);
     first.wait_with_output().expect("it ends");

@@ -130,6 +130,9 @@ fn a_search_larger_than_memory_goes_on_in_a_folder() {
     assert!(printed(folder.path(), &bounded, 3).contains("give it a folder with --spill"));
     assert_eq!(printed(folder.path(), &spilling, 0), whole);
     assert_eq!(fs::read_dir(&spill).expect("a folder").count(), 0, "nothing is left");
+    let narrow = ["library", "ricart-agrawala", "--memory", "64KiB", "--spill", "states"];
+    let said = printed(folder.path(), &narrow, 3);
+    assert!(said.contains("Give more with --memory") && !said.contains("--spill"), "{said}");
     // Of a search that was killed while it wrote.
     fs::write(spill.join("0-0.part"), "tautline sta").expect("it is written");
     assert_eq!(printed(folder.path(), &spilling, 0), whole);

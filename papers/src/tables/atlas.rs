@@ -194,7 +194,7 @@ impl Table for Atlas {
             help: "What becomes of all runs in all layouts with few walls, by rule and number of robots",
             examples: &["atlas", "atlas --deep --format json"],
             doing: "searching",
-            takes: "some seconds",
+            takes: "half a minute",
             ..Description::NOTHING
         }
     }
@@ -258,11 +258,12 @@ impl Table for Atlas {
             columns = columns.right(clause, Fit, |line| line.runs_that_break(clause));
         }
         let mut text = format!(
-            "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at \
-                most\n\n{}\n\
-             layouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs \
-             ·\n\
-             longest: team moves of the longest run · CHAIN-…: runs that break the clause, whatever else they break ·\n\
+            "All runs in all layouts of (2N−1)² cells, the base in the middle, by \
+             the walls that a run meets at most\n\n{}\n\
+             layouts: with at most so many walls, all covered · runs, team moves: \
+             leaves and edges of the tree of runs ·\n\
+             longest: team moves of the longest run · CHAIN-…: runs that break \
+             the clause, whatever else they break ·\n\
              -: not looked for\n\
              \nThe smallest counterexamples in these areas, by walls, then team moves\n",
             columns.text()

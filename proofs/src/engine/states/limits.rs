@@ -113,6 +113,11 @@ impl MemoryLimit {
         Room { question: Some((question, 0)), ..self.room() }
     }
 
+    /// Whether there is a folder in which a search goes on.
+    pub const fn has_folder(&self) -> bool {
+        self.spill.is_some()
+    }
+
     /// Why a search could not go on in its folder.
     pub fn fault(&self) -> Option<SpillError> {
         self.spill.as_ref().and_then(Spill::fault)
@@ -174,9 +179,9 @@ impl<'a> MemoryShare<'a> {
         self.room.limit.was_too_small.store(true, Ordering::Relaxed);
     }
 
-    /// The bytes that steps may take at a time beside so many, if a search goes on in a folder: the states to which
-    /// they lead may take as many, and a table as many again while it grows. Nothing if that is too little to go on
-    /// with.
+    /// The bytes that steps may take at a time beside so many, if a search goes on in a folder: the
+    /// states to which they lead may take as many, and a table as many again while it grows.
+    /// Nothing if that is too little to go on with.
     pub(super) const fn for_steps(&self, beside: u64) -> u64 {
         let most = self.room.limit.most;
         let bytes = most.saturating_sub(beside) / 4;
