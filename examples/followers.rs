@@ -24,8 +24,8 @@ struct Followers {
 }
 
 impl Rule for Followers {
-    /// Where the leader heads, the walls that it has met, and the last two cells in which it was seen, the latest
-    /// first.
+    /// Where the leader heads, the walls that it has met, and the last two
+    /// cells in which it was seen, the latest first.
     type Memory = (Side, u8, [Cell; 2]);
     type Message = ();
 

@@ -14,7 +14,7 @@ use tautline_logs::{
 };
 use tautline_proofs::ledger;
 
-use self::given::{MapArgs, MapOfLog};
+use self::given::{LogMap, MapArgs};
 use self::told::LogReport;
 use super::output::Output;
 use super::{Exit, ForceArgs, FormatArgs, needless};
@@ -216,7 +216,7 @@ impl Judge {
         &self,
         id: &str,
         kind: Kind,
-        given: &MapOfLog,
+        given: &LogMap,
         tracks: &Tracks,
         limits: &Limits,
         log: &Log,
@@ -231,9 +231,9 @@ impl Judge {
                 let what = format!("{id} speaks of two robots, and the log has {}", tracks.count());
                 return Err(Diagnostic::in_file(&self.log, what, "name KIT-12, or two robots with --names"));
             }
-            Kind::Pair => Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Contact::All },
+            Kind::Pair => Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Group::All },
             Kind::Joined => {
-                Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Contact::JoinedAtStart }
+                Demand::Joined { range_mm: range(KIT_RANGE), of: tautline_logs::Group::JoinedAtStart }
             }
             Kind::Apart => {
                 let least_mm = milli(self.least.unwrap_or(KIT_LEAST));

@@ -127,11 +127,11 @@ impl From<Exit> for ExitCode {
 }
 
 /// The meaning of the exit codes, for the help, the manual pages and the documents.
-const EXIT_CODES: &str = "\
-0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, \
-Ctrl-C, SIGTERM or SIGHUP ended the work before its bound, also if something was found by then, or a log does not say \
-enough · 4 a merge has gaps · 70 a bug of ours. Where several apply, the code is the first of 70, 2, 4, 3, 1, 0. With \
---exit-zero 1 is 0.";
+const EXIT_CODES: &str = "0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file \
+                          could not be stored · 3 a budget, Ctrl-C, SIGTERM or SIGHUP ended the work before \
+                          its bound, also if something was found by then, or a log does not say enough · 4 a \
+                          merge has gaps · 70 a bug of ours. Where several apply, the code is the first of \
+                          70, 2, 4, 3, 1, 0. With --exit-zero 1 is 0.";
 
 /// The fate of files.
 const FILES: &str = "\

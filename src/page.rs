@@ -17,9 +17,9 @@ Examples:
 
 /// Write the page that plays a stored run, counterexample or rescue.
 ///
-/// A rule of one's own has a page to draw on, with the engine inside, if it is a crate in Rust:
-/// `web/build --rule FOLDER` in the repository makes it. Of a rule in Python a stored run has a page, and the rule has
-/// none.
+/// A rule of one's own has a page to draw on, with the engine inside, if it is a crate in
+/// Rust: `web/build --rule FOLDER` in the repository makes it. Of a rule in Python a
+/// stored run has a page, and the rule has none.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Page {

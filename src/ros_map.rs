@@ -1,5 +1,5 @@
-//! The map that a team has made, as ROS has it: an occupancy grid of one pixel for each cell, which `explore` reads
-//! again.
+//! The map that a team has made, as ROS has it: an occupancy grid of one pixel
+//! for each cell, which `explore` reads again.
 
 use std::path::Path;
 

@@ -1407,8 +1407,8 @@ fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
     };
     fs::write(folder.join("ring.txt"), RING).expect("a file");
     fs::write(folder.join("two.map"), "type octile\nheight 1\nwidth 3\nmap\n.@.\n").expect("a file");
-    let map = "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: \
-        0.2\n";
+    let map = "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n\
+                negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
     fs::write(folder.join("ros.yaml"), map).expect("a file");
     fs::write(folder.join("map.pgm"), b"P5 2 1 255 \xff\x00").expect("a file");
     for name in ["ring.txt", "two.map", "ros.yaml"] {

@@ -110,8 +110,8 @@ fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
     let folder = folder.path();
     let image = format!("P2\n20 6\n255\n{}{}", "255 ".repeat(100), "0 ".repeat(20));
     fs::write(folder.join("floor.pgm"), image).expect("a file");
-    let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\nnegate: \
-        0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\n\
+                negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
     fs::write(folder.join("floor.yaml"), yaml).expect("a file");
     // Ten columns from x = -1 on, of which robots reach 1 to 9; two of three rows are free, from y = 0 on.
     let (told, _) =

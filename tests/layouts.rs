@@ -210,8 +210,8 @@ fn a_bad_drawing_is_refused_at_its_place() {
     assert_snapshot!(bad("layout 1", "layout 2"),
         @"a.txt:1:17: this is version 2, this program reads version 1; write the drawing again with this program");
     assert_snapshot!(bad("tautline layout 1\n", ""),
-        @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI \
-            maps .map and ROS maps .yaml");
+        @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; \
+          name MovingAI maps .map and ROS maps .yaml");
     assert_snapshot!(bad("robots 4", "robots 257"),
         @r#"a.txt:2:8: "257" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
     assert_snapshot!(bad("robots 4", "robots 0"),
@@ -241,20 +241,20 @@ fn a_bad_drawing_is_refused_at_its_place() {
     assert_snapshot!(bad("##|\n+--+--+--+", "##|\n+--+  +--+"),
         @"a.txt:7:5: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
     assert_snapshot!(bad("##|\n+--+--+--+\n", "##|\n"),
-        @"a.txt:6:11: the drawing ends before its southern rim; a drawing is a line of walls, then for each row a line \
-            of cells and a line of walls");
+        @"a.txt:6:11: the drawing ends before its southern rim; a drawing is a line of walls, then for \
+          each row a line of cells and a line of walls");
     assert_snapshot!(bad("|   B  ##|\n+--+--+--+\n", ""),
         @"a.txt:5:2: the rim has a gap; close it: `--` in the north and south, `|` in the east and west");
     assert_snapshot!(bad("|     |", "|B    |"), @"a.txt:6:5: a second base; the first is 0,0; leave one of them");
     assert_snapshot!(refused("a.txt", "tautline layout 1\n"),
-        @"a.txt:1:18: the drawing ends before its southern rim; a drawing is a line of walls, then for each row a line \
-            of cells and a line of walls");
+        @"a.txt:1:18: the drawing ends before its southern rim; a drawing is a line of walls, then for \
+          each row a line of cells and a line of walls");
     assert_snapshot!(refused("a.txt", "tautline layout 1\n+--+\n|##|\n+--+\n"),
         @"a.txt:2:1: no cell is free; leave at least one cell free for the base");
     let wide = format!("+{}\n", "--+".repeat(32_001));
     assert_snapshot!(refused("a.txt", format!("tautline layout 1\n{wide}{wide}{wide}")),
-        @"a.txt:2:1: the size 32001x1 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 \
-            in all");
+        @"a.txt:2:1: the size 32001x1 is out of bounds; a layout has 1 to 32000 \
+          cells on a side and at most 16777216 in all");
 }
 
 #[test]
@@ -279,19 +279,19 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
         refused("a.map", MAP.replacen(from, to, 1))
     };
     assert_snapshot!(bad("type octile", "type hex"),
-        @"a.map:1:1: the header line `type octile` is missing here; a map begins with the lines `type octile`, `height \
-            N`, `width N` and `map`");
+        @"a.map:1:1: the header line `type octile` is missing here; a map begins with the lines \
+          `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("height 2", "height two"),
         @r#"a.map:2:8: "two" is not the number N of the header line `height N`; write a whole number from 1 to 32000"#);
     assert_snapshot!(bad("height 2\n", ""),
-        @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines `type octile`, `height \
-            N`, `width N` and `map`");
+        @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines \
+          `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("map\n", ""),
-        @"a.map:4:1: the header line `map` is missing here; a map begins with the lines `type octile`, `height N`, \
-            `width N` and `map`");
+        @"a.map:4:1: the header line `map` is missing here; a map begins with the lines \
+          `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("\nwidth 4\nmap\n.GS@\nOTW.\n", ""),
-        @"a.map:2:9: the header line `width N` is missing here; a map begins with the lines `type octile`, `height N`, \
-            `width N` and `map`");
+        @"a.map:2:9: the header line `width N` is missing here; a map begins with the lines \
+          `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("height 2", "height 3"),
         @"a.map:6:5: the map ends after row 2, not 3; make `height` the number of rows that follow `map`");
     assert_snapshot!(bad("height 2", "height 1"),
@@ -303,11 +303,11 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
     assert_snapshot!(bad("OTW.", "OTx."),
         @r#"a.map:6:3: the symbol "x" is unknown; a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)"#);
     assert_snapshot!(bad("height 2\nwidth 4", "height 31250\nwidth 32000"),
-        @"a.map:2:1: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most \
-            16777216 in all");
+        @"a.map:2:1: the size 32000x31250 is out of bounds; a layout has 1 to 32000 \
+          cells on a side and at most 16777216 in all");
     assert_snapshot!(bad("height 2\nwidth 4", "height 1000000000\nwidth 1"),
-        @"a.map:2:1: the size 1x1000000000 is out of bounds; a layout has 1 to 32000 cells on a side and at most \
-            16777216 in all");
+        @"a.map:2:1: the size 1x1000000000 is out of bounds; a layout has 1 to 32000 \
+          cells on a side and at most 16777216 in all");
     assert_snapshot!(refused("a.map", "type octile\nheight 1\nwidth 1\nmap\nT\n"),
         @"a.map:2:1: no cell is free; leave at least one cell free for the base");
 }
@@ -483,7 +483,7 @@ fn a_bad_ros_map_is_refused_at_its_place() {
         @"map.yaml:1:8: the image gone.png is not there; name another image with --image FILE");
     assert_snapshot!(bad("resolution: 0.05\n", ""),
         @"map.yaml:5:1: this does not describe a map: missing field `resolution`; a map has the fields image, \
-            resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
+          resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
     assert_snapshot!(bad("0.05", "0"),
         @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
     assert_snapshot!(bad("0.05", ".nan"),
@@ -492,20 +492,20 @@ fn a_bad_ros_map_is_refused_at_its_place() {
         @"map.yaml:2:13: `resolution` is out of bounds; write the metres of a pixel's side, from 0.000001 to 1000000");
     assert_snapshot!(bad("0.05", "[1"),
         @"map.yaml:2:13: this does not describe a map: the list has no end on its line; write one `key: value` a line, \
-            where a value is a word, a text between quotes, or a list such as [0, 0, 0]");
+          where a value is a word, a text between quotes, or a list such as [0, 0, 0]");
     assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5]"),
         @"map.yaml:3:9: this does not describe a map: `origin` is no list of 3 numbers; a map has the fields image, \
-            resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
+          resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh");
     assert_snapshot!(bad("[-1, 2.5, 0]", "[-1, 2.5, .inf]"),
-        @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most \
-            1000000000");
+        @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and \
+          the yaw in radians, each at most 1000000000");
     assert_snapshot!(bad("[-1, 2.5, 0]", "[-1e300, 2.5, 0]"),
-        @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and the yaw in radians, each at most \
-            1000000000");
+        @"map.yaml:3:9: `origin` is out of bounds; write x and y in metres and \
+          the yaw in radians, each at most 1000000000");
     assert_snapshot!(bad("negate: 0", "negate: 2"), @"map.yaml:4:9: `negate` is out of bounds; write 0 or 1");
     assert_snapshot!(bad("negate: 0", "negate: perhaps"),
         @"map.yaml:4:9: this does not describe a map: expected 0 or 1; a map has the fields image, resolution, origin: \
-            [x, y, yaw], negate, occupied_thresh and free_thresh");
+          [x, y, yaw], negate, occupied_thresh and free_thresh");
     assert_snapshot!(bad("0.65", "1.5"),
         @"map.yaml:5:18: `occupied_thresh` is out of bounds; write a number from 0 to 1");
     assert_snapshot!(bad("0.196", "0.7"),
@@ -524,18 +524,18 @@ fn a_bad_ros_map_is_refused_at_its_place() {
     assert_snapshot!(bad(b"P5 2 2 255\n\x00\xff"),
         @"map.pgm: the image cannot be read: it ends before its last pixel; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P2 2 1 255\n254 -3\n"),
-        @"map.pgm: the image cannot be read: before its last pixel it ends, or has something that is no number; give a \
-            whole PGM or PNG file");
+        @"map.pgm: the image cannot be read: before its last pixel it ends, or has something that \
+          is no number; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P2 2 1 255\n254 300\n"),
         @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P5 2 1 100\n\x10\xff"),
         @"map.pgm: the image cannot be read: a pixel is above its largest level; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P5\r\n2 1\r\n255\r\n\xff\xff"),
-        @"map.pgm: the image cannot be read: its header ends in CR LF, and the LF would be its first pixel; give a \
-            whole PGM or PNG file");
+        @"map.pgm: the image cannot be read: its header ends in CR LF, and the LF would be its \
+          first pixel; give a whole PGM or PNG file");
     assert_snapshot!(bad(b"P5 32000 31250 255\n\x00\xff"),
-        @"map.pgm: the size 32000x31250 is out of bounds; a layout has 1 to 32000 cells on a side and at most 16777216 \
-            in all");
+        @"map.pgm: the size 32000x31250 is out of bounds; a layout has 1 to 32000 \
+          cells on a side and at most 16777216 in all");
     assert_snapshot!(bad(b"P5 2 1 255\n\x00\x00"),
         @"map.pgm: no cell is free; leave at least one cell free for the base");
 }
@@ -548,17 +548,17 @@ fn a_file_that_is_no_layout_is_refused() {
     assert_snapshot!(refused("a.pgm", "P2 1 1 255 0"),
         @"a.pgm: this is an image alone; name the .yaml file that describes it");
     assert_snapshot!(refused("a.txt", "\u{1b}[31mred"),
-        @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI \
-            maps .map and ROS maps .yaml");
+        @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; \
+          name MovingAI maps .map and ROS maps .yaml");
     let load = |description: &str, image| {
         with_flags(&layout::load(description, 0, image).expect_err("a fault").to_string())
     };
     assert_snapshot!(load("no/such/file.map", None),
         @"no/such/file.map: there is no such file; name a layout file or one of the generators open:15x15, \
-            walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
+          walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
     assert_snapshot!(load("src", None),
         @"src: this is a directory; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, \
-            rooms-b, office:30x30:4x4, cells:32x32:0.2");
+          rooms-b, office:30x30:4x4, cells:32x32:0.2");
     assert_snapshot!(load("open:3x3", Some(Path::new("map.pgm"))),
         @"--image is given, but the layout is not a ROS map; leave --image out, or name the map's .yaml file");
 
@@ -567,8 +567,8 @@ fn a_file_that_is_no_layout_is_refused() {
     fs::File::create(&file).and_then(|large| large.set_len(MAX_FILE_BYTES + 1)).expect("a file");
     let fault = layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault");
     assert_snapshot!(plain(&fault, folder.path()),
-        @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 cells on a side and at most 16777216 in \
-            all");
+        @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 \
+          cells on a side and at most 16777216 in all");
 }
 
 #[test]

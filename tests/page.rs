@@ -163,10 +163,9 @@ fn shows_how_a_clause_is_broken(browser: &mut Browser, folder: &Path) {
     let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/chain-2-published-n4.jsonl");
     run(folder, &["replay", stored, "--html", "broken.html"]);
     browser.load(&folder.join("broken.html"), "#3");
-    let played = "document.getElementById('speed').value = 60, document.getElementById('toggle').click(), \
-                  new Promise(done => { const wait = setInterval(() => { \
-                  if (document.getElementById('toggle').textContent === 'Play') { clearInterval(wait); done(); } }, \
-                  20); })";
+    let played = "document.getElementById('speed').value = 60, document.getElementById('toggle').click(), new \
+                  Promise(done => { const wait = setInterval(() => { if (document.getElementById('toggle').textContent \
+                  === 'Play') { clearInterval(wait); done(); } }, 20); })";
     browser.value(played);
     assert!(browser.text(SAID).ends_with("breaks CHAIN-2"));
     assert_eq!(browser.value(HASH), "#7");
@@ -286,9 +285,11 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     browser.value(USED);
     shows_a_death(&mut browser, folder);
     shows_a_rescue(&mut browser, folder);
-    browser.value("document.getElementById('axis').value = 'time', document.getElementById('axis').onchange(), \
-                   document.getElementById('at').value = 1000, document.getElementById('at').oninput({ target: \
-                   document.getElementById('at') })");
+    browser.value(
+        "document.getElementById('axis').value = 'time', \
+                   document.getElementById('axis').onchange(), document.getElementById('at').value = 1000, \
+                   document.getElementById('at').oninput({ target: document.getElementById('at') })",
+    );
     browser.value(USED);
     assert!(browser.errors().is_empty(), "{:#?}", browser.errors());
 }
@@ -296,8 +297,8 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
 /// Loads the page of 10,000 team moves on 512×512 cells and steps through parts of it; a step counts until its picture
 /// is there.
 #[test]
-#[ignore = "takes ten seconds: cargo test --release --test all page -- --ignored --nocapture (790 kB, 0.5 s, a step 1 \
-    ms, 41 ms at most)"]
+#[ignore = "takes ten seconds: cargo test --release --test all page -- --ignored --nocapture \
+            (790 kB, 0.5 s, a step 1 ms, 41 ms at most)"]
 fn a_page_of_ten_thousand_team_moves_is_small_and_quick() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = &folder.path().canonicalize().expect("a folder");

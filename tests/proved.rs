@@ -1,5 +1,5 @@
-//! All verdicts with all that refutes something, made once for whoever looks at them: `prove` takes longer than most
-//! tests.
+//! All verdicts with all that refutes something, made once for whoever looks at
+//! them: `prove` takes longer than most tests.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -182,7 +182,7 @@ fn fault(line: &str) -> Option<&'static str> {
     let line = line.trim_end();
     let doc = line.trim_start().strip_prefix("//").and_then(|doc| doc.strip_prefix(['/', '!']));
     let mut words =
-        line.split(['(', ' ', '<', ';']).skip_while(|word| !["struct", "enum", "trait"].contains(word));
+        line.split(['(', ' ', '<', ';', ':']).skip_while(|word| !["struct", "enum", "trait"].contains(word));
     let name = words.nth(1).filter(|_| doc.is_none()).unwrap_or_default();
     let is_one_word = name.chars().filter(|sign| sign.is_uppercase()).count() == 1;
     if line.chars().count() > MOST_CHARACTERS {
@@ -242,7 +242,7 @@ fn a_long_line_a_comment_that_needs_another_and_a_participle_are_found() {
         "/// The cells.",
         "// What comes is taken.",
         "    pub(crate) enum Speed {",
-        "/// a struct Told",
+        "/// a struct Played",
         &long,
     ] {
         assert_eq!(fault(line), None, "{line}");
@@ -319,7 +319,7 @@ fn a_forbidden_arrow_is_found_however_it_is_written() {
     ] {
         assert_eq!(forbidden(part, file, text), [""; 0]);
     }
-    let manifest = "[package]\n[dependencies]\ntautline-kernel.workspace = true\ntautline-sim = { path = \"sim\" \
-        }\n[dev-dependencies]\ntautline-proofs = \"1\"";
+    let manifest = "[package]\n[dependencies]\ntautline-kernel.workspace = true\n\
+                    tautline-sim = { path = \"sim\" }\n[dev-dependencies]\ntautline-proofs = \"1\"";
     assert!(dependencies(manifest).eq(["kernel", "sim"]));
 }

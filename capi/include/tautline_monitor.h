@@ -99,8 +99,8 @@ typedef struct {
    */
   uint32_t length_mm;
   /*
-   How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a
-   cell.
+   How far off a distance, or a position in cells, may be: less than the
+   least distance, or half the width of a cell.
    */
   uint32_t tolerance_mm;
   /*
@@ -141,8 +141,8 @@ typedef struct {
    */
   uint32_t doubt;
   /*
-   Two of the robots that break the clause, from 0; of a silent robot, or of one that there is not, its number
-   first.
+   Two of the robots that break the clause, from 0; of a silent robot, or of
+   one that there is not, its number first.
    */
   uint32_t robots[2];
   /*

@@ -51,8 +51,8 @@ pub struct TautlineDemand {
     pub kind: u32,
     /// The range, the least distance, or the width of a cell, in millimetres.
     pub length_mm: u32,
-    /// How far off a distance, or a position in cells, may be: less than the least distance, or half the width of a
-    /// cell.
+    /// How far off a distance, or a position in cells, may be: less than the
+    /// least distance, or half the width of a cell.
     pub tolerance_mm: u32,
     /// The most robots in a cell.
     pub most: u32,
@@ -72,8 +72,8 @@ pub struct TautlineVerdict {
     pub kind: u32,
     /// The reason of an unknown verdict, one of `TAUTLINE_DOUBT_...`; else 0.
     pub doubt: u32,
-    /// Two of the robots that break the clause, from 0; of a silent robot, or of one that there is not, its number
-    /// first.
+    /// Two of the robots that break the clause, from 0; of a silent robot, or of
+    /// one that there is not, its number first.
     pub robots: [u32; 2],
     /// The distance in millimetres, or the robots in the cell, of a broken clause.
     pub measured: u32,
@@ -140,8 +140,8 @@ impl TautlineMonitor {
         if self.mark != MARK {
             return Err(TautlineStatus::NotBegun);
         }
-        // SAFETY: the mark says that `tautline_monitor_begin` has written a state here, which fits in size and
-        // alignment.
+        // SAFETY: the mark says that `tautline_monitor_begin` has written a
+        // state here, which fits in size and alignment.
         Ok(unsafe { &mut *self.memory.as_mut_ptr().cast() })
     }
 }

@@ -83,8 +83,8 @@ impl TautlineStatus {
             Self::Explored => c"every cell of the area is explored",
             Self::Exhausted => c"the team can explore nothing more",
             Self::NullPointer => c"a pointer is null; give the address of the caller's own memory",
-            Self::NotBegun => c"the memory holds nothing begun; call tautline_chain_begin or tautline_monitor_begin \
-                first",
+            Self::NotBegun => c"the memory holds nothing begun; call \
+                                tautline_chain_begin or tautline_monitor_begin first",
             Self::UnknownRule => c"there is no such rule; give one of TAUTLINE_RULE_...",
             Self::TooFewRobots => {
                 c"too few robots; give a chain at least 2, the base counted, and a monitor at least 1"
@@ -100,8 +100,8 @@ impl TautlineStatus {
             Self::TooSmall => c"an array is too small; give one entry for each robot",
             Self::DamagedByte => c"a byte is no message; give the bytes as tautline_chain_settle wrote them",
             Self::DamagedLength => {
-                c"not as many bytes as the team has sent; give one for each robot but the base, and of the log for \
-                    each team move"
+                c"not as many bytes as the team has sent; give one for each robot but \
+                  the base, and of the log for each team move"
             }
             Self::DamagedTakenBack
             | Self::DamagedOutOfContact
@@ -114,8 +114,8 @@ impl TautlineStatus {
                 c"a message contradicts what the team knows; ask the robots for their messages again"
             }
             Self::BadDemand => {
-                c"no such demand; give one of TAUTLINE_DEMAND_..., and a tolerance below its least distance, or half \
-                    its cells' width"
+                c"no such demand; give one of TAUTLINE_DEMAND_..., and a tolerance below its \
+                  least distance, or half its cells' width"
             }
         }
     }

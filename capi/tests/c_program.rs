@@ -24,15 +24,15 @@ const HEADERS: [Header; 2] = [
         name: "tautline.h",
         includes: &[],
         sources: &["src/status.rs", "src/chain.rs"],
-        about: "/* Tautline's chain of robots for programs in C: see docs/embed.md. Written by cbindgen; a test\n   \
-            compares it. */",
+        about: "/* Tautline's chain of robots for programs in C: see docs/embed.md. \
+                Written by cbindgen; a test\n   compares it. */",
     },
     Header {
         name: "tautline_monitor.h",
         includes: &["tautline.h"],
         sources: &["src/monitor.rs"],
-        about: "/* Tautline's monitors of robots for programs in C: see docs/monitor.md. Written by cbindgen; a \
-            test\n   compares it. */",
+        about: "/* Tautline's monitors of robots for programs in C: see docs/monitor.md. \
+                Written by cbindgen; a test\n   compares it. */",
     },
 ];
 

@@ -67,13 +67,13 @@ pub struct Step<S> {
 #[derive(Clone)]
 pub(crate) struct Answers {
     given: Vec<(u32, u32)>,
-    pub(crate) asked: Questions,
+    pub(crate) asked: QuestionCounts,
     most_mishaps: u32,
 }
 
 /// How much was asked for.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Questions {
+pub(crate) struct QuestionCounts {
     pub(crate) answers: usize,
     /// Mishaps among them.
     pub(crate) mishaps: u32,
@@ -83,14 +83,14 @@ pub(crate) struct Questions {
 
 impl Answers {
     pub(crate) const fn with_mishaps(most_mishaps: u32) -> Self {
-        Self { given: Vec::new(), asked: Questions { answers: 0, mishaps: 0, events: 0 }, most_mishaps }
+        Self { given: Vec::new(), asked: QuestionCounts { answers: 0, mishaps: 0, events: 0 }, most_mishaps }
     }
 
     /// The next combination, which begins with as many of these answers as are `kept`; the place of the answer that is
     /// another one, if there is one. It is asked for from the first answer on.
     pub(crate) fn advance(&mut self, kept: usize) -> Option<usize> {
         self.given.truncate(self.asked.answers);
-        self.asked = Questions::default();
+        self.asked = QuestionCounts::default();
         while self.given.len() > kept {
             if let Some((answer, of)) = self.given.pop().filter(|(answer, of)| answer + 1 < *of) {
                 self.given.push((answer + 1, of));

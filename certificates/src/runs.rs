@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 
 use crate::file::take;
-use crate::model::{Answers, Questions};
+use crate::model::{Answers, QuestionCounts};
 use crate::verdict::{Counts, Refusal};
 
 /// The step function of a system whose runs are told apart, and what is demanded of it.
@@ -125,7 +125,7 @@ struct Fork<S, P> {
     ready: Ready<S, P>,
     steps: u32,
     sent: usize,
-    asked: Questions,
+    asked: QuestionCounts,
 }
 
 /// All runs that begin with certain answers.
@@ -212,7 +212,7 @@ impl<'a, M: Runs> Walk<'a, M> {
     fn step(&mut self) -> Result<bool, Refusal> {
         let Some(Fork { ready, asked, .. }) = self.forks.last() else { return Ok(false) };
         let broken = self.model.step(ready, &mut self.state, &mut self.log, &mut self.answers);
-        let Questions { answers, mishaps, events } = self.answers.asked;
+        let QuestionCounts { answers, mishaps, events } = self.answers.asked;
         let (is_asked, is_event) = (answers > asked.answers, events > asked.events);
         self.steps += 1;
         self.tally.of[mishaps as usize][1] += 1;

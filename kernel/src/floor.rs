@@ -21,10 +21,10 @@ pub trait Floor<S = Sensor> {
     fn sensor(&self, cell: Cell) -> Option<S>;
     /// Changes what the sensor in `cell` stores; no effect where there is none.
     fn put(&mut self, cell: Cell, sensor: S);
-    /// The identifier of a sensor that is about to be placed in `cell`: not 0, and another than that of any of the
-    /// 65,534 sensors that have been there last. There are no more, so that a lap during which the sensors of one cell
-    /// are replaced more often than that may take the last for the first. Agents that search in trees do not ask for
-    /// it.
+    /// The identifier of a sensor that is about to be placed in `cell`: not 0, and another than that of
+    /// any of the 65,534 sensors that have been there last. There are no more, so that a lap during
+    /// which the sensors of one cell are replaced more often than that may take the last for the first.
+    /// Agents that search in trees do not ask for it.
     fn unpack(&mut self, cell: Cell) -> u16;
     /// Whether no wall stands on `edge`, which is between two cells that have sensors.
     fn is_open(&self, edge: Edge) -> bool;

@@ -14,7 +14,7 @@ use tautline_library::dijkstra::{Machines, Rule};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::protocol::Keeps;
 
-use self::model::CountModel;
+use self::model::CountedModel;
 
 /// The milliseconds of processor time of all threads of this process.
 fn processor_time() -> u64 {
@@ -44,7 +44,7 @@ fn search(who: &str, states: u8) {
         let alone = Limits { workers: NonZeroUsize::new(1), ..Limits::NONE };
         Keeps::<Rule>(ring, 1).search(&rule, alone).expect("there is a ring").states
     } else {
-        let model = CountModel(rule, ring);
+        let model = CountedModel(rule, ring);
         model.checker().threads(1).spawn_bfs().join().unique_state_count() as u64
     };
     println!("{count} {} {}", processor_time(), peak());

@@ -17,7 +17,7 @@ use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::protocol::{Bound, Keeps, Protocol};
 use tautline_proofs::team::Moves;
 
-use crate::model::CountModel;
+use crate::model::CountedModel;
 
 /// The states of the first demand's search.
 fn ours<P: Protocol>(rule: &P, bound: P::Bound) -> u64 {
@@ -31,7 +31,7 @@ where
     P::State: Send + Sync + std::hash::Hash,
 {
     let surroundings = bound.each().expect("there is such a bound").remove(0);
-    let model = CountModel(rule.clone(), surroundings);
+    let model = CountedModel(rule.clone(), surroundings);
     model.checker().spawn_bfs().join().unique_state_count() as u64
 }
 

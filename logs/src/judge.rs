@@ -21,7 +21,7 @@ pub enum Demand {
         /// The range.
         range_mm: u32,
         /// The robots of which the clause speaks.
-        of: Contact,
+        of: Group,
     },
     /// KIT-3: robots that have left their starts are apart. A robot has left its start, the first place of it in the
     /// log, for ever once it was farther from it than this distance and the tolerance.
@@ -51,7 +51,7 @@ pub enum Demand {
 
 /// The robots that have to hear each other.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Contact {
+pub enum Group {
     /// All.
     All,
     /// All, if they do so when they start: at the first stamp at which the log says where all of them are.
@@ -267,7 +267,7 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         Demand::Joined { range_mm, of } => {
             let is_joined = joined(moment, f64::from(*range_mm) + tolerance)?;
             let is_first = !std::mem::replace(&mut is_started, true);
-            if is_first && is_joined.is_err() && *of == Contact::JoinedAtStart {
+            if is_first && is_joined.is_err() && *of == Group::JoinedAtStart {
                 parted = Some(moment.at_us);
             }
             is_joined.err()

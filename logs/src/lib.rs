@@ -29,7 +29,7 @@ mod track;
 
 pub use clause::{CLAUSES, Kind, not_judged};
 pub use ground::{Grid, Ground, Strays, misplaced, visits};
-pub use judge::{Breach, Contact, Demand, Doubt, MOST_COMPARISONS, TooMuch, Verdict, judge};
+pub use judge::{Breach, Demand, Doubt, Group, MOST_COMPARISONS, TooMuch, Verdict, judge};
 pub use numbers::{NamesError, Numbers};
 pub use read::{Fault, FaultPlace, Form, Log, MOST_SAMPLES, Sample, read};
 pub use track::{Limits, Refusals, Silence, Tracks};

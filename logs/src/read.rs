@@ -194,8 +194,8 @@ fn micros(seconds: i64, nanos: i64) -> Option<i64> {
 /// A [`Fault`] if it is none, has no position, or too many. A log that ends in the midst of a line or a message is read
 /// up to there.
 pub fn read(bytes: &[u8]) -> Result<Log, Fault> {
-    const REMEDY: &str = "name a table with columns time, robot, x and y, lines of JSON with these fields, or a \
-                          recording of ROS 2 in MCAP";
+    const REMEDY: &str = "name a table with columns time, robot, x and y, lines of JSON with \
+                          these fields, or a recording of ROS 2 in MCAP";
     let bytes = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes);
     let log = match bytes.iter().find(|byte| !byte.is_ascii_whitespace()) {
         None => return Err(Fault::whole("the log is empty", REMEDY)),

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use tautline_logs::{Breach, Contact, Demand, Doubt, Grid, Limits, Numbers, Tracks, Verdict, judge, read};
+use tautline_logs::{Breach, Demand, Doubt, Grid, Group, Limits, Numbers, Tracks, Verdict, judge, read};
 
 const LIMITS: Limits = Limits { tolerance_mm: 100, gap_us: 1_000_000, jump_us: 60_000_000 };
 const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000 };
 const RANGE: Demand = Demand::Neighbours { range_mm: 2_549 };
-const JOINED: Demand = Demand::Joined { range_mm: 2_549, of: Contact::JoinedAtStart };
+const JOINED: Demand = Demand::Joined { range_mm: 2_549, of: Group::JoinedAtStart };
 const APART: Demand = Demand::Apart { least_mm: 3_000 };
 const CHAIN_2: Demand = Demand::Crowd { grid: GRID, most: 2, base: Some([0, 0]) };
 const FRONTIER_2: Demand = Demand::Crowd { grid: GRID, most: 1, base: None };
@@ -49,7 +49,7 @@ fn cases() -> Vec<(&'static str, &'static str, Demand, Result<i64, bool>)> {
         (
             "parted where all have to be joined",
             "0 0 3000",
-            Demand::Joined { range_mm: 2_549, of: Contact::All },
+            Demand::Joined { range_mm: 2_549, of: Group::All },
             Ok(0),
         ),
         ("near at the starts", "0 0 1000; 5 2000 1000", APART, kept),
@@ -111,7 +111,7 @@ fn each_wrong_judge_is_found() {
         ("robots that are always silent", |limits, demand| (Limits { gap_us: 1, ..limits }, demand)),
         ("all pairs for neighbours", |limits, demand| match demand {
             Demand::Neighbours { range_mm } => {
-                (limits, Demand::Joined { range_mm: range_mm / 2, of: Contact::All })
+                (limits, Demand::Joined { range_mm: range_mm / 2, of: Group::All })
             }
             other => (limits, other),
         }),
@@ -120,12 +120,12 @@ fn each_wrong_judge_is_found() {
             other => (limits, other),
         }),
         ("no start", |limits, demand| match demand {
-            Demand::Joined { range_mm, .. } => (limits, Demand::Joined { range_mm, of: Contact::All }),
+            Demand::Joined { range_mm, .. } => (limits, Demand::Joined { range_mm, of: Group::All }),
             other => (limits, other),
         }),
         ("always a start", |limits, demand| match demand {
             Demand::Joined { range_mm, .. } => {
-                (limits, Demand::Joined { range_mm, of: Contact::JoinedAtStart })
+                (limits, Demand::Joined { range_mm, of: Group::JoinedAtStart })
             }
             other => (limits, other),
         }),

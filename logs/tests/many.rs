@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use tautline_grids::layout::{Layout, load};
 use tautline_kernel::ground::Cell;
-use tautline_logs::{Contact, Demand, Doubt, Grid, Limits, Numbers, Tracks, Verdict, judge, read};
+use tautline_logs::{Demand, Doubt, Grid, Group, Limits, Numbers, Tracks, Verdict, judge, read};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::kit::KIT;
@@ -143,8 +143,8 @@ impl Run {
         match id {
             "CHAIN-2" => Demand::Crowd { grid, most: 2, base: Some(self.grid_cell(self.cells[0][0])) },
             "CHAIN-3" => Demand::Neighbours { range_mm: 2_549 },
-            "KIT-1" => Demand::Joined { range_mm: 10_000, of: Contact::All },
-            "KIT-12" => Demand::Joined { range_mm: 10_000, of: Contact::JoinedAtStart },
+            "KIT-1" => Demand::Joined { range_mm: 10_000, of: Group::All },
+            "KIT-12" => Demand::Joined { range_mm: 10_000, of: Group::JoinedAtStart },
             "KIT-3" => Demand::Apart { least_mm: 3_000 },
             "FRONTIER-1" => {
                 let cells =

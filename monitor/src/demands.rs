@@ -48,14 +48,14 @@ impl Demand for Connectivity {
             return None;
         }
         for (number, robot) in track.robots.iter_mut().enumerate() {
-            robot.link = if number == 0 { Link::Connectivity } else { Link::Apart };
+            robot.link = if number == 0 { Link::Joined } else { Link::Apart };
         }
-        while let Some(asked) = track.robots.iter_mut().find(|robot| robot.link == Link::Connectivity) {
+        while let Some(asked) = track.robots.iter_mut().find(|robot| robot.link == Link::Joined) {
             asked.link = Link::Asked;
             let from = asked.place;
             let is_near =
                 |robot: &&mut Robot| robot.link == Link::Apart && !from.is_beyond(robot.place, most);
-            track.robots.iter_mut().filter(is_near).for_each(|robot| robot.link = Link::Connectivity);
+            track.robots.iter_mut().filter(is_near).for_each(|robot| robot.link = Link::Joined);
         }
         let track = &*track;
         let linked = |link: Link| track.heard().filter(move |&(robot, _)| track.robots[robot].link == link);

@@ -2,11 +2,11 @@
 //! `SPEC.md` is kept, broken or unknown. A monitor knows no rule: it sees where robots are, not what they intend. Its
 //! bytes are fixed, and a position takes time that the number of robots bounds.
 //!
-//! A breach is reported where the positions leave no doubt: a distance has to be off by more than the tolerance, and a
-//! robot is in a cell if the whole circle of the tolerance is. A clause is *kept* if every robot was heard within the
-//! gap and nothing is broken. Between two positions a robot goes where it will: choose the tolerance of a cell as the
-//! error of a position and the way that a robot goes within the gap, and that of a distance, which has two ends, as
-//! twice as much.
+//! A breach is reported where the positions leave no doubt: a distance has to be off by more than the
+//! tolerance, and a robot is in a cell if the whole circle of the tolerance is. A clause is *kept* if every
+//! robot was heard within the gap and nothing is broken. Between two positions a robot goes where it will:
+//! choose the tolerance of a cell as the error of a position and the way that a robot goes within the gap, and
+//! that of a distance, which has two ends, as twice as much.
 //!
 //! ```
 //! use tautline_monitor::{Monitor, Neighbours, Place, Robot, Verdict};
@@ -142,7 +142,7 @@ enum Link {
     /// It is not joined to the first robot.
     Apart,
     /// It is joined to the first robot.
-    Connectivity,
+    Joined,
     /// It is joined, and who is near it is as well.
     Asked,
 }
@@ -244,9 +244,9 @@ impl<D: Demand, R: AsMut<[Robot]>> Monitor<D, R> {
         Ok(())
     }
 
-    /// Judges the positions of the moment `now_us`, in microseconds of the clock that the stamps go by; time does not
-    /// go back, and a moment before an earlier one counts as that. Ask it when nobody was heard for a while: silence is
-    /// said.
+    /// Judges the positions of the moment `now_us`, in microseconds of the clock that the stamps go
+    /// by; time does not go back, and a moment before an earlier one counts as that. Ask it when
+    /// nobody was heard for a while: silence is said.
     pub fn at(&mut self, now_us: u64) -> Verdict {
         let track = &mut self.track;
         track.now_us = track.now_us.max(now_us);

@@ -51,8 +51,8 @@ impl Body {
         (2 * (there + self.back_mm + self.aside_mm()), 4)
     }
 
-    /// The way in mm, and the quarter turns, that another robot on the way costs besides: back and forth again, aside
-    /// and back.
+    /// The way in mm, and the quarter turns, that another robot on the way costs
+    /// besides: back and forth again, aside and back.
     const fn passing(self) -> (u64, u64) {
         (2 * (self.back_mm + self.aside_mm()), 4)
     }

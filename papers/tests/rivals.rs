@@ -120,8 +120,8 @@ fn what_does_not_fit_is_refused_with_its_reason() {
     };
     let four = Parameters::FULL.with_moves(Moves::Four);
     insta::assert_snapshot!(refused(four, 8),
-        @"with four moves a robot there is no legal first team move: 7 robots cannot leave one cell by four sides into \
-            cells of their own");
+        @"with four moves a robot there is no legal first team move: 7 robots cannot leave one \
+          cell by four sides into cells of their own");
     assert!(four.check(5).is_ok() && four.in_cells(Cells::Shared).check(8).is_ok());
     insta::assert_snapshot!(refused(Parameters::FULL, 12),
         @"full search of 12 robots would look at 5^11 = 48828125 team moves in each");

@@ -258,8 +258,8 @@ pub trait Method<R>: Sync {
         1
     }
 
-    /// Looks for a counterexample to `rule` in a portion of the parts. [`Answer::merged`] makes one answer of those to
-    /// all portions.
+    /// Looks for a counterexample to `rule` in a portion of the parts. [`Answer::merged`]
+    /// makes one answer of those to all portions.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
@@ -279,7 +279,7 @@ pub trait Method<R>: Sync {
     /// [`ScriptError`] if they are none.
     fn replay(&self, rule: &R, choices: &Choices) -> Result<RefutationPlay, ScriptError>;
 
-    /// The answer about `rule` by random runs, up to the first that is a counterexample; `None` if the method makes none.
+    /// The answer about `rule` by random runs in place of all cases, up to a counterexample; `None` without such runs.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin.
@@ -296,7 +296,7 @@ pub trait Method<R>: Sync {
         Ok(None)
     }
 
-    /// A file for Rocq with the theorem that the clause holds of `rule` beyond every bound; `None` if it has none.
+    /// A file for Rocq with the theorem that the clause holds of `rule` beyond every bound; `None` without one.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or if the file would be too large.
@@ -304,7 +304,7 @@ pub trait Method<R>: Sync {
         None
     }
 
-    /// All systems whose states or runs it searches for `rule`: a section of a certificate is about each.
+    /// All systems whose states or runs it searches for `rule`: a section of a certificate for each.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or searches something else.

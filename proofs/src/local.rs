@@ -7,8 +7,7 @@
 //! the places of `k + 1` robots are looked at in the same way; if that does not do, the question is open.
 //!
 //! The verdict is about the relation of plans that the rule admits, whoever picks among them; [`GuardedPlanner`] keeps
-//! any planner to it. That the finite check is
-//! enough is proved in `proofs/rocq/Local.v`.
+//! any planner to it. That the finite check is enough is proved in `proofs/rocq/Local.v`.
 
 /// Functions of a rule that has another one, `self.rule`, and answers as that does.
 macro_rules! as_its_rule {
@@ -33,7 +32,7 @@ use tautline_kernel::ground::{Cell, Step};
 use self::certificate::terms;
 pub use self::invariant::Invariant;
 pub use self::kept::GuardedPlanner;
-use self::numbered::{ByNumber, NumberRule};
+use self::numbered::{ByNumber, NumberedRule};
 use self::team::Team;
 use self::wider::Wider;
 use crate::decide::{Answer, Context, Evidence, Method, MethodError, MethodResult, RefutationPlay, Verdict};
@@ -244,7 +243,7 @@ impl EveryNumber {
     ///
     /// # Errors
     /// [`MethodError`] if one does not start as its rule says, or a larger one whose start alone is looked at.
-    fn teams(self, rule: &dyn NumberRule) -> Result<Vec<Team<'_>>, MethodError> {
+    fn teams(self, rule: &dyn NumberedRule) -> Result<Vec<Team<'_>>, MethodError> {
         let most = self.most_robots.max(self.most_starts).max(rule.least());
         let making = watchdog::Steps::begin();
         let team = |robots| {
@@ -256,7 +255,7 @@ impl EveryNumber {
         Ok(teams)
     }
 
-    fn decided(self, rule: &dyn NumberRule, room: Room<'_>) -> MethodResult {
+    fn decided(self, rule: &dyn NumberedRule, room: Room<'_>) -> MethodResult {
         let (invariant, teams) = (Invariant::found(rule)?, self.teams(rule)?);
         if invariant.holds() {
             return Ok(invariant.answer());
@@ -287,7 +286,7 @@ impl EveryNumber {
         Ok(Answer { note: Some(note), ..Answer::new(None, false, Verdict::Holds, invariant.cases) })
     }
 
-    fn replayed(self, rule: &dyn NumberRule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
+    fn replayed(self, rule: &dyn NumberedRule, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut script = Script::new(choices);
         let more = script.choose((self.most_robots + 1).saturating_sub(rule.least()))?;
         let team = Team::new(rule, rule.least() + more).map_err(|_| ScriptError::Unbroken)?;

@@ -26,7 +26,7 @@ pub enum Misreading {
 
 /// Whose service the SBit of a call stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Server {
+pub enum Service {
     /// Any robot's: step 5 sets it when the robot hears whom the WFR has chosen.
     ByAny,
     /// The robot's own.
@@ -41,13 +41,13 @@ pub struct Subject {
     /// How they misread what they hear.
     pub misread: Option<Misreading>,
     /// How robots understand the SBit.
-    pub served: Server,
+    pub served: Service,
 }
 
 impl Subject {
     /// Robots and WFRs that follow `rule`.
     pub const fn rescuing(rule: Rule) -> Self {
-        Self { rule, misread: None, served: Server::ByAny }
+        Self { rule, misread: None, served: Service::ByAny }
     }
 
     /// The repaired rule, misreading.

@@ -221,8 +221,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// Every scene in which a run begins: of every layout that is decided before, with every start and goal.
     ///
     /// # Errors
-    /// [`MethodError`] if the area, the number of robots or the number of layouts is too large, or a robot starts
-    /// outside.
+    /// [`MethodError`] if the area, the number of robots or the number of layouts
+    /// is too large, or a robot starts outside.
     pub fn starts(&self, rule: &R) -> Result<Vec<Scene<R>>, MethodError> {
         if !(1..=MOST_ROBOTS).contains(&self.robots) {
             return Err(MethodError::new(format_args!(

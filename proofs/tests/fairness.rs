@@ -121,8 +121,8 @@ impl Random {
         if demand == 0 { [of(1), of(2)].into_iter().flatten().min() } else { of(3) }
     }
 
-    /// The fewest steps to a state in which the run may stay, or from which it may go round, and owe something for
-    /// ever.
+    /// The fewest steps to a state in which the run may stay, or from which it
+    /// may go round, and owe something for ever.
     fn shortest_way(&self, demand: usize) -> Option<usize> {
         let stays = |state: u8| {
             self.owed[usize::from(state)] != 0

@@ -176,8 +176,8 @@ fn a_rule_of_ones_own_is_a_clause_like_any_other() {
 fn what_is_no_local_rule_is_refused_with_the_reason() {
     let refusal = |rule: Leash| Invariant::of(&rule).expect_err("no local rule").to_string();
     insta::assert_snapshot!(refusal(Leash { is_here_alone: true, ..LEASH }),
-        @"the rule is not the same everywhere: it answers Cross(West) in 0,0, Cross(East) in -2,0 in another way 113 \
-            columns and 57 rows away");
+        @"the rule is not the same everywhere: it answers Cross(West) in 0,0, Cross(East) in -2,0 in \
+          another way 113 columns and 57 rows away");
     insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }),
         @"robots that start so break the promise: 0,0 0 | 2,1 0");
     insta::assert_snapshot!(refusal(Leash { grows: true, ..LEASH }), @"1 is none of the states of the rule");
@@ -208,8 +208,8 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     insta::assert_snapshot!(refusal(Slip::NoOutcome),
         @"Cross(East) in state 0 has no outcome: name at least one, or leave the act out");
     insta::assert_snapshot!(refusal(Slip::NoWall),
-        @"Cross(East) in state 0 crosses a side that may be a wall: name an outcome in which the robot stays, or say \
-            that the act is_sure");
+        @"Cross(East) in state 0 crosses a side that may be a wall: name an outcome in which the \
+          robot stays, or say that the act is_sure");
     insta::assert_snapshot!(refusal(Slip::NoTuple),
         @"tuples names none of 2 robots: the promise would be about nothing");
     insta::assert_snapshot!(refusal(Slip::OneRobotTwice), @"tuples names [1, 1], which are not 2 of 2 robots");

@@ -384,5 +384,5 @@ fn where_two_robots_are_too_coarse_three_are_looked_at_and_else_the_question_is_
     assert_eq!((decision.verdict, decision.counterexample), (Verdict::Open, None));
     insta::assert_snapshot!(decision.note.expect("what was found"),
         @"places of 2 robots are too coarse, and no run of up to 4 robots was found; as far as these places tell, \
-            robots may go from 0,0 false | -1,0 false to 0,0 false | -1,0 true");
+          robots may go from 0,0 false | -1,0 false to 0,0 false | -1,0 true");
 }

@@ -154,9 +154,9 @@ fn a_backtrack_of_a_blocked_team_move_changes_nothing() {
 /// Three bits for the step and one for a wall.
 const FOUR_BITS: u8 = 0b1111;
 
-/// The messages that four bits confuse are those of an advance and a backtrack by the same step. So who hears them
-/// knows where robots are and which walls they met; and who plans along knows the rest, since the plan is the one or
-/// the other.
+/// The messages that four bits confuse are those of an advance and a backtrack by the same step. So
+/// who hears them knows where robots are and which walls they met; and who plans along knows the
+/// rest, since the plan is the one or the other.
 #[test]
 fn four_bits_are_enough_for_one_who_plans_along() {
     let messages = Step::ALL.into_iter().flat_map(|step| {

@@ -16,7 +16,7 @@ use tautline_proofs::engine::states::{Limits, System};
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::mrc::space::{Findings, Space, Until, search};
 use tautline_proofs::mrc::{
-    Action, Actor, Demand, Faults, Leases, LossKind, Misreading, Server, Setting, State,
+    Action, Actor, Demand, Faults, Leases, LossKind, Misreading, Service, Setting, State,
 };
 
 use self::model::Rescue;
@@ -25,7 +25,7 @@ const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faul
     Setting {
         rule: Rule::REPAIRED,
         misread: None,
-        served: Server::ByAny,
+        served: Service::ByAny,
         robots,
         wfrs,
         events,

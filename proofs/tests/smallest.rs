@@ -38,8 +38,8 @@ fn nothing_is_smaller_than_the_smallest_counterexamples() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release -p tautline-proofs --test all -- --ignored \
-    nothing_is_smaller_than_those"]
+#[ignore = "takes minutes: cargo test --release -p tautline-proofs --test all \
+            -- --ignored nothing_is_smaller_than_those"]
 fn nothing_is_smaller_than_those_that_take_long() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/smallest.md");
     let (page, table) = (std::fs::read_to_string(page).expect("the page"), table(is_long));

@@ -112,7 +112,7 @@ impl fmt::Display for Id {
 pub enum ConfigError {
     /// It is no TOML, or has what is not known; the text of the parser, with the line.
     Toml(String),
-    /// A value at a byte of the text, or on the command line, cannot be.
+    /// A value that cannot be, at a byte of the text or on the command line.
     Wrong {
         /// The byte.
         at: usize,

@@ -111,8 +111,8 @@ impl FromStr for WallAppearance {
         };
         read().ok_or_else(|| {
             format!(
-                "{text:?} is no side of a cell and team move: write column, row, one of E, S, W and N, and a whole \
-                 number from 1 on, as in 7,6,E@20"
+                "{text:?} is no side of a cell and team move: write column, row, one of E, S, W and N, and \
+                 a whole number from 1 on, as in 7,6,E@20"
             )
         })
     }

@@ -220,9 +220,9 @@ impl Extra {
     /// How far messages are heard.
     pub const RANGE: &'static Self = &Self {
         takes: Takes::Word("CELLS"),
-        about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots that \
-                keep in touch hear 2 to 5 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 \
-                cells or more; without it 60",
+        about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots \
+                that keep in touch hear 2 to 5 cells; without it 10 m, and a cell is 3 m wide. Robots of a \
+                pack hear 3 cells or more; without it 60",
         ..told!("range", range_cells, whole)
     };
 
@@ -264,8 +264,8 @@ impl Extra {
     /// How many beacons are averaged.
     pub const READINGS: &'static Self = &Self {
         takes: Takes::Word("BEACONS"),
-        about: "How many beacons of each anchor a robot averages at each stop; with 0 it goes by its wheels alone. \
-                Without it 100",
+        about: "How many beacons of each anchor a robot averages at each stop; with 0 it \
+                goes by its wheels alone. Without it 100",
         ..told!("readings", readings, whole)
     };
 
@@ -411,8 +411,8 @@ impl Extra {
     /// Which wall appears, and when.
     pub const WALL: &'static Self = &Self {
         takes: Takes::Word("X,Y,SIDE@MOVE"),
-        about: "On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or \
-            N",
+        about: "On which side of a cell a wall appears while a chain explores, \
+                and from which team move on: E, S, W or N",
         wrong: |options, _, layout| {
             let (cell, edge) = options.wall.map(|wall| (wall.cell, wall.edge()))?;
             let sides = [cell, edge.cell(), edge.cell().beyond(edge.side())];

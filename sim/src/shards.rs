@@ -13,8 +13,8 @@ fn deals(asked: &HuntRequest<'_>) -> Result<&'static dyn Deals, Diagnostic> {
     let &HuntRequest { scheme, rule, .. } = asked;
     scheme.hunt(rule)?.deals().ok_or_else(|| {
         let what = format!(
-            "a hunt of {} by the rule {rule} is not dealt out: most of its states are led to from every start, so each \
-             shard would search them again",
+            "a hunt of {} by the rule {rule} is not dealt out: most of its states are led to from every \
+             start, so each shard would search them again",
             scheme.name
         );
         let remedy = "leave `plan` and `shards` out; a smaller `size` or `max-walls` makes it shorter";

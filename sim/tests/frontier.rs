@@ -355,8 +355,8 @@ fn keep_costs_next_to_nothing_in_many_layouts() {
 }
 
 #[test]
-#[ignore = "46 s of a core, and published maps: cargo test -p tautline-sim --release --test all published_maps -- \
-    --ignored --nocapture"]
+#[ignore = "46 s of a core, and published maps: cargo test -p tautline-sim --release --test \
+            all published_maps -- --ignored --nocapture"]
 fn eight_robots_explore_published_maps() {
     let folder = std::env::var_os("TAUTLINE_MAPS").expect("TAUTLINE_MAPS names the folder of published maps");
     for (map, expected) in [("random512-10-0", 36_795), ("Boston_0_512", 29_356)] {

@@ -7,7 +7,7 @@ use crate::common::generated;
 use tautline_sim::explore::{Catalogue, ClauseId, Limits, RuleId, Setup, run};
 use tautline_sim::failures::{Failure, MoveOrder};
 
-/// The settings of a team besides its rule, robots and layout.
+/// A setting of a team besides its rule, robots and layout.
 #[derive(Clone, Copy, Debug)]
 enum TeamSetting {
     Nothing,

@@ -49,7 +49,7 @@ fn corner(text: &str) -> Result<Metres<2>, String> {
 
 /// The cells under a log, and the map of them if there is one. The rows of a map are counted southwards from 0; those
 /// of a grid northwards from its corner.
-pub(super) struct MapOfLog {
+pub(super) struct LogMap {
     layout: Option<Layout>,
     grid: Grid,
     base: Option<Cell>,
@@ -61,8 +61,8 @@ impl MapArgs {
         self.map.as_ref().map_or_else(Vec::new, |map| layout::inputs(map, self.image.as_deref()))
     }
 
-    /// Refuses options without effect on clauses of which some speak of cells and of a base, and some of a range in
-    /// cells.
+    /// Refuses options without effect on clauses of which some speak of cells and
+    /// of a base, and some of a range in cells.
     pub(super) fn check(
         &self,
         (has_cells, has_base): (bool, bool),
@@ -86,7 +86,7 @@ impl MapArgs {
         Ok(())
     }
 
-    pub(super) fn load(&self, is_map_needed: bool) -> Result<MapOfLog, Diagnostic> {
+    pub(super) fn load(&self, is_map_needed: bool) -> Result<LogMap, Diagnostic> {
         let mut corner = [0.0, 0.0];
         let mut cell_m = self.cell.unwrap_or(1.0);
         let layout = match &self.map {
@@ -103,8 +103,8 @@ impl MapArgs {
                     let (pixels, frame) = ros::load(path, image)?;
                     if frame.yaw_rad != 0.0 {
                         let what = format!("the map is turned by {} rad", frame.yaw_rad);
-                        let remedy = "turn the positions into the axes of its image, and set the yaw of its origin to \
-                            0";
+                        let remedy = "turn the positions into the axes of its \
+                            image, and set the yaw of its origin to 0";
                         return Err(Diagnostic::in_file(path, what, remedy));
                     }
                     coarse.cell_m = self.cell;
@@ -131,11 +131,11 @@ impl MapArgs {
         }
         let base = base.or_else(|| layout.as_ref()?.base());
         let grid = Grid { origin_mm: corner.map(|along| along * 1e3), cell_mm: milli(cell_m).max(1) };
-        Ok(MapOfLog { layout, grid, base })
+        Ok(LogMap { layout, grid, base })
     }
 }
 
-impl MapOfLog {
+impl LogMap {
     pub(super) const fn grid(&self) -> Grid {
         self.grid
     }
@@ -204,7 +204,7 @@ impl MapOfLog {
     }
 }
 
-impl Ground for MapOfLog {
+impl Ground for LogMap {
     fn is_free(&self, cell: [i32; 2]) -> bool {
         self.southward(cell)
             .is_some_and(|cell| self.layout.as_ref().is_none_or(|layout| layout.is_free(cell)))

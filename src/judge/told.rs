@@ -9,7 +9,7 @@ use tautline_io::svg::Panel;
 use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Numbers, Strays, Tracks, Verdict};
 use tautline_proofs::plural::counted;
 
-use super::given::MapOfLog;
+use super::given::LogMap;
 use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 
@@ -20,7 +20,7 @@ pub(super) struct LogReport<'a> {
     pub(super) numbers: &'a Numbers,
     pub(super) tracks: &'a Tracks,
     pub(super) limits: &'a Limits,
-    pub(super) given: &'a MapOfLog,
+    pub(super) given: &'a LogMap,
     pub(super) misplaced: Option<Strays>,
     pub(super) verdicts: &'a [(&'static str, Demand, Verdict)],
 }
@@ -255,8 +255,8 @@ impl LogReport<'_> {
             Doubt::Alone => "it speaks of several robots, and the log has one".to_owned(),
             Doubt::Parted(at_us) => {
                 format!(
-                    "at {} s, the first moment that has all robots, they do not hear each other, and the clause asks \
-                     for nothing",
+                    "at {} s, the first moment that has all robots, they do not hear \
+                     each other, and the clause asks for nothing",
                     seconds(*at_us)
                 )
             }

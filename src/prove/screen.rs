@@ -36,8 +36,8 @@ pub(super) fn screen(rows: &[Row]) -> String {
         text += &line(name, title(name), &counts(scheme));
     }
     text += &line("in all", "", &counts(rows));
-    text + "\nholds: within the bound that the ledger prints; sampled: drawn at random, not\nrefuted; refuted: as \
-        published.\n"
+    text + "\nholds: within the bound that the ledger prints; sampled: drawn at \
+            random, not\nrefuted; refuted: as published.\n"
         + "\nRefuted as published:\n"
         + &indented(2, &ids(rows))
         + "\nRefuted on purpose:\n"

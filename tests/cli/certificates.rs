@@ -104,8 +104,8 @@ fn what_holds_without_a_search_is_told_to_get_no_certificate() {
     let proved = ran(folder, &["prove", "KIT-9", "--certificate", "certificates"]);
     assert_eq!(proved.status.code(), Some(0));
     let said = String::from_utf8_lossy(&proved.stderr);
-    let why = "KIT-9 as repaired gets no certificate: the engine exhaustive searches neither all states nor all \
-        layouts";
+    let why = "KIT-9 as repaired gets no certificate: the engine exhaustive \
+               searches neither all states nor all layouts";
     assert!(said.contains(why), "{said}");
     assert_eq!(names(&folder.join("certificates")), [""; 0]);
 }

@@ -79,8 +79,8 @@ fn a_run_says_how_far_the_team_comes() {
     let reach: Vec<&str> = told.lines().filter(|line| line.contains("within reach")).collect();
     assert_snapshot!(
         reach.join("\n"),
-        @"49 of 1600 free cells are within reach of a chain of 4; of one of 21 all 1600 that are connected with the \
-            base"
+        @"49 of 1600 free cells are within reach of a chain of 4; of one of 21 \
+          all 1600 that are connected with the base"
     );
 }
 
@@ -98,8 +98,8 @@ fn a_clause_that_noise_breaks_is_said_to_be_no_refutation() {
 fn a_ros_map_is_taken_in_larger_cells() {
     let folder = folder();
     let folder = folder.path();
-    let yaml = "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: \
-        0.196\n";
+    let yaml = "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n\
+                negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
     fs::write(folder.join("map.yaml"), yaml).expect("a map");
     let pixels = (0..20 * 10).map(|place| if place == 5 * 20 + 10 { 0_u8 } else { 255 });
     let image: Vec<u8> = b"P5 20 10 255\n".iter().copied().chain(pixels).collect();

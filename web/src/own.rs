@@ -1,6 +1,6 @@
-//! The page of a rule of one's own. A crate names its scheme by [`page!`](crate::page), and `web/build --rule FOLDER`
-//! makes the page of it: the rule stands first among the schemes, is drawn, run, decided by hand and hunted as ours
-//! are.
+//! The page of a rule of one's own. A crate names its scheme by [`page!`](crate::page), and
+//! `web/build --rule FOLDER` makes the page of it: the rule stands first among the schemes, is drawn,
+//! run, decided by hand and hunted as ours are.
 
 use std::sync::OnceLock;
 

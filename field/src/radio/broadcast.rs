@@ -216,9 +216,8 @@ mod tests {
             let source = NodeId(nodes as u32 / 2);
             for scheme in [Scheme::Farthest { k: None }, Scheme::Flooding] {
                 let chance = &mut SeededOracle::new(seed, 1);
-                let (report, _) =
-                    broadcast(&network, &rule(scheme), Channel::Ideal, &Faults::NONE, source, chance).expect("a \
-                        source");
+                let spread = broadcast(&network, &rule(scheme), Channel::Ideal, &Faults::NONE, source, chance);
+                let (report, _) = spread.expect("a source");
                 prop_assert_eq!(report.reached as usize, network.component(source));
                 prop_assert_eq!(report.rebroadcasts + 1, report.reached);
             }

@@ -18,8 +18,8 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Broadcasts a call from `wfr`, and nothing goes wrong. Node `robot` of the network is a robot: it hears, and
-    /// sends nothing.
+    /// Broadcasts a call from `wfr`, and nothing goes wrong. Node `robot` of the network
+    /// is a robot: it hears, and sends nothing.
     ///
     /// # Errors
     /// [`Problem::NoNode`] if there is no such WFR.

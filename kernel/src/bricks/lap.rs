@@ -81,8 +81,8 @@ impl Lap {
 mod tests {
     use super::*;
 
-    /// Moves in a rectangle of so many columns and rows, from outside of which the lap began, until the lap is given
-    /// up.
+    /// Moves in a rectangle of so many columns and rows, from outside of which
+    /// the lap began, until the lap is given up.
     fn given_up_after(mut lap: Lap, columns: usize, rows: usize) -> u32 {
         let sides = [
             (Side::East, columns - 1),

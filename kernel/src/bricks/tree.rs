@@ -3,9 +3,9 @@
 //! is none and nothing is left to explore, the agent founds one. A cell of a tree without children is visited once all
 //! cells of trees beside it are of its own tree, and its agent goes to its parent. Clauses: BRICKS-1 … BRICKS-14.
 //!
-//! *Helpers* is the same without bricks: depth first search, several agents sharing the trees that they meet: *careful*
-//! ones look underfoot before they place a sensor, *doubting* ones place it unasked and believe what they miss after
-//! several scans.
+//! *Helpers* is the same without bricks: depth first search, several agents sharing the trees that they
+//! meet: *careful* ones look underfoot before they place a sensor, *doubting* ones place it unasked and
+//! believe what they miss after several scans.
 
 mod agent;
 mod note;

@@ -436,8 +436,8 @@ mod tests {
         assert_eq!(choices.next(), None);
     }
 
-    /// The paper's recursion: the first steps of the robots behind `robot`, the nearest to it first, with which the
-    /// chain closes.
+    /// The paper's recursion: the first steps of the robots behind `robot`, the nearest
+    /// to it first, with which the chain closes.
     fn recursion<const ROBOTS: usize>(planner: &mut Planner<'_, SmallGrid, ROBOTS>, robot: usize) -> bool {
         let (ahead, behind) = (planner.planned(robot), robot - 1);
         if behind == 0 {

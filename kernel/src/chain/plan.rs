@@ -93,8 +93,8 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         let shut = self.grid.sides(EdgeMark::Wall, at).or(self.grid.sides(EdgeMark::Virtual, at));
         let steps = Steps::ALL.without(Step::Stay).minus(shut);
         let admitted = self.rule.steps_behind(at, behind);
-        // Mostly the team can follow the first candidate. Then the others matter only if a move of them is not
-        // admitted.
+        // Mostly the team can follow the first candidate. Then the others
+        // matter only if a move of them is not admitted.
         let mut has_descended = false;
         if steps.minus(admitted).is_empty() {
             let (first, count) = self.leader_list(at, steps, ControlFlow::Break(()));

@@ -273,8 +273,8 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         if above >= most {
             return None;
         }
-        // For each robot, the next cell behind those that were tried; as long as it is not sought, only how far it is
-        // at least.
+        // For each robot, the next cell behind those that were tried; as long as it is
+        // not sought, only how far it is at least.
         let mut nearest = [Nearest::Nothing; ROBOTS];
         for (robot, &at) in self.team.iter().enumerate().skip(1) {
             let least = self.grid.least_distance(at).max(above + 1);
@@ -319,8 +319,8 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         found
     }
 
-    /// The shortest way to draw the chain in and let it out again to an unexplored cell that a rehearsal carries
-    /// through.
+    /// The shortest way to draw the chain in and let it out again to an
+    /// unexplored cell that a rehearsal carries through.
     fn draw_in(&mut self) -> Option<(Reel<ROBOTS>, u32)> {
         let leader = self.team.len() - 1;
         let walk = Walk::<ROBOTS>::own(self.grid, self.team);

@@ -1,8 +1,8 @@
-//! Re-forming behind a robot that has died (ours). The barrier has stopped the team in contact (CHAIN-20, CHAIN-19).
-//! Behind a mute R_d the robots R_1 … R_{d−1} stay, and those ahead take their own moves back until R_{d+1} is in
-//! contact with R_{d−1}; if that does not come about, the robots behind come home, too. Then the chain goes on with one
-//! robot fewer. Within each of the two parts neighbours are always in contact: each part is where it was before
-//! (CHAIN-21).
+//! Re-forming behind a robot that has died (ours). The barrier has stopped the team in contact (CHAIN-20,
+//! CHAIN-19). Behind a mute R_d the robots R_1 … R_{d−1} stay, and those ahead take their own moves back
+//! until R_{d+1} is in contact with R_{d−1}; if that does not come about, the robots behind come home, too.
+//! Then the chain goes on with one robot fewer. Within each of the two parts neighbours are always in
+//! contact: each part is where it was before (CHAIN-21).
 
 use super::message::{Damage, Message};
 use super::past::Past;

@@ -92,9 +92,9 @@ pub struct Rule {
 pub enum Budget {
     /// A plan is sought to the end, as in the paper.
     Unlimited,
-    /// Repair: as many looks for each robot of the team, the base counted. When they are used up, the team takes the
-    /// plan for the leader's present candidate if one is known by then; else this candidate and all later ones are
-    /// refused.
+    /// Repair: as many looks for each robot of the team, the base counted. When they are used up, the
+    /// team takes the plan for the leader's present candidate if one is known by then; else this
+    /// candidate and all later ones are refused.
     LooksPerRobot(u16),
 }
 

@@ -36,8 +36,8 @@ struct Solver<'a, const ROBOTS: usize> {
     team: &'a [Cell],
     wishes: &'a [Wish; ROBOTS],
     apart: Apart,
-    /// The steps of each robot that its present neighbours, walls and full cells leave, and then also the robots behind
-    /// it.
+    /// The steps of each robot that its present neighbours, walls and full cells
+    /// leave, and then also the robots behind it.
     left: [Steps; ROBOTS],
     /// By robot and place of a step that is left: the least that it and all behind it cost.
     least: [[i32; Step::ALL.len()]; ROBOTS],
@@ -241,8 +241,8 @@ mod tests {
         let mut grid = SmallGrid::new(area).expect("it fits");
         let (base, step) = (Cell::new(2, 2), |side| Steps::only(Step::Cross(side)));
         let mut finds = |robots: usize| {
-            // R_2 goes east from the base, where all are but the leader, which would rather go north to the same cell
-            // than stay.
+            // R_2 goes east from the base, where all are but the leader, which would
+            // rather go north to the same cell than stay.
             let mut team = [base; MOST];
             team[robots - 1] = Cell::new(3, 3);
             let mut wishes = [Wish { steps: Steps::ALL, ..Wish::STAY }; MOST];

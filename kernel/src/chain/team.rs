@@ -229,8 +229,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.grid == other.grid
     }
 
-    /// The team's intended move. `log` holds the messages of all team moves so far, as [`MoveOutcome::messages`] gave
-    /// them.
+    /// The team's intended move. `log` holds the messages of all team moves so
+    /// far, as [`MoveOutcome::messages`] gave them.
     ///
     /// The log is not trusted: a backtrack goes over sides that are known to be open, and ends where neighbours are in
     /// contact and no three robots in one cell. So a log that was changed may lead elsewhere than the true one, but
@@ -321,8 +321,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.grid.stops(self.cells[0], &mut stops[..self.robots]).is_some()
     }
 
-    /// Forgets the history if the team move that would be taken back next leads over a side that is known to be a wall
-    /// by now.
+    /// Forgets the history if the team move that would be taken back next leads over
+    /// a side that is known to be a wall by now.
     fn forget_what_is_shut(&mut self, log: &[u8]) {
         let (Walls::Changing, Some(entry)) = (self.walls, self.last_open) else { return };
         let first = entry as usize * (self.robots - 1);

@@ -3,8 +3,8 @@
 
 use crate::ground::Side;
 
-/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and the side that leads from each to
-/// the next.
+/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and
+/// the side that leads from each to the next.
 pub(super) const AROUND: [(i16, i16, Side); 8] = [
     (0, -1, Side::East),
     (1, -1, Side::South),

@@ -130,8 +130,8 @@ impl Scan {
         reads.map(move |(_, (columns, rows, _))| cell.at_offset(columns, rows)).filter(is_known)
     }
 
-    /// How the neighbour beyond `side`, which has a sensor, is entered; `replaced` is the fate of a sensor that was
-    /// missed.
+    /// How the neighbour beyond `side`, which has a sensor, is entered; `replaced`
+    /// is the fate of a sensor that was missed.
     pub const fn entry(&self, side: Side, replaced: SensorFate) -> Entry {
         if self.unexplored.has(side) { Entry::New { crossings: 0, replaced } } else { Entry::Known }
     }

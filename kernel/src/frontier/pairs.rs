@@ -1,8 +1,8 @@
 //! Which robot goes to which unexplored cell: robots and cells are paired, the nearest pair first.
 //!
-//! Every robot computes the pairs by itself, from its own map and from what the others have told. A robot takes one of
-//! as many cells as there are robots, the others at most all but one of them: so a list of that length for each robot
-//! is enough.
+//! Every robot computes the pairs by itself, from its own map and from what the others have told. A
+//! robot takes one of as many cells as there are robots, the others at most all but one of them: so a
+//! list of that length for each robot is enough.
 
 use core::ops::ControlFlow;
 
@@ -24,8 +24,8 @@ pub struct Pair {
     inland: u16,
     robot: (i16, i16),
     cell: (i16, i16),
-    /// The side through which the robot leaves its cell. It decides no order: no two pairs of a list differ in it
-    /// alone.
+    /// The side through which the robot leaves its cell. It decides no order:
+    /// no two pairs of a list differ in it alone.
     first: Side,
 }
 
@@ -144,8 +144,8 @@ pub(super) struct Pairing<'a, 'm, M, I> {
     pub(super) map: &'a M,
     pub(super) rule: &'a Rule,
     pub(super) own: Seeker,
-    /// Whether its way must not be longer than the one to the cell it has claimed, or to a nearest one if it has
-    /// claimed none.
+    /// Whether its way must not be longer than the one to the cell it has claimed, or
+    /// to a nearest one if it has claimed none.
     pub(super) is_bound: bool,
     pub(super) others: I,
     pub(super) memory: &'a mut Search<'m>,
@@ -177,8 +177,8 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
         }
     }
 
-    /// Whether the cell that the robot has claimed, or the `first` one if it has claimed none, is nearer than
-    /// `distance`.
+    /// Whether the cell that the robot has claimed, or the `first` one if it has
+    /// claimed none, is nearer than `distance`.
     fn is_within(&mut self, distance: u32, first: &Target) -> bool {
         let (cell, mut is_nearer) = (self.own.aim.unwrap_or(first.cell), false);
         if first.distance < distance {

@@ -16,8 +16,8 @@ use crate::ground::{Cell, Side};
 pub enum Stance {
     /// It stands in its cell.
     Stands,
-    /// It is at the rim of its cell and looks into the one beyond this side: for those who look too, it is entering
-    /// that one.
+    /// It is at the rim of its cell and looks into the one beyond this side: for
+    /// those who look too, it is entering that one.
     Tries(Side),
     /// It moves to the cell beyond this side.
     Enters(Side),
@@ -41,8 +41,8 @@ pub enum Sight {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
-    /// It goes to the rim of its cell at this side, on its way to an unexplored cell: tell what it sees by
-    /// [`Robot::looked`].
+    /// It goes to the rim of its cell at this side, on its way to an unexplored
+    /// cell: tell what it sees by [`Robot::looked`].
     Tries {
         /// The side.
         side: Side,
@@ -98,8 +98,8 @@ pub struct Robot<M> {
     stance: Stance,
     aim: Option<Cell>,
     waits: bool,
-    /// Whether it has learned anything since it last looked, or will have when it arrives, as far as its rule asks for
-    /// that.
+    /// Whether it has learned anything since it last looked, or will have when it
+    /// arrives, as far as its rule asks for that.
     has_news: bool,
     /// The threshold of its next decision, if its rule bases it on the last one.
     threshold: Option<Threshold>,
@@ -190,8 +190,8 @@ impl<M: Map> Robot<M> {
         }
     }
 
-    /// The frontier cell: the unexplored neighbour with the lowest occupancy probability, if one is below the
-    /// threshold.
+    /// The frontier cell: the unexplored neighbour with the lowest occupancy
+    /// probability, if one is below the threshold.
     fn candidate(&self, rule: &Rule, view: View<'_>, oracle: &mut dyn Oracle) -> Next {
         let threshold = self.threshold.unwrap_or(rule.threshold);
         let neighbours = BY_NUMBER.map(|side| (side, self.at.beyond(side)));
@@ -236,9 +236,9 @@ impl<M: Map> Robot<M> {
         self.threshold = Some(Threshold::mean(cells.map(|cell| self.occupancy(rule, others, cell))));
     }
 
-    /// The way to the unexplored cell that it is paired with, or to the one that comes first for it. The nearest pair
-    /// comes first: so the robot that is nearest to an unexplored cell goes there, and none that stands can be in its
-    /// way.
+    /// The way to the unexplored cell that it is paired with, or to the one that comes first for
+    /// it. The nearest pair comes first: so the robot that is nearest to an unexplored cell goes
+    /// there, and none that stands can be in its way.
     fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Way> {
         let own = Seeker { cell: self.at, aim: self.aim };
         let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
@@ -247,8 +247,8 @@ impl<M: Map> Robot<M> {
         Pairing { map: &self.map, rule, own, is_bound: self.is_bound(rule), others, memory, pairs }.found()
     }
 
-    /// Whether it goes to no cell that is farther than the one it has claimed, or than a nearest one if it has claimed
-    /// none.
+    /// Whether it goes to no cell that is farther than the one it has claimed, or
+    /// than a nearest one if it has claimed none.
     pub const fn is_bound(&self, rule: &Rule) -> bool {
         rule.has(Condition::Keep) && !self.has_news
     }

@@ -75,8 +75,8 @@ pub enum Otherwise {
 pub enum Basis {
     /// No values: T stays as it is given.
     Given,
-    /// The mean of the values at the last decision, of the four neighbours of the robot's cell, which are what step 5
-    /// checks.
+    /// The mean of the values at the last decision, of the four neighbours of the
+    /// robot's cell, which are what step 5 checks.
     Neighbours,
     /// The mean of those and of the value of the robot's own cell.
     Cells,

@@ -56,9 +56,9 @@ pub enum Way {
     Near(Target),
 }
 
-/// Tells of the unexplored cells that are reached from `from` through explored ones in at most so many moves, the
-/// nearest first, until it is told to stop. Of ways as short the one counts whose first side leads to the lowest
-/// number.
+/// Tells of the unexplored cells that are reached from `from` through explored ones in at most
+/// so many moves, the nearest first, until it is told to stop. Of ways as short the one counts
+/// whose first side leads to the lowest number.
 pub(super) fn search<M: Map>(
     map: &M,
     from: Cell,

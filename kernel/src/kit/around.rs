@@ -1,5 +1,5 @@
-//! The nodes that may be in reach of one, as the bits of a word: what is in reach of it, and what is joined with it by
-//! short paths.
+//! The nodes that may be in reach of one, as the bits of a word: what is in reach of it,
+//! and what is joined with it by short paths.
 
 use super::stance::Reach;
 use crate::ground::{Cell, Step};

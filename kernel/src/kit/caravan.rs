@@ -1,11 +1,11 @@
 //! How three robots and more go together to an uncovered side that none of them can come to alone (KIT-13). It is the
 //! condition *Caravan*, which is ours.
 //!
-//! The robot that is nearest to an uncovered side leads. It drives on while the others stay tied to it; else they come
-//! nearer, a robot at a time, each along known paths towards one that it is tied to. Where each stands beside another
-//! one, the leader can always go on, and at its goal every side is admitted whose other end is free. Two numbers say
-//! why that ends: the drives of the leader to an uncovered side, and while they stay the same, the drives of all others
-//! to the leader.
+//! The robot that is nearest to an uncovered side leads. It drives on while the others stay tied to it; else they
+//! come nearer, a robot at a time, each along known paths towards one that it is tied to. Where each stands
+//! beside another one, the leader can always go on, and at its goal every side is admitted whose other end is
+//! free. Two numbers say why that ends: the drives of the leader to an uncovered side, and while they stay the
+//! same, the drives of all others to the leader.
 //!
 //! If a robot stands at each end of the uncovered paths of the leader's node, the robots between one of these ends and
 //! the nearest free node shift by one node each: the condition *MakesRoom*. From there the other end drives the path.

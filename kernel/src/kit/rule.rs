@@ -69,7 +69,8 @@ pub enum Records {
 pub enum Fallback {
     /// The one that leads nearest to where the other one goes (section 4).
     Nearest,
-    /// The first of the directions that the conditions admit: if none is left of these, it stays.
+    /// Of those that the conditions admit the one that leads nearest to where the
+    /// other one goes: if none is left, it stays.
     Admitted,
     /// Any.
     Random,

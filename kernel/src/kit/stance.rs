@@ -83,9 +83,9 @@ impl Stance {
         self.from() == node || self.to() == node
     }
 
-    /// Whether robots with these stances hear each other within `reach` at whatever speeds they drive. Their distance
-    /// is a convex function of how far each has come, so it is largest where both are at an end: the four corners
-    /// decide.
+    /// Whether robots with these stances hear each other within `reach` at whatever speeds they
+    /// drive. Their distance is a convex function of how far each has come, so it is largest where
+    /// both are at an end: the four corners decide.
     pub const fn is_sure_of(self, other: Self, reach: Reach) -> bool {
         reach.joins(self.from(), other.from())
             && reach.joins(self.from(), other.to())

@@ -9,8 +9,8 @@ use super::message::Message;
 use super::rule::{Answers, Condition, Rule};
 use crate::ground::{Cell, Steps};
 
-/// Requests are numbered from 0 to one less than this, over and over: no message may be on its way while a robot asks
-/// twice.
+/// Requests are numbered from 0 to one less than this, over and over: no message
+/// may be on its way while a robot asks twice.
 pub const NUMBERS: u8 = 4;
 
 /// The number of the request after the one with this number.

@@ -446,8 +446,8 @@ mod tests {
         Pair::new(rule, map(8, 8), &starts).expect("a team")
     }
 
-    /// Robots drive and arrive in turn, and see nothing but `walls`, until all are done; the drives that they have
-    /// made.
+    /// Robots drive and arrive in turn, and see nothing but `walls`, until all
+    /// are done; the drives that they have made.
     fn run<const ROBOTS: usize>(kit: &mut Kit<TinyGrid, ROBOTS, 64>, walls: impl Fn(Edge) -> bool) -> usize {
         let mut drives = 0;
         for _ in 0..2000 {

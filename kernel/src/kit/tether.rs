@@ -2,10 +2,10 @@
 //! team of three and more known paths join it with them (KIT-13). The second one is the condition *Tether*, which is
 //! ours.
 //!
-//! A *field* is a rectangle any two nodes of which are in reach, and that is in no larger one: within the paper's 10 m,
-//! 3×3 nodes, 4×2, or 2×4. Two robots are *tied* if known paths within one
-//! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
-//! it all the way; radio alone, through a wall, promises no way back.
+//! A *field* is a rectangle any two nodes of which are in reach, and that is in no larger one: within the paper's
+//! 10 m, 3×3 nodes, 4×2, or 2×4. Two robots are *tied* if known paths within one field join their nodes. So a
+//! robot that comes nearer to one that it is tied to, along such paths, is in contact with it all the way; radio
+//! alone, through a wall, promises no way back.
 
 use core::cell::OnceCell;
 
@@ -22,9 +22,9 @@ pub(super) const FAR: u32 = 1 << 16;
 /// Drives that lead to any node of a field over paths within it, at most: the largest ones have 20 nodes.
 const MAX_DRIVES: usize = 19;
 
-/// Calls `each` with the fields that have the node in the middle: the place of the first node of each, its nodes from
-/// there on, and the bit of the one in the middle among them. No field has more than six rows, so that its nodes fit in
-/// half a word.
+/// Calls `each` with the fields that have the node in the middle: the place of the first node of each,
+/// its nodes from there on, and the bit of the one in the middle among them. No field has more than six
+/// rows, so that its nodes fit in half a word.
 fn fields(reach: Reach, mut each: impl FnMut(u32, u64, u64)) {
     let squared = i16::from(reach.squared());
     let rows = |columns: i16| match squared - (columns - 1) * (columns - 1) {
@@ -88,8 +88,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         })
     }
 
-    /// The drives from `node` to each of `ends` that known paths within one field join with it; to the others it is
-    /// far.
+    /// The drives from `node` to each of `ends` that known paths within one
+    /// field join with it; to the others it is far.
     pub(super) fn drives(&self, node: Cell, ends: &[Cell; ROBOTS]) -> [u32; ROBOTS] {
         let places = ends.map(|end| place_of(node, end).unwrap_or(0));
         let wanted = places.iter().fold(0, |wanted, place| wanted | place);

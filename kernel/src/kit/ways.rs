@@ -7,9 +7,9 @@
 //! of each node one word has a bit for each place of the other robot around it. The flood goes from where the robots go
 //! as far as the nearest uncovered side, and comes back from all that are so near.
 //!
-//! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone,
-//! the others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no
-//! others.
+//! Three robots and more have too many places for that. There the robot goes that can come to an
+//! uncovered side alone, the others staying where they go; if there is none, all go together: see
+//! `caravan.rs`. So does a robot that has no others.
 
 use super::around::{HERE, Places, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;

@@ -1,5 +1,5 @@
-//! A robot's part in MRC [Jiang 2011, 3.3, steps 1, 2 and 5]: the request table T_REQ, what it asks for, and where it
-//! goes.
+//! A robot's part in MRC [Jiang 2011, 3.3, steps 1, 2 and 5]: the request table
+//! T_REQ, what it asks for, and where it goes.
 
 use super::message::{Downward, Resb, Upward, Word};
 use super::rule::{Condition, Rule};

@@ -1,7 +1,7 @@
-//! Distance from signal strength [Jiang 2011, equation (1)]: P_rcv = P_tx·(C_1/D)^α·C_2. Powers matter beside each
-//! other only, so that P_tx, C_1 and C_2 cancel out: at distance D a signal is (L/D)^α times as strong as at L. With L
-//! the range, that is how much stronger it is than what can just be heard; its level is ten times the logarithm of it,
-//! in dB.
+//! Distance from signal strength [Jiang 2011, equation (1)]: P_rcv = P_tx·(C_1/D)^α·C_2. Powers matter
+//! beside each other only, so that P_tx, C_1 and C_2 cancel out: at distance D a signal is (L/D)^α times as
+//! strong as at L. With L the range, that is how much stronger it is than what can just be heard; its level
+//! is ten times the logarithm of it, in dB.
 //!
 //! The exponent α is any number from 2 to 5, so this needs logarithms and powers of fractions: those of libm, whose
 //! results are the same on every machine.
@@ -32,8 +32,8 @@ impl Propagation {
         10.0 * self.exponent * libm::log10(range_m / distance_m)
     }
 
-    /// How many times as far a signal comes that is stronger by `level_db`, the reverse: D is L over this, if that is
-    /// its level.
+    /// How many times as far a signal comes that is stronger by `level_db`, the
+    /// reverse: D is L over this, if that is its level.
     pub fn times_as_far(self, level_db: f64) -> f64 {
         libm::pow(10.0, level_db / (10.0 * self.exponent))
     }

@@ -10,8 +10,8 @@ pub(super) struct Aim {
     pub(super) cell: Cell,
     /// Steps to it.
     pub(super) far: u32,
-    /// The first of them, two bits a step, the next one lowest. A robot that has taken them all looks for its way
-    /// again.
+    /// The first of them, two bits a step, the next one lowest. A robot that
+    /// has taken them all looks for its way again.
     steps: u128,
     known: u32,
 }

@@ -1,8 +1,8 @@
-//! Which frontier cell a robot goes to: the one with the greatest metric gain V/d (II.B.2), V being the unknown cells
-//! that it would see there, and d the steps on the shortest way over known free cells. Robots choose in the order of
-//! their numbers: a cell must have a link to a cell to which another robot is going, if there is one, and unknown cells
-//! within R_s of such a cell do not count for V. Where V is 0 everywhere, the robot goes to the nearest cell that it
-//! may go to.
+//! Which frontier cell a robot goes to: the one with the greatest metric gain V/d (II.B.2), V being the
+//! unknown cells that it would see there, and d the steps on the shortest way over known free cells. Robots
+//! choose in the order of their numbers: a cell must have a link to a cell to which another robot is going, if
+//! there is one, and unknown cells within R_s of such a cell do not count for V. Where V is 0 everywhere, the
+//! robot goes to the nearest cell that it may go to.
 //!
 //! Frontier cells are told nearest first. No cell's V is more than the disc has cells, so the flood ends as soon as the
 //! best gain is at least that number over the distance, and at the latest [`HORIZONS`] R_c beyond the nearest

@@ -10,9 +10,9 @@ pub struct Scratch<'a> {
     pub reached: &'a mut [u32],
     /// One for each cell.
     pub queue: &'a mut [Cell],
-    /// One for each cell: zeros at first. The visibility gain that a robot would have had there when it was last looked
-    /// at, and one more. Gains never grow, since unknown cells only become known, and let rays pass before that: so it
-    /// is a bound.
+    /// One for each cell: zeros at first. The visibility gain that a robot would have had there when it
+    /// was last looked at, and one more. Gains never grow, since unknown cells only become known, and let
+    /// rays pass before that: so it is a bound.
     pub gains: &'a mut [u16],
     /// Floods so far: it goes on from the last one with the same memory.
     pub rounds: &'a mut u32,
@@ -100,8 +100,8 @@ impl<'f, 'm, W: AsRef<[[u64; 2]]>> Flood<'f, 'm, W> {
         }
     }
 
-    /// The side of the cell before `cell` through which the flood came to it; `None` at the start, and where it did not
-    /// come.
+    /// The side of the cell before `cell` through which the flood came to it; `None`
+    /// at the start, and where it did not come.
     pub(super) fn side_before(&self, cell: Cell) -> Option<Side> {
         let reached = *self.memory.reached.get(self.chart.area().place(cell)?)?;
         let is_after_start = cell != self.start && reached >> SIDE_BITS == *self.memory.rounds;

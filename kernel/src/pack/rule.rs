@@ -56,8 +56,8 @@ impl Rule {
     pub const SIGHT_CELLS: u8 = 20;
     /// R_c where nobody says otherwise; the paper gives none.
     pub const RANGE_CELLS: u16 = 60;
-    /// The least R_c. With 2 cells a link joins cells side by side alone, and no robot of two can take a step by
-    /// itself.
+    /// The least R_c. With 2 cells a link joins cells side by side alone, and
+    /// no robot of two can take a step by itself.
     pub const LEAST_RANGE_CELLS: u16 = 3;
 
     /// The definitions and no more: each robot goes to its frontier cell with the greatest metric gain, and waits where

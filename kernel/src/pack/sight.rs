@@ -117,8 +117,8 @@ impl Window {
         self.unknown.iter().zip(&self.taken).map(|(unknown, taken)| (unknown & !taken).count_ones()).sum()
     }
 
-    /// The visibility gain V: how many unknown cells would be seen, as far as obstacles are known; and how many of them
-    /// are not taken.
+    /// The visibility gain V: how many unknown cells would be seen, as far as obstacles are
+    /// known; and how many of them are not taken.
     pub fn gain(&self) -> (u32, u32) {
         let (mut all, mut own) = (0, 0);
         self.each_unknown(|columns, rows, _| {
@@ -131,8 +131,8 @@ impl Window {
         (all, own)
     }
 
-    /// Tells of each unknown cell that is seen, and whether it is an obstacle, if `is_obstacle` says so of unknown
-    /// cells.
+    /// Tells of each unknown cell that is seen, and whether it is an obstacle,
+    /// if `is_obstacle` says so of unknown cells.
     pub fn look(&mut self, mut is_obstacle: impl FnMut(Cell) -> bool, mut tell: impl FnMut(Cell, bool)) {
         let mut obstacles = self.obstacles;
         self.each_unknown(|columns, rows, cell| {

@@ -143,8 +143,8 @@ impl Belief {
         Sighting { at: Point::new(self.at.x_m + x, self.at.y_m + y), covariance }
     }
 
-    /// The covariance of what is (x, y) away, the variance of its direction being `variance`: it moves by (−y, x) with
-    /// each radian.
+    /// The covariance of what is (x, y) away, the variance of its direction being
+    /// `variance`: it moves by (−y, x) with each radian.
     const fn carried(&self, x: f64, y: f64, variance: f64) -> SymmetricMatrix {
         let [of_x, of_y, _] = self.heading;
         SymmetricMatrix {
@@ -154,8 +154,8 @@ impl Belief {
         }
     }
 
-    /// The squared Mahalanobis distance of a fix with this covariance: χ² with two degrees of freedom if the belief is
-    /// right.
+    /// The squared Mahalanobis distance of a fix with this covariance: χ² with two
+    /// degrees of freedom if the belief is right.
     pub fn surprise(&self, fix: Point, covariance: SymmetricMatrix) -> Option<f64> {
         let (x, y) = (fix.x_m - self.at.x_m, fix.y_m - self.at.y_m);
         let (by_x, by_y) = self.place.and(covariance).solve((x, y))?;

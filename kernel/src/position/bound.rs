@@ -1,5 +1,5 @@
-//! How far a position can be trusted: the Cramér–Rao bound, the covariance of an estimate, and the dilution of
-//! precision.
+//! How far a position can be trusted: the Cramér–Rao bound, the covariance of an
+//! estimate, and the dilution of precision.
 
 use super::normal::information;
 use super::{Point, Range, Residual, Signal, SymmetricMatrix};

@@ -8,8 +8,8 @@ use super::{Layout, Point, Range, Refusal};
 /// The equations are right, but (8) divides by x_c − x_b, which may be 0 for anchors that stand well.
 ///
 /// # Errors
-/// [`Refusal`] if there are not three anchors at three places, if they are on one line, so that (7) divides by 0, or if
-/// (8) does.
+/// [`Refusal`] if there are not three anchors at three places, if they are on one line,
+/// so that (7) divides by 0, or if (8) does.
 pub fn closed_form(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
     if Layout::of(ranges).is_line() {

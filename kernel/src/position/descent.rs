@@ -29,8 +29,8 @@ impl Descent<'_> {
         Normal::at(self.ranges, self.residual, at)
     }
 
-    /// Downhill from `at`, whose normal equations are known, until the steps are small or lead to a place that is
-    /// known.
+    /// Downhill from `at`, whose normal equations are known, until the steps
+    /// are small or lead to a place that is known.
     pub(super) fn from(
         &self,
         mut at: Point,

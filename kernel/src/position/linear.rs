@@ -97,8 +97,8 @@ fn rotation(xx: f64, xy: f64, yy: f64) -> (f64, f64) {
 /// The position by linear least squares. For three anchors it is that of the closed form.
 ///
 /// # Errors
-/// [`Refusal`] if the anchors are fewer than three, at fewer than three places or on one line, or if a distance is no
-/// number from 0.
+/// [`Refusal`] if the anchors are fewer than three, at fewer than three places or on one
+/// line, or if a distance is no number from 0.
 pub fn linear(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
     let layout = Layout::of(ranges);

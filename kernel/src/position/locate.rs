@@ -95,10 +95,10 @@ const MOST_IMAGES: usize = 32;
 
 /// The position from which the residuals are least, or two.
 ///
-/// Steps begin on one side of the line along which the anchors are spread most, as far from it as the distances say on
-/// average. Where they end is then mirrored, in that line and in those through two anchors that follow each other, at
-/// most 32 of them: from an image the two distances fit as well, and where the others promise to, too, steps begin
-/// anew.
+/// Steps begin on one side of the line along which the anchors are spread most, as far from it as the
+/// distances say on average. Where they end is then mirrored, in that line and in those through two anchors
+/// that follow each other, at most 32 of them: from an image the two distances fit as well, and where the
+/// others promise to, too, steps begin anew.
 ///
 /// # Errors
 /// [`Refusal`] if there are fewer than three anchors at three places, if a distance is no number from 0, or is less
@@ -155,9 +155,9 @@ pub fn locate(
     })
 }
 
-/// The position to which steps lead from `from`: for a robot that knows about where it is, from its last position or
-/// from its wheels. No second position is looked for. From a place on the line of anchors that are all on one, no step
-/// leads off it.
+/// The position to which steps lead from `from`: for a robot that knows about where it is, from its last
+/// position or from its wheels. No second position is looked for. From a place on the line of anchors
+/// that are all on one, no step leads off it.
 ///
 /// # Errors
 /// [`Refusal`] as for [`locate`], and if `from` is no place.
@@ -206,8 +206,8 @@ fn start(descent: &Descent<'_>, layout: &Layout) -> Landing {
     descent.from(at, normal, |_| false)
 }
 
-/// `at` mirrored in the lines through two anchors that follow each other: in their order, or, of many, from all over
-/// the list.
+/// `at` mirrored in the lines through two anchors that follow each other: in their
+/// order, or, of many, from all over the list.
 fn images(ranges: &[Range], at: Point) -> impl Iterator<Item = Point> {
     let count = ranges.len();
     let step = if count <= MOST_IMAGES { 1 } else { scattering(count) };

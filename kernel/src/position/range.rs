@@ -169,8 +169,8 @@ pub fn do_meet(one: &Range, other: &Range, most_error: f64) -> bool {
     !is_outside && !is_inside
 }
 
-/// Whether every two circles meet, if each distance may be wrong by four standard deviations of `signal`. Every two are
-/// compared.
+/// Whether every two circles meet, if each distance may be wrong by four standard
+/// deviations of `signal`. Every two are compared.
 ///
 /// # Errors
 /// [`Refusal::Apart`] if two do not, and what [`check`] returns.

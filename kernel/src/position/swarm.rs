@@ -1,5 +1,5 @@
-//! Particle swarm optimisation of a position (Rajesh et al. 2024, equations (9) and (10), and the algorithm of section
-//! 5).
+//! Particle swarm optimisation of a position (Rajesh et al. 2024, equations (9)
+//! and (10), and the algorithm of section 5).
 //!
 //! Left open by the paper, and chosen here: a particle starts within 1 m of the closed form along each axis, with a
 //! velocity of 0 to v_max along each; the fitness is the sum of the squared residuals of the distances; `rand()` is one

@@ -94,8 +94,8 @@ impl Scan {
 pub(super) mod tests {
     use super::*;
 
-    /// The direction nearest to that of (`x`, `y`), the first of two that are equally near; the first of all for (0,
-    /// 0).
+    /// The direction nearest to that of (`x`, `y`), the first of two that are
+    /// equally near; the first of all for (0, 0).
     pub(in crate::tan) fn towards(x: i32, y: i32) -> Heading {
         let along = |heading: &Heading| {
             let (cosine, sine) = heading.vector();

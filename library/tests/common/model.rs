@@ -6,9 +6,9 @@ use stateright::{Model, Property};
 use tautline_proofs::protocol::{Move, Protocol, Surroundings};
 
 /// A protocol in its surroundings, whose states are counted.
-pub(crate) struct CountModel<P: Protocol>(pub(crate) P, pub(crate) Surroundings<P>);
+pub(crate) struct CountedModel<P: Protocol>(pub(crate) P, pub(crate) Surroundings<P>);
 
-impl<P: Protocol> Model for CountModel<P>
+impl<P: Protocol> Model for CountedModel<P>
 where
     P::State: Hash,
 {

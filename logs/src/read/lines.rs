@@ -6,8 +6,8 @@ use serde_json::{Map, Value};
 use super::columns::{Part, part};
 use super::{Fault, FaultPlace, Form, Log, Pose, Reading, micros};
 
-const REMEDY: &str = "write lines as {\"time\": 12.5, \"robot\": \"a\", \"x\": 1.0, \"y\": 2.0}, or as the messages of \
-                      ROS, with header.stamp and pose";
+const REMEDY: &str = "write lines as {\"time\": 12.5, \"robot\": \"a\", \"x\": 1.0, \"y\": 2.0}, or as the \
+                      messages of ROS, with header.stamp and pose";
 
 /// The position that an object has, without its robot; `at_us` is the time of an object that has none.
 pub(super) fn pose(object: &Map<String, Value>, at_us: Option<i64>) -> Result<(i64, [f64; 2]), &'static str> {

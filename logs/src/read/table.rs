@@ -13,8 +13,8 @@ struct Columns {
     count: usize,
 }
 
-const REMEDY: &str = "name columns time, robot, x and y in the first line, with units as in time_ms or x_mm where they \
-                      are not seconds and metres";
+const REMEDY: &str = "name columns time, robot, x and y in the first line, with units as in time_ms or \
+                      x_mm where they are not seconds and metres";
 
 impl Columns {
     fn of(names: &StringRecord, delimiter: &str) -> Result<Self, Fault> {

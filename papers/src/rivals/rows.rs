@@ -39,19 +39,23 @@ macro_rules! rival {
                 Rule::new(RuleId::REPAIRED, "With the repairs of its refuted claims", |setup| {
                     start(setup, $parameters)
                 }),
-                Rule::new(COVERED, "A rival of the chain, repaired, with links by E_C instead of E_S", |setup| {
-                    start(setup, $parameters.linked(Links::Covered))
-                }),
-                Rule::new(SHARED, "A rival of the chain, repaired, whose robots may plan to share a cell", |setup| {
-                    start(setup, $parameters.in_cells(Cells::Shared))
-                }),
+                Rule::new(
+                    COVERED,
+                    "A rival of the chain, repaired, with links by E_C instead of E_S",
+                    |setup| start(setup, $parameters.linked(Links::Covered)),
+                ),
+                Rule::new(
+                    SHARED,
+                    "A rival of the chain, repaired, whose robots may plan to share a cell",
+                    |setup| start(setup, $parameters.in_cells(Cells::Shared)),
+                ),
                 Rule::new(COVERED_SHARED, "A rival of the chain, covered and shared", |setup| {
                     start(setup, $parameters.linked(Links::Covered).in_cells(Cells::Shared))
                 }),
                 Rule::new(
                     SCATTER,
-                    "A rival of the chain, covered, that makes 5 legal team moves at random after every 20 without \
-                        gain",
+                    "A rival of the chain, covered, that makes 5 legal team \
+                     moves at random after every 20 without gain",
                     |setup| {
                         let parameters = $parameters.linked(Links::Covered);
                         start(setup, Parameters { deadlock: SCATTERING, ..parameters })

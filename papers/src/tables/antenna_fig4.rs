@@ -158,8 +158,8 @@ impl Table for AntennaFig4 {
             id: "antenna-fig4",
             shows: "what a robot hears of a node all round with its directional antenna, and how far off the strongest \
                     direction is from the node's, by the noise",
-            help: "What a robot hears of a node all round with its directional antenna, and how well that tells where \
-                   the node is",
+            help: "What a robot hears of a node all round with its directional antenna, \
+                   and how well that tells where the node is",
             more: "A scan is 24 measurements, 15° apart, and its strongest direction the one in which a robot walks.",
             examples: &[
                 "antenna-fig4 --svg antenna.svg",

@@ -104,8 +104,8 @@ impl Table for ChainFig4 {
     fn about(&self) -> Description {
         Description {
             id: "chain-fig4",
-            shows: "the trajectories of seven robots without and with obstacles, and what the runs take: minutes, \
-                    metres, contacts",
+            shows: "the trajectories of seven robots without and with obstacles, and what \
+                    the runs take: minutes, metres, contacts",
             help: "Fig. 4 of the chain's paper: trajectories, and how long real robots would take",
             more: "Cells of 4 m, 0.30 m/s, 180 degrees a second; a robot that touches something backs up 30 cm and \
                    goes round. The team waits for its last robot; the radio's time is not counted (see chain-radio).",

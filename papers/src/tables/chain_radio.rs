@@ -158,8 +158,8 @@ impl Table for ChainRadio {
             .estimate("min", Fit, 1, |line| line.bridges_minutes)
             .estimate("switching %", Fit, 0, |line| line.switching)
             .text();
-        text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and waiting, the share \
-                 in which a bridge switches\n";
+        text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and \
+                 waiting, the share in which a bridge switches\n";
         Ok(text)
     }
 

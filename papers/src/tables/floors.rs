@@ -79,8 +79,8 @@ impl Table for Floors {
     fn about(&self) -> Description {
         Description {
             id: "floors",
-            shows: "agents on sensor floors: team moves until everything is explored, and until all agents know it, \
-                    over the lower bound",
+            shows: "agents on sensor floors: team moves until everything is explored, and until \
+                    all agents know it, over the lower bound",
             help: "What agents on sensor floors cost, over the lower bound",
             more: "The lower bound is the number of cells by that of the agents. The first start is the cell of the \
                    largest part of the layout that is nearest its centre, the others are drawn from that part.",
@@ -130,11 +130,11 @@ impl Table for Floors {
             .right("early", Fit, |line| line.early)
             .right("ended", Fit, |line| line.ended);
         Ok(format!(
-            "Team moves over the lower bound, cells by agents; {starts} starts, seed {seed}, {} % of the sensors \
-                missed; means with\n\
+            "Team moves over the lower bound, cells by agents; {starts} starts, seed {seed}, \
+             {} % of the sensors missed; means with\n\
              95 % intervals over the starts\n\n{}\n\
-             until known: of the runs in which all agents were done. early: runs in which an agent was done although \
-             it could\n\
+             until known: of the runs in which all agents were done. early: runs in \
+             which an agent was done although it could\n\
              have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents.\n",
             miss * 100.0,
             columns.text()

@@ -79,12 +79,12 @@ impl Table for FloorsMissed {
     fn about(&self) -> Description {
         Description {
             id: "floors-missed",
-            shows: "agents on sensor floors that miss sensors: how often one is done too early, and what it costs over \
-                    the lower bound",
+            shows: "agents on sensor floors that miss sensors: how often one is done too \
+                    early, and what it costs over the lower bound",
             help: "How often agents are wrong that miss sensors",
             more: "The lower bound is the number of cells by that of the agents. A generated layout is another one in \
-                   each run. The first start is the cell of the largest part of the layout that is nearest its centre, \
-                   the others are drawn from that part.",
+                   each run. The first start is the cell of the largest part of the layout that is nearest its \
+                   centre, the others are drawn from that part.",
             examples: &[
                 "floors-missed --map cells:8x8:0.2 --runs 1000",
                 "floors-missed --map den312d.map --agents 4,20 --runs 20 --max-steps 2000000",
@@ -138,13 +138,13 @@ impl Table for FloorsMissed {
             .percent("% early", Fit, 1, |line| line.early)
             .percent("% ended", Fit, 1, |line| line.ended);
         Ok(format!(
-            "Team moves over the lower bound, cells by agents; {runs} runs, seeds from {seed}, {} % of the sensors \
-                missed; means with\n\
+            "Team moves over the lower bound, cells by agents; {runs} runs, seeds from {seed}, \
+             {} % of the sensors missed; means with\n\
              95 % intervals over the runs\n\n{}\n\
-             until known: of the runs in which all agents were done. early: runs in which an agent was done although \
-             it could\n\
-             have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents. \
-             Agents of bricks-ants\n\
+             until known: of the runs in which all agents were done. early: runs in \
+             which an agent was done although it could\n\
+             have got to an unexplored cell. ended: runs that were stopped after {max_steps} \
+             steps of all agents. Agents of bricks-ants\n\
              go on for as long as they may miss sensors: their runs are over when everything is explored.\n",
             miss * 100.0,
             columns.text()

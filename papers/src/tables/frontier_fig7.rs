@@ -112,8 +112,8 @@ impl Table for FrontierFig7 {
     fn about(&self) -> Description {
         Description {
             id: "frontier-fig7",
-            shows: "frontier cells: how many team moves 1 to 8 robots take to explore every cell, by every rule and \
-                rival",
+            shows: "frontier cells: how many team moves 1 to 8 robots take to \
+                    explore every cell, by every rule and rival",
             help: "How many team moves robots take that go from frontier cell to frontier cell",
             examples: &[
                 "frontier-fig7 --svg moves.svg",
@@ -291,8 +291,8 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
             "“performs better when team of robots has 8 members”",
             "robots that wander",
             format!(
-                "{} team moves with 6 and {} with 8, repaired {} and {}; {largest} is the largest team that is \
-                    compared",
+                "{} team moves with 6 and {} with 8, repaired {} and {}; \
+                 {largest} is the largest team that is compared",
                 moves("wanders", 6),
                 moves("wanders", 8),
                 moves("repaired", 6),

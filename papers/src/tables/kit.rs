@@ -1,13 +1,13 @@
 //! KIT [Peiris, 6] on random lattices: how long one robot and two take to find the nodes (Fig. 9), and what is driven
 //! by both when 23 of 26 paths are explored (Fig. 14).
 //!
-//! The paper gives neither its map nor its speeds. From its 88 % and 78 % follow 26 paths, of which 23 are explored and
-//! 5 driven by both. So every layout here has 26 paths, all within reach of a node that is drawn as the start, and
-//! there are four families of them: compact, long and branching ones. As published both robots start there, one after
-//! the other, and run KIT at every node, our main reading, or only where the way ahead is blocked, as the words of
-//! section 3 have it; repaired the second one starts beside. Robots drive at 0.3 m/s, unless it is asked for something
-//! else, and each drive is up to a tenth faster or slower; with equal speeds, robots as published may drive to and fro
-//! for ever.
+//! The paper gives neither its map nor its speeds. From its 88 % and 78 % follow 26 paths, of which 23 are
+//! explored and 5 driven by both. So every layout here has 26 paths, all within reach of a node that is drawn as
+//! the start, and there are four families of them: compact, long and branching ones. As published both robots
+//! start there, one after the other, and run KIT at every node, our main reading, or only where the way ahead is
+//! blocked, as the words of section 3 have it; repaired the second one starts beside. Robots drive at 0.3 m/s,
+//! unless it is asked for something else, and each drive is up to a tenth faster or slower; with equal speeds,
+//! robots as published may drive to and fro for ever.
 
 mod drawn;
 mod lattice;

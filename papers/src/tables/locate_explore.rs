@@ -69,8 +69,8 @@ pub struct Outcome {
     stands: u32,
     /// The root mean square error of where robots take themselves to be, in thousandths of a cell's side.
     off: u32,
-    /// How far off the objects were that robots saw, in thousandths of a cell's side, and how far off their ellipses
-    /// say.
+    /// How far off the objects were that robots saw, in thousandths of a cell's
+    /// side, and how far off their ellipses say.
     objects: Vec<[u32; 2]>,
 }
 
@@ -167,8 +167,8 @@ impl Table for LocateExplore {
     fn about(&self) -> Description {
         Description {
             id: "locate-explore",
-            shows: "robots that localise themselves and explore frontier cells: how many runs are clean, by the noise \
-                of signals",
+            shows: "robots that localise themselves and explore frontier cells: how \
+                    many runs are clean, by the noise of signals",
             help: "How many runs are clean of robots that localise themselves and explore, by the noise of signals",
             more: "Wheels err by 2 % of the way and 1° a turn. Anchors stand in three corners. Of the mutants, robots \
                    without Sure never stand to take another fix.",
@@ -254,8 +254,8 @@ impl Table for LocateExplore {
             ("over their ellipses (rms)", |figure| sides(figure.objects_ratio, 2)),
         ];
         let mut told = format!(
-            "{} runs for each, {} anchors, {} beacons of each at a stop, wheels 2 % of the way and 1° a turn, seed \
-                {}\n",
+            "{} runs for each, {} anchors, {} beacons of each at a stop, \
+             wheels 2 % of the way and 1° a turn, seed {}\n",
             settings.layouts, settings.anchors, settings.readings, settings.seed
         );
         for lines in merged.lines.chunks(RULES.len()) {

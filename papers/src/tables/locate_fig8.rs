@@ -100,8 +100,8 @@ impl Table for LocateFig8 {
     fn about(&self) -> Description {
         Description {
             id: "locate-fig8",
-            shows: "how far robots are from where they take themselves to be, with and without particle swarm \
-                    optimisation, by their number",
+            shows: "how far robots are from where they take themselves to be, with and without \
+                    particle swarm optimisation, by their number",
             help: "The localisation error with and without particle swarm optimisation, by the number of robots",
             more: "Anchors stand at 0,0, at 20,0 and at 0,20 metres, robots at random places between 0,0 and 20,20.",
             examples: &["locate-fig8 --svg fig8.svg", "locate-fig8 --noise-db 2 --format json"],

@@ -2,10 +2,10 @@
 //! conditions allow, and how much of the radio's range is left then. What is left is what navigation, radio and clocks
 //! may be wrong by: each of two robots may be off by half of it.
 //!
-//! The chain's cells are 4 m and its radio reaches 10 m [Kovács 2011, I, III.A]; KIT's paths are 3 m, and its robots
-//! stay within 10 m [Peiris, 2, 4]. At any moment means at whatever speeds two robots move within a team move or over
-//! their paths, and whoever of them has not gone yet: so a robot may be as late as it will, unless more than the range
-//! comes out.
+//! The chain's cells are 4 m and its radio reaches 10 m [Kovács 2011, I, III.A]; KIT's paths are 3 m, and
+//! its robots stay within 10 m [Peiris, 2, 4]. At any moment means at whatever speeds two robots move within
+//! a team move or over their paths, and whoever of them has not gone yet: so a robot may be as late as it
+//! will, unless more than the range comes out.
 
 use tautline_kernel::chain;
 use tautline_kernel::ground::{Cell, Circle};
@@ -151,8 +151,8 @@ impl Table for Margins {
             shows: "contact: how far robots of the chain and of KIT can be apart, and what error of position, loss of \
                     signal and delay the range leaves room for",
             help: "How much error of position, loss of signal and delay contact tolerates",
-            more: "Every pair of places and every plan that the rules' conditions allow is looked at. The range is \
-                   that of the papers.",
+            more: "Every pair of places and every plan that the rules' conditions allow is \
+                   looked at. The range is that of the papers.",
             examples: &["margins", "margins --range 12 --cell 3.9 --format json"],
             doing: "measuring",
             takes: "a second",
@@ -180,8 +180,8 @@ impl Table for Margins {
         let or_dash =
             |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}"));
         let head = format!(
-            "A range of {range_m} m, cells of {cell_m} m, paths of {PATH_M} m, a signal that weakens with exponent \
-                {exponent}\n\n"
+            "A range of {range_m} m, cells of {cell_m} m, paths of {PATH_M} m, a signal \
+             that weakens with exponent {exponent}\n\n"
         );
         let body = Columns::of(&merged.lines)
             .left("rule", 20, |line| line.rule)
@@ -197,8 +197,8 @@ impl Table for Margins {
             .text();
         Ok(head
             + &body
-            + "\nmoving: at any moment, whoever has not gone yet. left: of the range. each off: how far each of two \
-                robots may be off.\n")
+            + "\nmoving: at any moment, whoever has not gone yet. left: of the range. each off: \
+               how far each of two robots may be off.\n")
     }
 }
 

@@ -194,8 +194,8 @@ impl Table for NoticeFig5 {
             shows: "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all \
                     nodes and of those connected to the source that each reaches, and how many nodes forward",
             help: "How many nodes a broadcast reaches, and how many forward it, by scheme and density",
-            more: "Nodes at random places in a square, from a random source: of all nodes, and of those that links \
-                   connect to the source.",
+            more: "Nodes at random places in a square, from a random source: of all nodes, and \
+                   of those that links connect to the source.",
             examples: &[
                 "notice-fig5",
                 "notice-fig5 --svg-reach reach.svg --svg-rebroadcasts rebroadcasts.svg",
@@ -267,9 +267,9 @@ impl Table for NoticeFig5 {
             table.row(line.scheme.as_str(), |density| density.schemes[place].rebroadcasts.text(2));
         }
         Ok(table.with_notes(
-            "connected: % of the networks in which links connect all nodes · component: % of the nodes that they \
-             connect to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” at every density; all else it \
-             draws only",
+            "connected: % of the networks in which links connect all nodes · component: % of the \
+             nodes that they connect to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” \
+             at every density; all else it draws only",
         ))
     }
 

@@ -127,9 +127,9 @@ impl Table for Optimum {
     fn about(&self) -> Description {
         Description {
             id: "optimum",
-            shows: "the chain against the fewest team moves of a team that knows the walls, in all layouts of small \
-                    areas: how often it takes as few, how many times as many on average and at worst, and what it \
-                    misses",
+            shows: "the chain against the fewest team moves of a team that knows the walls, in all \
+                    layouts of small areas: how often it takes as few, how many times as many on \
+                    average and at worst, and what it misses",
             help: "How far the chain is from the fewest team moves of a team that knows the walls",
             more: "Two robots in all layouts of 3×3 cells, three in those of 5×5 cells with few walls.",
             examples: &["optimum", "optimum --max-walls 2 --format json"],
@@ -199,11 +199,11 @@ impl Table for Optimum {
             .right("mean", 4, |line| line.mean.map_or("-".to_owned(), |mean| format!("{mean:.2}")))
             .left("worst", Fit, |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio));
         let mut text = format!(
-            "Team moves until the last chain-reachable cell is explored, by the fewest of a team that knows the \
-                walls,\n\
+            "Team moves until the last chain-reachable cell is explored, by the \
+             fewest of a team that knows the walls,\n\
              in all layouts of (2N−1)² cells with so many walls\n\n{}\n\
-             walled in: nothing to explore · missed: the chain leaves a chain-reachable cell unexplored; not compared \
-             ·\n\
+             walled in: nothing to explore · missed: the chain leaves a \
+             chain-reachable cell unexplored; not compared ·\n\
              beyond: it explores one that is not chain-reachable · below, optimal: it takes fewer, as few\n",
             columns.text()
         );

@@ -227,8 +227,8 @@ fn moves<'a>(goal: &str, lines: impl Iterator<Item = &'a Line>) -> String {
 fn cells(cells: &[Cells]) -> String {
     let mut columns = Columns::of(cells)
         .title(
-            "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in which a \
-             rule explores fewer cells, and more",
+            "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in \
+             which a rule explores fewer cells, and more",
         )
         .left("layouts", 17, |line| line.ground)
         .right("repaired", 9, |line| tenths(line.rules[0].mean));

@@ -1,6 +1,6 @@
-//! Table 2 of [Jiang 2011]: k-FNF, MRC and TAN beside Verma's and Reich's schemes. The paper has words where it could
-//! have numbers: low and high, shorter and longer. Ours are those of figures 5, 7 and 8 at one number of nodes; both
-//! rivals flood.
+//! Table 2 of [Jiang 2011]: k-FNF, MRC and TAN beside Verma's and Reich's schemes. The paper has words
+//! where it could have numbers: low and high, shorter and longer. Ours are those of figures 5, 7 and 8
+//! at one number of nodes; both rivals flood.
 
 use super::journeys::{self, Claim, RESCUE_FIG7, Way};
 use super::notice_fig5::{self, NEAR, NoticeFig5};
@@ -89,8 +89,8 @@ impl Table for RescueTable2 {
     fn about(&self) -> Description {
         Description {
             id: "rescue-table2",
-            shows: "k-FNF, MRC and TAN beside Verma's and Reich's schemes: rebroadcasts, reach, metres walked, control \
-                packets",
+            shows: "k-FNF, MRC and TAN beside Verma's and Reich's schemes: \
+                    rebroadcasts, reach, metres walked, control packets",
             help: "Table 2 of the paper on rescues: broadcasts, reach, ways and control packets",
             more: "The figures are those of notice-fig5, rescue-fig7 and rescue-fig8 at one number of nodes.",
             examples: &["rescue-table2", "rescue-table2 --nodes 1100 --format json"],
@@ -171,9 +171,9 @@ impl Table for RescueTable2 {
             text(control, 1)
         });
         Ok(table.with_notes(
-            "positions: by the rules themselves · both rivals flood · RD: metres walked for each metre of the shortest \
-             ways · control\npackets: of a rescue of three WFRs by three robots; the rivals coordinate nobody · ±, \
-             […]: the 95 % interval",
+            "positions: by the rules themselves · both rivals flood · RD: metres walked for each metre of the \
+             shortest ways · control\npackets: of a rescue of three WFRs by three robots; the rivals \
+             coordinate nobody · ±, […]: the 95 % interval",
         ))
     }
 

@@ -12,8 +12,8 @@ use crate::engine::{Outcome, require};
 use crate::floor::crew::{Scheme, SensorData, Sight};
 use crate::floor::team::Demands;
 
-/// The sensors of a cell: the first one, and one for each time that all were missed, as often as the searches let it
-/// happen.
+/// The sensors of a cell: the first one, and one for each time that all were
+/// missed, as often as the searches let it happen.
 const SENSORS: usize = 3;
 
 /// The counts of the sensors of a cell; 0 where there is none.

@@ -1,5 +1,5 @@
-//! The count of a cell whose sensor an ant has missed (ANTS-3): two cells side by side, and an ant that goes from one
-//! to the other.
+//! The count of a cell whose sensor an ant has missed (ANTS-3): two cells side by side,
+//! and an ant that goes from one to the other.
 
 use tautline_kernel::ants::{Rule, carry_out, decide};
 use tautline_kernel::choice::Oracle;

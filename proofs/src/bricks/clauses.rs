@@ -15,7 +15,7 @@ use super::floors::{
 };
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
-use super::tree::{Own, To, Travel, children, labels};
+use super::tree::{Own, To, TravelRule, children, labels};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
@@ -127,13 +127,13 @@ const PARENTS_MARKED: NamedRule<Subject<TreeRule>> =
 const BELIEVING: NamedRule<Subject<TreeRule>> = named("what is seen is believed", TreeRule::TREE);
 
 /// Helpers that go where `to` says.
-const fn going(name: &'static str, to: To) -> NamedRule<Subject<Travel>> {
-    named(name, Travel { rule: TreeRule::HELPERS, to })
+const fn going(name: &'static str, to: To) -> NamedRule<Subject<TravelRule>> {
+    named(name, TravelRule { rule: TreeRule::HELPERS, to })
 }
 
 /// Agents of brick-tree that go where `to` says.
-const fn choosing(name: &'static str, to: To) -> NamedRule<Travel> {
-    NamedRule::new(name, Travel { rule: TreeRule::TREE, to })
+const fn choosing(name: &'static str, to: To) -> NamedRule<TravelRule> {
+    NamedRule::new(name, TravelRule { rule: TreeRule::TREE, to })
 }
 
 /// The words for a rule against missed sensors with [`Bricks`].
@@ -361,7 +361,10 @@ pub const CLAUSES: [Clause; 15] = [
             &Floors::new(&COUNTED, own(Own::Bounded)),
             &[
                 going("open cells beside a visited one before its parent", To::OpenBeside),
-                named(TWICE_ADOPTED, Travel { rule: TreeRule::HELPERS.without(LowerOnly), to: To::Ruled }),
+                named(
+                    TWICE_ADOPTED,
+                    TravelRule { rule: TreeRule::HELPERS.without(LowerOnly), to: To::Ruled },
+                ),
             ],
         )],
     },
@@ -408,8 +411,8 @@ pub const CLAUSES: [Clause; 15] = [
     },
     Clause {
         id: "BRICKS-14",
-        sentence: "Two trees MUST have different labels; the one before which its agent had founded fewer has the \
-            greater.",
+        sentence: "Two trees MUST have different labels; the one before which its \
+                   agent had founded fewer has the greater.",
         checks: &[&labels::labels_of_trees::CHECK],
     },
     Clause {

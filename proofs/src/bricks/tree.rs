@@ -16,7 +16,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Scan};
 use tautline_kernel::ground::{Cell, Side, Step};
 
-pub(super) use self::demands::{Own, To, Travel};
+pub(super) use self::demands::{Own, To, TravelRule};
 use crate::floor::crew::{Scheme, SensorData, Sight};
 
 /// A rule by which agents search in trees.

@@ -45,8 +45,8 @@ const PLACES: [usize; 2] = [1, 2];
 /// The bound of [`barrier`], in words.
 pub(super) fn losses() -> String {
     format!(
-        "two robots, {EVENTS} bytes sent, heard, lost or heard and repeated, none repeated with {IN_THE_AIR} of it in \
-            the air"
+        "two robots, {EVENTS} bytes sent, heard, lost or heard and repeated, none \
+         repeated with {IN_THE_AIR} of it in the air"
     )
 }
 

@@ -144,8 +144,8 @@ pub(super) fn whatever_the_log(dying: &DeathCase, oracle: &mut dyn Oracle) -> Ou
         let taken = dying.take_back(&mut reforming, &log);
         require(
             taken.err() == refused,
-            "a log is refused that leads over a side that nobody has crossed, and the first robot named that it leads \
-                there",
+            "a log is refused that leads over a side that nobody has crossed, and \
+             the first robot named that it leads there",
         )?;
         let is_left = taken.map_err(|_| Stop::Assumed)?;
         require(is_left, "each part takes back as many team moves as the chain has made")?;

@@ -17,8 +17,8 @@ use crate::engine::tree::{Watch, unwatched};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::run::walls;
 
-/// A check of one invariant, its bound, and the part of that in which a reading that no rule expresses is refuted or
-/// left open.
+/// A check of one invariant, its bound, and the part of that in which a reading that
+/// no rule expresses is refuted or left open.
 pub(super) struct EveryArea(pub(super) Invariant, pub(super) Most, pub(super) Most);
 
 /// The numbers before the answers of the world: columns, rows, the place of the base, robots and walls.

@@ -19,7 +19,7 @@ pub(super) const THREE: EveryNumber =
 const EVERY_PLAN: &str = "the relation, to which every plan is kept";
 
 /// A step, and how it comes about.
-pub type Motion = (Step, Sort);
+pub type SortedStep = (Step, Sort);
 
 /// How a step of a robot comes about.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -34,7 +34,7 @@ pub enum Sort {
 
 /// Every step by a plan. Where robots may stay behind though no wall is there, a team that takes a move back is not
 /// where it was: so that is looked at, too.
-fn steps<S: Copy>(state: S, may_fail: bool) -> Vec<Act<S, Motion>> {
+fn steps<S: Copy>(state: S, may_fail: bool) -> Vec<Act<S, SortedStep>> {
     let act = |sort, step| {
         let goes = vec![(true, state)];
         let may_not = step != Step::Stay && (sort != Sort::KnownOpen || may_fail);
@@ -47,7 +47,7 @@ fn steps<S: Copy>(state: S, may_fail: bool) -> Vec<Act<S, Motion>> {
     planned.chain(crossing.map(|step| act(Sort::KnownOpen, step))).chain(taken_back).collect()
 }
 
-fn as_move<S>(plan: &Plan<S, Motion>) -> Move {
+fn as_move<S>(plan: &Plan<S, SortedStep>) -> Move {
     Move { from: plan.robot.at, step: plan.step, known_open: plan.act.1 == Sort::KnownOpen }
 }
 
@@ -72,7 +72,7 @@ pub struct Contact<const FAULTS: bool>(pub Rule);
 
 impl<const FAULTS: bool> Local for Contact<FAULTS> {
     type State = ();
-    type Act = Motion;
+    type Act = SortedStep;
 
     fn may_fail(&self) -> bool {
         FAULTS
@@ -86,11 +86,11 @@ impl<const FAULTS: bool> Local for Contact<FAULTS> {
         vec![()]
     }
 
-    fn acts(&self, (): ()) -> Vec<Act<(), Motion>> {
+    fn acts(&self, (): ()) -> Vec<Act<(), SortedStep>> {
         steps((), FAULTS)
     }
 
-    fn admits(&self, plans: &[Plan<(), Motion>]) -> bool {
+    fn admits(&self, plans: &[Plan<(), SortedStep>]) -> bool {
         let (own, ahead) = (as_move(&plans[0]), as_move(&plans[1]));
         match [&plans[0], &plans[1]].map(|plan| plan.act.1 == Sort::TakesBack) {
             [false, false] => pair::admits(&self.0, own, ahead),
@@ -124,7 +124,7 @@ impl<const FAULTS: bool> Local for Contact<FAULTS> {
     }
 
     /// A team takes a move back only after it has made one.
-    fn is_always_possible(&self, (_, sort): Motion) -> bool {
+    fn is_always_possible(&self, (_, sort): SortedStep) -> bool {
         sort != Sort::TakesBack
     }
 
@@ -307,14 +307,14 @@ impl Local for Coverage {
     }
 }
 
-/// A chain of three as published (CHAIN-15): the base, R_2 and R_3, of which R_2 prefers to stay. Their states are
-/// their numbers.
+/// A chain of three as published (CHAIN-15): the base, R_2 and R_3, of which R_2 prefers
+/// to stay. Their states are their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct OfThree(pub Rule);
 
 impl Local for OfThree {
     type State = u8;
-    type Act = Motion;
+    type Act = SortedStep;
 
     fn robots(&self) -> usize {
         3
@@ -328,12 +328,12 @@ impl Local for OfThree {
         vec![1, 2, 3]
     }
 
-    fn acts(&self, number: u8) -> Vec<Act<u8, Motion>> {
-        let is_possible = |act: &Act<u8, Motion>| number > 1 || act.step == Step::Stay;
+    fn acts(&self, number: u8) -> Vec<Act<u8, SortedStep>> {
+        let is_possible = |act: &Act<u8, SortedStep>| number > 1 || act.step == Step::Stay;
         steps(number, false).into_iter().filter(is_possible).collect()
     }
 
-    fn admits(&self, plans: &[Plan<u8, Motion>]) -> bool {
+    fn admits(&self, plans: &[Plan<u8, SortedStep>]) -> bool {
         three::admits(&self.0, plans[0].robot.at, as_move(&plans[1]), as_move(&plans[2]))
     }
 

@@ -249,15 +249,15 @@ pub const CLAUSES: [Clause; 10] = [
     },
     Clause {
         id: "CHAIN-20",
-        sentence: "Whichever bytes are lost, repeated or late, robots at the barrier MUST go on with the same messages \
-                   of all, and go on once no byte is lost.",
+        sentence: "Whichever bytes are lost, repeated or late, robots at the barrier MUST go on with the same \
+                   messages of all, and go on once no byte is lost.",
         checks: &[&BARRIER],
     },
     Clause {
         id: "CHAIN-21",
-        sentence: "When a robot dies, the parts of the reel behind and ahead of it MUST keep contact within \
-                   themselves, come into contact with each other, and explore all that is within reach of a chain of \
-                   one robot fewer.",
+        sentence: "When a robot dies, the parts of the reel behind and ahead of it MUST keep contact \
+                   within themselves, come into contact with each other, and explore all that is \
+                   within reach of a chain of one robot fewer.",
         checks: &[&DEATH, &MEETING, &DEATH_AT_RANDOM],
     },
     Clause {
@@ -268,8 +268,8 @@ pub const CLAUSES: [Clause; 10] = [
     },
     Clause {
         id: "CHAIN-23",
-        sentence: "As long as nothing is gained, the reel MUST take back one team move, then two, then four, each time \
-                   twice as many, as far as there are.",
+        sentence: "As long as nothing is gained, the reel MUST take back one team move, then two, then four, each \
+                   time twice as many, as far as there are.",
         checks: &[
             &Check::holds(
                 UNHELD,
@@ -281,8 +281,8 @@ pub const CLAUSES: [Clause; 10] = [
     },
     Clause {
         id: "CHAIN-24",
-        sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, and N² more for each wall that \
-            it meets.",
+        sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, \
+                   and N² more for each wall that it meets.",
         checks: &[
             &Check::holds(
                 UNHELD,

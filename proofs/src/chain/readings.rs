@@ -45,7 +45,7 @@ pub(super) const LAST: (&str, Subject) = ("last", read(&[Reading::NullLast]));
 pub(super) const READINGS: [(&str, Subject); 3] =
     [LAST, ("row", read(&[Reading::InARow])), ("row + last", read(&[Reading::InARow, Reading::NullLast]))];
 
-/// The places that the paper leaves open, as far as they make a difference.
+/// The passages that the paper leaves open, as far as they make a difference.
 pub(super) static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {

@@ -392,7 +392,7 @@ impl<D> Run<D> {
         self.choices_after(&[])
     }
 
-    /// The choices of the run after those that lead to its start.
+    /// Its start and its steps as choices behind `first`, those of its round apart.
     pub(crate) fn choices_after(&self, first: &[u32]) -> Choices {
         let once = [first, &[self.start as u32], &self.steps].concat();
         Choices { once, again: self.round().to_vec() }

@@ -32,8 +32,8 @@ pub fn try_each<T: Send, A: Send, E: Send>(
     answers.into_iter().flatten().collect()
 }
 
-/// The answers about all of these, in their order, by so many threads that work on nothing else meanwhile. One thread
-/// is this one.
+/// The answers about all of these, in their order, by so many threads that work on
+/// nothing else meanwhile. One thread is this one.
 pub fn each_by<T: Send, A: Send>(
     workers: usize,
     all: impl IntoIterator<Item = T>,

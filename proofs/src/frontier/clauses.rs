@@ -9,7 +9,7 @@ use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 use super::areas::{Areas, Size};
 use super::detour::{self, Round};
 use super::drift::{self, Drift, PARTS};
-use super::fused::{self, FusedBudget, Stander};
+use super::fused::{self, FusedBudget, StandingRobot};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
@@ -275,8 +275,8 @@ pub const CLAUSES: [Clause; 12] = [
     },
     Clause {
         id: "FRONTIER-5",
-        sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one \
-            is.",
+        sentence: "A robot MUST take a cell for explored only where a robot \
+                   was, and for an obstacle only where one is.",
         checks: &[
             &Check::refuted(PUBLISHED, &wrong(Demand::Marks)).under(&MARKS).of(&PAPER),
             &Check::refuted(off(PUBLISHED, QUARTER), &drifting(|| off_by(QUARTER)))
@@ -311,20 +311,20 @@ pub const CLAUSES: [Clause; 12] = [
     },
     Clause {
         id: "FRONTIER-6",
-        sentence: "A robot whose fixes err by at most E and whose moves by at most D, with 2E + D < L/2, MUST take \
-            each fix for the cell in which it is.",
+        sentence: "A robot whose fixes err by at most E and whose moves by at most D, with 2E + D < L/2, MUST \
+                   take each fix for the cell in which it is.",
         checks: &[&believed::CHECK],
     },
     Clause {
         id: "FRONTIER-7",
-        sentence: "A robot that counts its cell by its moves, with E + D < L/2, MUST be in the cell that it has \
-            counted.",
+        sentence: "A robot that counts its cell by its moves, with E + D < L/2, \
+                   MUST be in the cell that it has counted.",
         checks: &[&tracked::CHECK],
     },
     Clause {
         id: "FRONTIER-8",
-        sentence: "The occupancy probability of a cell MUST be 1 at its midpoint, MUST not grow with the distance to \
-            it, and MUST be 0 from half a cell on.",
+        sentence: "The occupancy probability of a cell MUST be 1 at its midpoint, MUST not grow with the distance \
+                   to it, and MUST be 0 from half a cell on.",
         checks: &[
             &Check::refuted(NamedRule::new("published", Occupancy::Printed), occupancy::CHECK.method)
                 .under(&OCCUPANCIES)
@@ -338,8 +338,8 @@ pub const CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-9",
         sentence: "A robot with preferences MUST go to the unexplored cell that it is paired with, and to the one that \
-            comes first for it if all are the others', or if, without news, that one is farther than the one that it \
-            has claimed, or than a nearest one if it has claimed none.",
+                   comes first for it if all are the others', or if, without news, that one is farther than the one \
+                   that it has claimed, or than a nearest one if it has claimed none.",
         checks: &[&Check::holds(
             REPAIRED,
             &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
@@ -349,7 +349,7 @@ pub const CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-10",
         sentence: "A robot whose fixes err by at most E and whose moves by at most D, and which corrects its place by \
-            at least the share K of what a fix says, MUST be in the cell that it has counted if E + D/K < L/2.",
+                   at least the share K of what a fix says, MUST be in the cell that it has counted if E + D/K < L/2.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", FusedBudget::FUSED),
             &EveryAnswer {
@@ -367,25 +367,25 @@ pub const CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-11",
         sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, \
-            and fixes MUST make one that knows its heading sure after finitely many.",
+                   and fixes MUST make one that knows its heading sure after finitely many.",
         checks: &[&Check::holds(
-            NamedRule::new("repaired", Stander::REPAIRED),
+            NamedRule::new("repaired", StandingRobot::REPAIRED),
             &EveryAnswer {
                 body: fused::is_sure_again,
                 range: fused::stops,
                 covers: &["it moves on", "it stands"],
             },
             &[
-                NamedRule::new(repaired(Sure).name, Stander::UNSURE),
-                NamedRule::new("wheels alone", Stander::WHEELS_ALONE),
+                NamedRule::new(repaired(Sure).name, StandingRobot::UNSURE),
+                NamedRule::new("wheels alone", StandingRobot::WHEELS_ALONE),
             ],
         )],
     },
     Clause {
         id: "FRONTIER-12",
-        sentence: "A robot whose place errs by at most E, with E + F < L/2 for the five steps F of a detour, MUST stay \
-            in its cell until it enters the next one through the side between both, and MUST pass the middle of that \
-            side at F/2 − (1 + F/L) E or more.",
+        sentence: "A robot whose place errs by at most E, with E + F < L/2 for the five steps F of a detour, MUST \
+                   stay in its cell until it enters the next one through the side between both, and MUST pass the \
+                   middle of that side at F/2 − (1 + F/L) E or more.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", Round::FIVE_STEPS),
             &EveryAnswer {

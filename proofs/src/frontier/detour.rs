@@ -1,6 +1,6 @@
-//! A robot that goes round an obstacle smaller than a cell (FRONTIER-12): how far it comes, along the way to the next
-//! cell and across it, is written down here; of the kernel only the turns and the ways are used. Lengths are in sides
-//! of a cell.
+//! A robot that goes round an obstacle smaller than a cell (FRONTIER-12): how far it comes, along the
+//! way to the next cell and across it, is written down here; of the kernel only the turns and the ways
+//! are used. Lengths are in sides of a cell.
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::frontier::{DETOUR, FIVE_STEPS, midpoint};
@@ -37,8 +37,8 @@ pub(super) fn errors() -> String {
     format!("every error of a place in 1/{PARTS} of a cell, along both axes, through each side")
 }
 
-/// FRONTIER-12: a robot that takes itself to be at the midpoint of its cell, and meets an obstacle on its way through a
-/// side.
+/// FRONTIER-12: a robot that takes itself to be at the midpoint of its cell, and
+/// meets an obstacle on its way through a side.
 ///
 /// # Errors
 /// [`Stop`](crate::engine::Stop) if the clause is broken.

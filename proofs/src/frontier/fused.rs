@@ -39,8 +39,8 @@ impl FusedBudget {
 /// The bound of [`stays`], in words.
 pub(super) fn errors() -> String {
     format!(
-        "every error of a place, of a move and of a fix in 1/{PARTS} of a cell, and every gain in 1/{QUARTERS}, along \
-            one axis"
+        "every error of a place, of a move and of a fix in 1/{PARTS} of a cell, and \
+         every gain in 1/{QUARTERS}, along one axis"
     )
 }
 
@@ -85,12 +85,12 @@ pub(super) fn stays(bears: &FusedBudget, oracle: &mut dyn Oracle) -> Outcome {
 
 /// A robot that may have to stand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stander {
+pub(super) struct StandingRobot {
     rule: Rule,
     takes_fixes: bool,
 }
 
-impl Stander {
+impl StandingRobot {
     pub(super) const REPAIRED: Self = Self { rule: Rule::REPAIRED, takes_fixes: true };
     pub(super) const UNSURE: Self = Self { rule: Rule::REPAIRED.without(Condition::Sure), takes_fixes: true };
     pub(super) const WHEELS_ALONE: Self = Self { takes_fixes: false, ..Self::REPAIRED };
@@ -118,7 +118,7 @@ pub(super) fn stops() -> String {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub(super) fn is_sure_again(standing: &Stander, oracle: &mut dyn Oracle) -> Outcome {
+pub(super) fn is_sure_again(standing: &StandingRobot, oracle: &mut dyn Oracle) -> Outcome {
     let any = |numbers: &[f64], oracle: &mut dyn Oracle| {
         numbers.get(oracle.pick(numbers.len() as u32) as usize).copied().unwrap_or_default()
     };

@@ -43,7 +43,7 @@ impl Alone {
 
 /// The act of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Activity {
+pub enum ExplorerAct {
     /// It goes to the rim of its cell at a side.
     Tries(Side),
     /// It looks into the cell beyond the rim.
@@ -56,7 +56,7 @@ pub enum Activity {
 
 impl Local for Alone {
     type State = Stance;
-    type Act = Activity;
+    type Act = ExplorerAct;
 
     fn states(&self) -> Vec<Stance> {
         let sides = Side::ALL.into_iter();
@@ -64,7 +64,7 @@ impl Local for Alone {
         under_way.chain([Stance::Stands]).collect()
     }
 
-    fn acts(&self, stance: Stance) -> Vec<Act<Stance, Activity>> {
+    fn acts(&self, stance: Stance) -> Vec<Act<Stance, ExplorerAct>> {
         let after = |act: &dyn Fn(&mut Explorer<TinyMap>)| {
             let mut robot = self.explorer(stance)?;
             act(&mut robot);
@@ -79,33 +79,37 @@ impl Local for Alone {
             Stance::Stands => Side::ALL
                 .map(|side| {
                     let tries = after(&|robot| robot.tries(side, Self::HERE.beyond(side)));
-                    act(Activity::Tries(side), Step::Stay, tries)
+                    act(ExplorerAct::Tries(side), Step::Stay, tries)
                 })
                 .to_vec(),
             // A small obstacle leaves a robot in its cell as another robot does.
             Stance::Tries(_) => [Sight::Open, Sight::Obstacle, Sight::Robot]
                 .map(|sight| {
-                    act(Activity::Looks(sight), Step::Stay, after(&|robot| robot.looked(&self.rule, sight)))
+                    act(
+                        ExplorerAct::Looks(sight),
+                        Step::Stay,
+                        after(&|robot| robot.looked(&self.rule, sight)),
+                    )
                 })
                 .to_vec(),
             Stance::Enters(side) => {
                 let arrives = after(&|robot| robot.arrived(&self.rule, Self::HERE.beyond(side)));
-                vec![act(Activity::Arrives, Step::Cross(side), arrives)]
+                vec![act(ExplorerAct::Arrives, Step::Cross(side), arrives)]
             }
         };
-        own.into_iter().chain([act(Activity::Idles, Step::Stay, Some(stance))]).flatten().collect()
+        own.into_iter().chain([act(ExplorerAct::Idles, Step::Stay, Some(stance))]).flatten().collect()
     }
 
     /// A robot that looks sees another one that is in the cell, or counts as entering it, if its rule lets it look.
-    fn admits(&self, plans: &[Plan<Stance, Activity>]) -> bool {
-        let sees = |own: &Plan<Stance, Activity>, other: &Robot<Stance>| match (own.act, own.robot.state) {
-            (Activity::Looks(Sight::Open | Sight::Obstacle), Stance::Tries(side)) => {
+    fn admits(&self, plans: &[Plan<Stance, ExplorerAct>]) -> bool {
+        let sees = |own: &Plan<Stance, ExplorerAct>, other: &Robot<Stance>| match (own.act, own.robot.state) {
+            (ExplorerAct::Looks(Sight::Open | Sight::Obstacle), Stance::Tries(side)) => {
                 !self.rule.has(Condition::Look)
                     || !(self.is_met)(own.robot.at.beyond(side), other.at, other.state)
             }
             _ => true,
         };
-        (self.at_once || plans.iter().any(|plan| plan.act == Activity::Idles))
+        (self.at_once || plans.iter().any(|plan| plan.act == ExplorerAct::Idles))
             && sees(&plans[0], &plans[1].robot)
             && sees(&plans[1], &plans[0].robot)
     }
@@ -127,7 +131,7 @@ impl Local for Alone {
     }
 
     /// A robot has looked before it enters.
-    fn is_sure(&self, act: Activity) -> bool {
-        act == Activity::Arrives
+    fn is_sure(&self, act: ExplorerAct) -> bool {
+        act == ExplorerAct::Arrives
     }
 }

@@ -27,7 +27,7 @@ pub(super) const READINGS: [(&str, Rule); 15] = [
     ("wanders + literal + printed + adaptive", adaptive(wandering(Rule::PRINTED.without(Record)))),
 ];
 
-/// The places that the paper leaves open.
+/// The passages that the paper leaves open.
 pub(super) static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {

@@ -36,9 +36,9 @@ pub const CLAUSES: [Clause; 2] = [
     },
     Clause {
         id: "LATTICE-2",
-        sentence: "The distance of a robot to the frontier MUST be the fewest steps to an unexplored cell, for a \
-                   follower over edges that are not known to be walls, for the leader over those of them without a \
-                   virtual obstacle.",
+        sentence: "The distance of a robot to the frontier MUST be the fewest steps to an unexplored \
+                   cell, for a follower over edges that are not known to be walls, for the leader over \
+                   those of them without a virtual obstacle.",
         checks: &[
             &Check::holds(
                 WHOLE,

@@ -1,8 +1,8 @@
-//! The judge of counterexamples of agents on a sensor floor. It reads a layout, where the agents start and what they
-//! do, turn by turn, as anyone may write it down, and decides from the sentences of `SPEC.md` whether BRICKS-4,
-//! BRICKS-5, BRICKS-6 or BRICKS-12 is broken by it. It knows walls and where agents have been, and nothing of marks: it
-//! shares no code with the rules, so it does not say whether a rule makes the agents act so. Whoever asks it plays the
-//! rule, too.
+//! The judge of counterexamples of agents on a sensor floor. It reads a layout, where the agents start and what
+//! they do, turn by turn, as anyone may write it down, and decides from the sentences of `SPEC.md` whether
+//! BRICKS-4, BRICKS-5, BRICKS-6 or BRICKS-12 is broken by it. It knows walls and where agents have been, and
+//! nothing of marks: it shares no code with the rules, so it does not say whether a rule makes the agents act
+//! so. Whoever asks it plays the rule, too.
 
 use std::collections::BTreeSet;
 

@@ -399,8 +399,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-8",
-        sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know \
-            it.",
+        sentence: "When a run ends, every side within reach MUST be driven or \
+                   seen blocked, and every robot MUST know it.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Covers)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Covers), &[NO_REGROUP, UNMARKED]),
@@ -415,8 +415,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-10",
-        sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it \
-                   blocked, and no other side.",
+        sentence: "A side MUST count as covered for every robot if any of them has driven through \
+                   it or seen it blocked, and no other side.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Marks)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Marks), &[UNMARKED, OTHERS]),
@@ -424,8 +424,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-11",
-        sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while \
-                   another one drives a new path.",
+        sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its \
+                   own while another one drives a new path.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Shortens)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Shortens), &[NO_STAY]),
@@ -448,8 +448,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "KIT-14",
-        sentence: "Of two robots one that drives a path again MUST be able to take each side that begins a shortest \
-                   way, and no other.",
+        sentence: "Of two robots one that drives a path again MUST be able to take each side \
+                   that begins a shortest way, and no other.",
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::AnyShortest)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::AnyShortest), &[NO_STAY, NO_NEXT]),

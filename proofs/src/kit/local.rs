@@ -15,7 +15,7 @@ pub(super) const AT_NODES: EveryNumber = EveryNumber { teams: "two robots where 
 
 /// The act of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Activity {
+pub enum PairAct {
     /// It leaves its node through a side.
     Leaves(Side),
     /// It arrives.
@@ -32,26 +32,26 @@ fn stance(at: Cell, step: Step) -> Stance {
     }
 }
 
-fn acts(state: Step) -> Vec<Act<Step, Activity>> {
+fn acts(state: Step) -> Vec<Act<Step, PairAct>> {
     let act = |act, step, ends| Act { act, step, ends, needs_open: false };
     let own = match state {
         Step::Stay => Side::ALL
-            .map(|side| act(Activity::Leaves(side), Step::Stay, vec![(false, Step::Cross(side))]))
+            .map(|side| act(PairAct::Leaves(side), Step::Stay, vec![(false, Step::Cross(side))]))
             .to_vec(),
-        Step::Cross(_) => vec![act(Activity::Arrives, state, vec![(true, Step::Stay)])],
+        Step::Cross(_) => vec![act(PairAct::Arrives, state, vec![(true, Step::Stay)])],
     };
-    [own, vec![act(Activity::Idles, Step::Stay, vec![(false, state)])]].concat()
+    [own, vec![act(PairAct::Idles, Step::Stay, vec![(false, state)])]].concat()
 }
 
 /// Whether each robot that leaves may do so beside the other one, which does nothing.
-fn admits(plans: &[Plan<Step, Activity>], may_drive: impl Fn(Stance, Stance) -> bool) -> bool {
-    let is_admitted = |own: &Plan<Step, Activity>, other: &Plan<Step, Activity>| match own.act {
-        Activity::Leaves(side) => {
+fn admits(plans: &[Plan<Step, PairAct>], may_drive: impl Fn(Stance, Stance) -> bool) -> bool {
+    let is_admitted = |own: &Plan<Step, PairAct>, other: &Plan<Step, PairAct>| match own.act {
+        PairAct::Leaves(side) => {
             may_drive(stance(own.robot.at, Step::Cross(side)), stance(other.robot.at, other.robot.state))
         }
-        Activity::Arrives | Activity::Idles => true,
+        PairAct::Arrives | PairAct::Idles => true,
     };
-    plans.iter().any(|plan| plan.act == Activity::Idles)
+    plans.iter().any(|plan| plan.act == PairAct::Idles)
         && is_admitted(&plans[0], &plans[1])
         && is_admitted(&plans[1], &plans[0])
 }
@@ -102,17 +102,17 @@ impl Two {
 
 impl Local for Two {
     type State = Step;
-    type Act = Activity;
+    type Act = PairAct;
 
     fn states(&self) -> Vec<Step> {
         Step::ALL.to_vec()
     }
 
-    fn acts(&self, state: Step) -> Vec<Act<Step, Activity>> {
+    fn acts(&self, state: Step) -> Vec<Act<Step, PairAct>> {
         acts(state)
     }
 
-    fn admits(&self, plans: &[Plan<Step, Activity>]) -> bool {
+    fn admits(&self, plans: &[Plan<Step, PairAct>]) -> bool {
         admits(plans, |path, other| match self.promise {
             Promise::Contact | Promise::AtNodes => self.rule.hears(other, path),
             Promise::Apart => self.rule.keeps_apart(path, other),
@@ -157,8 +157,8 @@ impl Local for Two {
     }
 
     /// Paths of a lattice are known.
-    fn is_sure(&self, act: Activity) -> bool {
-        act == Activity::Arrives
+    fn is_sure(&self, act: PairAct) -> bool {
+        act == PairAct::Arrives
     }
 }
 
@@ -176,43 +176,43 @@ const fn is_before(time: u8, other: u8) -> bool {
 
 impl Local for AtEqualSpeeds {
     type State = TimedStep;
-    type Act = (Activity, u8);
+    type Act = (PairAct, u8);
 
     fn states(&self) -> Vec<TimedStep> {
         let drive = |side| [0, 1, 2].map(|time| (Step::Cross(side), time));
         [(Step::Stay, 0)].into_iter().chain(Side::ALL.into_iter().flat_map(drive)).collect()
     }
 
-    fn acts(&self, (step, time): TimedStep) -> Vec<Act<TimedStep, (Activity, u8)>> {
-        let timed = |act: &Act<Step, Activity>, time: u8| {
+    fn acts(&self, (step, time): TimedStep) -> Vec<Act<TimedStep, (PairAct, u8)>> {
+        let timed = |act: &Act<Step, PairAct>, time: u8| {
             let end =
                 |&(goes, step): &(bool, Step)| (goes, (step, if step == Step::Stay { 0 } else { time }));
             let ends = act.ends.iter().map(end).collect();
             Act { act: (act.act, time), step: act.step, ends, needs_open: act.needs_open }
         };
         let all = acts(step);
-        let times = |act: &Act<Step, Activity>| match act.act {
-            Activity::Leaves(_) => vec![timed(act, 0), timed(act, 1), timed(act, 2)],
-            Activity::Arrives | Activity::Idles => vec![timed(act, time)],
+        let times = |act: &Act<Step, PairAct>| match act.act {
+            PairAct::Leaves(_) => vec![timed(act, 0), timed(act, 1), timed(act, 2)],
+            PairAct::Arrives | PairAct::Idles => vec![timed(act, time)],
         };
         all.iter().flat_map(times).collect()
     }
 
-    fn admits(&self, plans: &[Plan<TimedStep, (Activity, u8)>]) -> bool {
-        let is_admitted = |own: &Plan<TimedStep, (Activity, u8)>, other: &Plan<TimedStep, (Activity, u8)>| {
+    fn admits(&self, plans: &[Plan<TimedStep, (PairAct, u8)>]) -> bool {
+        let is_admitted = |own: &Plan<TimedStep, (PairAct, u8)>, other: &Plan<TimedStep, (PairAct, u8)>| {
             let (step, time) = other.robot.state;
             let stands = step == Step::Stay;
             match own.act {
-                (Activity::Leaves(side), new) => {
+                (PairAct::Leaves(side), new) => {
                     let path = stance(own.robot.at, Step::Cross(side));
                     let is_next = if stands { new == 0 } else { is_before(time, new) };
                     is_next && self.0.hears(stance(other.robot.at, step), path)
                 }
-                (Activity::Arrives, own) => stands || is_before(own, time),
-                (Activity::Idles, _) => true,
+                (PairAct::Arrives, own) => stands || is_before(own, time),
+                (PairAct::Idles, _) => true,
             }
         };
-        plans.iter().any(|plan| plan.act.0 == Activity::Idles)
+        plans.iter().any(|plan| plan.act.0 == PairAct::Idles)
             && is_admitted(&plans[0], &plans[1])
             && is_admitted(&plans[1], &plans[0])
     }
@@ -241,7 +241,7 @@ impl Local for AtEqualSpeeds {
         in_a_row(robots, (Step::Stay, 0))
     }
 
-    fn is_sure(&self, (act, _): (Activity, u8)) -> bool {
-        act == Activity::Arrives
+    fn is_sure(&self, (act, _): (PairAct, u8)) -> bool {
+        act == PairAct::Arrives
     }
 }

@@ -8,8 +8,8 @@ use crate::engine::{Choices, Outcome, Replay, assume, outcomes, require};
 use crate::judge::AnyCase;
 use crate::judge::kit::{Wire, WireMessage};
 
-/// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in the
-/// paper's reach.
+/// Offsets of the second robot that are looked at: columns and rows, from −4 on.
+/// Farther off no stance is in the paper's reach.
 const OFFSETS: u32 = 9;
 
 /// Parts of a path at which robots are looked at.

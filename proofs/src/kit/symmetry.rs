@@ -425,8 +425,8 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "takes a minute: cargo test --release -p tautline-proofs --lib -- --ignored --nocapture \
-        three_robots_of_another"]
+    #[ignore = "takes a minute: cargo test --release -p tautline-proofs --lib -- \
+                --ignored --nocapture three_robots_of_another"]
     fn three_robots_of_another_reach_break_nothing_side_by_side() {
         for paths in 2..=Reach::MOST_PATHS {
             let rule = Rule { reach: Reach::of_paths(paths).expect("a reach"), ..Rule::REPAIRED };
@@ -465,8 +465,8 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "3,751,960 states at most, 88 s: cargo test --release -p tautline-proofs -- --ignored --nocapture \
-        all_walls"]
+    #[ignore = "3,751,960 states at most, 88 s: cargo test --release -p \
+                tautline-proofs -- --ignored --nocapture all_walls"]
     fn two_robots_keep_every_promise_with_all_walls() {
         for speeds in [Speeds::OneByOne, Speeds::Any] {
             for size in [(3, 2), (4, 2), (3, 3), (5, 2)] {
@@ -476,8 +476,8 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "10,174,954 states at most, 118 s, 671 MiB: cargo test --release -p tautline-proofs -- --ignored \
-        --nocapture few_walls"]
+    #[ignore = "10,174,954 states at most, 118 s, 671 MiB: cargo test --release -p \
+                tautline-proofs -- --ignored --nocapture few_walls"]
     fn two_robots_keep_every_promise_with_few_walls() {
         for (size, walls) in [((6, 2), 4), ((4, 3), 3)] {
             all_teams(size, walls, Speeds::OneByOne);

@@ -122,8 +122,8 @@ fn fate(setting: &Setting<2>, start: Cell, goal: Goal) -> [bool; FATES.len()] {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture \
-    published_robots_are_trapped"]
+#[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored \
+            --nocapture published_robots_are_trapped"]
 fn published_robots_are_trapped_in_some_layouts() {
     let setting = Setting::<2>::new(Rule::PUBLISHED, (3, 3)).expect("a lattice");
     let cases = cases(&setting);

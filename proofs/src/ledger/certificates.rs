@@ -1,5 +1,5 @@
-//! Certificates of checks that search all states or all layouts: which check a file is about, and the sections of its
-//! systems.
+//! Certificates of checks that search all states or all layouts: which check a file
+//! is about, and the sections of its systems.
 
 use std::fmt;
 

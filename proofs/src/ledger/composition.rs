@@ -4,8 +4,8 @@
 
 use crate::local::EveryNumber;
 
-/// The audit of `proofs/rocq` as printed: each theorem with its statement, and whether any of them rests on
-/// assumptions.
+/// The audit of `proofs/rocq` as printed: each theorem with its statement, and
+/// whether any of them rests on assumptions.
 const AUDIT: &str = include_str!("../../rocq/audit.expected");
 
 /// The rules that each theorem speaks of: it says nothing of the others that a clause is about.

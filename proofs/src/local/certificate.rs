@@ -7,7 +7,7 @@ use std::fmt::Write;
 use tautline_kernel::ground::Cell;
 
 use super::invariant::{Tuple, is_within, offsets, promised};
-use super::{Act, Far, Invariant, NumberRule, Robot};
+use super::{Act, Far, Invariant, NumberedRule, Robot};
 use crate::decide::MethodError;
 
 /// A set of offsets for each sequence of kinds of robots.
@@ -75,7 +75,7 @@ impl Tree {
 
 /// A rule in tables.
 struct Tables<'r> {
-    rule: &'r dyn NumberRule,
+    rule: &'r dyn NumberedRule,
     states: Vec<u32>,
     acts: Vec<Vec<Act<u32, u32>>>,
 }
@@ -156,7 +156,7 @@ impl Tables<'_> {
 const MOST_ENTRIES: usize = 2_000_000;
 
 /// The rule, the invariant, and the theorem that it is one, in Rocq's words.
-pub(super) fn terms(rule: &dyn NumberRule, invariant: &Invariant) -> Result<String, MethodError> {
+pub(super) fn terms(rule: &dyn NumberedRule, invariant: &Invariant) -> Result<String, MethodError> {
     let states = rule.states();
     let acts: Vec<_> = states.iter().map(|&state| rule.acts(state)).collect();
     let tables = Tables { rule, states, acts };
@@ -174,8 +174,8 @@ pub(super) fn terms(rule: &dyn NumberRule, invariant: &Invariant) -> Result<Stri
     let mut text = format!(
         "From Coq Require Import ZArith NArith List.\nFrom Tautline Require Import Certificate.\n\
          Import ListNotations.\nLocal Open Scope Z_scope.\n\n\
-         Definition rule_ : rule := {{|\n robots := {}; colours := {}; reach := {reach}; far := {}; width := \
-         {width};\n moves :=\n {}",
+         Definition rule_ : rule := {{|\n robots := {}; colours := {}; reach := {reach}; far \
+         := {}; width := {width};\n moves :=\n {}",
         rule.robots(),
         rule.colours(),
         far == Far::Fine,
@@ -200,8 +200,8 @@ pub(super) fn terms(rule: &dyn NumberRule, invariant: &Invariant) -> Result<Stri
     let is_kept = |tuple: &Tuple| invariant.kept.binary_search(tuple).is_ok();
     tables.of_robots(invariant.window, is_kept).write(&mut text);
     // Computed once, at `Qed`: the tactic `vm_compute` would do so before.
-    text += " |}.\n\nTheorem accepted : accepts rule_ certificate_ = true.\nProof. vm_cast_no_check (eq_refl true). \
-        Qed.\n\n\
+    text += " |}.\n\nTheorem accepted : accepts rule_ certificate_ = true.\nProof. \
+             vm_cast_no_check (eq_refl true). Qed.\n\n\
              Theorem holds_ : holds rule_.\nProof. exact (sound rule_ certificate_ accepted). Qed.\n";
     Ok(text)
 }

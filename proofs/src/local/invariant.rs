@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use tautline_kernel::ground::{Cell, Step};
 
 use super::certificate::terms;
-use super::{Act, ByNumber, Far, Local, NumberRule, Plan, Robot};
+use super::{Act, ByNumber, Far, Local, NumberedRule, Plan, Robot};
 use crate::decide::{Answer, MethodError, Verdict};
 use crate::engine::watchdog;
 use crate::protocol::combinations;
@@ -52,7 +52,7 @@ impl Invariant {
     }
 
     /// The set of a rule by numbers: see [`Self::of`].
-    pub(super) fn found(rule: &dyn NumberRule) -> Result<Self, MethodError> {
+    pub(super) fn found(rule: &dyn NumberedRule) -> Result<Self, MethodError> {
         let (reach, far) = rule.reach();
         MethodError::unless(reach >= 0, format_args!("the promise looks {reach} cells far: give 0 or more"))?;
         for (is_there, what) in [
@@ -94,7 +94,7 @@ impl Invariant {
 
     /// A shortest way of the robots of which the rule speaks from a start to where they break the promise, each place
     /// in words: what others do to them plays no part, so that no team need go so. Empty if there is none.
-    pub(super) fn way_out(&self, rule: &dyn NumberRule) -> Result<Vec<String>, MethodError> {
+    pub(super) fn way_out(&self, rule: &dyn NumberedRule) -> Result<Vec<String>, MethodError> {
         let steps = Steps::of(rule)?;
         let starts = tuples(rule, self.window)?.into_iter().filter(|tuple| rule.may_start(tuple));
         let mut ways: Vec<(Tuple, Option<usize>)> = starts.map(|tuple| (tuple, None)).collect();
@@ -117,7 +117,7 @@ impl Invariant {
         Ok(way)
     }
 
-    fn within(rule: &dyn NumberRule, window: i16) -> Result<Self, MethodError> {
+    fn within(rule: &dyn NumberedRule, window: i16) -> Result<Self, MethodError> {
         let is_fine = rule.reach().1 == Far::Fine;
         let all = tuples(rule, window)?;
         let is_near = |tuple: &[Robot<u32>]| is_within(tuple, window);
@@ -192,7 +192,7 @@ impl fmt::Display for Invariant {
 }
 
 /// Where robots are, in words: their cells, and their states if there are several.
-pub(super) fn words(rule: &dyn NumberRule, tuple: &[Robot<u32>]) -> String {
+pub(super) fn words(rule: &dyn NumberedRule, tuple: &[Robot<u32>]) -> String {
     let word = |robot: &Robot<u32>| match rule.state_words(robot.state).as_str() {
         "()" => format!("{}", robot.at),
         state => format!("{} {state}", robot.at),
@@ -201,7 +201,7 @@ pub(super) fn words(rule: &dyn NumberRule, tuple: &[Robot<u32>]) -> String {
 }
 
 /// Whether robots keep the promise, however far they are from each other.
-pub(super) fn promised(rule: &dyn NumberRule, robots: &[Robot<u32>]) -> bool {
+pub(super) fn promised(rule: &dyn NumberedRule, robots: &[Robot<u32>]) -> bool {
     let (reach, far) = rule.reach();
     if is_within(robots, reach) { rule.keeps(robots) } else { far == Far::Fine }
 }
@@ -223,7 +223,7 @@ fn moved(robots: &[Robot<u32>], (columns, rows): (i16, i16)) -> Tuple {
 }
 
 /// How many tuples of robots there are within a window, whatever colours they see; `None` if too many to count.
-fn places(rule: &dyn NumberRule, window: i16) -> Option<usize> {
+fn places(rule: &dyn NumberedRule, window: i16) -> Option<usize> {
     let of_first = rule.states().len() * usize::from(rule.colours());
     let side = 2 * window as usize + 1;
     let of_one = side.checked_mul(side)?.checked_mul(of_first)?;
@@ -231,7 +231,7 @@ fn places(rule: &dyn NumberRule, window: i16) -> Option<usize> {
 }
 
 /// Every tuple of robots within a window.
-fn tuples(rule: &dyn NumberRule, window: i16) -> Result<Vec<Tuple>, MethodError> {
+fn tuples(rule: &dyn NumberedRule, window: i16) -> Result<Vec<Tuple>, MethodError> {
     let (states, count) = (rule.states(), places(rule, window));
     if count.is_none_or(|count| count > MOST_PLACES) {
         let count = count.map_or_else(|| "too many".to_owned(), |count| count.to_string());
@@ -275,14 +275,14 @@ const ELSEWHERE: (i16, i16) = (113, 57);
 
 /// The acts of robots by a rule.
 struct Steps<'r> {
-    rule: &'r dyn NumberRule,
+    rule: &'r dyn NumberedRule,
     acts: FxHashMap<u32, Vec<Act<u32, u32>>>,
 }
 
 impl<'r> Steps<'r> {
     /// # Errors
     /// [`MethodError`] if an act has no outcome, or only such as a wall forbids, or one in no state of the rule.
-    fn of(rule: &'r dyn NumberRule) -> Result<Self, MethodError> {
+    fn of(rule: &'r dyn NumberedRule) -> Result<Self, MethodError> {
         let acts: FxHashMap<_, Vec<_>> =
             rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
         for (state, act) in acts.iter().flat_map(|(state, acts)| acts.iter().map(move |act| (state, act))) {

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
 
 /// A rule by numbers. The words of a number are those of the state or the act that has it.
-pub(super) trait NumberRule: Local<State = u32, Act = u32> {
+pub(super) trait NumberedRule: Local<State = u32, Act = u32> {
     /// The words of a state.
     fn state_words(&self, state: u32) -> String;
 
@@ -75,7 +75,7 @@ impl<'r, R: Local> ByNumber<'r, R> {
     }
 }
 
-impl<R: Local> NumberRule for ByNumber<'_, R> {
+impl<R: Local> NumberedRule for ByNumber<'_, R> {
     fn state_words(&self, state: u32) -> String {
         words(&self.states[state as usize])
     }

@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 
 use super::invariant::{agree, promised, words};
 use super::wider::seen;
-use super::{Act, NumberRule, Robot};
+use super::{Act, NumberedRule, Robot};
 use crate::decide::{Depiction, MethodError};
 use crate::engine::states::{Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
@@ -48,7 +48,7 @@ type ColouredAct<'a> = (&'a Act<u32, u32>, u8);
 
 /// So many robots that follow a rule.
 pub(super) struct Team<'r> {
-    rule: &'r dyn NumberRule,
+    rule: &'r dyn NumberedRule,
     tuples: Vec<Vec<usize>>,
     start: Vec<Robot<u32>>,
 }
@@ -59,7 +59,7 @@ type Next = (String, Start);
 impl<'r> Team<'r> {
     /// # Errors
     /// [`MethodError`] if the team does not start as the rule says.
-    pub(super) fn new(rule: &'r dyn NumberRule, robots: usize) -> Result<Self, MethodError> {
+    pub(super) fn new(rule: &'r dyn NumberedRule, robots: usize) -> Result<Self, MethodError> {
         let team = Self { rule, tuples: rule.tuples(robots), start: rule.start(robots) };
         if team.start.len() != robots {
             let why = format!("{} robots start where {robots} should", team.start.len());
@@ -191,8 +191,8 @@ impl<'r> Team<'r> {
         Depiction::Story(beside(&frames))
     }
 
-    /// The cells that robots are in, robots by number, and below them their states, if there is more than one, and
-    /// walls.
+    /// The cells that robots are in, robots by number, and below them their
+    /// states, if there is more than one, and walls.
     fn draw(&self, (robots, layout): &Start) -> String {
         let (columns, rows) = (robots.iter().map(|robot| robot.at.x), robots.iter().map(|robot| robot.at.y));
         let span = |of: &mut dyn Iterator<Item = i16>| {

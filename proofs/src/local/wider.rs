@@ -2,11 +2,11 @@
 //! robot does to two others may break a promise of two that all three together keep.
 
 use super::invariant::{promised, relative};
-use super::{Act, Far, Local, NumberRule, Plan, Robot, all_tuples};
+use super::{Act, Far, Local, NumberedRule, Plan, Robot, all_tuples};
 
 /// One robot more than `rule` speaks of.
 pub(super) struct Wider<'r> {
-    rule: &'r dyn NumberRule,
+    rule: &'r dyn NumberedRule,
     /// The tuples of which the rule speaks among these robots.
     parts: Vec<Vec<usize>>,
 }
@@ -14,7 +14,7 @@ pub(super) struct Wider<'r> {
 impl<'r> Wider<'r> {
     /// `None` where a team may have no more robots than the rule speaks of, where robots that are far apart are not
     /// asked about, or where a tuple of a team of up to `most` robots is in no tuple of one robot more.
-    pub(super) fn of(rule: &'r dyn NumberRule, most: usize) -> Option<Self> {
+    pub(super) fn of(rule: &'r dyn NumberedRule, most: usize) -> Option<Self> {
         let wider = Self { rule, parts: rule.tuples(rule.robots() + 1) };
         let is_due = rule.least() > rule.robots() && rule.reach().1 == Far::Broken && !wider.parts.is_empty();
         let covers = |robots: usize| {
@@ -31,7 +31,7 @@ impl<'r> Wider<'r> {
     }
 }
 
-impl NumberRule for Wider<'_> {
+impl NumberedRule for Wider<'_> {
     as_its_rule! {
         state_words(state: u32) -> String;
         act_words(act: u32) -> String;

@@ -7,7 +7,7 @@ use tautline_kernel::mrc::Condition::{
 use tautline_kernel::mrc::{Condition, Rule};
 
 use super::within::Within;
-use super::{Demand, Faults, Leases, LossKind, Misreading, Server, Setting, Subject, records};
+use super::{Demand, Faults, Leases, LossKind, Misreading, Service, Setting, Subject, records};
 use crate::ambiguity::Charity::{Charitable, Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
@@ -116,7 +116,7 @@ static PAPER: Paper = Paper {
 
 /// The reading whose robots take the SBit for their own service.
 const fn own(subject: Subject) -> Subject {
-    Subject { served: Server::ByItself, ..subject }
+    Subject { served: Service::ByItself, ..subject }
 }
 
 /// The readings of a WFR's choice and of late MOVEs.
@@ -168,7 +168,7 @@ const ACCEPTS: NamedRule<Subject> =
 const TWO: Setting = Setting {
     rule: Rule::REPAIRED,
     misread: None,
-    served: Server::ByAny,
+    served: Service::ByAny,
     robots: 2,
     wfrs: 2,
     events: 2,
@@ -180,8 +180,8 @@ const TWO: Setting = Setting {
 const TWO_LONGER: Setting = Setting { events: 3, max_hops: 1, ..TWO };
 const THREE_AND_TWO: Setting = Setting { robots: 3, max_hops: 1, ..TWO };
 const TWO_AND_ONE: Setting = Setting { wfrs: 1, ..TWO };
-/// For a robot alone all readings are alike but for what is lost. Two whose SBits are their own go round in too many
-/// ways.
+/// For a robot alone all readings are alike but for what is lost. Two whose SBits
+/// are their own go round in too many ways.
 const ALONE: Setting = Setting { robots: 1, max_hops: 1, ..TWO_AND_ONE };
 const ONE_AND_TWO: Setting = Setting { robots: 1, events: 3, ..TWO };
 const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
@@ -288,8 +288,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "MRC-7",
-        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear, until \
-                   it is set.",
+        sentence: "A free robot MUST ask for the nearest of the calls that it has heard \
+                   and whose SBit is clear, until it is set.",
         checks: &[
             &Check::holds(
                 PUBLISHED,
@@ -377,8 +377,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "MRC-13",
-        sentence: "A MOVE, and the RESB to the robot chosen, MUST be repeated as often as the rule says while nobody \
-                   answers, and not more often.",
+        sentence: "A MOVE, and the RESB to the robot chosen, MUST be repeated as often as the rule says \
+                   while nobody answers, and not more often.",
         checks: &[&REPEATED],
     },
     Clause {

@@ -7,7 +7,7 @@ use tautline_kernel::mrc::{Rule, Upward, Word};
 use super::chart::chart;
 use super::space::{self, Refutation};
 use super::state::{Action, Message, place};
-use super::{Demand, Faults, Server, Setting, Subject};
+use super::{Demand, Faults, Service, Setting, Subject};
 use crate::decide::{
     Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
     RefutationPlay, Size, Systems,
@@ -139,7 +139,7 @@ impl fmt::Display for Counts {
 /// A run by the published rule, written down for the judge; `None` if more happens in it than the judge knows.
 fn written(setting: &Setting, broken: &Refutation) -> Option<Box<dyn AnyCase>> {
     let Refutation { run, actions, round } = broken;
-    if setting.rule != Rule::PUBLISHED || setting.served != Server::ByAny || !round.is_empty() {
+    if setting.rule != Rule::PUBLISHED || setting.served != Service::ByAny || !round.is_empty() {
         return None;
     }
     let mut state = setting.start(run.start as u32);

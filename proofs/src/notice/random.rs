@@ -41,8 +41,8 @@ fn random_nodes() -> String {
 /// Events after which nothing more is left to chance, so that copies do not go on arriving for ever.
 const MOST_EVENTS: usize = 4_000;
 
-/// NOTICE-1 to NOTICE-3 and NOTICE-6: a random network, a random order and some k, the demand checked after every
-/// event.
+/// NOTICE-1 to NOTICE-3 and NOTICE-6: a random network, a random order and some
+/// k, the demand checked after every event.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.

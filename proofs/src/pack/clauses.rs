@@ -124,7 +124,7 @@ pub const CLAUSES: [Clause; 8] = [
     Clause {
         id: "PACK-1",
         sentence: "After every team move, links MUST join all robots of a pack: robots are linked if the whole cell of \
-            one is within R_c of the midpoint of the other's.",
+                   one is within R_c of the midpoint of the other's.",
         checks: &[
             &Check::refuted(PUBLISHED, &demand(NO_TIES, Demand::Connected))
                 .under(&holding(READINGS, []))
@@ -160,8 +160,8 @@ pub const CLAUSES: [Clause; 8] = [
     },
     Clause {
         id: "PACK-3",
-        sentence: "When the run of a pack whose robots start side by side ends, every free cell that a robot can walk \
-            to MUST be explored.",
+        sentence: "When the run of a pack whose robots start side by side ends, every free cell \
+                   that a robot can walk to MUST be explored.",
         checks: &[
             &Check::refuted(PUBLISHED, &demand(OF_FEW, Demand::Covers))
                 .under(&holding(READINGS, []))
@@ -183,8 +183,8 @@ pub const CLAUSES: [Clause; 8] = [
     },
     Clause {
         id: "PACK-5",
-        sentence: "When the run of a pack whose robots start anywhere, but linked, ends, every free cell that one of \
-            them can walk to MUST be explored.",
+        sentence: "When the run of a pack whose robots start anywhere, but linked, ends, every free cell that \
+                   one of them can walk to MUST be explored.",
         checks: &[
             &Check::holds(REPAIRED, &demand(ANYWHERE_IN_THE_OPEN, Demand::Covers), &[NO_LEAD]),
             &Check::refuted(REPAIRED, &demand(ANYWHERE, Demand::Covers))
@@ -216,8 +216,8 @@ pub const CLAUSES: [Clause; 8] = [
     },
     Clause {
         id: "PACK-8",
-        sentence: "A robot of a pack that goes its own way MUST choose a frontier cell whose metric gain no other cell \
-            that it may go to exceeds.",
+        sentence: "A robot of a pack that goes its own way MUST choose a frontier cell whose metric gain \
+                   no other cell that it may go to exceeds.",
         checks: &[
             &Check::holds(REPAIRED, &demand(OF_GAINS, Demand::Best), &[NO_CORNERS, HEEDS_NO_WAY]),
             &Check::holds(

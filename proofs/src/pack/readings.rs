@@ -14,8 +14,8 @@ use crate::judge::{Floor as Written, Place};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Subject {
     pub(super) rule: Rule,
-    /// The distance that its robots compare: another one than the published one is followed by the published rule
-    /// alone.
+    /// The distance that its robots compare: another one than the published one
+    /// is followed by the published rule alone.
     pub(super) metric: Metric,
     /// A flaw that no condition expresses: a mutant's.
     pub(super) flaw: Option<Flaw>,
@@ -71,7 +71,7 @@ pub(super) const READINGS: [(&str, Subject); 3] = [
     ("share + line", read(Metric::ShareByLine)),
 ];
 
-/// The places that the paper leaves open.
+/// The passages that the paper leaves open.
 pub(super) static PAPER: Paper = Paper {
     ambiguities: &[
         Ambiguity {

@@ -35,8 +35,8 @@ const FIXES: [(f64, f64, f64); 3] = [(1.0, 0.0, 1.0), (4.0, 1.0, 2.0), (0.5, -0.
 
 /// The bound of [`is_mean`], in words.
 pub(super) fn drives() -> String {
-    "two drives with a turn between them by eighths of a circle, two kinds of wheels, fixes within 0.6 m on a lattice \
-     of 0.2 m, 3 covariances"
+    "two drives with a turn between them by eighths of a circle, two kinds of wheels, fixes within \
+     0.6 m on a lattice of 0.2 m, 3 covariances"
         .to_owned()
 }
 

@@ -118,8 +118,8 @@ const INSIDE: EveryAnswer<Way> = EveryAnswer {
 pub const CLAUSES: [Clause; 7] = [
     Clause {
         id: "POSITION-1",
-        sentence: "From distances without error a way MUST return where the robot is, wherever anchors are that are \
-                   not on one line.",
+        sentence: "From distances without error a way MUST return where the robot is, \
+                   wherever anchors are that are not on one line.",
         checks: &[
             &Check::refuted(
                 PUBLISHED,
@@ -150,9 +150,9 @@ pub const CLAUSES: [Clause; 7] = [
     },
     Clause {
         id: "POSITION-2",
-        sentence: "Anchors at fewer than three places, and distances that are negative, infinite or no numbers, MUST \
-                   be refused; anchors on one line never give one position beside it, and every coordinate is a \
-                   number.",
+        sentence: "Anchors at fewer than three places, and distances that are negative, infinite \
+                   or no numbers, MUST be refused; anchors on one line never give one position \
+                   beside it, and every coordinate is a number.",
         checks: &[
             &Check::holds(PUBLISHED, &REFUSES, &CREDULOUS),
             &Check::holds(REPAIRED, &REFUSES, &CREDULOUS),
@@ -185,8 +185,8 @@ pub const CLAUSES: [Clause; 7] = [
     },
     Clause {
         id: "POSITION-4",
-        sentence: "When anchors are moved, turned and mirrored, positions MUST be moved, turned and mirrored with \
-            them.",
+        sentence: "When anchors are moved, turned and mirrored, positions MUST \
+                   be moved, turned and mirrored with them.",
         checks: &[
             &Check::refuted(PUBLISHED, &FOLLOWS)
                 .under(&holding([("renamed", way::renamed as Way)], [0]))
@@ -218,8 +218,8 @@ pub const CLAUSES: [Clause; 7] = [
     },
     Clause {
         id: "POSITION-6",
-        sentence: "A position that is asked for within a rectangle MUST be in it, and the same as without the \
-                   rectangle if that one is in it.",
+        sentence: "A position that is asked for within a rectangle MUST be in it, and the same as \
+                   without the rectangle if that one is in it.",
         checks: &[
             &Check::holds(
                 METRES,

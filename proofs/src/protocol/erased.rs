@@ -40,8 +40,8 @@ pub(super) trait AnyProtocol: Sync {
     /// The states in which runs begin, each tried whether it comes back from its bytes.
     fn starts(&self) -> Box<dyn Iterator<Item = StateBytes> + '_>;
 
-    /// Every move from a state, each with the one to which it leads, made in the memory of `to`: none once the demand
-    /// is met.
+    /// Every move from a state, each with the one to which it leads, made in the
+    /// memory of `to`: none once the demand is met.
     fn each_move(
         &self,
         state: &[u8],
@@ -52,7 +52,7 @@ pub(super) trait AnyProtocol: Sync {
     /// The actors of all moves that are possible in a state.
     fn awake(&self, state: &[u8]) -> Bits;
 
-    /// The obligations that are owed in a state.
+    /// The obligations in a state.
     fn owed(&self, state: &[u8]) -> Bits;
 
     /// Whether a run breaks the demand that ends in a state.

@@ -58,8 +58,8 @@ const GUIDES: Check<bool> = Check::holds(
 pub const CLAUSES: [Clause; 4] = [
     Clause {
         id: "TAN-1",
-        sentence: "A robot MUST follow only the signal of the node that it has asked, one hop nearer than itself in \
-                   the tree of its WFR.",
+        sentence: "A robot MUST follow only the signal of the node that it has asked, one hop \
+                   nearer than itself in the tree of its WFR.",
         checks: &[&FOLLOWS],
     },
     Clause {
@@ -70,15 +70,15 @@ pub const CLAUSES: [Clause; 4] = [
     },
     Clause {
         id: "TAN-3",
-        sentence: "A robot MUST walk in the first of the strongest directions, scan again when the signal gets weaker \
-                   or its way is barred, ask again what it does not hear, and go nearer to the node before when that \
-                   was in vain, as often as it may.",
+        sentence: "A robot MUST walk in the first of the strongest directions, scan again when the signal gets \
+                   weaker or its way is barred, ask again what it does not hear, and go nearer to the node before \
+                   when that was in vain, as often as it may.",
         checks: &[&WHOLE_WAY],
     },
     Clause {
         id: "TAN-4",
-        sentence: "A node MUST signal for T_x if it was asked before it had to keep silent, as it was asked last, and \
-                   else keep silent.",
+        sentence: "A node MUST signal for T_x if it was asked before it had to keep silent, as \
+                   it was asked last, and else keep silent.",
         checks: &[&GUIDES],
     },
 ];

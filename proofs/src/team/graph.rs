@@ -75,8 +75,8 @@ impl fmt::Display for Graphs {
     }
 }
 
-/// So many robots in layouts, from every start to every goal: no two robots start in one cell, and no two have one
-/// goal.
+/// So many robots in layouts, from every start to every goal: no two robots
+/// start in one cell, and no two have one goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Teams {
     /// How many robots.

@@ -184,8 +184,8 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
         Some(format!("{:x}", std::ptr::from_ref(self.0).addr()))
     }
 
-    /// The choices are the answers of the world in a tree; among states, the number of the start and those of the
-    /// steps.
+    /// The choices are the answers of the world in a tree; among states, the
+    /// number of the start and those of the steps.
     fn decide(&self, rule: &R, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
         match self.0.strategy() {
             Strategy::Tree => self.in_tree(rule, until, context),

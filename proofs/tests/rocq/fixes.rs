@@ -1,5 +1,5 @@
-//! Which cell a fix is taken for in a row of cells, what it tells a robot that counts its cell, and what it makes of a
-//! belief.
+//! Which cell a fix is taken for in a row of cells, what it tells a robot that counts
+//! its cell, and what it makes of a belief.
 
 use tautline_kernel::frontier::{HALF, Place, SIDE, clamped, taken_for};
 use tautline_kernel::ground::{Area, Cell};

@@ -25,9 +25,9 @@ struct Situations {
     wrong: usize,
 }
 
-/// Of each rule's runs: robots, columns and rows; the obstacles and the starts; of each step the first cells to which
-/// robots might have gone, whether a slot might have been over, and the event; and the map and the cell of each robot
-/// at the end.
+/// Of each rule's runs: robots, columns and rows; the obstacles and the starts; of each step the first
+/// cells to which robots might have gone, whether a slot might have been over, and the event; and the
+/// map and the cell of each robot at the end.
 pub(super) fn terms() -> String {
     let rules = [("PLAIN", Rule::PLAIN), ("REPAIRED", Rule::REPAIRED)];
     let terms = rules.map(|(name, rule)| {

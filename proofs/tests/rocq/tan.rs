@@ -108,8 +108,8 @@ fn guides() -> Vec<String> {
 /// The steps of a robot that walks, at most.
 const STEPS: usize = 60;
 
-/// Runs of robots that ask and go nearer so many times at most: of each step what happens, what the robot does then,
-/// and its hops.
+/// Runs of robots that ask and go nearer so many times at most: of each step what
+/// happens, what the robot does then, and its hops.
 pub(super) fn walks() -> String {
     let mut draw = Draw(2011);
     let numbers = (0..36).map(|number| (1 + number % 3, number / 3 % 3));

@@ -19,8 +19,8 @@ use crate::script::{Script, attribute, attribute_of, held, kept, shown, word};
 const MAX_WORDS: usize = 256;
 
 /// A hint at what `moves` is to return.
-const MOVES: &str = "return a list of pytautline.Move, each with the numbers of its actors from 0 to 15, with words, \
-                     and with the next state";
+const MOVES: &str = "return a list of pytautline.Move, each with the numbers of its actors from 0 \
+                     to 15, with words, and with the next state";
 
 /// A demand of the rule.
 pub(super) struct ScriptDemand {
@@ -206,7 +206,7 @@ impl ScriptCheck {
         })
     }
 
-    /// The obligations that the demand has owed in a state.
+    /// The obligations of the demand in a state.
     fn owed(&self, state: u32) -> Bits {
         let Self(rule, demand) = self;
         let ScriptDemand { clause, asked, .. } = &rule.demands[*demand];

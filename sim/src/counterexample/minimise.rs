@@ -457,8 +457,8 @@ struct Shrinker<'a, 'b> {
 }
 
 impl Shrinker<'_, '_> {
-    /// Makes the smallest team that breaks the clause in this layout the team; robots with starts of their own go one
-    /// by one.
+    /// Makes the smallest team that breaks the clause in this layout the team;
+    /// robots with starts of their own go one by one.
     fn dismiss_robots(&mut self, least: u16) -> Result<(), Halt> {
         if self.smallest.starts.is_empty() {
             for robots in least..self.smallest.robots {

@@ -64,8 +64,8 @@ pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
         let percent = 8 + 50 * u64::from(step) / u64::from(last);
         let _ = write!(
             body,
-            "<rect class=\"order\" x=\"{x}\" y=\"{y}\" width=\"{CELL}\" height=\"{CELL}\" \
-                fill-opacity=\"0.{percent:02}\"/>"
+            "<rect class=\"order\" x=\"{x}\" y=\"{y}\" width=\"{CELL}\" \
+             height=\"{CELL}\" fill-opacity=\"0.{percent:02}\"/>"
         );
         if step > 0 {
             let _ = write!(body, "<text class=\"small\" x=\"{cx}\" y=\"{cy}\">{step}</text>");
@@ -391,8 +391,8 @@ fn way(frame: Frame, from: Cell, side: Side, is_blocked: bool) -> String {
     let (tip_x, tip_y) = (edge_x + 3 * dx, edge_y + 3 * dy);
     let (foot_x, foot_y) = (edge_x - 2 * dx, edge_y - 2 * dy);
     format!(
-        "<path class=\"way\" d=\"M{x} {y}L{foot_x} {foot_y}\"/><path class=\"tip\" d=\"M{tip_x} {tip_y}L{} {}L{} \
-            {}z\"/>",
+        "<path class=\"way\" d=\"M{x} {y}L{foot_x} {foot_y}\"/><path \
+         class=\"tip\" d=\"M{tip_x} {tip_y}L{} {}L{} {}z\"/>",
         foot_x + 3 * dy,
         foot_y + 3 * dx,
         foot_x - 3 * dy,

@@ -21,7 +21,7 @@ pub use self::team::{ANY_ORDER, DEATH, HEARD};
 use super::catalogue::{By, Completeness, Look, Profile, RandomPart, Starts};
 use super::clause::Clause;
 use super::judge_input::exhibit;
-use super::rule::{Rule, RuleId, SwitchRule};
+use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
 use crate::options::Extra;
@@ -84,8 +84,8 @@ pub static CHAIN: Profile = Profile {
 };
 
 /// A chain's rule whose conditions can be switched: a mutant still claims to follow it.
-const fn switched(rule: chain::Rule) -> SwitchRule<chain::Rule> {
-    SwitchRule {
+const fn switched(rule: chain::Rule) -> SwitchableRule<chain::Rule> {
+    SwitchableRule {
         rule,
         start,
         hunt: |rule, intended| Some(Box::new(Walls(Subject { rule, intended, ..Subject::PUBLISHED }))),

@@ -7,7 +7,7 @@ use tautline_kernel::floor::{Claim, Floor, Mark};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::floor::crew::SensorData;
 
-use super::scene::{Ink, Layer, Place as Exhibit, Scene, Shape, Value};
+use super::scene::{Ink, Layer, Place as Spot, Scene, Shape, Value};
 use tautline_grids::layout::{Layout, Size};
 
 /// The cells that are connected with a start, and what has become of them.
@@ -51,8 +51,8 @@ pub(super) fn layers<D: SensorData>() -> Vec<Layer> {
     let about = "what the sensors say of cells that are done with";
     let mut layers = vec![Layer::new("marks", about, Shape::Cells(MARKS))];
     if D::STORES_SIDES {
-        let about = "the side that a sensor stores: of an open cell its parent's, of a visited one the way to what was \
-            left";
+        let about = "the side that a sensor stores: of an open cell its parent's, \
+                     of a visited one the way to what was left";
         layers.push(Layer::new("trees", about, Shape::Sides(SIDES)));
     }
     layers
@@ -67,7 +67,7 @@ pub(super) fn show<D: SensorData>(floor: &SensorFloor<D>, scene: &mut Scene) {
             Mark::Visited => 2,
             Mark::Sealed => 3,
         };
-        scene.put(MARKS_LAYER, Exhibit::Cell(cell), value);
+        scene.put(MARKS_LAYER, Spot::Cell(cell), value);
     }
     for &cell in &floor.turned {
         for side in Side::ALL {
@@ -77,7 +77,7 @@ pub(super) fn show<D: SensorData>(floor: &SensorFloor<D>, scene: &mut Scene) {
             };
             let stored = [of(cell, side), of(cell.beyond(side), side.opposite())].into_iter().flatten();
             let value = stored.map(|(_, value)| value).min().unwrap_or(0);
-            scene.put(SIDES_LAYER, Exhibit::Side(Edge::new(cell, side)), value);
+            scene.put(SIDES_LAYER, Spot::Side(Edge::new(cell, side)), value);
         }
     }
 }

@@ -15,7 +15,7 @@ use tautline_proofs::run::Frame;
 use self::hunt::{KernelHunt, RivalHunt};
 use super::catalogue::{By, Look, Profile, RandomPart, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId, SwitchRule};
+use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -55,9 +55,9 @@ const MISSED: &str = "Within reach and unexplored";
 /// A rule of the kernel, hunted through all states.
 macro_rules! searched {
     ($name:expr, $about:expr, $rule:expr) => {
-        Rule::new($name, $about, |setup| start(setup, $rule))
-            .hunted(&KernelHunt($rule))
-            .switched(&SwitchRule { rule: $rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) })
+        Rule::new($name, $about, |setup| start(setup, $rule)).hunted(&KernelHunt($rule)).switched(
+            &SwitchableRule { rule: $rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) },
+        )
     };
 }
 
@@ -121,7 +121,7 @@ pub static FRONTIER: Profile = Profile {
 /// Who explores.
 enum Who {
     Robots(Box<Explorers>),
-    AssignedTeam(Box<AssignedTeam>),
+    Assigned(Box<AssignedTeam>),
 }
 
 struct FrontierTeam {
@@ -161,7 +161,7 @@ fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>
         ));
     }
     let robots = AssignedTeam::new(assignment, &setup.layout, &setup.starts());
-    Ok(team(setup, Who::AssignedTeam(Box::new(robots))))
+    Ok(team(setup, Who::Assigned(Box::new(robots))))
 }
 
 fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
@@ -178,8 +178,8 @@ fn allowed(setup: &Setup, rule: &Frontier) -> Result<(), Diagnostic> {
         None | Some(Allowance::Stops(0..=MOST_STOPS)) => Ok(()),
         Some(Allowance::Stops(stops)) => {
             let what = format!(
-                "this floor is larger than its noise allows: in its worst cell a robot stands for {stops} team moves \
-                    before each move"
+                "this floor is larger than its noise allows: in its worst cell a robot \
+                 stands for {stops} team moves before each move"
             );
             let remedy = "take a smaller floor, less `noise-db`, or more `readings` or `anchors`";
             Err(Diagnostic::usage(what, format!("{remedy}; at most {MOST_STOPS} team moves are borne")))
@@ -199,14 +199,14 @@ impl Team for FrontierTeam {
     fn cells(&self) -> &[Cell] {
         match &self.who {
             Who::Robots(robots) => robots.cells(),
-            Who::AssignedTeam(robots) => robots.cells(),
+            Who::Assigned(robots) => robots.cells(),
         }
     }
 
     fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         let made = match &mut self.who {
             Who::Robots(robots) => robots.advance(),
-            Who::AssignedTeam(robots) => robots.advance(),
+            Who::Assigned(robots) => robots.advance(),
         };
         if let Ok(frame) = &made {
             for cell in &frame.cells {
@@ -235,7 +235,7 @@ impl Team for FrontierTeam {
         let is_double = has_double(&frame.cells);
         let is_wrong = match &self.who {
             Who::Robots(robots) => robots.is_wrong(),
-            Who::AssignedTeam(_) => false,
+            Who::Assigned(_) => false,
         };
         [is_double.then_some(ALONE), is_wrong.then_some(MARKS)].into_iter().flatten().collect()
     }
@@ -255,21 +255,21 @@ impl Team for FrontierTeam {
             Who::Robots(robots) => {
                 robots.objects().iter().map(|(at, known)| ObjectReport::new(*at, known.as_ref())).collect()
             }
-            Who::AssignedTeam(_) => Vec::new(),
+            Who::Assigned(_) => Vec::new(),
         }
     }
 
     fn layers(&self) -> Vec<Layer> {
         match &self.who {
             Who::Robots(robots) => shown::layers(robots),
-            Who::AssignedTeam(_) => shown::layers_of_assigned(),
+            Who::Assigned(_) => shown::layers_of_assigned(),
         }
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
         match &self.who {
             Who::Robots(robots) => shown::show(robots, scene),
-            Who::AssignedTeam(robots) => shown::show_assigned(robots, scene),
+            Who::Assigned(robots) => shown::show_assigned(robots, scene),
         }
     }
 }

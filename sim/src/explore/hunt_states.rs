@@ -10,7 +10,7 @@ use super::agents::{self, PREMATURE};
 use super::catalogue::Scheme;
 use super::each::Each;
 use super::hunt::{Bound, Done, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
-use super::rule::{RuleId, SwitchRule};
+use super::rule::{RuleId, SwitchableRule};
 use super::setup::Setup;
 use tautline_grids::layout::{Layout, Size};
 
@@ -42,8 +42,8 @@ macro_rules! crew {
 pub(super) use crew;
 
 /// The rule of a crew whose conditions can be switched.
-pub(super) const fn switched<C: Crew>(rule: C) -> SwitchRule<C> {
-    SwitchRule {
+pub(super) const fn switched<C: Crew>(rule: C) -> SwitchableRule<C> {
+    SwitchableRule {
         rule,
         start: |setup, crew| Ok(agents::start(setup, crew)),
         hunt: |crew, _| Some(Box::new(Traps(crew))),

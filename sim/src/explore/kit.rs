@@ -22,7 +22,7 @@ use self::hunt::KernelHunt;
 
 use super::catalogue::{By, Profile, RandomPart, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId, SwitchRule};
+use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -123,8 +123,8 @@ struct KitTeam {
 }
 
 /// A rule whose conditions can be switched.
-const fn switched(rule: Kit) -> SwitchRule<Kit> {
-    SwitchRule { rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) }
+const fn switched(rule: Kit) -> SwitchableRule<Kit> {
+    SwitchableRule { rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) }
 }
 
 /// The team of `setup`, each robot at its start.

@@ -16,7 +16,7 @@ use tautline_proofs::run::Frame;
 
 use super::catalogue::{Profile, Starts};
 use super::clause::{Clause, ClauseId};
-use super::rule::{Rule, RuleId, SwitchRule};
+use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
@@ -83,8 +83,8 @@ struct PackTeam {
 }
 
 /// A rule whose conditions can be switched.
-const fn switched(rule: Pack) -> SwitchRule<Pack> {
-    SwitchRule { rule, start, hunt: |_, _| None }
+const fn switched(rule: Pack) -> SwitchableRule<Pack> {
+    SwitchableRule { rule, start, hunt: |_, _| None }
 }
 
 /// The pack of `setup`, each robot at its start.

@@ -143,7 +143,7 @@ pub trait Switches: fmt::Debug + Sync {
 pub(super) type StartBy<R> = fn(&Setup, R) -> Result<Box<dyn Team>, Diagnostic>;
 
 /// A rule of the kernel whose conditions can be switched: how its team starts, and how it is hunted.
-pub(super) struct SwitchRule<R: 'static> {
+pub(super) struct SwitchableRule<R: 'static> {
     /// The rule.
     pub(super) rule: R,
     /// The team of a setup that follows a rule.
@@ -152,7 +152,7 @@ pub(super) struct SwitchRule<R: 'static> {
     pub(super) hunt: fn(R, R) -> Option<Box<dyn Hunt>>,
 }
 
-impl<R: Conditional + fmt::Debug + Sync> Switches for SwitchRule<R> {
+impl<R: Conditional + fmt::Debug + Sync> Switches for SwitchableRule<R> {
     fn conditions(&self) -> &'static [(&'static str, &'static str)] {
         R::CONDITIONS
     }
@@ -171,7 +171,7 @@ impl<R: Conditional + fmt::Debug + Sync> Switches for SwitchRule<R> {
     }
 }
 
-impl<R: fmt::Debug> fmt::Debug for SwitchRule<R> {
+impl<R: fmt::Debug> fmt::Debug for SwitchableRule<R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.rule.fmt(f)
     }

@@ -27,8 +27,8 @@ pub trait Team {
     /// Where the robots are; if one of them is a base, it is the first.
     fn cells(&self) -> &[Cell];
 
-    /// Makes one team move. `world` answers for every edge that is crossed without being known, and what no layout
-    /// knows.
+    /// Makes one team move. `world` answers for every edge that is crossed
+    /// without being known, and what no layout knows.
     ///
     /// # Errors
     /// [`End`] if the run is over.

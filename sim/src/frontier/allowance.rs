@@ -1,5 +1,5 @@
-//! How large a floor may be for the noise that there is: how long robots stand that fuse wheels and fixes
-//! (FRONTIER-11).
+//! How large a floor may be for the noise that there is: how long robots stand
+//! that fuse wheels and fixes (FRONTIER-11).
 
 use tautline_kernel::frontier::{SURE_DEVIATIONS, midpoint};
 use tautline_kernel::ground::Area;
@@ -17,16 +17,16 @@ pub enum Allowance {
     Never,
 }
 
-/// Variances of a turn that a heading has before a move: its own and that of the turns before, which fixes have told in
-/// part.
+/// Variances of a turn that a heading has before a move: its own and that of the
+/// turns before, which fixes have told in part.
 const TURNS: f64 = 4.0;
 
 impl Allowance {
     /// That of an area; `None` where positions have no noise, or no fix is taken.
     ///
-    /// It is a bound by Cramér and Rao: no way to find a position from so many beacons has a smaller covariance without
-    /// bias, so that a robot which knows nothing but its fixes needs as many to be sure. A robot that moves knows more
-    /// by its wheels.
+    /// It is a bound by Cramér and Rao: no way to find a position from so many beacons has a smaller
+    /// covariance without bias, so that a robot which knows nothing but its fixes needs as many to be sure. A
+    /// robot that moves knows more by its wheels.
     pub fn new(options: &Options, area: Area) -> Option<Self> {
         let [_, mean] = options.signals().filter(|_| options.readings() > 0)?;
         let Some(most) = most_variance(&options.odometry()) else { return Some(Self::Never) };
@@ -40,8 +40,8 @@ impl Allowance {
     }
 }
 
-/// The greatest variance that a coordinate may have before a move, in squares of a cell's side; `None` if there is
-/// none.
+/// The greatest variance that a coordinate may have before a move, in squares
+/// of a cell's side; `None` if there is none.
 fn most_variance(odometry: &Odometry) -> Option<f64> {
     let sure = 0.5 / SURE_DEVIATIONS;
     let lost = odometry.share().powi(2) + TURNS * odometry.turn_rad().powi(2);

@@ -108,8 +108,8 @@ impl Radio {
         is_near && (self.options.loss.is_never() || !self.options.loss.happens(&mut self.dice))
     }
 
-    /// The pose of a robot after it has turned to where it takes the midpoint of `to` to be, and after it has gone
-    /// there.
+    /// The pose of a robot after it has turned to where it takes the midpoint of
+    /// `to` to be, and after it has gone there.
     pub(super) fn driven(&mut self, pose: &Pose, to: Cell) -> [Pose; 2] {
         let (turn, way) = pose.belief.towards(midpoint(to));
         let mut turned = *pose;
@@ -133,8 +133,8 @@ impl Radio {
         pose.at = Point::new(pose.at.x_m + way * x, pose.at.y_m + way * y);
     }
 
-    /// A robot on its way to `to` goes round an obstacle that is smaller than a cell; without noise it stays at its
-    /// midpoint.
+    /// A robot on its way to `to` goes round an obstacle that is smaller than a
+    /// cell; without noise it stays at its midpoint.
     pub(super) fn detour(&mut self, pose: &mut Pose, to: Cell) {
         if self.is_noisy() {
             let (turn, _) = pose.belief.towards(midpoint(to));
@@ -220,8 +220,8 @@ impl Radio {
 /// How far robots see objects wrong: by 2° and by 2 % of a cell's side. These values are ours.
 const SIGHT: SightError = SightError { bearing_rad: core::f64::consts::PI / 90.0, distance_m: 0.02 };
 
-/// The mean of many beacons is drawn as that of so many, whose errors are as great together: it is normal, with its
-/// tails.
+/// The mean of many beacons is drawn as that of so many, whose errors are as
+/// great together: it is normal, with its tails.
 const MOST_DRAWS: u16 = 8;
 
 /// The particles of a swarm.

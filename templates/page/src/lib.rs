@@ -1,6 +1,6 @@
-//! The rule of the folder beside this one on a page to draw on. Copy both folders, and change here the surroundings and
-//! the promises. `web/build --rule FOLDER` makes one HTML file of it: there the rule is run, decided by hand, and
-//! hunted.
+//! The rule of the folder beside this one on a page to draw on. Copy both folders, and change here
+//! the surroundings and the promises. `web/build --rule FOLDER` makes one HTML file of it: there the
+//! rule is run, decided by hand, and hunted.
 //!
 //! The robots move one at a time, in any order.
 

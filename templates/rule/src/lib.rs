@@ -1,5 +1,5 @@
-//! The rule. Two robots go east, one behind the other. The second one waits while the first one is in the cell before
-//! it.
+//! The rule. Two robots go east, one behind the other. The second one waits
+//! while the first one is in the cell before it.
 
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::team::{Act, Rule, Scene, View};

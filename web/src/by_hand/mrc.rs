@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::mrc::{Phase, Rule, Task};
 use tautline_proofs::mrc::space::{Space, Until};
 use tautline_proofs::mrc::{
-    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Server, Setting, State, WFRS, chart,
+    Action, Actor, Demand, Faults, Leases, LossKind, ROBOTS, Service, Setting, State, WFRS, chart,
 };
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
@@ -36,8 +36,8 @@ fn row() -> Json {
         "options": [
             option("wfrs", "How many wait for rescue, from 1 to 3. Without it 2"),
             option("events", "How often something happens to them. Without it 2"),
-            option("faults", "How many messages may be lost or come twice, and timers, robots and nodes fail. Without \
-                it 2"),
+            option("faults", "How many messages may be lost or come twice, and \
+                              timers, robots and nodes fail. Without it 2"),
         ],
         "rules": [
             of_world("repaired", "With the repairs of its refuted claims", &Rule::REPAIRED),
@@ -66,7 +66,7 @@ fn setting(settings: &Settings) -> Result<Setting, Diagnostic> {
     Ok(Setting {
         rule: chosen(&[("published", Rule::PUBLISHED), ("repaired", Rule::REPAIRED)], settings)?,
         misread: None,
-        served: Server::ByAny,
+        served: Service::ByAny,
         robots,
         wfrs: usize::from(number(settings, "wfrs", 2, WFRS as u8)?).max(1),
         events: number(settings, "events", 2, 9)?,

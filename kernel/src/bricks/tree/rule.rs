@@ -60,8 +60,8 @@ impl Rule {
     /// Helpers, robust against missed sensors.
     pub const ROBUST: Self = Self::HELPERS.with(Condition::Remembers).with(Condition::Underfoot);
 
-    /// Helpers that place sensors unasked, as the paper's agents do, and doubt what they miss: being done is likely to
-    /// be right.
+    /// Helpers that place sensors unasked, as the paper's agents do, and doubt what
+    /// they miss: being done is likely to be right.
     pub const DOUBTING: Self = Self {
         label_bits: 24,
         readings: 3,

@@ -22,8 +22,8 @@ pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
         near => format!(", at a node within {near} % of the range"),
     };
     let heading = format!(
-        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for each number of nodes, seed \
-            {}{scan}{near}",
+        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for \
+         each number of nodes, seed {}{scan}{near}",
         settings.range_m,
         settings.k.0.get(),
         settings.noise_db,
@@ -57,10 +57,10 @@ pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
     table.row("hops", |density| text(density.hops, 2));
     table.row("shorter, %", |density| percent(density.shorter_than_reich, 1));
     table.with_notes(&format!(
-        "linked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
-         robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · \
-         hops: for each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is \
-         shorter than Reich's · holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±, […]: \
-         that interval"
+        "linked: % of the topologies in which links lead from the robot to the WFR · told: % of those in \
+         which the robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the \
+         shortest way · hops: for each hop\nof the shortest chain of links · shorter: % of the topologies in \
+         which TAN's way is shorter than Reich's · holds, fails:\nthe whole 95 % interval says so, close \
+         being up to {CLOSE} · ±, […]: that interval"
     ))
 }

@@ -61,7 +61,7 @@ impl Team {
     }
 }
 
-/// The first lines of the table: what was measured.
+/// The first lines of the table, with the settings.
 pub(super) fn head(settings: &Settings) -> String {
     let Settings { layouts, seed, speed, spread } = *settings;
     let (speed, spread) = (f64::from(speed.get()) / 1000.0, f64::from(spread) / 10.0);
@@ -110,8 +110,8 @@ fn times(merged: &Summary) -> String {
         .estimate("never all %", 18, 1, |(_, line)| line.lost);
     let races = Columns::of(&merged.races)
         .title(
-            "A team against another one: seconds by which it finds all nodes sooner, and how often, where both do; and \
-             of all layouts",
+            "A team against another one: seconds by which it finds all nodes sooner, and how \
+             often, where both do; and of all layouts",
         )
         .left("family", 11, |race| race.family)
         .left("team", 19, |race| race.team.name())
@@ -136,8 +136,10 @@ fn overlaps(merged: &Summary) -> String {
         .estimate("s to 88 %", 13, 0, |(_, line)| line.most)
         .estimate("s to all", 13, 0, |(_, line)| line.all);
     let shares = Columns::of(named(merged))
-        .title("% of the paths explored in the end, and % of the runs that reach 88 %, that never drive all, that lose \
-            contact")
+        .title(
+            "% of the paths explored in the end, and % of the runs that reach \
+                88 %, that never drive all, that lose contact",
+        )
         .left("family", 11, |(family, _)| family)
         .left("team", 20, |(_, line)| line.team.name())
         .estimate("explored %", 13, 1, |(_, line)| line.explored)

@@ -1,6 +1,6 @@
-//! How many directions two and three repaired robots have explored at nodes, by how far they hear each other. The
-//! paper's future work [Peiris, 7] is three robots with a higher communication range. The lattices are those of
-//! `kit-fig14`.
+//! How many directions two and three repaired robots have explored at nodes, by how far they hear
+//! each other. The paper's future work [Peiris, 7] is three robots with a higher communication
+//! range. The lattices are those of `kit-fig14`.
 
 use tautline_kernel::kit::{Reach, Rule};
 
@@ -68,8 +68,8 @@ impl Table for KitRange {
     fn about(&self) -> Description {
         Description {
             id: "kit-range",
-            shows: "KIT: directions that two and three repaired robots explore at nodes, by how far they hear each \
-                other",
+            shows: "KIT: directions that two and three repaired robots explore \
+                    at nodes, by how far they hear each other",
             help: "How many directions robots that keep in touch explore, by their range",
             examples: &["kit-range", "kit-range --runs 100 --format json"],
             doing: "driving",
@@ -108,8 +108,8 @@ impl Table for KitRange {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let [first, second] = AFTER;
         let title = format!(
-            "Directions explored at nodes, of {}, after {first} s and {second} s; seconds until 88 % of the paths are \
-                explored, and all",
+            "Directions explored at nodes, of {}, after {first} s and {second} s; seconds \
+             until 88 % of the paths are explored, and all",
             2 * PATHS
         );
         let body = Columns::of(&merged.lines)

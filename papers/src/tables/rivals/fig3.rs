@@ -65,11 +65,11 @@ impl Table for ChainFig3 {
     fn about(&self) -> Description {
         Description {
             id: "chain-fig3",
-            shows: "the chain against Full search and Rooker and Birk's pool by the density of walls: team moves to 50 \
-                    % and 75 %, and what the paper says of them",
+            shows: "the chain against Full search and Rooker and Birk's pool by the density of walls: team moves to \
+                    50 % and 75 %, and what the paper says of them",
             help: "Fig. 3 of the chain's paper: team moves to 50 % and to 75 % by the density of walls",
-            more: "Where not all runs get there, the median counts the others as later than any; the chart draws \
-                medians.",
+            more: "Where not all runs get there, the median counts the others as \
+                   later than any; the chart draws medians.",
             examples: &["chain-fig3", "chain-fig3 --runs 20 --svg-50 fig3a.svg"],
             doing: "comparing",
             takes: "two minutes",
@@ -140,8 +140,8 @@ impl Table for ChainFig3 {
             }
             text += &columns.text();
         }
-        text += "\nsooner, even, later: the chain as published on the same layouts; who never gets there is later than \
-            any\n";
+        text += "\nsooner, even, later: the chain as published on the same layouts; \
+                 who never gets there is later than any\n";
         Ok(text)
     }
 

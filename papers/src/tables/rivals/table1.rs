@@ -140,8 +140,8 @@ impl Table for ChainTable1 {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { told: RivalSettings { runs, seed, patience, .. }, max_moves } = settings;
         let heading = format!(
-            "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals (reached / runs); stuck \
-             after {} without gain\n",
+            "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals \
+             (reached / runs); stuck after {} without gain\n",
             counted(*runs, "run"),
             counted(*patience, "team move"),
         );

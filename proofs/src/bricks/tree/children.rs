@@ -7,7 +7,7 @@ use tautline_kernel::floor::{COMPASS, Ring, Scan};
 use tautline_kernel::ground::Side;
 
 use super::TreeRule;
-use super::demands::{LEAST_ENTERED, Travel, entered, goes_to_least_entered};
+use super::demands::{LEAST_ENTERED, TravelRule, entered, goes_to_least_entered};
 use crate::engine::{Outcome, require};
 
 /// The situations that occur.
@@ -42,8 +42,8 @@ const BEYOND: [Beyond; 9] = [
 /// The bound of [`next`].
 pub(crate) fn views() -> String {
     format!(
-        "all {} views from the root of a tree: beside it walls, cells unexplored, explored, visited or of its tree, \
-         and children entered 1 to 4 times",
+        "all {} views from the root of a tree: beside it walls, cells unexplored, explored, visited or of \
+         its tree, and children entered 1 to 4 times",
         BEYOND.len().pow(4)
     )
 }
@@ -66,7 +66,7 @@ fn note(beyond: Beyond, side: Side) -> Option<Note> {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices break the clause.
-pub(crate) fn next(going: &Travel, oracle: &mut dyn Oracle) -> Outcome {
+pub(crate) fn next(going: &TravelRule, oracle: &mut dyn Oracle) -> Outcome {
     let (mut scan, mut beside) = (Scan::default(), [Note::default(); 4]);
     for (place, side) in COMPASS.into_iter().enumerate() {
         let Some(note) = note(one_of(oracle, &BEYOND), side) else { continue };

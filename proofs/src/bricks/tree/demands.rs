@@ -118,7 +118,7 @@ pub(super) fn goes_to_least_entered(view: &View, next: Next) -> bool {
 
 /// A rule, and where its agents go to cells that they know.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(in crate::bricks) struct Travel {
+pub(in crate::bricks) struct TravelRule {
     pub(in crate::bricks) rule: Rule,
     pub(in crate::bricks) to: To,
 }
@@ -136,7 +136,7 @@ pub(in crate::bricks) enum To {
     OpenBeside,
 }
 
-impl TreeRule for Travel {
+impl TreeRule for TravelRule {
     type Memory = Agent;
 
     fn memory(&self, id: u8) -> Agent {

@@ -1,6 +1,6 @@
-//! Multiple depth first search, the rival that Brick&Mortar was first compared with: each agent has a tree of its own,
-//! and an agent with no way on takes itself for done. Our reading of a rule that the text we have names and does not
-//! print.
+//! Multiple depth first search, the rival that Brick&Mortar was first compared with: each agent has
+//! a tree of its own, and an agent with no way on takes itself for done. Our reading of a rule that
+//! the text we have names and does not print.
 
 use tautline_kernel::bricks::tree::{Act, Label, Next, Rule, State, View};
 use tautline_kernel::ground::Side;

@@ -34,7 +34,7 @@ struct Around {
 }
 
 /// The followers as they stand before a team move.
-struct Formation<'a> {
+struct FollowerPlaces<'a> {
     from: &'a Followers,
     /// Cells with some of them, and with several; never the base.
     some: u128,
@@ -97,7 +97,7 @@ impl Relation {
 
     /// Every team move with the followers in `from` and the leader in any of `leaders`.
     pub(crate) fn moves(&self, from: &Followers, leaders: u128, sink: Sink<'_>) {
-        let mut now = Formation { from, some: 0, several: 0 };
+        let mut now = FollowerPlaces { from, some: 0, several: 0 };
         for bit in from[..self.followers].iter().map(|&cell| 1 << cell & !(1 << self.base)) {
             now.several |= now.some & bit;
             now.some |= bit;
@@ -109,7 +109,7 @@ impl Relation {
     /// where the leaders can go.
     fn choose(
         &self,
-        now: &Formation<'_>,
+        now: &FollowerPlaces<'_>,
         to: &mut Followers,
         (follower, taken): (usize, u128),
         (leaders, led): (u128, u128),
@@ -149,7 +149,7 @@ impl Relation {
     }
 
     /// Where leaders can go from where the robots are now.
-    fn led(&self, now: &Formation<'_>, leaders: u128) -> u128 {
+    fn led(&self, now: &FollowerPlaces<'_>, leaders: u128) -> u128 {
         let moved = (leaders & self.east) << 1
             | leaders >> 1 & self.east
             | (leaders & self.south) << self.width

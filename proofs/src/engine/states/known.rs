@@ -186,8 +186,8 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         self.widen(width_of(self.parts.parts.len() as u32));
     }
 
-    /// Meets the next state of a queue in which all were looked up and whose parts are taken: its number, and whether
-    /// it is new.
+    /// Meets the next state of a queue in which all were looked up and whose parts are
+    /// taken: its number, and whether it is new.
     pub(super) fn meet_next(&mut self, queue: &mut Queue<P>) -> (u32, bool) {
         let Self { nodes, codes, on_disk, width, .. } = self;
         let (hash, code, found) = queue.next(*width);

@@ -69,7 +69,7 @@ impl Spill {
 pub struct SpillError {
     /// The file.
     pub path: PathBuf,
-    /// The fault of it.
+    /// Its fault.
     pub fault: SpillFault,
 }
 
@@ -200,7 +200,7 @@ impl Disk {
     }
 
     /// Writes states, of which the first has the next number; their slots in the order of their hashes; and numbers.
-    /// Removes a file that cannot be written to its end. False if it cannot.
+    /// Writes a file; one that cannot be written to its end is removed, and false returned.
     pub(super) fn write(
         &mut self,
         (codes, sorted): (&Codes, &[u64]),

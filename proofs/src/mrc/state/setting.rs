@@ -2,7 +2,7 @@
 
 use tautline_kernel::mrc::Rule;
 
-use crate::mrc::{Misreading, Server};
+use crate::mrc::{Misreading, Service};
 
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;
@@ -89,7 +89,7 @@ pub struct Setting {
     /// How they misread what they hear.
     pub misread: Option<Misreading>,
     /// How robots understand the SBit.
-    pub served: Server,
+    pub served: Service,
     /// Robots, at most [`ROBOTS`].
     pub robots: usize,
     /// WFRs, at most [`WFRS`].

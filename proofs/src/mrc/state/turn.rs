@@ -12,7 +12,7 @@ use super::demand::Demand;
 use super::parts::{FIRST_WFR, REST, of_network};
 use super::setting::{Faults, ROBOTS, Setting, WFRS};
 use super::{State, node, place, robot_id};
-use crate::mrc::{Misreading, Server};
+use crate::mrc::{Misreading, Service};
 
 /// A robot that hears that another one is chosen, and keeps the SBit of the call clear: it executes step 2 with the
 /// records that it had.
@@ -155,8 +155,8 @@ impl State {
                 let (robot, before) =
                     (usize::from(resb.robot.0), self.robots[usize::from(resb.robot.0)].task());
                 self.turn_robot(robot, |robot| match setting.served {
-                    Server::ByItself if resb.chosen != Some(resb.robot) => pass_over(robot, resb),
-                    Server::ByAny | Server::ByItself => heed(robot, resb, setting.misread),
+                    Service::ByItself if resb.chosen != Some(resb.robot) => pass_over(robot, resb),
+                    Service::ByAny | Service::ByItself => heed(robot, resb, setting.misread),
                 });
                 let task = self.robots[robot].task();
                 let asked = |task: Task| match task {
@@ -367,8 +367,8 @@ mod tests {
 
     use super::*;
 
-    /// “If a mobile node is not selected, it can reply to another un-replied notification packet”: not where its SBit
-    /// stays clear.
+    /// “If a mobile node is not selected, it can reply to another un-replied notification
+    /// packet”: not where its SBit stays clear.
     #[test]
     fn a_robot_whose_sbit_stays_clear_asks_the_same_wfr_again_and_again() {
         let call = |wfr| Call { wfr: NodeId(wfr), epoch: Epoch(1) };

@@ -1,7 +1,6 @@
 //! The layers of a page of robots that explore cells: each robot's repository, the cells that they have claimed, how
 //! far they are heard, who misses what they say, who stands to take another fix, and where robots and objects are and
-//! are taken to be; of rivals the obstacles that all
-//! know, and who is assigned to which cell.
+//! are taken to be; of rivals the obstacles that all know, and who is assigned to which cell.
 
 use tautline_kernel::frontier::Status;
 
@@ -91,8 +90,8 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
             Value { name: "is here", ink: Ink::Wall },
         ];
         const FIX: &[Value] = &[Value { name: "its last fix, with 95 %", ink: Ink::Barred }];
-        let about = "robots that stand in this team move to take another fix, since they are not sure to stay in the \
-            next cell";
+        let about = "robots that stand in this team move to take another fix, since \
+                     they are not sure to stay in the next cell";
         layers.push(Layer::new(STANDING, about, Shape::Cells(UNSURE)));
         let about = "where robots are, and where they take themselves to be by wheels and fixes";
         layers.push(Layer::new(BELIEFS, about, Shape::Marks(BELIEF)));
