@@ -23,7 +23,7 @@ use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, wh
 use crate::{shards, value_parser};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{
-    Done, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize,
+    CoveredBound, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize,
 };
 use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
 use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
@@ -122,7 +122,7 @@ pub(super) struct HuntJson<'a> {
     facts: &'a Facts,
     complete: bool,
     #[serde(flatten)]
-    done: Done,
+    done: CoveredBound,
     verdict: &'static str,
     /// Where the hunt is kept.
     #[serde(skip_serializing_if = "Option::is_none")]

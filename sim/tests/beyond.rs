@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use crate::common::generated;
-use judge::{Broken, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
+use judge::{BrokenClause, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
 use tautline_grids::layout::Layout;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
@@ -36,7 +36,7 @@ impl RunCounts {
     /// So many runs, each of team moves that it tells, with what it breaks; `None` where a team does not find room.
     fn of(
         runs: u64,
-        mut run: impl FnMut(&mut SeededOracle) -> Option<(String, u64, Result<(), Broken>)>,
+        mut run: impl FnMut(&mut SeededOracle) -> Option<(String, u64, Result<(), BrokenClause>)>,
     ) -> Self {
         let mut counted = Self::default();
         for number in 0.. {

@@ -13,7 +13,7 @@ use tautline_io::svg::Panel;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
-use tautline_sim::counterexample::minimise::{Broken, Case, Obstacles, minimise, shrink};
+use tautline_sim::counterexample::minimise::{BrokenClause, Case, Obstacles, minimise, shrink};
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
     Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Setup,
@@ -191,7 +191,7 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
             Ok(())
         })?;
         let met = Some(Obstacles { area: report.chart.area(), edges });
-        Ok((report.stopped == StopReason::Violation).then_some(Broken { steps: report.steps, met }))
+        Ok((report.stopped == StopReason::Violation).then_some(BrokenClause { steps: report.steps, met }))
     };
     let case = Case { robots: 2, layout, base, starts: Vec::new(), missed: Vec::new() };
     let steps = breaks(&case).expect("a run").expect("it breaks the clause").steps;

@@ -19,7 +19,7 @@ use tautline_sim::explore::{Layer, Place};
 
 use crate::ask::{Answers, Question};
 use crate::clauses::sentence;
-use crate::play::{Board, Broken, Delta, Over, Play, Step};
+use crate::play::{Board, BrokenClause, Delta, Over, Play, Step};
 use crate::settings::Settings;
 
 /// A scheme whose world is played by hand.
@@ -220,10 +220,10 @@ impl<W: SceneWorld> WorldRun<W> {
         }
     }
 
-    fn broken(&self, demands: Vec<W::Demand>) -> Vec<Broken> {
+    fn broken(&self, demands: Vec<W::Demand>) -> Vec<BrokenClause> {
         let broken = |demand| {
             let (clause, told) = self.world.clause(demand);
-            Broken {
+            BrokenClause {
                 clause: clause.to_owned(),
                 sentence: sentence(clause),
                 told: vec![told],

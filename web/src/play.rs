@@ -98,12 +98,12 @@ pub(crate) struct Delta {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) walls: Vec<(u32, bool)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(crate) broken: Vec<Broken>,
+    pub(crate) broken: Vec<BrokenClause>,
 }
 
 /// A clause that was broken.
 #[derive(Clone, Serialize)]
-pub(crate) struct Broken {
+pub(crate) struct BrokenClause {
     pub(crate) clause: String,
     pub(crate) sentence: &'static str,
     /// How, a line for each pair or cell.
@@ -117,7 +117,7 @@ pub(crate) struct Broken {
 #[derive(Serialize)]
 pub(crate) struct Over {
     pub(crate) words: String,
-    pub(crate) broken: Vec<Broken>,
+    pub(crate) broken: Vec<BrokenClause>,
 }
 
 /// A step that a robot cannot take.

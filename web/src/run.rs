@@ -14,7 +14,7 @@ use tautline_sim::trace;
 
 use crate::ask::{Answers, Question};
 use crate::clauses::sentence;
-use crate::play::{Board, Broken, Delta, Over, Play, Refusal, Step};
+use crate::play::{Board, BrokenClause, Delta, Over, Play, Refusal, Step};
 use crate::settings::Settings;
 
 /// A run on a layout.
@@ -88,8 +88,8 @@ impl Run {
 }
 
 /// The clauses in words.
-fn broken_of(clauses: impl IntoIterator<Item = ClauseId>) -> Vec<Broken> {
-    let broken = |clause: ClauseId| Broken {
+fn broken_of(clauses: impl IntoIterator<Item = ClauseId>) -> Vec<BrokenClause> {
+    let broken = |clause: ClauseId| BrokenClause {
         clause: clause.to_string(),
         sentence: sentence(clause.as_str()),
         told: Vec::new(),

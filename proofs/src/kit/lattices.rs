@@ -45,7 +45,7 @@ pub(super) enum Pass {
 }
 
 /// A run that breaks something, and the choices that make it, if there is one.
-type Broken<const ROBOTS: usize> = Option<(Choices, Counterexample<ROBOTS>)>;
+type FirstBreach<const ROBOTS: usize> = Option<(Choices, Counterexample<ROBOTS>)>;
 
 impl<const ROBOTS: usize> Lattices<ROBOTS> {
     /// The teams on one lattice.
@@ -62,7 +62,7 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         rule: &Rule,
         demand: Option<Demand>,
         (until, limits): (Until, Limits<'_>),
-    ) -> (Findings<Demand>, Broken<ROBOTS>) {
+    ) -> (Findings<Demand>, FirstBreach<ROBOTS>) {
         let mut looked = Findings::NONE;
         for (number, &(width, height, most)) in (0..).zip(self.sizes) {
             // Mostly nothing is broken; where it is, the fewest walls are looked for, unless one violation is enough.
@@ -99,7 +99,7 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         Some(Counterexample { setting, run: run? })
     }
 
-    fn answer(&self, looked: &Findings<Demand>, broken: Broken<ROBOTS>) -> Answer {
+    fn answer(&self, looked: &Findings<Demand>, broken: FirstBreach<ROBOTS>) -> Answer {
         let is_covered = self.covers.iter().chain(&[END]).all(|situation| looked.covered.contains(situation));
         let evidence = broken.map(|(choices, found)| evidence(choices, &found));
         Answer::new(evidence, looked.is_whole && is_covered, Method::<Rule>::shows(self), looked.states)
@@ -153,7 +153,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         let limits = Limits { room: context.room, ..Limits::NONE };
         if self.pass == Pass::Together && until == Until::Exhausted {
             let key = (self.family(rule), *rule);
-            let kept: Result<&(Findings<Demand>, Broken<ROBOTS>), MethodError> =
+            let kept: Result<&(Findings<Demand>, FirstBreach<ROBOTS>), MethodError> =
                 context.memory.recall(key, |_| Ok(self.look(rule, None, (until, limits))));
             if let (looked, None) = kept? {
                 return Ok(self.answer(looked, None));

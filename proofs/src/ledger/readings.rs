@@ -9,7 +9,7 @@ use crate::clause::Variant;
 use crate::decide::{Evidence, Verdict};
 
 /// A reading, and the verdict under it.
-type Read = (&'static str, Verdict);
+type ReadingVerdict = (&'static str, Verdict);
 
 /// Whether nothing refutes the sentence.
 const fn stands(verdict: Verdict) -> bool {
@@ -23,7 +23,7 @@ impl Row {
     }
 
     /// The verdict under each reading, that of the rule itself first.
-    fn read(&self) -> impl Iterator<Item = Read> {
+    fn read(&self) -> impl Iterator<Item = ReadingVerdict> {
         let verdicts = self.decision.readings.iter().map(|answer| answer.verdict);
         [(self.check.rule(), self.decision.verdict)].into_iter().chain(self.others().zip(verdicts))
     }

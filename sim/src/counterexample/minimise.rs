@@ -193,7 +193,7 @@ pub struct Case {
 
 /// A run that breaks the clause.
 #[derive(Clone, Debug)]
-pub struct Broken {
+pub struct BrokenClause {
     /// Team moves up to the one that breaks it.
     pub steps: u32,
     /// The edges and cells that the run met; where nothing else makes a difference to it, all the rest can go at once.
@@ -210,7 +210,7 @@ pub struct Obstacles {
 }
 
 /// Makes the run of a case, and says whether it breaks the clause; it is told how far the work is.
-pub type Breaks<'a> = dyn FnMut(&Case, Progress) -> Result<Option<Broken>, Halt> + 'a;
+pub type Breaks<'a> = dyn FnMut(&Case, Progress) -> Result<Option<BrokenClause>, Halt> + 'a;
 
 /// The result of the work.
 #[derive(Clone, Debug)]
@@ -298,7 +298,7 @@ pub fn minimise(
         })?;
         let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
         let met = Some(Obstacles { area: report.chart.area(), edges });
-        Ok(is_broken.then_some(Broken { steps: report.steps, met }))
+        Ok(is_broken.then_some(BrokenClause { steps: report.steps, met }))
     })?;
     let Shrinkage { case, extent: after, runs } = shrunk;
     Ok(Minimal { setup: made(case), clause, before, after, runs })
@@ -511,7 +511,7 @@ impl Shrinker<'_, '_> {
     /// Runs `candidate` and, if it breaks the clause, makes it the smallest case, or what it met if that breaks the
     /// clause, too. Whether it does.
     fn attempt(&mut self, candidate: &Case) -> Result<bool, Halt> {
-        let Some(Broken { mut steps, met }) = self.run(candidate)? else { return Ok(false) };
+        let Some(BrokenClause { mut steps, met }) = self.run(candidate)? else { return Ok(false) };
         self.smallest = candidate.clone();
         if let Some(met) = met {
             let cut = cut_down(candidate, &met)?;
@@ -525,7 +525,7 @@ impl Shrinker<'_, '_> {
         Ok(true)
     }
 
-    fn run(&mut self, case: &Case) -> Result<Option<Broken>, Halt> {
+    fn run(&mut self, case: &Case) -> Result<Option<BrokenClause>, Halt> {
         self.progress.runs += 1;
         (self.breaks)(case, self.progress)
     }

@@ -372,7 +372,7 @@ pub enum Facts {
 /// The bound up to which every layout was covered, if any was.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Done {
+pub enum CoveredBound {
     /// So many walls.
     WallsDone(Option<u32>),
     /// Areas of so many cells.
@@ -406,7 +406,7 @@ pub struct HuntReport {
     /// Whether every layout within the bounds was covered.
     pub is_complete: bool,
     /// The bound up to which every layout was covered, if any was.
-    pub done: Done,
+    pub done: CoveredBound,
     /// The first line for people, behind the scheme and its rule.
     pub title: String,
     /// The runs and moves that were searched through, for the log.

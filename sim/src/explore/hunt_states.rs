@@ -9,7 +9,7 @@ use tautline_proofs::plural::counted;
 use super::agents::{self, PREMATURE};
 use super::catalogue::Scheme;
 use super::each::Each;
-use super::hunt::{Bound, Done, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
+use super::hunt::{Bound, CoveredBound, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
 use super::rule::{RuleId, SwitchableRule};
 use super::setup::Setup;
 use tautline_grids::layout::{Layout, Size};
@@ -137,7 +137,7 @@ impl<C: Crew> Each for Traps<C> {
             ),
             facts: Facts::Layouts { size, layouts, states, steps, max_misses },
             is_complete,
-            done: Done::MissesDone(done),
+            done: CoveredBound::MissesDone(done),
             through: format!("{all_layouts} and {all_states}"),
             outcome: match found[..] {
                 [] => format!("No agent is trapped {bound}."),

@@ -17,7 +17,8 @@ use tautline_proofs::team::{Keeps, Places, Rule, Setting, Strategy};
 
 use super::hunt::setup as found_setup;
 use super::hunt::{
-    Bound, Done, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, outcome,
+    Bound, CoveredBound, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize,
+    outcome,
 };
 use super::own::Own;
 use super::run::Team;
@@ -146,7 +147,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
                 range: None,
             },
             is_complete,
-            done: Done::WallsDone(None),
+            done: CoveredBound::WallsDone(None),
             title: format!("{}: {}", Keeps(self.setting, 0).bound(), counted(cases, "case")),
             through: counted(cases, "case"),
             outcome: outcome(&found, is_complete, None),

@@ -7,7 +7,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_proofs::engine::states::{self, Findings, Limits, System};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{Done, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, outcome};
+use super::hunt::{CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, outcome};
 use tautline_grids::layout::Size;
 
 /// States between two words about how far the search is.
@@ -86,7 +86,7 @@ impl Small {
 pub(super) fn report(
     (size, robots, within): (Size, u64, &str),
     facts: Facts,
-    (done, covered): (Done, Option<String>),
+    (done, covered): (CoveredBound, Option<String>),
     count: &Count,
     found: Vec<Finding>,
 ) -> HuntReport {

@@ -18,7 +18,7 @@ pub(crate) use pack::Pack;
 pub(crate) type Place = (i32, i32);
 
 /// A broken clause, and how it is broken.
-pub(crate) type Broken = (&'static str, String);
+pub(crate) type BrokenClause = (&'static str, String);
 
 /// East, south, west, north.
 const SIDES: [Place; 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
@@ -77,6 +77,6 @@ impl Floor {
 }
 
 /// The clause is broken if this is so.
-fn broken(is_broken: bool, clause: &'static str, how: impl FnOnce() -> String) -> Result<(), Broken> {
+fn broken(is_broken: bool, clause: &'static str, how: impl FnOnce() -> String) -> Result<(), BrokenClause> {
     if is_broken { Err((clause, how())) } else { Ok(()) }
 }

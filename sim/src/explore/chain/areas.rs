@@ -8,7 +8,7 @@ use tautline_proofs::plural::counted;
 use super::hunt::{bounds, fault, team};
 use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    Done, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
+    CoveredBound, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
 };
 
 /// Searches all areas of at most so many cells.
@@ -80,7 +80,7 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
         robots,
         facts: Facts::Areas { runs, moves, max_walls, max_cells, areas: found.searched.clone() },
         is_complete: found.is_complete,
-        done: Done::CellsDone(found.cells),
+        done: CoveredBound::CellsDone(found.cells),
         title: format!(
             "{}, at most {} and {}: {all_areas} with {}, {all_runs}, {all_moves}",
             counted(robots, "robot"),

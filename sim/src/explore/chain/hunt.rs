@@ -13,8 +13,8 @@ use tautline_proofs::plural::counted;
 
 use super::areas;
 use crate::explore::hunt::{
-    Bound, Deal, Deals, Dealt, Done, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
-    OngoingHunt, RUN_AGAIN, RunSize, outcome, setup,
+    Bound, CoveredBound, Deal, Deals, Dealt, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest,
+    Hunter, OngoingHunt, RUN_AGAIN, RunSize, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
 use tautline_grids::layout::Size;
@@ -195,7 +195,7 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
         robots,
         facts: Facts::Runs { runs, moves, longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
-        done: Done::WallsDone(done),
+        done: CoveredBound::WallsDone(done),
         title: format!(
             "{}, at most {}: {all_runs}, {all_moves}, {longest} the longest",
             counted(robots, "robot"),

@@ -17,7 +17,7 @@ use tautline_proofs::run::ScriptedRun;
 
 pub(super) use self::rivals::RivalHunt;
 use crate::explore::hunt::{
-    Bound, Done, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
+    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
 use crate::explore::states::{self, Count, Small, watched};
 use crate::explore::{ClauseId, Setup};
@@ -242,7 +242,7 @@ fn report(
     states::report(
         (size, robots, &(walls + &lost)),
         Facts::StatesWithLosses { size: size.to_string(), states, steps, max_walls, max_losses, error },
-        (Done::CellsDone(cells.map(|cells| cells as u32)), covered),
+        (CoveredBound::CellsDone(cells.map(|cells| cells as u32)), covered),
         count,
         found,
     )

@@ -13,7 +13,7 @@ use tautline_proofs::run::ScriptedRun;
 
 use super::{EQUAL, reach};
 use crate::explore::hunt::{
-    Bound, Done, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
+    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
 use crate::explore::states::{Count, Small, report, watched};
 use crate::explore::{ClauseId, Setup};
@@ -73,7 +73,7 @@ impl Pass {
 }
 
 /// A counterexample, and what was looked for when it was found.
-struct Broken<const ROBOTS: usize> {
+struct BrokenClause<const ROBOTS: usize> {
     clause: ClauseId,
     demand: Demand,
     found: Counterexample<ROBOTS>,
@@ -132,7 +132,7 @@ impl Hunt for KernelHunt {
         Ok(report(
             (size, robots, &within),
             Facts::States { size: size.to_string(), states, steps, max_walls, range: asked.range_cells },
-            (Done::NodesDone(cells), covered),
+            (CoveredBound::NodesDone(cells), covered),
             &count,
             found,
         ))
@@ -171,7 +171,7 @@ fn searched<const ROBOTS: usize>(
     count: &mut Count,
     hunter: &mut dyn Hunter,
 ) -> Result<Vec<Finding>, Diagnostic> {
-    let mut all: Vec<Broken<ROBOTS>> = Vec::new();
+    let mut all: Vec<BrokenClause<ROBOTS>> = Vec::new();
     let lattices = lattices(size);
     'lattices: for &lattice in &lattices {
         for &pass in passes {
@@ -182,7 +182,7 @@ fn searched<const ROBOTS: usize>(
             }
             let Some(setting) = pass.setting(rule, lattice, asked) else { continue };
             let is_known =
-                |clause: ClauseId| all.iter().any(|broken: &Broken<ROBOTS>| broken.clause == clause);
+                |clause: ClauseId| all.iter().any(|broken: &BrokenClause<ROBOTS>| broken.clause == clause);
             if pass.demand.is_some_and(|demand| is_known(pass.clause(demand, ROBOTS))) {
                 continue;
             }
@@ -191,7 +191,7 @@ fn searched<const ROBOTS: usize>(
             demands.retain(|&demand| !is_known(pass.clause(demand, ROBOTS)));
             all.extend(demands.into_iter().filter_map(|demand| {
                 let clause = pass.clause(demand, ROBOTS);
-                Some(Broken { clause, demand, found: fewest(setting, demand, Most::NONE)? })
+                Some(BrokenClause { clause, demand, found: fewest(setting, demand, Most::NONE)? })
             }));
             if !looked.is_whole {
                 count.is_complete = false;
@@ -207,9 +207,9 @@ fn searched<const ROBOTS: usize>(
 /// A counterexample of a search as one that can be stored.
 fn finding<const ROBOTS: usize>(
     asked: &HuntRequest<'_>,
-    broken: &Broken<ROBOTS>,
+    broken: &BrokenClause<ROBOTS>,
 ) -> Result<Finding, Diagnostic> {
-    let Broken { clause, found, .. } = broken;
+    let BrokenClause { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
     let Some(ScriptedRun { run, choices }) = found.scripted() else {

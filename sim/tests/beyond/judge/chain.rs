@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Broken, Floor, Place, SIDES, add, broken};
+use super::{BrokenClause, Floor, Place, SIDES, add, broken};
 
 /// A mishap of a run.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Hears of a team move: whether it takes one back, and where all are after it.
-    pub(crate) fn hear(&mut self, takes_back: bool, after: &[Place]) -> Result<(), Broken> {
+    pub(crate) fn hear(&mut self, takes_back: bool, after: &[Place]) -> Result<(), BrokenClause> {
         self.moves += 1;
         let before = std::mem::replace(&mut self.cells, after.to_vec());
         self.explored.extend(after);
@@ -97,7 +97,7 @@ impl<'a> Chain<'a> {
     }
 
     /// A team move after a death: of a chain of one robot fewer, or of two parts that take their moves back.
-    fn re_form(&mut self, takes_back: bool) -> Result<(), Broken> {
+    fn re_form(&mut self, takes_back: bool) -> Result<(), BrokenClause> {
         let at = self.moves;
         match (&mut self.parts, takes_back) {
             (Some(left), true) => {
@@ -116,7 +116,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Each robot stays or crosses an open side, but not the base, nor one that has died.
-    fn walks(&self, before: &[Place]) -> Result<(), Broken> {
+    fn walks(&self, before: &[Place]) -> Result<(), BrokenClause> {
         let leaps = self.floor.leaps(before, &self.cells);
         broken(leaps.is_some(), "CHAIN-22", || format!("robot {leaps:?} leaps in team move {}", self.moves))?;
         let stands = |robot: usize| robot == 0 || Some(robot) == self.dead();
@@ -145,7 +145,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Hears that the run is over, by itself or not.
-    pub(crate) fn end(&self, by_itself: bool) -> Result<(), Broken> {
+    pub(crate) fn end(&self, by_itself: bool) -> Result<(), BrokenClause> {
         let clause = match (self.trouble, self.dead()) {
             (Trouble::Wall(..), _) => return broken(!by_itself, "CHAIN-22", || "the run goes on".to_owned()),
             (_, Some(_)) => "CHAIN-21",

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Broken, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
+use super::{BrokenClause, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
 
 /// A row of so many cells.
 fn row(columns: i32) -> Floor {
@@ -16,7 +16,7 @@ fn at<const ROBOTS: usize>(columns: [i32; ROBOTS]) -> [Place; ROBOTS] {
 }
 
 /// The clause that is broken, if one is.
-fn found(judged: Result<(), Broken>) -> &'static str {
+fn found(judged: Result<(), BrokenClause>) -> &'static str {
     judged.err().map_or("none", |(clause, _)| clause)
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Broken, Floor, Place, SIDES, add, broken};
+use super::{BrokenClause, Floor, Place, SIDES, add, broken};
 
 /// A run of robots that explore cells, as far as it is heard.
 pub(crate) struct Frontier<'a> {
@@ -31,7 +31,7 @@ impl<'a> Frontier<'a> {
         &mut self,
         after: &[Place],
         news: impl IntoIterator<Item = (usize, Place, bool)>,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), BrokenClause> {
         broken(self.floor.leaps(&self.cells, after).is_some(), "FRONTIER-2", || "a robot leaps".to_owned())?;
         for (robot, &to) in after.iter().enumerate() {
             // Whoever enters a cell may be there before another one has left it.
@@ -52,7 +52,7 @@ impl<'a> Frontier<'a> {
     }
 
     /// Hears that the run is over, by itself or not.
-    pub(crate) fn end(&self, by_itself: bool) -> Result<(), Broken> {
+    pub(crate) fn end(&self, by_itself: bool) -> Result<(), BrokenClause> {
         broken(!by_itself, "FRONTIER-3", || "the run goes on".to_owned())?;
         let left = self.floor.walkable(&self.starts).into_iter().find(|cell| !self.entered.contains(cell));
         broken(left.is_some(), "FRONTIER-1", || format!("{left:?} is left out"))?;

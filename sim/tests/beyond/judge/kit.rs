@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::{Broken, Floor, Place, broken};
+use super::{BrokenClause, Floor, Place, broken};
 
 /// A drive over a path.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ const REACH: f64 = 10.0;
 const SLIP: f64 = 1e-6;
 
 impl Kit<'_> {
-    pub(crate) fn judge(&self) -> Result<(), Broken> {
+    pub(crate) fn judge(&self) -> Result<(), BrokenClause> {
         let robots = self.starts.len();
         let contact = if robots > 2 { "KIT-12" } else { "KIT-1" };
         let mut at = self.starts.to_vec();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Broken, Floor, Place, add, broken};
+use super::{BrokenClause, Floor, Place, add, broken};
 
 /// A run of robots that see, as far as it is heard.
 pub(crate) struct Pack<'a> {
@@ -24,7 +24,7 @@ impl<'a> Pack<'a> {
     }
 
     /// Hears where all are after a team move.
-    pub(crate) fn hear(&mut self, after: &[Place]) -> Result<(), Broken> {
+    pub(crate) fn hear(&mut self, after: &[Place]) -> Result<(), BrokenClause> {
         broken(self.floor.leaps(&self.cells, after).is_some(), "PACK-2", || "a robot leaps".to_owned())?;
         let alone: BTreeSet<Place> = after.iter().copied().collect();
         broken(alone.len() < after.len(), "PACK-2", || format!("two robots in one cell: {after:?}"))?;
@@ -35,7 +35,7 @@ impl<'a> Pack<'a> {
     }
 
     /// Hears that the run is over, by itself or not.
-    pub(crate) fn end(&self, by_itself: bool) -> Result<(), Broken> {
+    pub(crate) fn end(&self, by_itself: bool) -> Result<(), BrokenClause> {
         broken(!by_itself, "PACK-4", || "the run goes on".to_owned())?;
         let left = self.floor.walkable(&self.starts).into_iter().find(|cell| !self.seen.contains(cell));
         broken(left.is_some(), "PACK-3", || format!("{left:?} is left out"))

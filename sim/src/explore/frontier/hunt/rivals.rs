@@ -79,13 +79,13 @@ pub(in crate::explore::frontier) struct LayoutFindings {
     /// Team moves.
     steps: u64,
     /// The first run that breaks each clause.
-    broken: Vec<Broken>,
+    broken: Vec<BrokenClause>,
 }
 
 /// A run that breaks a clause.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Broken {
+struct BrokenClause {
     clause: ClauseId,
     /// The number of its start.
     start: usize,
@@ -140,7 +140,7 @@ impl Lots for Layouts {
             tried.steps += u64::from(steps);
             for (clause, steps) in broken {
                 if tried.broken.iter().all(|known| known.clause != clause) {
-                    tried.broken.push(Broken { clause, start, steps });
+                    tried.broken.push(BrokenClause { clause, start, steps });
                 }
             }
         }
@@ -155,7 +155,7 @@ impl Lots for Layouts {
     ) -> Result<(), Diagnostic> {
         count.states += look.runs;
         count.steps += look.steps;
-        for Broken { clause, start, steps } in look.broken {
+        for BrokenClause { clause, start, steps } in look.broken {
             if found.iter().all(|known| known.clause != clause.as_str())
                 && let Some(starts) = blocked.starts(self.robots).get(start)
             {
