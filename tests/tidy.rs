@@ -247,9 +247,13 @@ fn a_long_line_a_comment_that_needs_another_and_a_participle_are_found() {
     ] {
         assert_eq!(fault(line), None, "{line}");
     }
-    for line in
-        ["    /// What is taken.", "//! The same cells.", "pub struct Played<G>(G);", &format!("{long}é")]
-    {
+    for line in [
+        "    /// What is taken.",
+        "//! The same cells.",
+        "pub struct Played<G>(G);",
+        "trait Erased: Sync {",
+        &format!("{long}é"),
+    ] {
         assert!(fault(line).is_some(), "{line}");
     }
 }

@@ -1,6 +1,7 @@
 //! The file: lines of text with what it is about, the sections, each behind its length, and a digest.
 
 use std::fmt;
+use std::str::FromStr;
 
 use siphasher::sip128::SipHasher13;
 
@@ -151,13 +152,13 @@ pub fn read(bytes: &[u8]) -> Result<File<'_>, Fault> {
     let header = Header {
         program: program.to_owned(),
         clause: clause.to_owned(),
-        check: check.parse().ok().filter(|number: &usize| number.to_string() == check).ok_or(no_check)?,
+        check: number_of(check).ok_or(no_check)?,
         rule: rule.to_owned(),
         claim: u128::from_str_radix(claim, 16)
             .ok()
             .filter(|digest| format!("{digest:032x}") == claim)
             .ok_or(no_claim)?,
-        states: states.parse().ok().filter(|number: &u64| number.to_string() == states).ok_or(no_states)?,
+        states: number_of(states).ok_or(no_states)?,
     };
     let mut sections = Vec::new();
     while !rest.is_empty() {
@@ -166,6 +167,11 @@ pub fn read(bytes: &[u8]) -> Result<File<'_>, Fault> {
         sections.push(rest.split_off(..length).ok_or(Fault::Sections)?);
     }
     Ok(File { header, sections, digest })
+}
+
+/// The number that has been written like this.
+fn number_of<N: FromStr + ToString>(text: &str) -> Option<N> {
+    text.parse().ok().filter(|number: &N| number.to_string() == text)
 }
 
 /// Bytes of a line of the header, at most.

@@ -66,8 +66,8 @@ pub enum Values {
     Repeated,
 }
 
-/// Makes a structure of settings, its default and its parameters. A setting has documentation, which is its
-/// help text as well, a field, its default, and how a person gives it: by one of the functions below.
+/// Makes a structure of settings, its default and its parameters. A setting has documentation, which is
+/// its help text as well, a field, its default, and how a person gives it: by one of the functions below.
 macro_rules! settings {
     ($(#[$meta:meta])* $pub:vis struct $name:ident {$(
         $(#[doc = $about:literal])+

@@ -81,6 +81,11 @@ enum SideKnowledge {
     Open,
 }
 
+/// Whether a step from this cell crosses a side that is known to be a wall.
+fn meets_wall(walls: &BTreeMap<(i16, i16, u8), bool>, cell: Cell, step: Step) -> bool {
+    matches!(step, Step::Cross(side) if walls.get(&key(Edge::new(cell, side))) == Some(&true))
+}
+
 fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) -> bool) -> Outcome {
     let mut chain: Chain<SmallGrid, 8> = start(&shut.observed, robots, SmallGrid::new)?.among(shut.walls);
     let (mut log, mut walls) = (Vec::new(), BTreeMap::new());
@@ -92,11 +97,8 @@ fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) 
         let Intent::Go(plan) = intent else { return Ok(situation) };
         require(!chain.is_refused(), "no plan is refused")?;
         let before = chain.cells().to_vec();
-        let is_closed = |cell, side| walls.get(&key(Edge::new(cell, side))) == Some(&true);
-        let is_met =
-            |(&cell, &step): (&Cell, &Step)| matches!(step, Step::Cross(side) if is_closed(cell, side));
         require(
-            !before.iter().zip(plan.steps()).any(is_met),
+            !before.iter().zip(plan.steps()).any(|(&cell, &step)| meets_wall(&walls, cell, step)),
             "no robot is sent through a wall that the team has met",
         )?;
         for (&cell, &step) in before.iter().zip(plan.steps()) {
@@ -120,13 +122,11 @@ fn runs(shut: &WallsCase, robots: usize, is_wall: &mut dyn FnMut(SideKnowledge) 
             .map_err(|_| Stop::Violated("who hears a team move believes it"))?;
         require(heard == chain, "who hears a team move knows what the team knows")?;
         log.extend_from_slice(settled.messages());
-        let is_wall = |cell, side| walls.get(&key(Edge::new(cell, side))) == Some(&true);
-        let crosses = |(&from, &step)| matches!(step, Step::Cross(side) if is_wall(from, side));
         let is_through = before
             .iter()
             .zip(plan.steps())
             .zip(chain.cells())
-            .any(|((from, step), to)| crosses((from, step)) && from != to);
+            .any(|((&from, &step), &to)| meets_wall(&walls, from, step) && from != to);
         require(!is_through, "no robot is taken to be through a wall")?;
         let is_in_contact = chain.cells().windows(2).all(|pair| in_covered(pair[0], pair[1]));
         require(is_in_contact, "neighbours are in contact when walls have appeared")?;
