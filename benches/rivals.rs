@@ -6,8 +6,8 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use tautline_kernel::chain::{Condition, Rule};
 use tautline_kernel::ground::{Area, Cell, Step, Steps};
-use tautline_papers::rivals::fixed::{Options, Position, best};
 use tautline_papers::rivals::joint::Joint;
+use tautline_papers::rivals::joint_step::{Options, Position, best};
 use tautline_papers::rivals::{Links, Parameters, Team};
 
 /// Eight robots in 15×15 cells after so many team moves of Full search under E_C.

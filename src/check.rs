@@ -10,7 +10,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::ledger::{self, Examination, examine};
 use tautline_proofs::plural::counted;
 
-use super::judge::given::bytes;
+use super::judge::ground::bytes;
 use super::output::Output;
 use super::{Exit, Format, FormatArgs};
 
@@ -107,10 +107,10 @@ impl Check {
         let check = |file: &PathBuf| -> Result<CertificateJson, Diagnostic> {
             let clauses = ledger::clauses().chain(tautline_library::clauses());
             let bytes = bytes(file, MOST_BYTES, "name the certificate of a smaller search")?;
-            let examined = examine(&bytes, clauses).map_err(|misfit| {
+            let examined = examine(&bytes, clauses).map_err(|mismatch| {
                 let remedy =
                     "name a file that `tautline prove --certificate` of this version wrote, as it wrote it";
-                Diagnostic::in_file(file, misfit, remedy)
+                Diagnostic::in_file(file, mismatch, remedy)
             })?;
             Ok(CertificateJson::of(file, examined))
         };

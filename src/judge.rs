@@ -1,7 +1,7 @@
 //! `tautline judge`: a log of robots that this program did not move, held to clauses by a judge that knows no rule.
 
-pub(super) mod given;
-pub(super) mod told;
+pub(super) mod ground;
+pub(super) mod report;
 
 use std::path::PathBuf;
 
@@ -14,8 +14,8 @@ use tautline_logs::{
 };
 use tautline_proofs::ledger;
 
-use self::given::{LogMap, MapArgs};
-use self::told::LogReport;
+use self::ground::{LogMap, MapArgs};
+use self::report::LogReport;
 use super::output::Output;
 use super::{Exit, ForceArgs, FormatArgs, needless};
 use tautline_sim::draw::page::{self, Sink};
@@ -118,7 +118,7 @@ impl Judge {
         if given.layout().is_some() {
             given.check_cells("--map", &self.limits())?;
         }
-        let bytes = given::bytes(&self.log, MOST_BYTES, "cut it into parts")?;
+        let bytes = ground::bytes(&self.log, MOST_BYTES, "cut it into parts")?;
         let log = read(&bytes).map_err(|fault| self.unread(fault))?;
         drop(bytes);
         let numbers = self.numbers(&log)?;
@@ -196,7 +196,7 @@ impl Judge {
     /// The numbers of the robots.
     fn numbers(&self, log: &Log) -> Result<Numbers, Diagnostic> {
         let Some(file) = &self.names else { return Ok(Numbers::natural(&log.names)) };
-        let bytes = given::bytes(file, MOST_BYTES, "cut it into parts")?;
+        let bytes = ground::bytes(file, MOST_BYTES, "cut it into parts")?;
         let text = String::from_utf8_lossy(&bytes);
         Numbers::named(&log.names, &text).map_err(|wrong| {
             let remedy = "write lines as robot_a,1 with the names of the log and the numbers of robots, from 1, each \

@@ -1,7 +1,7 @@
 //! `tautline library`: published rules of other people, listed, decided, and hunted by random runs.
 
-mod dealt;
-pub(super) mod hunted;
+pub(super) mod hunt;
+mod jobs;
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use tautline_library::{Entry, RULES};
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::RandomRuns;
 
-pub(super) use self::dealt::rows;
+pub(super) use self::jobs::rows;
 use super::output::Output;
 use super::prove::{DecisionArgs, Detail};
 use super::shards::Scope;
@@ -78,7 +78,7 @@ impl Library {
         let (folder, replaceable, format) = self.how.files();
         let scope = Scope::of(self.plan.as_deref(), self.shards, self.shard)?;
         if let Scope::Shard(path, shard) = scope {
-            return dealt::run(path, shard, format.plain()?, out);
+            return jobs::run(path, shard, format.plain()?, out);
         }
         if self.rules.is_empty() {
             let wanted =
@@ -97,12 +97,12 @@ impl Library {
         }
         match (scope, self.runs) {
             (Scope::Plan(path, shards), _) => {
-                dealt::plan((path, shards), (&rules, self.larger), (self.how.force(), format.plain()?), out)
+                jobs::plan((path, shards), (&rules, self.larger), (self.how.force(), format.plain()?), out)
             }
             (_, Some(runs)) => {
                 let (seed, most_moves) = (self.seed.unwrap_or(0), self.max_moves.unwrap_or(MAX_MOVES));
                 let runs = RandomRuns { runs, seed, most_moves };
-                hunted::hunt(&clauses, &runs, (folder, &replaceable), format, out)
+                hunt::hunt(&clauses, &runs, (folder, &replaceable), format, out)
             }
             (_, None) => self.how.decide(&clauses, Detail::Rows, out),
         }

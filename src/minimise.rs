@@ -196,8 +196,8 @@ impl Minimise {
             let what = format!("this is a counterexample to {}, not to {other}", clause.id);
             return Err(Diagnostic::in_file(&self.file, what, "leave --clause out").into());
         }
-        let room = MemoryLimit::of(MOST_BYTES, 1);
-        let limits = Limits { room: room.room(), ..Limits::steps(MOST_STEPS) };
+        let memory = MemoryLimit::of(MOST_BYTES, 1);
+        let limits = Limits { memory: memory.memory(), ..Limits::steps(MOST_STEPS) };
         let bar = progress::spinner("minimising");
         let shorter = check.shorten(&evidence.choices, limits);
         bar.finish_and_clear();
@@ -236,7 +236,7 @@ impl Minimise {
         let replaceable = self.force.replaceable([self.file.clone()]);
         let usual = path_in(&self.out, setup, *clause);
         let path = if is_same(&usual, &self.file) { self.beside() } else { usual };
-        let (aside, report) = store_at(&path, setup, *clause, &replaceable)?;
+        let (file, report) = store_at(&path, setup, *clause, &replaceable)?;
         let minimised = MinimiseJson {
             scheme: setup.scheme,
             rule: setup.rule,
@@ -245,7 +245,7 @@ impl Minimise {
             after: *after,
             runs: *runs,
             is_searched: !setup.choices.is_empty(),
-            file: hunt::keep(aside, out),
+            file: hunt::keep(file, out),
         };
         Ok((minimised, report))
     }

@@ -263,21 +263,21 @@ impl DecisionArgs {
         let page = self.html.as_deref().map(|path| AtomicFile::new(path, &replaceable)).transpose()?;
         let checks = ledger::checks(clauses);
         let threads = rayon::current_num_threads() as u64;
-        let room =
+        let memory =
             self.memory.map_or(MemoryLimit::unbounded(), |Bytes(bytes)| MemoryLimit::of(bytes, threads));
         // The folder is locked until all is decided.
-        let (room, _held) = match &self.spill {
+        let (memory, _held) = match &self.spill {
             Some(folder) => {
                 let (folder, held) = spill::open(folder)?;
-                (room.spilling(folder), held)
+                (memory.spilling(folder), held)
             }
-            None => (room, None),
+            None => (memory, None),
         };
         for folder in self.out.iter().chain(&self.certificate) {
             make_folder(folder)?;
         }
-        let limits = Limits { room: Arc::new(room), patience_s: self.patience.get() };
-        let room = &*limits.room;
+        let limits = Limits { memory: Arc::new(memory), patience_s: self.patience.get() };
+        let memory = &*limits.memory;
         let bar = progress::bar("proving", 1);
         let start = Instant::now();
         let is_single = checks.len() == 1;
@@ -301,13 +301,13 @@ impl DecisionArgs {
         })?;
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
-        self.tell((&rows, room), (detail, page), &replaceable, out)
+        self.tell((&rows, memory), (detail, page), &replaceable, out)
     }
 
     /// Tells of what was decided in this memory, and stores what is to be stored.
     pub(super) fn tell(
         &self,
-        (rows, room): (&[Row], &MemoryLimit),
+        (rows, memory): (&[Row], &MemoryLimit),
         (detail, page): (Detail, Option<AtomicFile>),
         replaceable: &Replaceable,
         out: &mut Output,
@@ -322,17 +322,17 @@ impl DecisionArgs {
             });
             if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds)
             {
-                certify((row, room), folder, replaceable, out);
+                certify((row, memory), folder, replaceable, out);
             }
         }
-        if let Some(fault) = room.fault() {
+        if let Some(fault) = memory.fault() {
             out.leave_out(&spill::diagnostic(&fault));
         }
-        let unfinished = unfinished(rows, room);
+        let unfinished = unfinished(rows, memory);
         let as_registered = rows.iter().all(Row::is_as_registered);
         let ledger = || -> Result<Ledger, Halt> {
             let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
-            let (out_of_memory, unended) = (room.was_too_small(), rows.iter().any(is_undecided));
+            let (out_of_memory, unended) = (memory.was_too_small(), rows.iter().any(is_undecided));
             Ok(Ledger { clauses, as_registered, out_of_memory, unended })
         };
         if let Some(mut page) = page {
@@ -361,9 +361,9 @@ impl DecisionArgs {
             }
             (Format::Github, _) => {
                 let last = last_line(rows) + &unfinished;
-                out.text(findings::github(&findings(rows, room)?, &last))?;
+                out.text(findings::github(&findings(rows, memory)?, &last))?;
             }
-            (Format::Junit, _) => out.text(findings::junit("prove", &findings(rows, room)?))?,
+            (Format::Junit, _) => out.text(findings::junit("prove", &findings(rows, memory)?))?,
         }
         Ok(match (unfinished.is_empty(), as_registered) {
             (false, _) => Exit::Unfinished,
@@ -374,17 +374,17 @@ impl DecisionArgs {
 }
 
 /// Why a search was cut off, if one was.
-fn cut_off(room: &MemoryLimit) -> Option<String> {
-    if let Some(fault) = room.fault() {
+fn cut_off(memory: &MemoryLimit) -> Option<String> {
+    if let Some(fault) = memory.fault() {
         return Some(format!("A search over states could not go on in its folder: {fault}\n"));
     }
-    let or_spill = if room.has_folder() { "" } else { "; or give it a folder with --spill" };
-    room.was_too_small().then(|| {
+    let or_spill = if memory.has_folder() { "" } else { "; or give it a folder with --spill" };
+    memory.was_too_small().then(|| {
         format!(
             "A search over states would have taken more than {} KiB: its check \
              is open, or its mutant was not rejected.\n\
              Give more with --memory: one search gets three quarters of it{or_spill}.\n",
-            room.most() >> 10
+            memory.most() >> 10
         )
     })
 }
@@ -394,8 +394,8 @@ fn is_undecided(row: &Row) -> bool {
 }
 
 /// Which rows were cut off, and what can be done about it; nothing if none were.
-fn unfinished(rows: &[Row], room: &MemoryLimit) -> String {
-    let mut text = cut_off(room).unwrap_or_default();
+fn unfinished(rows: &[Row], memory: &MemoryLimit) -> String {
+    let mut text = cut_off(memory).unwrap_or_default();
     if rows.iter().any(is_undecided) {
         text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, \
                  or it needs more time: give more with --patience.\n";
@@ -404,8 +404,8 @@ fn unfinished(rows: &[Row], room: &MemoryLimit) -> String {
 }
 
 /// The rows as a CI shows them.
-fn findings(rows: &[Row], room: &MemoryLimit) -> Result<Vec<Case>, Halt> {
-    let cut_off = cut_off(room);
+fn findings(rows: &[Row], memory: &MemoryLimit) -> Result<Vec<Case>, Halt> {
+    let cut_off = cut_off(memory);
     let found = rows.iter().map(|row| {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
@@ -479,9 +479,9 @@ pub(super) fn stored(
 }
 
 /// Stores the proof of a row in `folder`, or the certificate of what its search has exhausted.
-fn certify((row, room): (&Row, &MemoryLimit), folder: &Path, replaceable: &Replaceable, out: &mut Output) {
+fn certify((row, memory): (&Row, &MemoryLimit), folder: &Path, replaceable: &Replaceable, out: &mut Output) {
     let Row { clause, number, check, .. } = *row;
-    let limits = states::Limits { room: room.room(), ..states::Limits::NONE };
+    let limits = states::Limits { memory: memory.memory(), ..states::Limits::NONE };
     let (path, content) = if let Some(terms) = check.certificate() {
         let name = format!("{}_{}", clause.id, check.rule()).replace('-', "_") + ".v";
         (folder.join(name), terms.map(String::into_bytes))

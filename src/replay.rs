@@ -29,7 +29,7 @@ use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::draw::{self, page, svg};
-use tautline_sim::explore::judge_input::exhibit;
+use tautline_sim::explore::judge_input::judge_input;
 use tautline_sim::explore::{ClauseId, Play, Report, Setup, team};
 use tautline_sim::trace::{self, ForeignRun, StoredMove, StoredRun, Summary, Trace};
 
@@ -360,7 +360,7 @@ impl Replay {
         match &evidence.seen {
             Depiction::Robots(run) => match setup(check, run)? {
                 Some(setup) if judges(clause.id) => {
-                    self.judge_case(Some(Box::new(exhibit(&setup, clause.id, &run.frames))))
+                    self.judge_case(Some(Box::new(judge_input(&setup, clause.id, &run.frames))))
                 }
                 Some(_) | None => Ok(false),
             },

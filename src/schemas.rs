@@ -62,14 +62,14 @@ fn schemas() -> Vec<(String, Value)> {
             "conform-answer",
             of::<conform::Answer>("a line that tautline conform reads from a program").to_value(),
         ),
-        ("judge", printed::<judge::told::JudgeJson<'_>>("tautline judge")),
+        ("judge", printed::<judge::report::JudgeJson<'_>>("tautline judge")),
         (
             "minimise",
             printed::<Either<minimise::MinimiseJson, minimise::ShortenedJson>>(
                 "tautline minimise of a run of a team, or of a run over states",
             ),
         ),
-        ("library-hunt", printed::<library::hunted::HuntedJson>("tautline library with --runs")),
+        ("library-hunt", printed::<library::hunt::HuntedJson>("tautline library with --runs")),
         ("rescue", printed::<rescue::RescueJson<'_>>("tautline rescue, and tautline replay of a rescue")),
         ("locate", printed::<Either<locate::TrialsJson<'_>, locate::FixesJson<'_>>>("tautline locate")),
         ("show", printed::<show::LayoutJson<'_>>("tautline show")),

@@ -79,7 +79,7 @@ function worker(engineOf) {
     switch (data.kind) {
       case "begin": {
         ask = engineOf(new WebAssembly.Instance(data.module));
-        const begun = ask({ do: "hunt", settings: data.settings, quarry: data.quarry });
+        const begun = ask({ do: "hunt", settings: data.settings, bounds: data.bounds });
         if (begun.error) return say("fault", begun);
         say("begun", begun);
         if (begun.large) return say("large", begun);
@@ -769,7 +769,7 @@ function form() {
   find("hand").disabled = now.by_hand === "none";
   find("hand").checked = isByHand &&= now.by_hand !== "none";
   conditions();
-  quarry();
+  huntBounds();
   tools();
 }
 
@@ -870,7 +870,7 @@ function resize(width, height) {
 const BOUNDS = { "max-walls": ["Walls at most", "max_walls", 2], "max-misses": ["Missed sensors at most", "max_misses", 1], "max-losses": ["Lost messages at most", "max_losses", ""], error: ["Wrong fixes, in cells", "error", ""] };
 let hunter = null, command = null, isOnBoard = false, sought = "";
 
-function quarry() {
+function huntBounds() {
   const bounds = rule().hunt;
   if (!hunter) {
     find("found").replaceChildren();
@@ -878,35 +878,35 @@ function quarry() {
   }
   find("find").disabled = !bounds;
   if (!bounds) {
-    find("quarry").replaceChildren(make("p", { className: "small", textContent: "No hunt searches this rule: draw its layouts by hand." }));
+    find("hunt-bounds").replaceChildren(make("p", { className: "small", textContent: "No hunt searches this rule: draw its layouts by hand." }));
     return;
   }
   if (scheme().by_hand === "only" || scheme().opens) {
     const words = scheme().opens ? "All layouts and orders within the bounds of the rule's own setting." : "Every order of what can happen from the start above, the shortest first.";
-    find("quarry").replaceChildren(make("p", { className: "small", textContent: words }));
+    find("hunt-bounds").replaceChildren(make("p", { className: "small", textContent: words }));
     return;
   }
   // Bounds that were typed stay while the scheme does.
-  const typed = find("quarry").dataset.scheme === scheme().name ? Object.fromEntries([...find("quarry").querySelectorAll("[data-quarry]")].map(input => [input.dataset.quarry, input.value])) : {};
-  find("quarry").dataset.scheme = scheme().name;
+  const typed = find("hunt-bounds").dataset.scheme === scheme().name ? Object.fromEntries([...find("hunt-bounds").querySelectorAll("[data-bound]")].map(input => [input.dataset.bound, input.value])) : {};
+  find("hunt-bounds").dataset.scheme = scheme().name;
   const number = (words, key, value, more = {}) => {
     const input = make("input", { type: "number", min: 0, value, ...more });
-    input.dataset.quarry = key;
+    input.dataset.bound = key;
     return make("label", {}, `${words} `, input);
   };
   const size = make("input", { type: "text", size: 7, placeholder: "its own" });
-  size.dataset.quarry = "size";
-  find("quarry").replaceChildren(
+  size.dataset.bound = "size";
+  find("hunt-bounds").replaceChildren(
     number(`${capital(scheme().robot)}s`, "robots", "", { min: 1, placeholder: "its own" }),
     make("label", {}, "Size, as 3x2 ", size),
     ...bounds.filter(bound => BOUNDS[bound] && bound !== "max-cells").map(bound => number(...BOUNDS[bound], bound === "error" ? { step: "any" } : { max: 255 })));
-  for (const input of find("quarry").querySelectorAll("[data-quarry]")) input.value = typed[input.dataset.quarry] ?? input.value;
+  for (const input of find("hunt-bounds").querySelectorAll("[data-bound]")) input.value = typed[input.dataset.bound] ?? input.value;
 }
 
 function readQuarry() {
   const all = {};
-  for (const input of find("quarry").querySelectorAll("[data-quarry]")) {
-    const key = input.dataset.quarry, text = input.value.trim();
+  for (const input of find("hunt-bounds").querySelectorAll("[data-bound]")) {
+    const key = input.dataset.bound, text = input.value.trim();
     if (!input.checkValidity()) return { error: `“${labelOf(input)}”: ${range(input)}`, remedy: "type another, or none" };
     if (!text) continue;
     if (key === "size") {
@@ -937,7 +937,7 @@ function seek() {
   find("far").textContent = "Hunting …";
   hunter.onmessage = ({ data }) => heard(data);
   hunter.onerror = error => ended({ error: `the hunt stopped: ${error.message}`, remedy: "hunt within smaller bounds" });
-  hunter.postMessage({ kind: "begin", module: wasm, settings: full(), quarry: asked });
+  hunter.postMessage({ kind: "begin", module: wasm, settings: full(), bounds: asked });
 }
 
 function heard(data) {
@@ -1130,7 +1130,7 @@ function listen() {
     if (robots === null) return;
     settings.robots = robots;
     if (settings.starts?.length > 1) settings.starts = settings.starts.slice(0, settings.robots);
-    quarry();
+    huntBounds();
     open();
   };
   find("seed").onchange = () => {

@@ -26,8 +26,8 @@ const tests = {
     await page.selectOption("#rule", "published");
     for (const [bounds, { runs, moves, within, found }] of Object.entries(NATIVE)) {
       const [robots, walls] = bounds.split("/");
-      await page.fill("[data-quarry=robots]", robots);
-      await page.fill("[data-quarry=max_walls]", walls);
+      await page.fill("[data-bound=robots]", robots);
+      await page.fill("[data-bound=max_walls]", walls);
       const frames = page.evaluate(() => new Promise(done => {
         const times = [];
         const tick = now => { times.push(now); if (times.length > 1 && document.getElementById("stop").hidden) done(times); else requestAnimationFrame(tick); };
@@ -286,7 +286,7 @@ const tests = {
     await page.fill("#seed", "9007199254740993");
     await page.keyboard.press("Tab");
     assert.match(await page.textContent("#kept"), /Seed.*from 0 to 9007199254740991/);
-    await page.fill("[data-quarry=robots]", "-1");
+    await page.fill("[data-bound=robots]", "-1");
     await page.click("#find");
     assert.match(await page.textContent("#far"), /Agents.*at least 1/);
   },
@@ -332,8 +332,8 @@ const tests = {
 
   async "a hunt too large is said to be before it is made, and one that is stopped stops"(page) {
     await page.selectOption("#rule", "repaired");
-    await page.fill("[data-quarry=robots]", "6");
-    await page.fill("[data-quarry=max_walls]", "6");
+    await page.fill("[data-bound=robots]", "6");
+    await page.fill("[data-bound=max_walls]", "6");
     await page.click("#find");
     await page.waitForSelector("#large:not([hidden])");
     const words = await page.textContent("#large");

@@ -161,7 +161,7 @@ struct Entry<S> {
 }
 
 /// The memory of one thread, kept from state to state.
-struct Desk<S> {
+struct Scratch<S> {
     told: PartBytes,
     /// The digests of the parts of the state that it looks at, as far as they were asked for.
     parts: Vec<Option<Digest>>,
@@ -169,7 +169,7 @@ struct Desk<S> {
     children: Vec<Entry<S>>,
 }
 
-impl<S> Desk<S> {
+impl<S> Scratch<S> {
     fn new() -> Self {
         Self { told: PartBytes::default(), parts: Vec::new(), children: Vec::new() }
     }
@@ -238,13 +238,14 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// The digest of a state to which a step leads from the one that a thread looks at.
-    fn digest(&self, from: &Entry<M::State>, to: &M::State, desk: &mut Desk<M::State>) -> Digest {
+    fn digest(&self, from: &Entry<M::State>, to: &M::State, scratch: &mut Scratch<M::State>) -> Digest {
         let differing = self.model.differing(&from.state, to);
         let differs = |&part: &usize| part >= 64 || differing >> part & 1 == 1;
-        (0..desk.parts.len()).filter(differs).fold(from.digest, |all, part| {
-            let before = desk.parts[part].unwrap_or_else(|| self.part(&from.state, part, &mut desk.told));
-            desk.parts[part] = Some(before);
-            all ^ before ^ self.part(to, part, &mut desk.told)
+        (0..scratch.parts.len()).filter(differs).fold(from.digest, |all, part| {
+            let before =
+                scratch.parts[part].unwrap_or_else(|| self.part(&from.state, part, &mut scratch.told));
+            scratch.parts[part] = Some(before);
+            all ^ before ^ self.part(to, part, &mut scratch.told)
         })
     }
 
@@ -255,16 +256,16 @@ impl<'a, M: Model> Checker<'a, M> {
 
     /// Looks at all states of the subtrees of these ones.
     fn walk<'s>(&'s self, scope: &rayon::Scope<'s>, share: u32, mut ahead: Vec<Entry<M::State>>) {
-        let mut desk = Desk::new();
+        let mut scratch = Scratch::new();
         while let Some(placed) = ahead.pop() {
-            if let Err(refusal) = self.look(&placed, &mut desk) {
+            if let Err(refusal) = self.look(&placed, &mut scratch) {
                 // Of several threads the first one tells.
                 let _ = self.refusal.set(refusal);
             }
             if self.refusal.get().is_some() {
                 return;
             }
-            for child in desk.children.drain(..) {
+            for child in scratch.children.drain(..) {
                 if self.trees.size[child.place as usize] >= share {
                     scope.spawn(move |scope| self.walk(scope, share, vec![child]));
                 } else {
@@ -275,7 +276,7 @@ impl<'a, M: Model> Checker<'a, M> {
     }
 
     /// Makes all steps from a state: those that lead on in the tree lead to its children.
-    fn look(&self, from: &Entry<M::State>, desk: &mut Desk<M::State>) -> Result<(), Refusal> {
+    fn look(&self, from: &Entry<M::State>, scratch: &mut Scratch<M::State>) -> Result<(), Refusal> {
         let &Entry { place, ref state, .. } = from;
         let mut record = &self.section[self.trees.at[place as usize]..];
         let mut next = || take(&mut record).unwrap_or(0);
@@ -283,8 +284,8 @@ impl<'a, M: Model> Checker<'a, M> {
         if owed & !self.trees.owed != 0 {
             return Err(Refusal::Owes(place));
         }
-        desk.parts.clear();
-        desk.parts.resize(self.model.parts(state), None);
+        scratch.parts.clear();
+        scratch.parts.resize(self.model.parts(state), None);
         let (mut child, mut step, mut is_still) = (place + 1, 0, true);
         let mut planned = state.clone();
         if let Some(plan) = self.model.plan(&mut planned) {
@@ -297,7 +298,7 @@ impl<'a, M: Model> Checker<'a, M> {
                 if let Some(demand) = breaks {
                     return Err(Refusal::Breaks(place, step, demand));
                 }
-                let (link, digest) = (next(), self.digest(from, &to, desk));
+                let (link, digest) = (next(), self.digest(from, &to, scratch));
                 let target = if link == 0 { Some(child) } else { linked(place, link) };
                 let target = target.filter(|&target| self.is(target, digest));
                 let target = target.ok_or(Refusal::Leads(place, step))?;
@@ -307,7 +308,7 @@ impl<'a, M: Model> Checker<'a, M> {
                         .ok_or(Refusal::Rises(place, step))?;
                 }
                 if link == 0 {
-                    desk.children.push(Entry { place: child, state: to, digest });
+                    scratch.children.push(Entry { place: child, state: to, digest });
                     child += self.trees.size[child as usize];
                 }
                 step += 1;

@@ -3,12 +3,12 @@
 //! covariance, error ellipse, dilution of precision, Cramér–Rao bound and singular values, are nalgebra's.
 
 pub mod analysis;
-mod measured;
+mod measurements;
 mod meeting;
 mod solver;
 mod trials;
 
-pub use measured::{FixReport, Measurements, Place, Power};
+pub use measurements::{FixReport, Measurements, Place, Power};
 pub use solver::{PARTICLES, Solution, Solver};
 pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot, distances};
 

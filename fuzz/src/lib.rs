@@ -31,12 +31,12 @@ use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame as frame_of};
 use tautline_proofs::chain::search::{Bounds, Findings, Search, search};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{SeededOracle, Tape};
-use tautline_proofs::judge::chain::{Exhibit, judge as judged};
+use tautline_proofs::judge::chain::{JudgeInput, judge as judged};
 use tautline_proofs::run::Frame;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::chain::hunt::{self, HuntTask, Waves};
 use tautline_sim::explore::hunt::HuntRequest;
-use tautline_sim::explore::judge_input::exhibit;
+use tautline_sim::explore::judge_input::judge_input;
 use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
 use tautline_sim::trace::Trace;
 
@@ -213,22 +213,22 @@ pub fn judge(bytes: &[u8]) {
     });
     let Some(breach) = broken else { return };
     let setup = Setup::new(&CHAIN, RuleName::Published, robots as u16, layout, base);
-    let mut exhibit = exhibit(&setup, breach.clause(), &frames);
-    assert_eq!(judged(&exhibit), Ok(()));
-    if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {
-        exhibit.walls.remove(&wall);
-        assert!(judged(&exhibit).is_err(), "it does not need {wall:?}: {exhibit:?}");
-        exhibit.walls.insert(wall);
+    let mut input = judge_input(&setup, breach.clause(), &frames);
+    assert_eq!(judged(&input), Ok(()));
+    if let Some(wall) = input.walls.iter().nth(change[0] as usize).copied() {
+        input.walls.remove(&wall);
+        assert!(judged(&input).is_err(), "it does not need {wall:?}: {input:?}");
+        input.walls.insert(wall);
     }
-    alter(&mut exhibit, change);
-    let _ = black_box(judged(&exhibit));
+    alter(&mut input, change);
+    let _ = black_box(judged(&input));
 }
 
 /// Changes one thing of one team move.
-fn alter(exhibit: &mut Exhibit, [which, what, robot, by]: [u32; 4]) {
-    let count = exhibit.moves.len().max(1);
-    let Some(made) = exhibit.moves.get_mut(which as usize % count) else { return };
-    let robot = robot as usize % exhibit.robots;
+fn alter(input: &mut JudgeInput, [which, what, robot, by]: [u32; 4]) {
+    let count = input.moves.len().max(1);
+    let Some(made) = input.moves.get_mut(which as usize % count) else { return };
+    let robot = robot as usize % input.robots;
     let place = (by as i32 % 3 - 1, by as i32 / 3 % 3 - 1);
     match what % 6 {
         0 => made.is_backtrack = !made.is_backtrack,

@@ -89,9 +89,9 @@ pub fn rescue_trace(bytes: &[u8]) {
     let (setting, seed) = setting(&mut bytes);
     let Ok(report) = run(&setting, seed) else { return };
     let replaceable = Replaceable::new(Foreign::Replace, []);
-    let mut aside = AtomicFile::new(file.path(), &replaceable).expect("a place");
-    trace::write(&mut aside, &setting, seed, &report);
-    aside.keep().expect("a place");
+    let mut writer = AtomicFile::new(file.path(), &replaceable).expect("a place");
+    trace::write(&mut writer, &setting, seed, &report);
+    writer.keep().expect("a place");
     let mut stored = fs::read(file.path()).expect("a rescue");
     let original = stored.clone();
     for (place, byte) in places.into_iter().take(changes as usize) {

@@ -193,12 +193,12 @@ impl AtomicFile {
         paths: [Option<&Path>; N],
         replaceable: &Replaceable,
     ) -> Result<[Option<Self>; N], Diagnostic> {
-        let mut asides = [const { None::<Self> }; N];
+        let mut files = [const { None::<Self> }; N];
         for (place, path) in paths.into_iter().enumerate() {
             let Some(path) = path else { continue };
-            asides[place] = Some(Self::beside(path, asides[..place].iter().flatten(), replaceable)?);
+            files[place] = Some(Self::beside(path, files[..place].iter().flatten(), replaceable)?);
         }
-        Ok(asides)
+        Ok(files)
     }
 
     /// A file that a command stores beside others.
@@ -210,12 +210,12 @@ impl AtomicFile {
         mut others: impl Iterator<Item = &'a Self>,
         replaceable: &Replaceable,
     ) -> Result<Self, Diagnostic> {
-        let aside = Self::new(path, replaceable)?;
-        if others.any(|other| other.place() == aside.place()) {
+        let file = Self::new(path, replaceable)?;
+        if others.any(|other| other.place() == file.place()) {
             let what = "two files are to stand here";
             return Err(Diagnostic::in_file(path, what, "give each a name of its own"));
         }
-        Ok(aside)
+        Ok(file)
     }
 
     /// The path as the user gave it.
@@ -469,17 +469,17 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (one, other) = (folder.path().join("one"), folder.path().join("other"));
         let files = || folder.path().read_dir().expect("a folder").count();
-        let [mut aside, none, _] = several([Some(&*one), None, Some(&*other)]).expect("places");
+        let [mut file, none, _] = several([Some(&*one), None, Some(&*other)]).expect("places");
         assert!(none.is_none());
-        aside.as_mut().expect("a place").append("text");
-        drop(aside);
+        file.as_mut().expect("a place").append("text");
+        drop(file);
         assert!(several([Some(&*one), Some(&folder.path().join("nowhere").join("other"))]).is_err());
         let again = folder.path().join(".").join("one");
         assert!(several([Some(&*one), Some(&*again)]).is_err());
         assert_eq!(files(), 0);
-        let asides = several([Some(&*one), Some(&*other)]).expect("places");
-        for aside in asides.into_iter().flatten() {
-            aside.keep().expect("room");
+        let all = several([Some(&*one), Some(&*other)]).expect("places");
+        for file in all.into_iter().flatten() {
+            file.keep().expect("room");
         }
         assert_eq!(files(), 2);
     }
@@ -491,9 +491,9 @@ mod tests {
         let replaceable = Replaceable::new(Foreign::Replace, []);
         let finished = |text: &str| {
             paths.each_ref().map(|path| {
-                let mut aside = AtomicFile::new(path, &replaceable).expect("a place");
-                aside.append(text);
-                aside.finish().expect("room")
+                let mut file = AtomicFile::new(path, &replaceable).expect("a place");
+                file.append(text);
+                file.finish().expect("room")
             })
         };
         let read = || paths.each_ref().map(|path| fs::read_to_string(path).ok());
@@ -516,13 +516,13 @@ mod tests {
     fn a_file_that_is_left_out_leaves_nothing_and_says_why() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("one");
-        let mut aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
-        aside.append("text");
+        let mut file = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
+        file.append("text");
         let fault = Diagnostic::in_file(&path, "it is too large", "take less");
-        aside.leave_out(fault.clone());
+        file.leave_out(fault.clone());
         assert_eq!(folder.path().read_dir().expect("a folder").count(), 0);
-        aside.append("more");
-        assert_eq!(aside.keep(), Err(fault));
+        file.append("more");
+        assert_eq!(file.keep(), Err(fault));
         assert_eq!(folder.path().read_dir().expect("a folder").count(), 0);
     }
 
@@ -530,9 +530,9 @@ mod tests {
     fn a_file_that_came_meanwhile_is_not_overwritten() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("one");
-        let aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
+        let file = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
         fs::write(&path, "something else").expect("a file");
-        assert!(aside.keep().is_err());
+        assert!(file.keep().is_err());
         assert_eq!(fs::read_to_string(&path).expect("text"), "something else");
         assert_eq!(folder.path().read_dir().expect("a folder").count(), 1);
     }

@@ -271,14 +271,14 @@ impl<'a, T: Task> Checkpoint<'a, T> {
     pub fn keep(&mut self, part: &(impl Part + ?Sized)) -> Result<(), Diagnostic> {
         let Some(path) = self.path else { return Ok(()) };
         self.tried = Instant::now();
-        let mut aside = AtomicFile::new(path, &Replaceable::default())?;
+        let mut file = AtomicFile::new(path, &Replaceable::default())?;
         self.task.set_done(part.is_done());
-        aside.append(text(&self.task, &part.far()?));
+        file.append(text(&self.task, &part.far()?));
         if cfg!(not(unix)) {
             // Elsewhere no file is replaced that is open.
             self.held = None;
         }
-        self.held = Some(aside.keep_locked(self.standing)?);
+        self.held = Some(file.keep_locked(self.standing)?);
         self.standing = Occupant::Held;
         Ok(())
     }

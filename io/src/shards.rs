@@ -158,9 +158,9 @@ impl Plan {
             shards,
             program: program()?,
         };
-        let mut aside = AtomicFile::new(path, replaceable)?;
-        aside.append(checkpoint::text(&task, deal));
-        Ok(aside)
+        let mut file = AtomicFile::new(path, replaceable)?;
+        file.append(checkpoint::text(&task, deal));
+        Ok(file)
     }
 
     /// Checks that so many shards can be planned.

@@ -7,12 +7,12 @@
 //! business, a search that tries every order, a simulator with speeds, or the world itself. A robot of flesh and wire
 //! keeps such a team of its own, as far as it was told, and tells by [`Message`]s; [`Talk`] says when it sends which.
 
-mod admitted;
+mod admission;
 mod alone;
 mod around;
 mod caravan;
 mod message;
-mod refused;
+mod refusals;
 mod rule;
 mod stance;
 mod talk;
@@ -21,7 +21,7 @@ mod tether;
 mod ways;
 
 pub use message::{Damage, FIELDS, Message};
-pub use refused::{Misuse, SetupError};
+pub use refusals::{Misuse, SetupError};
 pub use rule::{Answers, Condition, Conditions, Fallback, Filter, Records, Rule, Runs};
 pub use stance::{Reach, Stance, touch};
 pub use talk::{Letter, NUMBERS, Outbox, Phase, Talk};

@@ -18,7 +18,7 @@
 
 mod belief;
 mod bound;
-mod closed;
+mod closed_form;
 mod descent;
 mod linear;
 mod locate;
@@ -30,7 +30,7 @@ mod swarm;
 
 pub use belief::{Belief, Correction, Gate, Odometry, SightError, Sighting};
 pub use bound::{Precision, best_three, bound};
-pub use closed::closed_form;
+pub use closed_form::closed_form;
 pub use linear::{Layout, linear};
 pub use locate::{Estimate, Fix, Flags, Residual, locate, locate_from};
 pub use place::{Area, Point, SymmetricMatrix};

@@ -154,7 +154,7 @@ fn a_rule_of_which_a_state_is_lost_gets_no_certificate_and_that_of_another_rule_
     let other = ledger::certificate(&UP_TO_900, 0, Limits::NONE).expect("it holds");
     let refusal = |clause| match ledger::examine(&other, [clause]) {
         Ok(examined) => examined.outcome.err().map(|(_, refusal)| refusal.to_string()),
-        Err(misfit) => Some(misfit.to_string()),
+        Err(mismatch) => Some(mismatch.to_string()),
     };
     assert_eq!(refusal(&UP_TO_900), None);
     let refused = refusal(&BEYOND).expect("it is refused");

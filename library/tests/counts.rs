@@ -82,7 +82,7 @@ fn a_check_in_portions_has_the_verdict_the_counts_and_the_counterexample_of_the_
     let mut refuted = 0;
     for check in checks {
         let watch = &mut |_: &Progress<'_>| ControlFlow::Continue(());
-        let mut context = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
+        let mut context = Context { cache: &mut Cache::default(), watch, memory: MemoryLimit::any() };
         let whole = check.decide_rule(None, Until::Exhausted, &mut context).expect("it is decided");
         refuted += usize::from(whole.verdict == Verdict::Refuted);
         let portion =

@@ -28,9 +28,9 @@ fn random_runs_break_only_promises_that_are_refuted_and_are_made_as_short_as_fro
             "{id} {check:?}"
         );
         assert_eq!(check.replay(&evidence.choices).expect("a refutation").evidence, evidence);
-        let room = MemoryLimit::unbounded();
+        let memory = MemoryLimit::unbounded();
         let shortened = |most_steps| {
-            let limits = Limits { room: room.room(), ..Limits::steps(most_steps) };
+            let limits = Limits { memory: memory.memory(), ..Limits::steps(most_steps) };
             check.shorten(&evidence.choices, limits).expect("a run").expect("it can be shortened")
         };
         let (shortest, is_shortest) = shortened(u64::MAX);

@@ -29,7 +29,7 @@ fn files(folder: &TempDir) -> Vec<String> {
 }
 
 /// So many bytes for one search, and this folder.
-fn room(bytes: u64, folder: &TempDir) -> MemoryLimit {
+fn memory(bytes: u64, folder: &TempDir) -> MemoryLimit {
     MemoryLimit::of(bytes + bytes / 3 + 2, 1).spilling(Spill::new(folder.path().to_owned()))
 }
 
@@ -44,11 +44,11 @@ fn is_the_same<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, demand: usiz
     let whole = keeps().search(rule, Limits::NONE).expect("a search");
     for workers in [1, 3] {
         let (folder, bytes) = (folder(), whole.bytes * percent / 100);
-        let room = room(bytes, &folder);
-        let limits = Limits { room: room.room(), workers: NonZeroUsize::new(workers), ..Limits::NONE };
+        let memory = memory(bytes, &folder);
+        let limits = Limits { memory: memory.memory(), workers: NonZeroUsize::new(workers), ..Limits::NONE };
         let some = keeps().search(rule, limits).expect("a search");
         assert!(some.bytes > bytes / 2 && some.bytes <= bytes, "{} of {bytes}", some.bytes);
-        assert_eq!((files(&folder), room.was_too_small(), room.fault()), (vec![], false, None));
+        assert_eq!((files(&folder), memory.was_too_small(), memory.fault()), (vec![], false, None));
         assert_eq!(found(some), found(whole.clone()), "{workers} workers");
     }
     whole.broken.is_empty()
@@ -125,10 +125,13 @@ fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() 
         let (whole, folder) = (written(&rule, Limits::NONE, 1), folder());
         assert_eq!((whole.states > 28_000, whole.broken.is_empty()), (true, rule.forbidden.len() == 1));
         let by = |most_steps, workers| {
-            let room = room(whole.bytes / 3, &folder);
-            let some =
-                written(&rule, Limits { room: room.asked("words"), ..Limits::steps(most_steps) }, workers);
-            (some, room.fault())
+            let memory = memory(whole.bytes / 3, &folder);
+            let some = written(
+                &rule,
+                Limits { memory: memory.asked("words"), ..Limits::steps(most_steps) },
+                workers,
+            );
+            (some, memory.fault())
         };
         for most_steps in [3, 5, 8].map(|tenths| whole.steps * tenths / 10) {
             let (some, fault) = by(most_steps, 2);
@@ -147,8 +150,8 @@ fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() 
 /// A search that is killed once it has written some files.
 fn killed() -> (TempDir, u64) {
     let (bytes, folder) = (written(&WRITES, Limits::NONE, 1).bytes / 3, folder());
-    let room = room(bytes, &folder);
-    written(&WRITES, Limits { room: room.asked("words"), ..Limits::steps(50_000) }, 1);
+    let memory = memory(bytes, &folder);
+    written(&WRITES, Limits { memory: memory.asked("words"), ..Limits::steps(50_000) }, 1);
     (folder, bytes)
 }
 
@@ -162,10 +165,10 @@ fn a_search_is_not_taken_up_from_what_is_damaged_or_of_another_rule() {
             harm(&mut content);
             fs::write(&path, content).expect("it is written");
         }
-        let (room, before) = (room(bytes, &folder), files(&folder).len());
-        let some = written(rule, Limits { room: room.asked("words"), ..Limits::NONE }, 1);
+        let (memory, before) = (memory(bytes, &folder), files(&folder).len());
+        let some = written(rule, Limits { memory: memory.asked("words"), ..Limits::NONE }, 1);
         assert_eq!((some.is_whole, some.broken, files(&folder).len()), (false, vec![], before));
-        room.fault().map(|error| error.fault)
+        memory.fault().map(|error| error.fault)
     };
     assert_eq!(refused(&WRITES, |content| content[1 << 15] ^= 1), Some(SpillFault::Damaged));
     assert_eq!(refused(&WRITES, |content| content.truncate(content.len() / 2)), Some(SpillFault::Damaged));
@@ -177,9 +180,9 @@ fn a_search_is_not_taken_up_from_what_is_damaged_or_of_another_rule() {
 fn a_search_for_another_question_begins_anew_and_leaves_the_files_of_the_first() {
     let (folder, bytes) = killed();
     let before = files(&folder);
-    let room = room(bytes, &folder);
-    for asked in [room.asked("other words"), room.room()] {
-        let some = written(&WRITES, Limits { room: asked, ..Limits::NONE }, 1);
+    let memory = memory(bytes, &folder);
+    for asked in [memory.asked("other words"), memory.memory()] {
+        let some = written(&WRITES, Limits { memory: asked, ..Limits::NONE }, 1);
         assert!(some.is_whole && some.broken.is_empty());
         assert_eq!(files(&folder), before);
     }
@@ -213,16 +216,19 @@ fn a_full_disk_leaves_a_search_open_and_nothing_half_written_behind() {
     for (create, left) in [(nothing, 0), (little, 0), (second, 1)] {
         let folder = folder();
         let spill = Spill::with(folder.path().to_owned(), create);
-        let room = MemoryLimit::of(bytes * 4 / 3, 1).spilling(spill);
-        let some = written(&WRITES, Limits { room: room.asked("words"), ..Limits::NONE }, 1);
+        let memory = MemoryLimit::of(bytes * 4 / 3, 1).spilling(spill);
+        let some = written(&WRITES, Limits { memory: memory.asked("words"), ..Limits::NONE }, 1);
         assert_eq!((some.is_whole, some.broken), (false, vec![]));
-        let error = room.fault().expect("it fails");
+        let error = memory.fault().expect("it fails");
         assert!(matches!(error.fault, SpillFault::Unwritable(_)), "{error}");
         assert!(error.to_string().contains("make room there"), "{error}");
         assert_eq!(files(&folder).len(), left, "{:?}", files(&folder));
         // There is room again.
-        let whole =
-            written(&WRITES, Limits { room: self::room(bytes, &folder).asked("words"), ..Limits::NONE }, 1);
+        let whole = written(
+            &WRITES,
+            Limits { memory: self::memory(bytes, &folder).asked("words"), ..Limits::NONE },
+            1,
+        );
         assert_eq!((found(whole), files(&folder).len()), (right.clone(), 0));
     }
 }
@@ -281,22 +287,22 @@ impl System for Counters {
 fn states_that_are_kept_in_parts_go_to_disk_too_and_leave_nothing_there() {
     let (whole, folder) = (search(&Counters, [[0, 0]], Limits::NONE), folder());
     assert_eq!((whole.states, whole.broken.len()), (27_000, 2));
-    let room = room(whole.bytes / 2, &folder);
-    let limits = |most_steps| Limits { room: room.asked("counters"), ..Limits::steps(most_steps) };
+    let memory = memory(whole.bytes / 2, &folder);
+    let limits = |most_steps| Limits { memory: memory.asked("counters"), ..Limits::steps(most_steps) };
     let cut = search(&Counters, [[0, 0]], limits(40_000));
     assert_eq!((cut.is_whole, cut.steps, files(&folder)), (false, 40_000, vec![]));
     assert_eq!(found(search(&Counters, [[0, 0]], limits(u64::MAX))), found(whole));
-    assert_eq!((files(&folder), room.fault()), (vec![], None));
+    assert_eq!((files(&folder), memory.fault()), (vec![], None));
 }
 
 #[test]
 fn a_search_whose_graph_does_not_fit_is_open() {
     let (keeps, folder) = (Keeps::<dijkstra::Rule>(dijkstra::Machines::of(6, 6), 1), folder());
     let whole = keeps.search(&dijkstra::Rule::Published, Limits::NONE).expect("a search");
-    let room = room(whole.bytes / 8, &folder);
-    let some = keeps.search(&dijkstra::Rule::Published, Limits { room: room.room(), ..Limits::NONE });
-    assert_eq!((some.map(|some| some.is_whole), room.was_too_small()), (Ok(false), true));
-    assert_eq!((files(&folder), room.fault()), (vec![], None));
+    let memory = memory(whole.bytes / 8, &folder);
+    let some = keeps.search(&dijkstra::Rule::Published, Limits { memory: memory.memory(), ..Limits::NONE });
+    assert_eq!((some.map(|some| some.is_whole), memory.was_too_small()), (Ok(false), true));
+    assert_eq!((files(&folder), memory.fault()), (vec![], None));
 }
 
 /// Every state of the ring is a start: `RING_STATES` of each of eight machines, 8 unless it says otherwise. What is
@@ -331,7 +337,7 @@ fn compared<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, percent: u64) {
         keeps().search(rule, Limits { workers: NonZeroUsize::new(2), ..Limits::NONE }).expect("a search");
     tell(&whole, begun, 0);
     let (folder, begun) = (folder(), Instant::now());
-    let room = room(whole.bytes * percent / 100, &folder);
+    let memory = memory(whole.bytes * percent / 100, &folder);
     let (most, is_over) = (AtomicU64::new(0), AtomicBool::new(false));
     let some = thread::scope(|scope| {
         scope.spawn(|| {
@@ -341,8 +347,8 @@ fn compared<P: Protocol>(rule: &P, bound: impl Fn() -> P::Bound, percent: u64) {
                 thread::sleep(Duration::from_millis(20));
             }
         });
-        let some =
-            keeps().search(rule, Limits { room: room.room(), workers: NonZeroUsize::new(2), ..Limits::NONE });
+        let some = keeps()
+            .search(rule, Limits { memory: memory.memory(), workers: NonZeroUsize::new(2), ..Limits::NONE });
         is_over.store(true, Ordering::Relaxed);
         some.expect("a search")
     });

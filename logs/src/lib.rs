@@ -24,12 +24,12 @@ mod clause;
 mod ground;
 mod judge;
 mod numbers;
-mod read;
+mod reader;
 mod track;
 
 pub use clause::{CLAUSES, Kind, not_judged};
 pub use ground::{Grid, Ground, Strays, misplaced, visits};
 pub use judge::{Breach, Demand, Doubt, Group, MOST_COMPARISONS, TooMuch, Verdict, judge};
 pub use numbers::{NamesError, Numbers};
-pub use read::{Fault, FaultPlace, Form, Log, MOST_SAMPLES, Sample, read};
+pub use reader::{Fault, FaultPlace, Form, Log, MOST_SAMPLES, Sample, read};
 pub use track::{Limits, Refusals, Silence, Tracks};

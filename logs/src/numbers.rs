@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 
-use super::read::BOM;
+use super::reader::BOM;
 
 /// The number of each name of a log, and the names by number.
 #[derive(Clone, PartialEq, Eq, Debug)]

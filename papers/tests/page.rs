@@ -129,9 +129,9 @@ fn page(setup: &Setup, moves: &RangeInclusive<u32>) -> (String, Report, Vec<Fram
         Ok(())
     });
     let report = report.expect("a run");
-    let mut aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
-    write(&mut aside, setup, &report, moves).expect("a run");
-    aside.keep().expect("room");
+    let mut file = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
+    write(&mut file, setup, &report, moves).expect("a run");
+    file.keep().expect("room");
     (fs::read_to_string(path).expect("a page"), report, frames)
 }
 

@@ -2,7 +2,7 @@
 
 mod apart;
 pub mod clauses;
-mod replaced;
+mod replacement;
 mod ties;
 
 use std::convert::Infallible;

@@ -1,6 +1,7 @@
 //! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and
 //! in how few team moves.
 
+mod appearing_walls;
 pub mod areas;
 mod barrier;
 pub mod bounds;
@@ -14,9 +15,8 @@ mod game;
 pub mod invariant;
 pub mod links;
 pub mod local;
-mod observed;
 pub mod optimum;
-pub mod ours;
+pub mod own_clauses;
 mod pair;
 pub mod plain;
 mod plain_game;
@@ -25,11 +25,11 @@ mod plain_walk;
 pub mod reach;
 pub mod readings;
 pub mod search;
-mod shut;
 mod small;
+mod subject;
 mod three;
 mod walk;
-mod whole;
+mod whole_runs;
 
-pub use observed::{Deception, Subject};
 pub use pair::{Farthest, farthest};
+pub use subject::{Deception, Subject};

@@ -327,8 +327,8 @@ pub trait AnyCheck: Sync {
     ///
     /// # Errors
     /// [`MethodError`] if its method cannot begin.
-    fn decide(&self, memory: &mut Cache, watch: Watch<'_>) -> Result<Decision, MethodError> {
-        let mut context = Context { memory, watch, room: MemoryLimit::any() };
+    fn decide(&self, cache: &mut Cache, watch: Watch<'_>) -> Result<Decision, MethodError> {
+        let mut context = Context { cache, watch, memory: MemoryLimit::any() };
         Decision::made(self.variants(), &mut |variant, until| self.decide_rule(variant, until, &mut context))
     }
 

@@ -11,7 +11,7 @@ use tautline_kernel::choice::Oracle;
 pub use self::portion::Portion;
 use crate::engine::model::StatesModel;
 use crate::engine::smallest::Certificate;
-use crate::engine::states::{self, AnySystem, Limits, Room, Step, System};
+use crate::engine::states::{self, AnySystem, Limits, Memory, Step, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, ScriptError, Stop, Tally, Until};
 use crate::floor_trace::Course;
@@ -210,11 +210,11 @@ pub type MethodResult = Result<Answer, MethodError>;
 /// A method's surroundings.
 pub struct Context<'a, 'w> {
     /// Results found before.
-    pub memory: &'a mut Cache,
+    pub cache: &'a mut Cache,
     /// Hears of searches, and may end them: the check is left open then.
     pub watch: Watch<'w>,
     /// The memory that searches over states may take. Where it does not suffice, the check is left open.
-    pub room: Room<'a>,
+    pub memory: Memory<'a>,
 }
 
 /// Random runs of a rule.
@@ -429,8 +429,8 @@ fn replay(
     let mut replay = Replay::new(&answers);
     let outcome = body(&mut replay);
     let of = replay.asked().to_vec();
-    let misfit = (0..).zip(of.iter().zip(&answers)).find(|&(_, (of, answer))| answer >= of);
-    if let Some((at, (&of, _))) = misfit {
+    let mismatch = (0..).zip(of.iter().zip(&answers)).find(|&(_, (of, answer))| answer >= of);
+    if let Some((at, (&of, _))) = mismatch {
         return Err(ScriptError::None { at, of });
     }
     let Err(Stop::Violated(demand)) = outcome else { return Err(ScriptError::Unbroken) };
@@ -492,7 +492,7 @@ where
     fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> MethodResult {
         let system = (self.system)(rule);
         states::repeats(&system, (self.starts)(&system)).map_err(MethodError::new)?;
-        let limits = Limits { room: context.room, ..Limits::steps(self.most_steps.into()) };
+        let limits = Limits { memory: context.memory, ..Limits::steps(self.most_steps.into()) };
         let found = states::search(&system, (self.starts)(&system), limits);
         let evidence = found.broken.first().map(|run| Evidence {
             choices: run.choices(),
@@ -537,8 +537,8 @@ mod tests {
 
     #[test]
     fn what_never_ends_leaves_an_exhaustive_check_open_and_is_counted() {
-        let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-        let mut context = Context { memory, watch, room: MemoryLimit::any() };
+        let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+        let mut context = Context { cache, watch, memory: MemoryLimit::any() };
         let method = EveryAnswer { body: ends, range, covers: &["an end"] };
         let mut found = |rule| {
             let answer = method.decide(&rule, Until::Exhausted, &mut context).expect("a body can be decided");

@@ -2,8 +2,8 @@
 //! of many of them.
 
 pub mod crew;
-pub(crate) mod look;
 pub(crate) mod plans;
+pub(crate) mod search;
 pub(crate) mod series;
 pub(crate) mod small;
 pub(crate) mod team;

@@ -4,7 +4,7 @@ pub mod areas;
 pub mod clauses;
 mod detour;
 pub mod drift;
-mod fused;
+mod fusion;
 pub mod local;
 mod pairs;
 mod place;

@@ -19,9 +19,9 @@ macro_rules! as_its_rule {
 }
 
 mod certificate;
+mod guarded_planner;
 mod invariant;
-mod kept;
-mod numbered;
+mod numbers;
 mod team;
 mod wider;
 
@@ -30,13 +30,13 @@ use std::fmt::Debug;
 use tautline_kernel::ground::{Cell, Step};
 
 use self::certificate::terms;
+pub use self::guarded_planner::GuardedPlanner;
 pub use self::invariant::Invariant;
-pub use self::kept::GuardedPlanner;
-use self::numbered::{ByNumber, NumberedRule};
+use self::numbers::{ByNumber, NumberedRule};
 use self::team::Team;
 use self::wider::Wider;
 use crate::decide::{Answer, Context, Evidence, Method, MethodError, MethodResult, RefutationPlay, Verdict};
-use crate::engine::states::{self, Limits, Room};
+use crate::engine::states::{self, Limits, Memory};
 use crate::engine::watchdog;
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::protocol::arrangements;
@@ -255,13 +255,13 @@ impl EveryNumber {
         Ok(teams)
     }
 
-    fn decided(self, rule: &dyn NumberedRule, room: Room<'_>) -> MethodResult {
+    fn decided(self, rule: &dyn NumberedRule, memory: Memory<'_>) -> MethodResult {
         let (invariant, teams) = (Invariant::found(rule)?, self.teams(rule)?);
         if invariant.holds() {
             return Ok(invariant.answer());
         }
         for (more, team) in (0..).zip(&teams) {
-            let limits = Limits { room, ..Limits::steps(self.most_steps) };
+            let limits = Limits { memory, ..Limits::steps(self.most_steps) };
             let found = states::search(team, [team.start()], limits);
             if let Some(run) = found.broken.first() {
                 let once = [&[more], &run.steps[..]].concat();
@@ -308,7 +308,7 @@ impl<R: Local> Method<R> for EveryNumber {
 
     /// The choices are how many robots there are beyond the fewest, and those of the steps.
     fn decide(&self, rule: &R, _: Until, context: &mut Context<'_, '_>) -> MethodResult {
-        self.decided(&ByNumber::new(rule), context.room)
+        self.decided(&ByNumber::new(rule), context.memory)
     }
 
     /// There is one where places of as many robots as the rule speaks of suffice.

@@ -5,8 +5,8 @@ pub mod clauses;
 mod floors;
 mod gains;
 pub mod local;
-mod played;
 mod rays;
 mod readings;
+mod run;
 
-pub use played::Moves;
+pub use run::Moves;

@@ -5,12 +5,12 @@
 //! An actor is awake in a state if one of its moves is possible there. A run is weakly fair if it leaves out nobody who
 //! is awake throughout.
 
+mod any_protocol;
 mod bound;
+mod check;
 mod compact;
-mod erased;
 mod exploration;
 mod film;
-mod keeps;
 mod mail;
 mod playing;
 mod ring;
@@ -18,10 +18,10 @@ mod ring;
 use std::fmt::Debug;
 
 pub use self::bound::Bound;
+pub use self::check::Keeps;
 pub use self::compact::Compact;
 pub use self::exploration::{Exploration, Explorers, Team};
 pub use self::film::{beside, names};
-pub use self::keeps::Keeps;
 pub use self::mail::{Letter, Mail};
 pub use self::ring::{Ring, Start, Walker};
 use crate::engine::states::Bits;

@@ -69,8 +69,8 @@ macro_rules! step_checks {
                 #[test]
                 fn holds_exhaustively_and_rejects_its_mutants() {
                     use $crate::clause::AnyCheck;
-                    let mut memory = $crate::decide::Cache::default();
-                    let decision = CHECK.decide(&mut memory, &mut $crate::engine::tree::unwatched);
+                    let mut cache = $crate::decide::Cache::default();
+                    let decision = CHECK.decide(&mut cache, &mut $crate::engine::tree::unwatched);
                     let decision = decision.expect("a body can be decided");
                     assert!(decision.is_as_registered(&CHECK), "{}: {decision:?}", CHECK.bound());
                 }

@@ -8,9 +8,9 @@
 //! ([`System`](crate::engine::states::System)): ways that lead to the same are gone once, and the shortest run comes
 //! first. [`Setting::strategy`] says which; where both can be asked, they agree.
 
+mod check;
 mod graph;
 mod ground;
-mod keeps;
 mod rule;
 mod world;
 
@@ -19,9 +19,9 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
+pub use self::check::Keeps;
 pub use self::graph::{Crew, Deployment, Graph, Graphs, Kind, KnownGraph, Task, Teams, conflicts};
 pub use self::ground::{Ground, Map, Which};
-pub use self::keeps::Keeps;
 pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep, View};
 pub use self::world::{Event, Part, TeamWorld};
 use crate::decide::MethodError;

@@ -266,18 +266,18 @@ fn a_step_of_mrc_changes_no_part_that_it_is_not_said_to_change() {
 fn a_certificate_of_another_clause_check_rule_or_program_says_so() {
     let (header, numbers) = opened("KIT-5", 0);
     let sections = [section(&numbers)];
-    let misfit = |change: &dyn Fn(&mut Header)| {
+    let mismatch = |change: &dyn Fn(&mut Header)| {
         let mut header = header.clone();
         change(&mut header);
         examine(&write(&header, &sections), clauses()).expect_err("it is another's").to_string()
     };
     let said = [
-        misfit(&|header| header.program = "tautline 0.0.9".to_owned()),
-        misfit(&|header| header.clause = "KIT-99".to_owned()),
-        misfit(&|header| header.check = 17),
-        misfit(&|header| header.check = 1),
-        misfit(&|header| header.claim ^= 1),
-        misfit(&|header| header.states = 1_000_000),
+        mismatch(&|header| header.program = "tautline 0.0.9".to_owned()),
+        mismatch(&|header| header.clause = "KIT-99".to_owned()),
+        mismatch(&|header| header.check = 17),
+        mismatch(&|header| header.check = 1),
+        mismatch(&|header| header.claim ^= 1),
+        mismatch(&|header| header.states = 1_000_000),
     ];
     insta::assert_snapshot!(said.join("\n").replace(env!("CARGO_PKG_VERSION"), "VERSION"), @r#"
     it is a certificate of "tautline 0.0.9", and this is tautline VERSION

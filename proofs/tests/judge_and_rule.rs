@@ -7,7 +7,7 @@ use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, CompactGrid, Edge, EdgeMark, Grid, SmallGrid, Step};
 use tautline_proofs::chain::breach::frame;
-use tautline_proofs::judge::chain::{Exhibit, Move, Objection, Place, Repairs, judge};
+use tautline_proofs::judge::chain::{JudgeInput, Move, Objection, Place, Repairs, judge};
 use tautline_proofs::run::Frame;
 
 /// Answers that a linear congruence makes of the ones before.
@@ -24,15 +24,15 @@ fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
 }
 
-fn exhibit(
+fn input(
     clause: &'static str,
     rule: Rule,
     area: Area,
     walls: &[Edge],
     base: Cell,
     robots: usize,
-) -> Exhibit {
-    Exhibit {
+) -> JudgeInput {
+    JudgeInput {
         clause,
         repairs: if rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without },
         width: i32::from(area.last().x) + 1,
@@ -75,7 +75,7 @@ fn the_judge_admits_the_team_moves_that_the_rule_admits() {
         let mut grid = CompactGrid::new(area).expect("five cells wide");
         let mut team = [base; ROBOTS];
         // Nothing breaks CHAIN-3, so the judge hears every move before the last one.
-        let mut exhibit = exhibit("CHAIN-3", rule, area, &walls, base, ROBOTS);
+        let mut input = input("CHAIN-3", rule, area, &walls, base, ROBOTS);
         for _ in 0..60 {
             let mut steps = [Step::Stay; ROBOTS];
             for _ in 0..=drawn.pick(4) {
@@ -96,14 +96,14 @@ fn the_judge_admits_the_team_moves_that_the_rule_admits() {
                 if blocked[robot] { team[robot] } else { team[robot].after(steps[robot]) }
             });
             let frame = Frame { kind: Kind::Advance, steps: steps.to_vec(), blocked, cells: to.to_vec() };
-            exhibit.moves.push(written_down(&frame));
+            input.moves.push(written_down(&frame));
             let is_admitted = rule.admits_plan(&mut grid, &team, &steps);
-            let judgement = judge(&exhibit);
-            let objection = Objection { at: exhibit.moves.len(), what: does_not_break };
-            assert_eq!(judgement == Err(objection), is_admitted, "{judgement:?} of {exhibit:?}");
+            let judgement = judge(&input);
+            let objection = Objection { at: input.moves.len(), what: does_not_break };
+            assert_eq!(judgement == Err(objection), is_admitted, "{judgement:?} of {input:?}");
             told[round % 2][usize::from(is_admitted)] += 1;
             if !is_admitted {
-                exhibit.moves.pop();
+                input.moves.pop();
                 continue;
             }
             for robot in 0..ROBOTS {
@@ -144,18 +144,18 @@ fn the_judge_goes_along_with_the_run_in_every_layout_of_six_cells() {
                 for rule in [Rule::PUBLISHED, Rule::REPAIRED] {
                     let moves = run(rule, area, &walls, base);
                     for clause in ["CHAIN-13", "CHAIN-14"] {
-                        let mut exhibit = exhibit(clause, rule, area, &walls, base, 3);
-                        exhibit.moves.clone_from(&moves);
-                        assert_eq!(judge(&exhibit), Err(Objection { at: 0, what: ends }), "{exhibit:?}");
-                        let Some(last) = exhibit.moves.pop().filter(|_| moves.len() > 1) else { continue };
+                        let mut input = input(clause, rule, area, &walls, base, 3);
+                        input.moves.clone_from(&moves);
+                        assert_eq!(judge(&input), Err(Objection { at: 0, what: ends }), "{input:?}");
+                        let Some(last) = input.moves.pop().filter(|_| moves.len() > 1) else { continue };
                         let goes_on = Objection { at: 0, what: "the run goes on after the last move" };
-                        assert_eq!(judge(&exhibit), Err(goes_on), "{exhibit:?}");
-                        exhibit.moves.extend([last.clone(), last]);
+                        assert_eq!(judge(&input), Err(goes_on), "{input:?}");
+                        input.moves.extend([last.clone(), last]);
                         let what = "the run is over before this move";
                         assert_eq!(
-                            judge(&exhibit),
-                            Err(Objection { at: exhibit.moves.len(), what }),
-                            "{exhibit:?}"
+                            judge(&input),
+                            Err(Objection { at: input.moves.len(), what }),
+                            "{input:?}"
                         );
                     }
                 }
@@ -167,30 +167,30 @@ fn the_judge_goes_along_with_the_run_in_every_layout_of_six_cells() {
 #[test]
 fn a_leader_that_goes_another_way_is_told() {
     let area = area(5, 5);
-    let mut exhibit = exhibit("CHAIN-13", Rule::PUBLISHED, area, &[], Cell::new(2, 2), 3);
+    let mut input = input("CHAIN-13", Rule::PUBLISHED, area, &[], Cell::new(2, 2), 3);
     let west = Move {
         is_backtrack: false,
         tried: vec![(0, 0), (0, 0), (-1, 0)],
         blocked: vec![false; 3],
         places: vec![(2, 2), (2, 2), (1, 2)],
     };
-    exhibit.moves.push(west);
+    input.moves.push(west);
     let what = "the leader has a candidate that comes first";
-    assert_eq!(judge(&exhibit), Err(Objection { at: 1, what }));
+    assert_eq!(judge(&input), Err(Objection { at: 1, what }));
 }
 
 #[test]
 fn the_end_of_a_run_of_more_than_twelve_robots_is_not_judged() {
     for (robots, is_judged) in [(12, true), (13, false), (14, false)] {
-        let mut exhibit = exhibit("CHAIN-13", Rule::PUBLISHED, area(3, 3), &[], Cell::new(1, 1), robots);
+        let mut input = input("CHAIN-13", Rule::PUBLISHED, area(3, 3), &[], Cell::new(1, 1), robots);
         let nothing = Move {
             is_backtrack: false,
             tried: vec![(0, 0); robots],
             blocked: vec![false; robots],
             places: vec![(1, 1); robots],
         };
-        exhibit.moves.push(nothing);
+        input.moves.push(nothing);
         let what = "the judge cannot say of more than 12 robots whether their run is over";
-        assert_eq!(judge(&exhibit) != Err(Objection { at: 0, what }), is_judged, "{robots}");
+        assert_eq!(judge(&input) != Err(Objection { at: 0, what }), is_judged, "{robots}");
     }
 }

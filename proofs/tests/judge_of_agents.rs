@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::decide::Depiction;
 use tautline_proofs::floor_trace::Course;
-use tautline_proofs::judge::floor::{Exhibit, Judgement, Objection, Place, Turn, judge};
+use tautline_proofs::judge::floor::{JudgeInput, Judgement, Objection, Place, Turn, judge};
 
 use crate::refuted::{Refutation, of};
 
@@ -13,13 +13,13 @@ fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
 }
 
-fn written_down(clause: &'static str, course: &Course) -> Exhibit {
+fn written_down(clause: &'static str, course: &Course) -> JudgeInput {
     let turn = |turn: &tautline_proofs::floor_trace::Turn| Turn {
         agent: turn.agent,
         to: place(turn.before.cells[turn.agent].after(turn.step)),
         is_done: turn.is_done,
     };
-    Exhibit {
+    JudgeInput {
         clause,
         width: course.width.into(),
         height: course.height.into(),
@@ -33,11 +33,11 @@ fn written_down(clause: &'static str, course: &Course) -> Exhibit {
 
 /// Exhibits that refute BRICKS-5 and BRICKS-6 with sensors missed, and BRICKS-6 without: a run that ends too early, and
 /// one that goes round.
-fn exhibits() -> impl Iterator<Item = Exhibit> {
-    of(|id| ["BRICKS-5", "BRICKS-6"].contains(&id)).map(exhibit)
+fn inputs() -> impl Iterator<Item = JudgeInput> {
+    of(|id| ["BRICKS-5", "BRICKS-6"].contains(&id)).map(input)
 }
 
-fn exhibit(refuted: &Refutation) -> Exhibit {
+fn input(refuted: &Refutation) -> JudgeInput {
     let Depiction::Agents(course) = &refuted.found.seen else {
         panic!("no run of agents: {:?}", refuted.found)
     };
@@ -47,18 +47,17 @@ fn exhibit(refuted: &Refutation) -> Exhibit {
 #[test]
 fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
     let mut rounds = 0;
-    for exhibit in exhibits() {
-        assert_eq!(judge(&exhibit), Ok(Judgement::Broken), "{exhibit:?}");
-        rounds += usize::from(exhibit.round > 0);
-        let rejects = |change: &dyn Fn(&mut Exhibit), what: &str| {
-            let mut changed = exhibit.clone();
+    for input in inputs() {
+        assert_eq!(judge(&input), Ok(Judgement::Broken), "{input:?}");
+        rounds += usize::from(input.round > 0);
+        let rejects = |change: &dyn Fn(&mut JudgeInput), what: &str| {
+            let mut changed = input.clone();
             change(&mut changed);
             assert!(judge(&changed) != Ok(Judgement::Broken), "{what} is accepted: {changed:?}");
         };
-        let last = exhibit.turns.len() - 1;
+        let last = input.turns.len() - 1;
         // Of a round that is gone twice, a part is a round, too.
-        let is_round =
-            exhibit.round > 0 && exhibit.turns[last - 1].to == exhibit.turns[last - 1 - exhibit.round].to;
+        let is_round = input.round > 0 && input.turns[last - 1].to == input.turns[last - 1 - input.round].to;
         if !is_round {
             rejects(&|changed| changed.turns.truncate(last), "a run that is cut");
         }
@@ -69,7 +68,7 @@ fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
         rejects(&|changed| changed.starts[0] = (-1, 0), "a start outside");
         rejects(&|changed| changed.starts.push((0, 0)), "another agent, which does nothing");
         rejects(&|changed| changed.clause = "BRICKS-2", "a clause about marks");
-        if exhibit.round == 0 {
+        if input.round == 0 {
             rejects(&|changed| changed.turns[last].is_done = false, "a run that is not over");
             rejects(&|changed| changed.round = 1, "a round that is none");
         } else {
@@ -83,7 +82,7 @@ fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
 #[test]
 fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
     let turn = |to, is_done| Turn { agent: 0, to, is_done };
-    let exhibit = |turns: &[Turn]| Exhibit {
+    let input = |turns: &[Turn]| JudgeInput {
         clause: "BRICKS-4",
         width: 3,
         height: 1,
@@ -94,24 +93,24 @@ fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
         round: 0,
     };
     let early = [turn((1, 0), false), turn((1, 0), true)];
-    assert_eq!(judge(&exhibit(&early)), Ok(Judgement::Broken));
+    assert_eq!(judge(&input(&early)), Ok(Judgement::Broken));
     let late = [turn((1, 0), false), turn((2, 0), false), turn((2, 0), true)];
     assert_eq!(
-        judge(&exhibit(&late)),
+        judge(&input(&late)),
         Ok(Judgement::Unseen),
         "what is left to go through is a matter of marks"
     );
-    assert!(judge(&exhibit(&late[..2])).is_err(), "nobody is done");
-    let mut cut_off = exhibit(&early);
+    assert!(judge(&input(&late[..2])).is_err(), "nobody is done");
+    let mut cut_off = input(&early);
     cut_off.walls.insert(((1, 0), (2, 0)));
     assert_eq!(judge(&cut_off), Ok(Judgement::Unseen), "the third cell is not connected");
     let through = [turn((2, 0), false), turn((2, 0), true)];
-    assert!(judge(&exhibit(&through)).is_err(), "two cells in one turn");
+    assert!(judge(&input(&through)).is_err(), "two cells in one turn");
 }
 
 #[test]
 fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
-    let run = |moves: usize| Exhibit {
+    let run = |moves: usize| JudgeInput {
         clause: "BRICKS-12",
         width: 2,
         height: 1,
@@ -130,11 +129,11 @@ fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
     let mut two = run(5);
     two.starts.push((0, 0));
     assert!(judge(&two).is_err(), "it is not alone");
-    let exhibit = of(|id| id == "BRICKS-12").map(exhibit).next().expect("it is refuted");
-    assert_eq!(judge(&exhibit), Ok(Judgement::Broken));
-    let mut from = exhibit.starts[0];
-    for (index, turn) in exhibit.turns.iter().enumerate() {
-        let mut cut = exhibit.clone();
+    let input = of(|id| id == "BRICKS-12").map(input).next().expect("it is refuted");
+    assert_eq!(judge(&input), Ok(Judgement::Broken));
+    let mut from = input.starts[0];
+    for (index, turn) in input.turns.iter().enumerate() {
+        let mut cut = input.clone();
         cut.turns.remove(index);
         // A turn in which it stays is no move.
         assert_eq!(judge(&cut).is_ok(), turn.to == from, "{turn:?} left out");
@@ -148,8 +147,8 @@ fn in_the_middle(
     agents: usize,
     turns: &[(usize, Place, bool)],
     round: usize,
-) -> Exhibit {
-    Exhibit {
+) -> JudgeInput {
+    JudgeInput {
         clause,
         width: 3,
         height: 3,
@@ -173,7 +172,7 @@ fn a_cell_is_due_if_it_is_connected_with_a_start() {
     for (x, y) in [(1, 0), (2, 1), (1, 2), (0, 1)] {
         let done = in_the_middle("BRICKS-4", 1, &[(0, (1, 1), true)], 0);
         let blocked: BTreeSet<Place> = cells.iter().copied().filter(|&cell| cell != (1, 1)).collect();
-        let alone = Exhibit { blocked: blocked.clone(), ..done.clone() };
+        let alone = JudgeInput { blocked: blocked.clone(), ..done.clone() };
         assert_eq!(judge(&alone), Ok(Judgement::Unseen), "no other cell is free");
         let mut one_more = alone.clone();
         one_more.blocked.remove(&(x, y));
@@ -198,7 +197,7 @@ type Ruling = (&'static str, usize, &'static [(usize, Place, bool)], usize, &'st
 
 #[test]
 fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
-    let says = |exhibit: &Exhibit| match judge(exhibit) {
+    let says = |input: &JudgeInput| match judge(input) {
         Ok(judgement) => format!("{judgement:?}"),
         Err(objection) => objection.of("turn"),
     };
@@ -246,8 +245,8 @@ fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
     }
     // With no other cell the run is over and nothing is left: that is a matter of marks, or no counterexample.
     let all_explored = |clause: &'static str, round: usize, is_done: bool| {
-        let exhibit = in_the_middle(clause, 1, &[(0, MIDDLE, is_done)], round);
-        says(&Exhibit { width: 2, height: 2, blocked: BTreeSet::from([(0, 1), (1, 0)]), ..exhibit })
+        let input = in_the_middle(clause, 1, &[(0, MIDDLE, is_done)], round);
+        says(&JudgeInput { width: 2, height: 2, blocked: BTreeSet::from([(0, 1), (1, 0)]), ..input })
     };
     assert_eq!(all_explored("BRICKS-6", 0, true), "Unseen");
     assert_eq!(all_explored("BRICKS-5", 0, true), "the run is not over, or every cell is explored");

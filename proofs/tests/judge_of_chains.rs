@@ -9,18 +9,18 @@ use tautline_proofs::chain::breach::frame;
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::search::{Bounds, Counterexample, search};
 use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::judge::chain::{Exhibit, Move, Objection, Place, Repairs, judge};
+use tautline_proofs::judge::chain::{JudgeInput, Move, Objection, Place, Repairs, judge};
 use tautline_proofs::run::walls;
 
 fn place(cell: Cell) -> Place {
     (i32::from(cell.x), i32::from(cell.y))
 }
 
-fn exhibit(found: &Counterexample, bounds: &Bounds) -> Exhibit {
+fn input(found: &Counterexample, bounds: &Bounds) -> JudgeInput {
     let tried = |step: &Step| place(Cell::new(0, 0).after(*step));
     let side = 2 * bounds.robots as i32 - 1;
     let repairs = if bounds.observed.rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without };
-    Exhibit {
+    JudgeInput {
         clause: found.broken.clause(),
         repairs,
         width: side,
@@ -45,13 +45,13 @@ fn exhibit(found: &Counterexample, bounds: &Bounds) -> Exhibit {
     }
 }
 
-fn found(bounds: &Bounds) -> Vec<Exhibit> {
+fn found(bounds: &Bounds) -> Vec<JudgeInput> {
     let found = search(bounds, &mut unwatched).expect("so few robots fit");
-    found.counterexamples.iter().map(|found| exhibit(found, bounds)).collect()
+    found.counterexamples.iter().map(|found| input(found, bounds)).collect()
 }
 
 /// The smallest counterexample to each clause that the judge knows and a rule breaks.
-fn counterexamples() -> Vec<Exhibit> {
+fn counterexamples() -> Vec<JudgeInput> {
     let exhausting =
         |observed| Bounds { invariants: vec![Invariant::Exhausts], ..Bounds::new(observed, 3, 3) };
     let any_order = Bounds { invariants: vec![Invariant::AnyOrder], ..Bounds::new(Subject::REPAIRED, 4, 3) };
@@ -81,7 +81,7 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
     let back = step([(0, 0), (-1, 0)], [(2, 2), (2, 2)], true);
     for clause in ["CHAIN-13", "CHAIN-14"] {
         for repairs in [Repairs::Without, Repairs::With] {
-            let mut exhibit = Exhibit {
+            let mut input = JudgeInput {
                 clause,
                 repairs,
                 width: 5,
@@ -93,16 +93,16 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
                 moves: vec![out.clone()],
             };
             let goes_on = Objection { at: 0, what: "the run goes on after the last move" };
-            assert_eq!(judge(&exhibit), Err(goes_on));
-            exhibit.moves.push(back.clone());
+            assert_eq!(judge(&input), Err(goes_on));
+            input.moves.push(back.clone());
             let has_a_way = "the leader has a way on: the team takes no move back";
-            assert_eq!(judge(&exhibit), Err(Objection { at: 2, what: has_a_way }));
+            assert_eq!(judge(&input), Err(Objection { at: 2, what: has_a_way }));
         }
     }
 }
 
 /// The whole run of three robots in the open, as a counterexample to `clause`.
-fn open_run(observed: Subject, clause: &'static str) -> Exhibit {
+fn open_run(observed: Subject, clause: &'static str) -> JudgeInput {
     let bounds = Bounds::new(observed, 3, 0);
     let grid = SmallGrid::new(bounds.area).expect("five cells wide");
     let mut chain = Chain::<_, 3>::new(observed.rule, 3, bounds.base, grid).expect("it fits");
@@ -114,29 +114,29 @@ fn open_run(observed: Subject, clause: &'static str) -> Exhibit {
     }
     let (broken, demand, answers) = (Invariant::Exhausts, "nothing", Vec::new());
     let run = Counterexample { broken, runs: 1, demand, frames, answers };
-    Exhibit { clause, ..exhibit(&run, &bounds) }
+    JudgeInput { clause, ..input(&run, &bounds) }
 }
 
 #[test]
 fn a_run_that_ends_with_everything_explored_breaks_nothing() {
     for (observed, clause) in [(Subject::PUBLISHED, "CHAIN-13"), (Subject::REPAIRED, "CHAIN-14")] {
-        let mut exhibit = open_run(observed, clause);
+        let mut input = open_run(observed, clause);
         let what = "the end of the run does not break the clause";
-        assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));
-        let last = exhibit.moves.pop().expect("it has moves");
+        assert_eq!(judge(&input), Err(Objection { at: 0, what }));
+        let last = input.moves.pop().expect("it has moves");
         let what = "the run goes on after the last move";
-        assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));
-        exhibit.moves.extend([last.clone(), last]);
+        assert_eq!(judge(&input), Err(Objection { at: 0, what }));
+        input.moves.extend([last.clone(), last]);
         let what = "the run is over before this move";
-        assert_eq!(judge(&exhibit), Err(Objection { at: exhibit.moves.len(), what }));
+        assert_eq!(judge(&input), Err(Objection { at: input.moves.len(), what }));
     }
 }
 
 #[test]
 fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
-    let exhibits = counterexamples();
+    let inputs = counterexamples();
     assert_eq!(
-        exhibits.iter().map(|exhibit| (exhibit.clause, exhibit.repairs)).collect::<Vec<_>>(),
+        inputs.iter().map(|input| (input.clause, input.repairs)).collect::<Vec<_>>(),
         [
             ("CHAIN-1", Repairs::Without),
             ("CHAIN-2", Repairs::Without),
@@ -146,14 +146,14 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
             ("CHAIN-19", Repairs::With),
         ]
     );
-    for exhibit in exhibits {
-        assert_eq!(judge(&exhibit), Ok(()), "{}", exhibit.clause);
-        let rejects = |change: &dyn Fn(&mut Exhibit), what: &str| {
-            let mut changed = exhibit.clone();
+    for input in inputs {
+        assert_eq!(judge(&input), Ok(()), "{}", input.clause);
+        let rejects = |change: &dyn Fn(&mut JudgeInput), what: &str| {
+            let mut changed = input.clone();
             change(&mut changed);
-            assert!(judge(&changed).is_err(), "{}: {what} is accepted", exhibit.clause);
+            assert!(judge(&changed).is_err(), "{}: {what} is accepted", input.clause);
         };
-        let (width, height) = (exhibit.width, exhibit.height);
+        let (width, height) = (input.width, input.height);
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             for wall in [((x, y), (x + 1, y)), ((x, y), (x, y + 1))] {
                 if wall.1.0 < width && wall.1.1 < height {
@@ -168,24 +168,24 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
                 }
             }
         }
-        for index in 0..exhibit.moves.len() {
+        for index in 0..input.moves.len() {
             rejects(&|changed| drop(changed.moves.remove(index)), &format!("move {index} left out"));
-            let twice = |changed: &mut Exhibit| changed.moves.insert(index, changed.moves[index].clone());
-            rejects(&twice, &format!("move {index} twice: {:?}", exhibit.moves[index]));
+            let twice = |changed: &mut JudgeInput| changed.moves.insert(index, changed.moves[index].clone());
+            rejects(&twice, &format!("move {index} twice: {:?}", input.moves[index]));
             rejects(&|changed| changed.moves.truncate(index), &format!("nothing from move {index} on"));
             rejects(
                 &|changed| changed.moves[index].is_backtrack ^= true,
-                &format!("move {index} as the other kind: {:?}", exhibit.moves[index]),
+                &format!("move {index} as the other kind: {:?}", input.moves[index]),
             );
-            for robot in 0..exhibit.robots {
-                let flip = |changed: &mut Exhibit| changed.moves[index].blocked[robot] ^= true;
+            for robot in 0..input.robots {
+                let flip = |changed: &mut JudgeInput| changed.moves[index].blocked[robot] ^= true;
                 rejects(&flip, "another outcome");
                 for step in [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0)] {
-                    if exhibit.moves[index].tried[robot] != step {
-                        let change = |changed: &mut Exhibit| changed.moves[index].tried[robot] = step;
+                    if input.moves[index].tried[robot] != step {
+                        let change = |changed: &mut JudgeInput| changed.moves[index].tried[robot] = step;
                         rejects(&change, &format!("step {step:?} of robot {robot} in move {index}"));
                     }
-                    let shift = |changed: &mut Exhibit| {
+                    let shift = |changed: &mut JudgeInput| {
                         let place = &mut changed.moves[index].places[robot];
                         *place = (place.0 + step.0, place.1 + step.1);
                     };
@@ -196,7 +196,7 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
             }
         }
         // The run that breaks CHAIN-14 as repaired is one that the published rule makes, too.
-        if exhibit.repairs == Repairs::Without {
+        if input.repairs == Repairs::Without {
             rejects(&|changed| changed.repairs = Repairs::With, "the repaired rule");
         }
         rejects(&|changed| changed.clause = "CHAIN-3", "another clause");

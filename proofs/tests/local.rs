@@ -14,8 +14,8 @@ use tautline_proofs::local::{
 };
 
 pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> MethodResult {
-    let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut context = Context { memory, watch, room: MemoryLimit::any() };
+    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+    let mut context = Context { cache, watch, memory: MemoryLimit::any() };
     method.decide(rule, Until::Exhausted, &mut context)
 }
 
@@ -313,8 +313,8 @@ impl Local for ColouredLeash {
 
 #[test]
 fn a_team_that_starts_in_cells_without_a_colour_is_refused() {
-    let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut context = Context { memory, watch, room: MemoryLimit::any() };
+    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+    let mut context = Context { cache, watch, memory: MemoryLimit::any() };
     assert_eq!(decided(&ColouredLeash(1)).0, Verdict::Refuted);
     let refusal = EveryNumber::DEFAULT.decide(&ColouredLeash(2), Until::Exhausted, &mut context);
     insta::assert_snapshot!(

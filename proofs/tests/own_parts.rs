@@ -22,7 +22,7 @@ fn decided<R: Rule + PartialEq + 'static>(
     demand: usize,
 ) -> Answer {
     let mut context =
-        Context { memory: &mut Known::default(), watch: &mut unwatched, room: MemoryLimit::any() };
+        Context { cache: &mut Known::default(), watch: &mut unwatched, memory: MemoryLimit::any() };
     let keeps = Keeps(setting, demand);
     let answer = keeps.decide(rule, Until::Exhausted, &mut context).expect("it can be decided");
     certify(&keeps, rule, answer.verdict);

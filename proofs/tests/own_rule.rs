@@ -79,8 +79,8 @@ static STILL_AND_ENDS: Setting<'static, Walk> =
 type Question = (&'static Setting<'static, Walk>, usize);
 
 fn decided(rule: Walk, (layouts, demand): Question) -> Result<Answer, MethodError> {
-    let memory = &mut Cache::default();
-    let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let cache = &mut Cache::default();
+    let mut context = Context { cache, watch: &mut unwatched, memory: MemoryLimit::any() };
     let answer = Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut context)?;
     certify(&Keeps(layouts, demand), &rule, answer.verdict);
     Ok(answer)

@@ -21,8 +21,8 @@ static REFUTED: LazyLock<Vec<Refutation>> = LazyLock::new(|| rooms().par_iter().
 
 /// Checks of a room are decided one after the other: what one has found, the next one need not search again.
 fn in_room(room: &Room) -> Vec<Refutation> {
-    let memory = &mut Cache::default();
-    let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let cache = &mut Cache::default();
+    let mut context = Context { cache, watch: &mut unwatched, memory: MemoryLimit::any() };
     let checks =
         room.clauses.iter().flat_map(|clause| clause.checks.iter().map(move |&check| (clause, check)));
     let refuted = checks.filter(|(_, check)| check.expected() == Verdict::Refuted);

@@ -13,7 +13,7 @@ use tautline_proofs::clause::{AnyCheck, Check, Clause, NamedRule};
 use tautline_proofs::decide::{
     Answer, Context, EveryAnswer, EveryState, Method, MethodError, RandomAnswers, RefutationPlay, Verdict,
 };
-use tautline_proofs::engine::lots::{self, Look, Lots};
+use tautline_proofs::engine::cases::{self, Cases};
 use tautline_proofs::engine::states::System;
 use tautline_proofs::engine::tree::{self, Game, unwatched};
 use tautline_proofs::engine::world::{Turn, World};
@@ -157,11 +157,11 @@ impl Game for Counter {
     }
 }
 
-/// So many lots in one stage.
-impl Lots for Counter {
+/// So many cases in one stage.
+impl Cases for Counter {
     type Stage = ();
-    type Lot = ();
-    type Look = Glance;
+    type Case = ();
+    type Outcome = Glance;
     type Findings = u64;
     type Error = Infallible;
 
@@ -169,7 +169,7 @@ impl Lots for Counter {
         vec![()]
     }
 
-    fn lots(&self, (): ()) -> Result<Vec<()>, Infallible> {
+    fn cases(&self, (): ()) -> Result<Vec<()>, Infallible> {
         Ok(vec![(); STEPS as usize])
     }
 
@@ -177,7 +177,7 @@ impl Lots for Counter {
         1
     }
 
-    fn look(&self, (): (), (): &(), _: u64) -> Result<Glance, Infallible> {
+    fn examine(&self, (): (), (): &(), _: u64) -> Result<Glance, Infallible> {
         self.0.step();
         Ok(Glance)
     }
@@ -192,7 +192,7 @@ impl Lots for Counter {
 
 struct Glance;
 
-impl Look for Glance {
+impl cases::Outcome for Glance {
     fn steps(&self) -> u64 {
         1
     }
@@ -210,14 +210,14 @@ impl Look for Glance {
 #[derive(Clone, Copy)]
 enum By {
     Tree,
-    Lots,
+    Cases,
 }
 
 impl Method<Rule> for By {
     fn engine(&self) -> &'static str {
         match self {
             Self::Tree => "tree",
-            Self::Lots => "lots",
+            Self::Cases => "cases",
         }
     }
 
@@ -231,9 +231,9 @@ impl Method<Rule> for By {
                 let limits = tree::Limits { max_walls: 0, budget_moves: None, until };
                 tree::search(Counter(*rule), &limits, &mut unwatched).map_err(MethodError::new)?.moves
             }
-            Self::Lots => {
-                let Ok((lots, _)) = lots::search(&Counter(*rule), None, &mut |_| ControlFlow::Continue(()));
-                lots
+            Self::Cases => {
+                let Ok((cases, _)) = cases::search(&Counter(*rule), None, &mut |_| ControlFlow::Continue(()));
+                cases
             }
         };
         Ok(Answer::new(None, true, Verdict::Holds, cases))
@@ -244,7 +244,7 @@ impl Method<Rule> for By {
     }
 }
 
-static METHODS: [&'static dyn Method<Rule>; 5] = [&EXHAUSTIVE, &SAMPLED, &STATES, &By::Tree, &By::Lots];
+static METHODS: [&'static dyn Method<Rule>; 5] = [&EXHAUSTIVE, &SAMPLED, &STATES, &By::Tree, &By::Cases];
 
 /// Tests share the threads that decide, of which an endless step keeps one: so they run one after the other, on threads
 /// enough.

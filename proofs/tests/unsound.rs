@@ -15,8 +15,8 @@ use tautline_proofs::team::{
 };
 
 fn decide<R>(method: &impl Method<R>, rule: &R) -> MethodResult {
-    let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-    method.decide(rule, Until::Violation, &mut Context { memory, watch, room: MemoryLimit::any() })
+    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+    method.decide(rule, Until::Violation, &mut Context { cache, watch, memory: MemoryLimit::any() })
 }
 
 fn refusal<R>(method: &impl Method<R>, rule: &R) -> String {

@@ -15,9 +15,9 @@ use tautline_kernel::chain;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::plural::counted;
 
+use crate::arguments::Int;
 use crate::arrays::filled;
 use crate::diagnostic::{Kind, error, raised};
-use crate::given::Int;
 use crate::layout::Layout;
 
 /// The most bytes of all environments. One counts as [`OWN_BYTES`] and what its part of an observation has.

@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use tautline_field::stats;
 
+use crate::arguments::{Int, List, whole};
 use crate::diagnostic::{Kind, error};
-use crate::given::{Int, List, whole};
 
 /// The most decimals, as many as every number has.
 const MAX_DECIMALS: usize = 17;

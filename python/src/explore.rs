@@ -14,8 +14,8 @@ use tautline_sim::explore::{
 };
 use tautline_sim::options::Options;
 
+use crate::arguments::{At, Int, List, whole};
 use crate::diagnostic::{Kind, error};
-use crate::given::{At, Int, List, whole};
 use crate::layout::LayoutArgument;
 use crate::run::{Run, RunSource, stopped};
 

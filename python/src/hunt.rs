@@ -10,9 +10,9 @@ use tautline_grids::layout::{MAX_SIDE_CELLS, Size};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Exhibit, Far, Finding, HuntRequest, Hunter};
 
+use crate::arguments::Int;
 use crate::diagnostic::raised;
 use crate::explore::{robots, rule, scheme};
-use crate::given::Int;
 use crate::layout::Layout;
 use crate::run::Run;
 use crate::wait::wait_for;
@@ -127,7 +127,7 @@ pub(crate) fn hunt(
     })?;
     let found = found.map_err(|fault: Diagnostic| raised(py, &fault))?;
     let (verdict, complete) = (verdict(found.found.is_empty(), found.is_complete), found.is_complete);
-    let told = |quarry: &Finding| told(py, quarry);
+    let told = |finding: &Finding| told(py, finding);
     Ok(HuntReport {
         scheme: scheme.name,
         rule: rule.as_str(),
@@ -155,17 +155,17 @@ fn facts(py: Python<'_>, facts: &impl Serialize) -> PyResult<Py<PyAny>> {
     Ok(py.import("json")?.call_method1("loads", (text,))?.unbind())
 }
 
-fn told(py: Python<'_>, quarry: &Finding) -> PyResult<Py<Counterexample>> {
-    let name = quarry.clause.to_owned();
-    let run = match &quarry.shown {
+fn told(py: Python<'_>, finding: &Finding) -> PyResult<Py<Counterexample>> {
+    let name = finding.clause.to_owned();
+    let run = match &finding.shown {
         Exhibit::Run(clause) | Exhibit::Story(clause, _) => {
-            let run = Run::of(py, quarry.setup.clone(), name.clone(), Some(*clause))?;
+            let run = Run::of(py, finding.setup.clone(), name.clone(), Some(*clause))?;
             Some(Py::new(py, run)?)
         }
         Exhibit::Endless | Exhibit::Told(_) => None,
     };
-    let layout = Layout { ground: quarry.setup.layout.clone(), name };
-    let (clause, title) = (quarry.clause, quarry.title.clone());
+    let layout = Layout { ground: finding.setup.layout.clone(), name };
+    let (clause, title) = (finding.clause, finding.title.clone());
     let layout = Py::new(py, layout)?;
-    Py::new(py, Counterexample { clause, facts: facts(py, &quarry.facts)?, title, layout, run })
+    Py::new(py, Counterexample { clause, facts: facts(py, &finding.facts)?, title, layout, run })
 }

@@ -16,9 +16,9 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_sim::draw::svg;
 use tautline_sim::trace;
 
+use crate::arguments::{At, Int, whole};
 use crate::arrays::{Rows, rows, view};
 use crate::diagnostic::{Kind, error, halted, raised};
-use crate::given::{At, Int, whole};
 use crate::wait::wait_or_leave;
 
 /// A column and a row.

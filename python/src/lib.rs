@@ -1,12 +1,12 @@
 //! The native half of the Python package `pytautline`: what is slow in Python, or is Tautline's own. The other half, in
 //! the folder `pytautline`, has the classes that a person derives from, the errors, and the type stubs.
 
+mod arguments;
 mod arrays;
 mod diagnostic;
 mod environment;
 mod estimate;
 mod explore;
-mod given;
 mod hunt;
 mod layout;
 mod local;
@@ -37,7 +37,7 @@ mod _native {
         Decision, ProtocolReport, StateRun, decide_protocol, hunt_protocol, replay_protocol,
     };
     #[pymodule_export]
-    use crate::rule::moved::TeamMove;
+    use crate::rule::team_move::TeamMove;
     #[pymodule_export]
     use crate::rule::{OwnCounterexample, OwnHuntReport, hunt_rule};
     #[pymodule_export]

@@ -14,8 +14,8 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::local::{Act, EveryNumber, Far, Local, Plan, Robot, all_tuples};
 use tautline_sim::trace::step;
 
+use crate::arguments::{At, List};
 use crate::diagnostic::{Kind, error};
-use crate::given::{At, List};
 use crate::hunt::verdict;
 use crate::script::{Script, attribute, kept, number, shown, word};
 
@@ -306,8 +306,8 @@ fn decided(py: Python<'_>, rule: &LocalScript, with_certificate: bool) -> PyResu
                       all states, and start with its promise kept";
         error(py, Kind::Input, why, remedy)
     };
-    let memory = &mut Cache::default();
-    let mut context = Context { memory, watch: &mut unwatched, room: MemoryLimit::any() };
+    let cache = &mut Cache::default();
+    let mut context = Context { cache, watch: &mut unwatched, memory: MemoryLimit::any() };
     let answer = method.decide(rule, Until::Violation, &mut context);
     script.checked(py)?;
     let answer = answer.map_err(refused)?;

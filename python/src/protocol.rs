@@ -20,8 +20,8 @@ use tautline_sim::counterexample::refutation::{self, Meant};
 
 pub(crate) use self::run::StateRun;
 use self::script::{ScriptCheck, ScriptDemand, StateScript, Words};
+use crate::arguments::{Int, whole};
 use crate::diagnostic::{Kind, error, raised};
-use crate::given::{Int, whole};
 use crate::hunt::verdict;
 use crate::script::held;
 

@@ -2,8 +2,8 @@
 //! Python has one lock.
 
 mod game;
-pub(crate) mod moved;
-mod written;
+mod python_rule;
+pub(crate) mod team_move;
 
 use std::fs;
 use std::sync::Arc;
@@ -23,9 +23,9 @@ use tautline_sim::explore::{Limits, Own, Report, Setup, run};
 use tautline_sim::trace::{self, StoredRun, Writer};
 
 use self::game::{PythonRule, Questions, setting};
-use self::written::{Demand, RuleScript};
+use self::python_rule::{Demand, RuleScript};
+use crate::arguments::Int;
 use crate::diagnostic::{Kind, error, halted};
-use crate::given::Int;
 use crate::hunt::verdict;
 use crate::run::{Run, RunSource};
 
@@ -188,8 +188,8 @@ fn stored(
     let limits = Limits::stopping_at(Some(clause));
     let setup = Setup::named(written.scheme, written.script.name, layout.clone(), written.starts());
     let setup = Setup { limits, ..setup };
-    let aside = AtomicFile::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(aside, &setup, Some(clause))?;
+    let file = AtomicFile::new(&path, &Replaceable::default())?;
+    let mut writer = Writer::new(file, &setup, Some(clause))?;
     let mut left = written.longest_run;
     let team = setting.in_layout(rule, written.starts(), Vec::new()).wanting(&[Promise(demand)]);
     let report = run(&mut Own::new(team, 0), layout, limits, &mut |made| {

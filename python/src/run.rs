@@ -21,9 +21,9 @@ use tautline_sim::draw::{page, story, svg};
 use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove};
 use tautline_sim::trace::{self, ForeignRun, StoredRun, Summary, Writer};
 
+use crate::arguments::Int;
 use crate::arrays::view;
 use crate::diagnostic::{Kind, error, failed, halted, raised};
-use crate::given::Int;
 use crate::layout::{Layout, Rebuilt, rebuilt};
 use crate::wait::wait_for;
 
@@ -136,17 +136,17 @@ impl Run {
         put: impl FnOnce(AtomicFile) -> Result<AtomicFile, Halt> + Send,
     ) -> PyResult<()> {
         let write = || {
-            let aside = put(AtomicFile::new(path, replaceable)?)?;
-            Ok(aside.keep()?)
+            let file = put(AtomicFile::new(path, replaceable)?)?;
+            Ok(file.keep()?)
         };
         py.detach(write).map_err(|halt: Halt| halted(py, &halt))
     }
 
     /// Writes the trace.
-    fn traced(&self, aside: AtomicFile) -> Result<AtomicFile, Halt> {
+    fn traced(&self, file: AtomicFile) -> Result<AtomicFile, Halt> {
         match &self.made {
             RunSource::Known(setup) => {
-                let mut writer = Writer::new(aside, setup, self.clause).map_err(Diagnostic::from)?;
+                let mut writer = Writer::new(file, setup, self.clause).map_err(Diagnostic::from)?;
                 let report = setup.play(&mut |made| {
                     writer.add(made);
                     Ok(())
@@ -154,18 +154,18 @@ impl Run {
                 Ok(writer.end(&report))
             }
             RunSource::Recorded(_, text) => {
-                let mut aside = aside;
-                aside.append(text);
-                Ok(aside)
+                let mut file = file;
+                file.append(text);
+                Ok(file)
             }
         }
     }
 
-    fn paged(&self, mut aside: AtomicFile) -> Result<AtomicFile, Halt> {
+    fn paged(&self, mut file: AtomicFile) -> Result<AtomicFile, Halt> {
         let run = self.play();
         svg::check_size(self.report.chart.area())?;
-        page::write(&mut aside, run, &self.report, &(1..=self.report.steps))?;
-        Ok(aside)
+        page::write(&mut file, run, &self.report, &(1..=self.report.steps))?;
+        Ok(file)
     }
 
     /// The bytes that `put` writes to a file.
@@ -176,7 +176,7 @@ impl Run {
     ) -> PyResult<Vec<u8>> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("bytes");
-        Self::file(py, &path, &Replaceable::default(), |aside| put(self, aside))?;
+        Self::file(py, &path, &Replaceable::default(), |file| put(self, file))?;
         Ok(fs::read(&path)?)
     }
 
@@ -334,22 +334,22 @@ impl Run {
     #[pyo3(signature = (path, *, force=false))]
     fn store(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
         let foreign = if force { Foreign::Replace } else { Foreign::Keep };
-        Self::file(py, &path, &Replaceable::new(foreign, []), |aside| self.traced(aside))
+        Self::file(py, &path, &Replaceable::new(foreign, []), |file| self.traced(file))
     }
 
     /// The run in the Informal Trace Format of Apalache, as `--itf` stores it.
     fn itf(&self, py: Python<'_>) -> PyResult<String> {
-        self.text(py, |run, mut aside| {
-            tautline_viewers::itf::write(&mut aside, run.play())?;
-            Ok(aside)
+        self.text(py, |run, mut file| {
+            tautline_viewers::itf::write(&mut file, run.play())?;
+            Ok(file)
         })
     }
 
     /// The run as a recording of ROS 2, as `--mcap` stores it.
     fn mcap<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.bytes(py, |run, mut aside| {
-            tautline_viewers::mcap::write(&mut aside, run.play())?;
-            Ok(aside)
+        let bytes = self.bytes(py, |run, mut file| {
+            tautline_viewers::mcap::write(&mut file, run.play())?;
+            Ok(file)
         })?;
         Ok(PyBytes::new(py, &bytes))
     }

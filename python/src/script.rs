@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use rayon::ThreadPoolBuilder;
 
+use crate::arguments::Int;
 use crate::diagnostic::{Kind, error};
-use crate::given::Int;
 use crate::wait::wait;
 
 /// Letters of a name.

@@ -18,9 +18,9 @@ use tautline_sim::explore::{
     ExplorationRequest, Limits, Milestone, Profile, Report, RuleId, Scheme, explore,
 };
 
+use crate::arguments::{Int, List, MAX_ENTRIES, too_many};
 use crate::diagnostic::halted;
 use crate::explore::{limits, rule, scheme};
-use crate::given::{Int, List, MAX_ENTRIES, too_many};
 use crate::run::stopped;
 use crate::wait::wait_or_leave;
 

@@ -5,12 +5,13 @@
 pub mod agents;
 pub mod ants;
 pub mod bricks;
+mod by_layout;
 pub mod catalogue;
 pub mod chain;
 mod clause;
+mod connectivity;
 mod course;
 pub mod depth_first;
-mod each;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;
@@ -27,12 +28,12 @@ mod scene;
 mod script;
 mod setup;
 mod states;
-mod together;
 
 pub use self::catalogue::{
     By, Catalogue, Completeness, Knowledge, Look, Profile, RandomPart, Scheme, Senses, Starts,
 };
 pub use self::clause::{Clause, ClauseId};
+pub use self::connectivity::{has_double, unlinked};
 pub use self::course::{Course, CourseMove};
 pub use self::own::Own;
 pub use self::own_rule::OwnRule;
@@ -45,7 +46,6 @@ pub use self::scene::{
     Change, Hearers, Ink, Joins, Kind, Layer, Mark, Place, Refusal, Scene, Shape, Value, Zone,
 };
 pub use self::setup::{ExplorationRequest, Play, Setup, explore, team};
-pub use self::together::{has_double, unlinked};
 
 tautline_io::written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }
 

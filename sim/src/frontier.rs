@@ -7,7 +7,7 @@
 //! run as layouts are, with the tag `frontier`.
 
 mod allowance;
-mod assigned;
+mod assignment;
 mod chart;
 mod field;
 mod radio;
@@ -15,7 +15,7 @@ mod team;
 mod waves;
 
 pub use allowance::Allowance;
-pub use assigned::{AssignedTeam, Assignment};
+pub use assignment::{AssignedTeam, Assignment};
 pub use radio::cell_at;
 pub use team::Explorers;
 

@@ -197,8 +197,8 @@ pub fn store_at(
     clause: ClauseId,
     replaceable: &Replaceable,
 ) -> Result<(AtomicFile, Report), Halt> {
-    let aside = AtomicFile::late(path, replaceable);
-    let mut writer = Writer::new(aside, setup, Some(clause))?;
+    let file = AtomicFile::late(path, replaceable);
+    let mut writer = Writer::new(file, setup, Some(clause))?;
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())
@@ -431,9 +431,9 @@ impl Writer {
     ///
     /// # Errors
     /// [`Diagnostic`] if the base is not a free cell.
-    pub fn new(mut aside: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Diagnostic> {
-        aside.append(header(setup, clause)?);
-        Ok(Self(aside))
+    pub fn new(mut file: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Diagnostic> {
+        file.append(header(setup, clause)?);
+        Ok(Self(file))
     }
 
     /// Adds a team move.

@@ -290,14 +290,14 @@ fn hunts_of_trees_find_the_smallest_early_end_and_it_is_a_run() {
         (&BRICKS, RuleId::new("tree"), (1, 1), "1 missed, 3x3 cells, 5 team moves"),
     ] {
         let hunted = hunted(scheme, rule, bound, 3);
-        let [quarry] = &hunted.found[..] else { panic!("{hunted:?}") };
+        let [finding] = &hunted.found[..] else { panic!("{hunted:?}") };
         assert_eq!(
-            (quarry.title.as_str(), &quarry.shown),
+            (finding.title.as_str(), &finding.shown),
             (title, &Exhibit::Run(PREMATURE)),
             "{}",
             scheme.name
         );
-        let report = run(&quarry.setup);
+        let report = run(&finding.setup);
         assert!(report.violations.iter().any(|violation| violation.clause == PREMATURE), "{report:?}");
     }
     let careful = hunted(&HELPERS, RuleId::REPAIRED, (1, 1), 3);

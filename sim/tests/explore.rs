@@ -86,8 +86,8 @@ fn is_possible(setup: &Setup, made: &TeamMove<'_>, robot: usize) -> bool {
 }
 
 fn stored(setup: &Setup, clause: Option<ClauseId>, path: &Path) -> Report {
-    let aside = AtomicFile::new(path, &Replaceable::default()).expect("a place");
-    let mut writer = Writer::new(aside, setup, clause).expect("a free base");
+    let file = AtomicFile::new(path, &Replaceable::default()).expect("a place");
+    let mut writer = Writer::new(file, setup, clause).expect("a free base");
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())

@@ -59,8 +59,8 @@ fn a_repaired_team_breaks_nothing_within_the_bound() {
 #[test]
 fn the_nearest_cell_that_no_earlier_robot_takes_may_be_waited_for_for_ever() {
     let hunted = hunted("earlier", 2, (3, 1), 0);
-    let [quarry] = &hunted.found[..] else { panic!("{:?}", hunted.found) };
-    assert_eq!((quarry.clause, quarry.setup.layout.size().cells()), ("FRONTIER-3", 3));
+    let [finding] = &hunted.found[..] else { panic!("{:?}", hunted.found) };
+    assert_eq!((finding.clause, finding.setup.layout.size().cells()), ("FRONTIER-3", 3));
 }
 
 fn setup(robots: u16, (width, height): (u64, u64)) -> Setup {

@@ -246,11 +246,11 @@ fn hunted(asked: &HuntRequest<'_>) -> Result<HuntReport, Diagnostic> {
 
 /// The clauses that are broken, each with its columns, rows, walls and drives.
 fn broken(hunted: &HuntReport) -> Vec<(&'static str, [usize; 4])> {
-    let size = |quarry: &Finding| match quarry.facts {
+    let size = |finding: &Finding| match finding.facts {
         RunSize::Area { columns, rows, walls, steps } => [columns, rows, walls, steps],
         RunSize::Runs { .. } | RunSize::Misses { .. } => panic!("an area"),
     };
-    hunted.found.iter().map(|quarry| (quarry.clause, size(quarry))).collect()
+    hunted.found.iter().map(|finding| (finding.clause, size(finding))).collect()
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn the_smallest_runs_that_break_the_published_rule() {
     for expected in [("KIT-1", [5, 1, 0, 5]), ("KIT-3", [3, 1, 0, 3]), ("KIT-6", [3, 1, 0, 1])] {
         assert!(found.contains(&expected), "{expected:?} in {found:?}");
     }
-    let is_endless = |quarry: &&Finding| quarry.clause == ENDS.as_str();
+    let is_endless = |finding: &&Finding| finding.clause == ENDS.as_str();
     let endless = hunted.found.iter().find(is_endless).expect("a run that goes on for ever");
     assert_eq!(run(&endless.setup).stopped, StopReason::Endless);
     // Before the robots are where they were, nothing is known of it.

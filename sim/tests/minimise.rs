@@ -15,7 +15,7 @@ use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refusal, minimise};
 use tautline_sim::explore::chain::CHAIN;
-use tautline_sim::explore::judge_input::exhibit;
+use tautline_sim::explore::judge_input::judge_input;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{
     Catalogue, ClauseId, ExplorationRequest, Limits, OnViolation, RuleId, RuleName, Setup, StopReason,
@@ -167,7 +167,7 @@ fn check(found: &Minimal) {
     let report = report.expect("a run");
     let stopped = if *clause == Breach::Completeness { StopReason::Exhausted } else { StopReason::Violation };
     assert_eq!((report.stopped, report.steps), (stopped, after.steps));
-    assert_eq!(judge(&exhibit(setup, clause.as_str(), &frames)), Ok(()), "{setup:?}");
+    assert_eq!(judge(&judge_input(setup, clause.as_str(), &frames)), Ok(()), "{setup:?}");
     let case = Case::of(setup);
     assert_eq!((case.robots, case.columns, case.rows), (after.robots, after.columns, after.rows));
     assert_eq!((case.blocked.len(), case.walls.len()), (after.blocked, after.walls));

@@ -101,9 +101,9 @@ static PAIR: Profile = Profile {
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.
 fn store(path: &Path, layout: &Layout, start: Cell, limits: Limits) -> Report {
     let starts = [start; 2];
-    let aside = AtomicFile::new(path, &Replaceable::default()).expect("a place");
+    let file = AtomicFile::new(path, &Replaceable::default()).expect("a place");
     let clause = (limits.violation == OnViolation::Stop).then_some(ALONE);
-    let mut writer = Writer::new(aside, &Setup::named("pair", "eager", layout.clone(), &starts), clause)
+    let mut writer = Writer::new(file, &Setup::named("pair", "eager", layout.clone(), &starts), clause)
         .expect("a free cell");
     let report = run(&mut Pair::new(layout, start), layout, limits, &mut |made| {
         writer.add(made);

@@ -18,12 +18,12 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
     let published = json(folder, &[&hunt[..], &["--rule", "published", "--out", "found"]].concat(), 1);
     assert_eq!((&published["verdict"], &published["complete"]), (&"refuted".into(), &true.into()));
     let found = published["counterexamples"].as_array().expect("a list");
-    let collision = found.iter().find(|quarry| quarry["clause"] == "KIT-3").expect("robots meet");
+    let collision = found.iter().find(|finding| finding["clause"] == "KIT-3").expect("robots meet");
     assert_eq!(collision["steps"], 3);
-    let stored = || found.iter().filter_map(|quarry| Some((quarry, quarry["file"].as_str()?)));
-    for (quarry, file) in stored() {
+    let stored = || found.iter().filter_map(|finding| Some((finding, finding["file"].as_str()?)));
+    for (finding, file) in stored() {
         let replayed = printed(folder, &["replay", file], 1);
-        let clause = quarry["clause"].as_str().expect("an id");
+        let clause = finding["clause"].as_str().expect("an id");
         assert!(replayed.contains(&format!("{clause} is broken in team move")), "{replayed}");
         assert!(is_judged(&replayed, clause), "{replayed}");
     }
@@ -46,11 +46,11 @@ fn a_hunt_of_another_reading_stores_runs_that_break_it_again() {
     let hunt = ["hunt", "--scheme", "kit", "--robots", "2", "--size", "5x1", "--rule", "ahead"];
     let ahead = json(folder, &hunt, 1);
     let found = ahead["counterexamples"].as_array().expect("a list");
-    let cut = found.iter().find(|quarry| quarry["clause"] == "KIT-1").expect("robots lose contact");
+    let cut = found.iter().find(|finding| finding["clause"] == "KIT-1").expect("robots lose contact");
     assert_eq!(cut["steps"], 4);
-    for quarry in found {
-        let replayed = printed(folder, &["replay", quarry["file"].as_str().expect("a file")], 1);
-        let clause = quarry["clause"].as_str().expect("an id");
+    for finding in found {
+        let replayed = printed(folder, &["replay", finding["file"].as_str().expect("a file")], 1);
+        let clause = finding["clause"].as_str().expect("an id");
         assert!(is_judged(&replayed, clause), "{replayed}");
     }
     for command in [&["explore", "open:5x4"][..], &["hunt"]] {

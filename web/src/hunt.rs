@@ -22,7 +22,7 @@ use crate::settings::Settings;
 /// The bounds of a hunt; what is not given is the hunt's to choose.
 #[derive(Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub(crate) struct Quarry {
+pub(crate) struct HuntBounds {
     robots: Option<u64>,
     size: Option<[u64; 2]>,
     max_walls: Option<u32>,
@@ -54,12 +54,12 @@ pub(crate) enum Hunting {
 
 impl Hunting {
     /// The hunt of the rule of these settings, at its start, with the command that hunts so in a terminal.
-    pub(crate) fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
+    pub(crate) fn begin(settings: &Settings, bounds: HuntBounds) -> Result<(Self, Value), Diagnostic> {
         if let Some(search) = by_hand::hunt(settings) {
             let hunting = WorldHunt { settings: settings.clone(), search, budget: FIRST, last: None };
             return Ok((Self::World(Box::new(hunting)), json!({ "command": null })));
         }
-        let (hunting, begun) = RowHunt::begin(settings, quarry)?;
+        let (hunting, begun) = RowHunt::begin(settings, bounds)?;
         Ok((Self::Row(Box::new(hunting)), begun))
     }
 
@@ -139,7 +139,7 @@ fn too_many(made: u64) -> String {
 pub(crate) struct RowHunt {
     scheme: Scheme,
     settings: Settings,
-    quarry: Quarry,
+    bounds: HuntBounds,
     hunt: Box<dyn Hunt>,
     how: How,
     /// How far it is, in words.
@@ -168,7 +168,7 @@ impl Hunter for Listener<'_> {
 }
 
 impl RowHunt {
-    fn begin(settings: &Settings, quarry: Quarry) -> Result<(Self, Value), Diagnostic> {
+    fn begin(settings: &Settings, bounds: HuntBounds) -> Result<(Self, Value), Diagnostic> {
         let (scheme, rule) = (settings.scheme()?, settings.rule()?);
         let nothing =
             || Diagnostic::usage(format!("nothing is hunted of {}", scheme.name), "hunt another scheme");
@@ -179,7 +179,7 @@ impl RowHunt {
         let mut hunting = Self {
             scheme,
             settings: settings.clone(),
-            quarry,
+            bounds,
             hunt,
             how: How::Again(FIRST, None),
             far: String::new(),
@@ -195,7 +195,7 @@ impl RowHunt {
 
     /// The request, without a budget. The only option that a hunt takes is how far robots hear each other.
     fn asked(&self) -> Result<HuntRequest<'static>, Diagnostic> {
-        let Quarry { robots, size, max_walls, max_misses, max_losses, error } = self.quarry;
+        let HuntBounds { robots, size, max_walls, max_misses, max_losses, error } = self.bounds;
         let size = size.map(|[columns, rows]| Size::new(columns, rows)).transpose()?;
         let rule = self.settings.rule()?.name;
         let asked = HuntRequest { range_cells: self.range_cells()?, ..HuntRequest::new(self.scheme, rule) };
@@ -219,7 +219,7 @@ impl RowHunt {
         if self.settings.switched().is_some() {
             return None;
         }
-        let Quarry { robots, size, max_walls, max_misses, max_losses, error } = &self.quarry;
+        let HuntBounds { robots, size, max_walls, max_misses, max_losses, error } = &self.bounds;
         let mut command =
             format!("tautline hunt --scheme {} --rule {}", self.settings.scheme, self.settings.rule);
         let mut tell = |field: &str, value: Option<String>| {

@@ -23,7 +23,7 @@ use serde_json::{Value, json};
 use tautline_io::diagnostic::Diagnostic;
 
 use game::Game;
-use hunt::{Hunting, Quarry};
+use hunt::{HuntBounds, Hunting};
 pub use settings::Settings;
 
 /// A request of a page.
@@ -53,7 +53,7 @@ enum Request {
     /// The steps that robots cannot take next, and what refuses them.
     Refusals,
     /// Begins a hunt.
-    Hunt { settings: Settings, quarry: Quarry },
+    Hunt { settings: Settings, bounds: HuntBounds },
     /// Hunts a little further.
     Slice,
     /// The findings so far.
@@ -101,8 +101,8 @@ impl Page {
                 self.game.as_mut().ok_or_else(no_game)?.step(by_hand, &answers, steps)
             }
             Request::Refusals => self.game.as_ref().ok_or_else(no_game)?.refusals(),
-            Request::Hunt { settings, quarry } => {
-                let (hunting, begun) = Hunting::begin(&settings, quarry)?;
+            Request::Hunt { settings, bounds } => {
+                let (hunting, begun) = Hunting::begin(&settings, bounds)?;
                 self.hunting = Some(hunting);
                 Ok(begun)
             }

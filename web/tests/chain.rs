@@ -19,8 +19,8 @@ const OPEN: [&str; 5] = ["5a"; 5];
 /// All findings of a hunt of 3 or 4 robots with at most so many walls.
 fn hunted(settings: &Value, robots: u64, walls: u32) -> Value {
     let mut page = Page::default();
-    let quarry = json!({ "robots": robots, "max_walls": walls });
-    ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": quarry }));
+    let bounds = json!({ "robots": robots, "max_walls": walls });
+    ask(&mut page, &json!({ "do": "hunt", "settings": settings, "bounds": bounds }));
     while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
     ask(&mut page, &json!({ "do": "found" }))
 }
@@ -106,7 +106,7 @@ fn a_step_that_is_refused_names_the_condition() {
 #[test]
 fn a_bound_that_a_hunt_does_not_take_is_refused_in_the_words_of_the_hunt() {
     let settings = settings("published", &OPEN);
-    let hunt = json!({ "do": "hunt", "settings": settings, "quarry": { "robots": 3, "max_misses": 1 } });
+    let hunt = json!({ "do": "hunt", "settings": settings, "bounds": { "robots": 3, "max_misses": 1 } });
     let refused = Page::default().answer(&hunt.to_string());
     assert!(refused.contains("the robots of a chain have no floor sensors to miss"), "{refused}");
 }
@@ -115,7 +115,7 @@ fn a_bound_that_a_hunt_does_not_take_is_refused_in_the_words_of_the_hunt() {
 fn a_hunt_takes_the_range_that_is_chosen_and_refuses_what_it_does_not_look_at() {
     let mut settings = settings("published", &OPEN);
     settings["options"] = json!({ "loss": "0.5" });
-    let hunt = |settings: &Value| json!({ "do": "hunt", "settings": settings, "quarry": { "max_walls": 2 } });
+    let hunt = |settings: &Value| json!({ "do": "hunt", "settings": settings, "bounds": { "max_walls": 2 } });
     let refused = Page::default().answer(&hunt(&settings).to_string());
     assert!(refused.contains("no hunt looks at the option `loss`"), "{refused}");
     settings["options"] = json!({ "range": "2" });

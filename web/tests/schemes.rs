@@ -132,7 +132,7 @@ fn in_every_scheme_that_has_conditions_some_step_shows_what_one_of_them_does() {
 fn every_hunt_is_made_in_slices_and_its_findings_are_played() {
     let list = ask(&mut Page::default(), &json!({ "do": "schemes" }));
     let mut hunted = Vec::new();
-    for (name, rule, quarry) in [
+    for (name, rule, bounds) in [
         ("kit", "published", json!({ "robots": 2, "size": [2, 2] })),
         ("frontier", "published", json!({ "robots": 2, "size": [2, 2] })),
         ("ants", "published", json!({ "size": [3, 2] })),
@@ -142,7 +142,7 @@ fn every_hunt_is_made_in_slices_and_its_findings_are_played() {
         let scheme = schemes.iter().find(|scheme| scheme["name"] == name).expect("a scheme");
         let settings = settings(scheme, &json!({ "name": rule }));
         let mut page = Page::default();
-        ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": quarry }));
+        ask(&mut page, &json!({ "do": "hunt", "settings": settings, "bounds": bounds }));
         while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
         let found = ask(&mut page, &json!({ "do": "found" }));
         assert_eq!(found["complete"], true, "{name}");
@@ -186,8 +186,8 @@ fn an_agent_that_is_done_too_early_is_not_said_to_leave_no_cell() {
     let settings =
         json!({ "scheme": "mdfs", "rule": "published", "robots": 2, "ground": ["5a"], "base": [0, 0] });
     let mut page = Page::default();
-    let quarry = json!({ "robots": 2, "max_misses": 0 });
-    ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": quarry }));
+    let bounds = json!({ "robots": 2, "max_misses": 0 });
+    ask(&mut page, &json!({ "do": "hunt", "settings": settings, "bounds": bounds }));
     while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
     let found = ask(&mut page, &json!({ "do": "found" }));
     let found = found["found"].as_array().expect("a list");

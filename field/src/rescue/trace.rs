@@ -64,13 +64,13 @@ impl Last {
 }
 
 /// Writes a rescue.
-pub fn write(aside: &mut AtomicFile, setting: &Setting, seed: u64, report: &Report) {
+pub fn write(file: &mut AtomicFile, setting: &Setting, seed: u64, report: &Report) {
     let header = Header { format: FORMAT.to_owned(), version: VERSION, seed, setting: setting.clone() };
-    aside.append(line_of(&header));
+    file.append(line_of(&header));
     for logged in &report.log {
-        aside.append(line_of(logged));
+        file.append(line_of(logged));
     }
-    aside.append(line_of(&Last::of(report)));
+    file.append(line_of(&Last::of(report)));
 }
 
 /// Does the rescue that is stored at `path` again, and compares every line.

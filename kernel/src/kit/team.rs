@@ -1,6 +1,6 @@
 //! A team of robots that keep in touch: their records, where they are, and whose turn it is (Peiris, sections 3 and 4).
 
-use super::refused::{Misuse, SetupError};
+use super::refusals::{Misuse, SetupError};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
 use super::stance::{SEEN, Stance};
 use crate::choice::Oracle;

@@ -5,7 +5,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Step};
 use tautline_proofs::run::Frame;
 
 use super::joint::{Candidate, Joint};
-use super::known::Map;
+use super::knowledge::Map;
 use super::parameters::{Deadlock, Moves, ParameterError, Parameters, Search, Weights};
 use super::{full, pool};
 use tautline_grids::chance::Dice;

@@ -6,8 +6,8 @@
 //! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all teams get the same
 //! layouts and seeds. A run that goes on is ended after a number of agents' steps, and counted.
 
-mod drawn;
-mod printed;
+mod charts;
+mod text;
 
 use std::fmt;
 
@@ -342,12 +342,12 @@ impl Table for Agents {
             self.figure.teams().into_iter().enumerate().filter_map(line).collect::<Vec<_>>()
         };
         let lines: Vec<Line> = self.figure.points().into_iter().flat_map(lines_at).collect();
-        let paper = printed::of(self.figure, &lines);
+        let paper = text::of(self.figure, &lines);
         Ok(Summary { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, paper })
     }
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
-        Ok(printed::text(self.figure, merged))
+        Ok(text::text(self.figure, merged))
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
@@ -355,7 +355,7 @@ impl Table for Agents {
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
-        Ok(drawn::chart(self.figure, &merged.lines).svg())
+        Ok(charts::chart(self.figure, &merged.lines).svg())
     }
 }
 

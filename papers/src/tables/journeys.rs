@@ -10,7 +10,7 @@
 
 mod claims;
 mod density;
-mod drawn;
+mod pictures;
 mod text;
 mod world;
 
@@ -357,9 +357,9 @@ impl Table for Journeys {
 
     fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         match self.figure {
-            Figure::Ratios => Ok(drawn::chart(&merged.densities).svg()),
+            Figure::Ratios => Ok(pictures::chart(&merged.densities).svg()),
             Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles | Figure::Shapes => {
-                drawn::picture(&self.cases(settings)?, self.figure.drawn(), &merged.densities)
+                pictures::picture(&self.cases(settings)?, self.figure.drawn(), &merged.densities)
             }
         }
     }

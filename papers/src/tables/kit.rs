@@ -9,10 +9,10 @@
 //! unless it is asked for something else, and each drive is up to a tenth faster or slower; with equal speeds,
 //! robots as published may drive to and fro for ever.
 
-mod drawn;
+mod charts;
 mod lattice;
-mod printed;
 mod range;
+mod text;
 
 use std::num::NonZeroU32;
 
@@ -245,24 +245,24 @@ impl Table for Kit {
             lines.extend(TEAMS.into_iter().zip(&teams).map(|(team, all)| Line::of(family, team, all)));
             races.extend(RACES.map(|places| Race::of(family, places, places.map(|place| &teams[place][..]))));
         }
-        let paper = printed::of(self.figure, &lines, &races);
+        let paper = text::of(self.figure, &lines, &races);
         Ok(Summary { settings: *settings, lines, races, paper })
     }
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
-        Ok(printed::told(self.figure, settings, merged))
+        Ok(text::told(self.figure, settings, merged))
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
         let mut judged = paper::judged(&merged.paper);
         if self.figure == Figure::Time {
-            judged.extend(printed::directions(&merged.lines));
+            judged.extend(text::directions(&merged.lines));
         }
         judged
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {
-        Ok(drawn::chart(self.figure, &merged.lines).svg())
+        Ok(charts::chart(self.figure, &merged.lines).svg())
     }
 
     /// A repaired team always keeps in touch, and one or two of its robots drive every path.

@@ -2,14 +2,14 @@
 //! a result as well: beside every figure stands how many of the runs got there, and no mean is taken over those alone.
 //! Where not all did, the median counts the others as later than any.
 
-mod asked;
 mod claims;
 mod fig3;
+mod parameters;
 mod table1;
 
 use std::num::NonZeroU32;
 
-use self::asked::RivalSettings;
+use self::parameters::RivalSettings;
 use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};

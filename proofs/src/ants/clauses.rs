@@ -6,7 +6,7 @@ use tautline_kernel::ants::Rule;
 use tautline_kernel::floor::SensorFate::{Beside, Counted};
 
 use super::apart::{self, Apart, EntryRule, Pile};
-use super::{replaced, ties};
+use super::{replacement, ties};
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
@@ -88,8 +88,8 @@ const EXPLORES_APART: Floors<Infallible> =
     Floors::new(&[Series::missing(Area::blocked(3, 3), 1, 2)], Demand::Explores);
 
 const KEEPS: EveryAnswer<Rule> = EveryAnswer {
-    body: replaced::keeps,
-    range: replaced::pairs,
+    body: replacement::keeps,
+    range: replacement::pairs,
     covers: &["a missed sensor", "a sensor that is seen"],
 };
 
@@ -127,7 +127,7 @@ pub const CLAUSES: [Clause; 3] = [
             &Check::refuted(NamedRule::new("published", Rule::PUBLISHED), &KEEPS)
                 .under(&holding(READINGS, [0, 1]))
                 .of(&PAPER)
-                .judged(replaced::replacement),
+                .judged(replacement::replacement),
             &Check::holds(BESIDE, &KEEPS, LOST),
             &Check::holds(COUNTED, &KEEPS, LOST),
             &Check::holds(
@@ -141,7 +141,7 @@ pub const CLAUSES: [Clause; 3] = [
             ),
             &Check::refuted(NamedRule::new("repaired", Rule::Repaired), &KEEPS)
                 .because("the repair loses counts as well")
-                .judged(replaced::replacement),
+                .judged(replacement::replacement),
         ],
     },
 ];

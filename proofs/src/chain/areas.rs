@@ -10,8 +10,8 @@ use tautline_kernel::ground::Area;
 
 use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
-use super::observed::Subject;
 use super::search::{Findings as OfOne, Search, Unsearchable, search as search_one};
+use super::subject::Subject;
 use crate::engine::smallest::{Certificate, Class, ClassFindings, Most, areas, smallest};
 use crate::engine::tree::Watch;
 

@@ -5,9 +5,9 @@ use tautline_kernel::ground::{Area, Cell};
 
 use super::breach::Breach;
 use super::invariant::Invariant;
-use super::observed::Subject;
 use super::readings::starts;
-use super::whole;
+use super::subject::Subject;
+use super::whole_runs;
 use crate::decide::{Depiction, Evidence};
 use crate::engine::tree::{self, Limits};
 use crate::engine::{Choices, Until};
@@ -41,7 +41,7 @@ impl Bounds {
     /// The area of the paper for `robots`: (2N−1)² cells, the base in the middle, everything looked for that a run of
     /// its own can break.
     pub fn new(observed: Subject, robots: usize, max_walls: u32) -> Self {
-        let (area, base) = whole::area(robots);
+        let (area, base) = whole_runs::area(robots);
         Self {
             observed,
             robots,

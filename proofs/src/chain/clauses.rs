@@ -11,10 +11,10 @@ use super::breach::Breach;
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact, Coverage, Crowd, OfThree};
-use super::observed::{Deception, Subject};
 use super::readings::{LAST, PAPER, READINGS};
 use super::search::EveryLayout;
-use super::{crowd, optimum, pair, small, three, walk, whole};
+use super::subject::{Deception, Subject};
+use super::{crowd, optimum, pair, small, three, walk, whole_runs};
 use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::engine::smallest::Most;
@@ -152,7 +152,7 @@ pub(super) const NOT_HELD: NamedRule<Subject> = lacking(Subject::REEL, Hold);
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
 const SPIRALS: EveryAnswer<Subject> =
-    EveryAnswer { body: whole::spiral, range: whole::spirals, covers: &["an open area"] };
+    EveryAnswer { body: whole_runs::spiral, range: whole_runs::spirals, covers: &["an open area"] };
 
 const SOLVED: EveryAnswer<Subject> =
     EveryAnswer { body: optimum::least_in_the_open, range: optimum::solved, covers: &["an open area"] };
@@ -160,8 +160,8 @@ const SOLVED: EveryAnswer<Subject> =
 const SAME_PLAN: Check<Subject> = Check::holds(
     REPAIRED,
     &EveryAnswer {
-        body: whole::same_plan_in_all_layouts,
-        range: whole::layouts_with_few_walls,
+        body: whole_runs::same_plan_in_all_layouts,
+        range: whole_runs::layouts_with_few_walls,
         covers: &ENDS,
     },
     &[
@@ -174,9 +174,9 @@ const SAME_PLAN: Check<Subject> = Check::holds(
 );
 
 const SAME_PLAN_AT_RANDOM: RandomAnswers<Subject> = RandomAnswers {
-    body: whole::same_plan_in_random_layouts,
+    body: whole_runs::same_plan_in_random_layouts,
     runs: 100,
-    range: whole::random_layouts,
+    range: whole_runs::random_layouts,
     covers: &ENDS,
 };
 
@@ -188,7 +188,12 @@ const LAVISH: NamedRule<Subject> = NamedRule::new(
 
 const CHEAP: Check<Subject> = Check::new(
     REPAIRED,
-    &RandomAnswers { body: whole::cheap, runs: 44, range: whole::cheap_runs, covers: &["a longer run"] },
+    &RandomAnswers {
+        body: whole_runs::cheap,
+        runs: 44,
+        range: whole_runs::cheap_runs,
+        covers: &["a longer run"],
+    },
     Verdict::Unrefuted,
     &[NamedRule::new("the plain recursion", Subject::REPAIRED.deceiving(Deception::PlainRecursion))],
 );
@@ -196,9 +201,9 @@ const CHEAP: Check<Subject> = Check::new(
 const DEAR: Check<Subject> = Check::refuted(
     PUBLISHED,
     &RandomAnswers {
-        body: whole::cheap_among_few_walls,
+        body: whole_runs::cheap_among_few_walls,
         runs: 100,
-        range: whole::runs_among_few_walls,
+        range: whole_runs::runs_among_few_walls,
         covers: &["a longer run"],
     },
 );

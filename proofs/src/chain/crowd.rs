@@ -5,8 +5,8 @@ use tautline_kernel::chain::{Condition, Role};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Step};
 
-use super::observed::Subject;
 use super::pair::World;
+use super::subject::Subject;
 use crate::engine::{Outcome, assume, require};
 
 /// How many robots must not be in one cell.

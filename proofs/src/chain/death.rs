@@ -10,8 +10,8 @@ use tautline_kernel::ground::{Cell, Edge, Grid, Side, SmallGrid, Step};
 use super::breach::Breach;
 use super::environment::in_covered;
 use super::links::has_explored;
-use super::observed::Subject;
-use super::whole::{MANY, NO_MESSAGE, key, listed, start};
+use super::subject::Subject;
+use super::whole_runs::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
 
 /// Robots, and most walls, of [`in_few_walls`].

@@ -6,8 +6,8 @@ use tautline_kernel::ground::{Area, Cell};
 use super::areas::{Smallest, smallest_run};
 use super::bounds::{Bounds, Counterexample};
 use super::invariant::Invariant;
-use super::observed::Subject;
 use super::search::replay;
+use super::subject::Subject;
 use crate::decide::{
     self, Answer, Context, DrawnCertificate, Evidence, Method, MethodError, MethodResult, RefutationPlay,
     Verdict,

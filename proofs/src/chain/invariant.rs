@@ -7,9 +7,9 @@ use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step}
 
 use super::breach::Breach;
 use super::environment::{in_covered, in_safe};
-use super::observed::Subject;
 use super::plain_reel::{Map, PlainReel};
 use super::plain_walk::walk;
+use super::subject::Subject;
 use crate::engine::{Stop, require};
 
 /// One team move, with the chain in its three states.

@@ -12,9 +12,9 @@ use tautline_kernel::chain::Rule;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::Cell;
 
-use super::observed::Subject;
 use super::reach::{CellSet, Followers, Ground, Relation, TooLarge};
-use super::whole;
+use super::subject::Subject;
+use super::whole_runs;
 use crate::engine::{Outcome, Stop, require};
 
 /// Most configurations of a team that is solved for.
@@ -400,7 +400,7 @@ const SOLVED: RangeInclusive<u32> = 2..=6;
 
 /// The bound of [`least_in_the_open`], in words.
 pub fn solved() -> String {
-    format!("{}, solved by A*", whole::chains(&SOLVED))
+    format!("{}, solved by A*", whole_runs::chains(&SOLVED))
 }
 
 /// CHAIN-10, without its argument: the fewest team moves for the (2N−1)² cells.
@@ -408,8 +408,8 @@ pub fn solved() -> String {
 /// # Errors
 /// [`Stop::Violated`] if they are not 9(N−1)−1.
 pub fn least_in_the_open(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
-    let robots = whole::within(&SOLVED, oracle) as usize;
-    let (area, base) = whole::area(robots);
+    let robots = whole_runs::within(&SOLVED, oracle) as usize;
+    let (area, base) = whole_runs::area(robots);
     let ground = Ground::new(area, base, robots, |_| true).ok_or(Stop::Assumed)?;
     let goals = ground.reachable(&observed.rule).map_err(|_| UNSOLVED)?;
     require(goals.len() == area.cells().count(), "all cells can be reached")?;

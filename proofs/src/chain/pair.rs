@@ -8,7 +8,7 @@ use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Circle, Edge, Step};
 
 use super::breach::stays_in_range;
-use super::observed::Subject;
+use super::subject::Subject;
 use crate::engine::{Outcome, Stop, assume, outcomes, require};
 
 /// The state of an edge that a robot plans to cross.

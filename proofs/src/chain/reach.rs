@@ -30,7 +30,7 @@ pub(super) mod tests {
     use super::cells::cells_of;
     use super::{CellSet, Ground, TooLarge};
     use crate::chain::links::within_reach;
-    use crate::chain::whole;
+    use crate::chain::whole_runs;
     use crate::engine::SeededOracle;
 
     const RULES: [Rule; 7] = [
@@ -45,7 +45,7 @@ pub(super) mod tests {
 
     /// The area of the paper, with the walls that `is_wall` says.
     pub(crate) fn ground(robots: usize, is_wall: impl Fn(Edge) -> bool) -> Ground {
-        let (area, base) = whole::area(robots);
+        let (area, base) = whole_runs::area(robots);
         Ground::new(area, base, robots, |edge| !is_wall(edge)).expect("a base inside")
     }
 
@@ -63,7 +63,7 @@ pub(super) mod tests {
 
     /// All 4096 of them.
     pub(crate) fn layouts_of_two_robots() -> impl Iterator<Item = Ground> {
-        let edges: Vec<Edge> = whole::area(2).0.edges().collect();
+        let edges: Vec<Edge> = whole_runs::area(2).0.edges().collect();
         (0..1_u32 << edges.len()).map(move |walls| {
             ground(2, |edge| {
                 edges.iter().position(|&one| one == edge).is_some_and(|place| walls >> place & 1 == 1)
@@ -188,7 +188,7 @@ pub(super) mod tests {
     fn more_robots_reach_what_plain_search_says_in_random_layouts() {
         let mut oracle = SeededOracle::new(0, 0);
         let mut next = |robots, walls_percent| {
-            let (area, base) = whole::area(robots);
+            let (area, base) = whole_runs::area(robots);
             random(robots, area, base, &mut oracle, walls_percent)
         };
         for (robots, layouts, rules) in [(3, 60, &RULES[..]), (4, 6, &RULES[..2])] {

@@ -4,7 +4,7 @@
 use tautline_kernel::conditions;
 use tautline_kernel::ground::Cell;
 
-use super::observed::Subject;
+use super::subject::Subject;
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 

@@ -8,8 +8,8 @@ use tautline_kernel::ground::{CompactGrid, LargeGrid, MediumGrid, SmallGrid, Tin
 pub use super::bounds::{Bounds, Counterexample};
 use super::game::ChainGame;
 use super::invariant::Invariant;
-use super::observed::Subject;
 use super::plain_game::PlainGame;
+use super::subject::Subject;
 
 use crate::decide::{self, Answer, Context, Method, RefutationPlay, Systems};
 use crate::engine::tree::{self, AllRuns, Progress, Tree, Watch, Waves};
@@ -224,8 +224,8 @@ impl Method<Subject> for EveryLayout {
             Until::Exhausted => all,
             Until::Violation => Bounds { invariants: vec![self.0], until, ..all },
         };
-        let Context { memory, watch, .. } = context;
-        let found = memory.recall(bounds.clone(), |bounds| search(bounds, *watch));
+        let Context { cache, watch, .. } = context;
+        let found = cache.recall(bounds.clone(), |bounds| search(bounds, *watch));
         let found = found.map_err(decide::MethodError::new)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == self.0);
         let evidence = broken.map(|found| bounds.evidence(found));

@@ -6,7 +6,7 @@ use tautline_kernel::chain::{Message, Move, Outcome as StepOutcome};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Step};
 
-use super::observed::Subject;
+use super::subject::Subject;
 use crate::engine::{Outcome, assume, require};
 
 /// Values of a byte.

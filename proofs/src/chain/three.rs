@@ -6,8 +6,8 @@ use tautline_kernel::chain::{Condition, Move, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Circle, Step};
 
-use super::observed::Subject;
 use super::pair::{self, World};
+use super::subject::Subject;
 use crate::engine::{Outcome, assume, require};
 
 /// How many columns and rows R_2 is looked at from the base, and R_3 from R_2.

@@ -6,7 +6,7 @@ use tautline_kernel::chain::{Move, Role, goes_on};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Cell, Side, Step};
 
-use super::observed::Subject;
+use super::subject::Subject;
 use crate::engine::{Outcome, assume, require};
 
 /// R_i and R_{i+1} on the walk. Cells are counted along it, from the cell of R_i on.

@@ -8,17 +8,17 @@
 //! Besides, of each state the one is kept from which it was first found, and where endless runs are looked for, the
 //! steps that are bound to be made. A run is given by the numbers of its steps, each among all steps from its state.
 
+mod certificate;
+mod chunk;
 mod code;
-mod exhausted;
 mod graph;
-mod known;
 mod limits;
 mod queue;
 mod rounds;
 mod search;
 mod spill;
+mod state_table;
 mod tables;
-mod together;
 mod walk;
 
 use std::collections::VecDeque;
@@ -26,11 +26,11 @@ use std::hash::Hash;
 use std::ops::ControlFlow;
 use std::{fmt, iter, mem};
 
-pub use exhausted::{AnySystem, NoCertificate};
-pub use limits::{Limits, MemoryLimit, Room};
+pub use certificate::{AnySystem, NoCertificate};
+pub use chunk::{MOST as MOST_AT_ONCE, pieces};
+pub use limits::{Limits, Memory, MemoryLimit};
 pub use search::{search, watched};
 pub use spill::{Create, HEAD, PART, Spill, SpillError, SpillFault, WHOLE};
-pub use together::{MOST as MOST_AT_ONCE, pieces};
 pub use walk::{walk, without_detours};
 
 use super::bodies::Odometer;
@@ -251,8 +251,8 @@ pub(crate) fn first_states<S: System>(
     let next = move || {
         making.next();
         let state = ahead.pop_front()?;
-        let room = TRIED.saturating_sub(ahead.len());
-        ahead.extend(steps(system, &state).map(|step| step.state).take(room));
+        let left = TRIED.saturating_sub(ahead.len());
+        ahead.extend(steps(system, &state).map(|step| step.state).take(left));
         Some(state)
     };
     iter::from_fn(next).take(TRIED)

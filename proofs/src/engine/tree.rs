@@ -15,9 +15,9 @@
 //!
 //! Whoever implements [`Game`] has all of this: levels, threads, resuming, replaying. What is here knows no scheme.
 
+mod certificate;
 mod count;
 mod deal;
-mod exhausted;
 mod forecast;
 mod lane;
 mod search;
@@ -30,8 +30,8 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
+pub use self::certificate::AllRuns;
 pub use self::deal::Deal;
-pub use self::exhausted::AllRuns;
 pub use self::search::{Position, Tree, Waves, search};
 use super::Until;
 use super::world::{Turn, World};

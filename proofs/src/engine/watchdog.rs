@@ -1,5 +1,5 @@
 //! The watchdog over steps. Code under test may loop for ever inside one step: a team move, a case of a body, the steps
-//! from a state, a look at a lot. No engine gets the control back then, and no thread can be ended by another one. So
+//! from a state, a case. No engine gets the control back then, and no thread can be ended by another one. So
 //! each thread counts the steps that it makes, and whoever waits for its work looks at the counts once a second. A task
 //! is *silent* while one of its threads is inside a step and none of them begins another one. A task that is silent for
 //! too long is given up, and its thread is left behind.

@@ -4,8 +4,8 @@
 use tautline_kernel::conditions;
 use tautline_kernel::ground::{Area as Rect, Cell};
 
-use super::look::Report;
 use super::plans::{Area, FloorPlan};
+use super::search::Report;
 use super::small::StateOf;
 use super::team::{Demand, Demands, Series, Team, Turns};
 use crate::ambiguity::Charity::{Charitable, Literal};
@@ -254,14 +254,14 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
     /// Looks at the demands of several clauses on the same floors in one pass. Where something is broken there, each
     /// clause looks for its own first violation.
     fn decide(&self, subject: &Subject<S>, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
-        let limits = Limits { room: context.room, ..Limits::NONE };
+        let limits = Limits { memory: context.memory, ..Limits::NONE };
         let shown = Method::<Subject<S>>::shows(self);
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
             return Ok(self.explore(subject, (limits, until)).answer(shown));
         };
         let key = (together, *subject);
         let report: Result<&Report, MethodError> =
-            context.memory.recall(key, |(floors, subject)| Ok(floors.explore(subject, (limits, until))));
+            context.cache.recall(key, |(floors, subject)| Ok(floors.explore(subject, (limits, until))));
         let report = report?.clone();
         let is_kept = report.tally.violation.is_none();
         Ok(if is_kept { report } else { self.explore(subject, (limits, until)) }.answer(shown))

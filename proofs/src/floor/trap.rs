@@ -18,7 +18,7 @@ use tautline_kernel::ground::Cell;
 use super::crew::{Scheme, SensorData, Sight};
 use super::plans::{CELLS, FloorPlan, blocked};
 use super::small::{Misses, PartOf, Small, StateOf};
-use crate::engine::lots::{self, Lots};
+use crate::engine::cases::{self, Cases};
 use crate::engine::states::{Bits, Limits, Places, Run, System, search};
 use crate::engine::world::{Turn, World};
 
@@ -104,7 +104,7 @@ pub fn hunt<S: Scheme>(
     bounds: &Bounds<S>,
     watch: &mut dyn FnMut(&TrapReport) -> ControlFlow<()>,
 ) -> TrapReport {
-    match lots::search(bounds, bounds.budget_steps, watch) {
+    match cases::search(bounds, bounds.budget_steps, watch) {
         Ok((report, is_complete)) => report.ended(is_complete),
     }
 }
@@ -112,10 +112,10 @@ pub fn hunt<S: Scheme>(
 /// Layouts of one area, and the sensors that are missed in each at most.
 pub type Stage = (u8, (i16, i16));
 
-impl<S: Scheme> Lots for Bounds<S> {
+impl<S: Scheme> Cases for Bounds<S> {
     type Stage = Stage;
-    type Lot = FloorPlan;
-    type Look = Look;
+    type Case = FloorPlan;
+    type Outcome = LayoutOutcome;
     type Findings = TrapReport;
     type Error = Infallible;
 
@@ -129,7 +129,7 @@ impl<S: Scheme> Lots for Bounds<S> {
         (0..=self.max_misses).flat_map(|misses| areas.iter().map(move |&area| (misses, area))).collect()
     }
 
-    fn lots(&self, (_, (width, height)): Stage) -> Result<Vec<FloorPlan>, Infallible> {
+    fn cases(&self, (_, (width, height)): Stage) -> Result<Vec<FloorPlan>, Infallible> {
         Ok(blocked(width, height).collect())
     }
 
@@ -138,18 +138,23 @@ impl<S: Scheme> Lots for Bounds<S> {
         u64::from(plan.free.count_ones()).saturating_pow(self.agents + 2 * u32::from(misses) + 1)
     }
 
-    fn look(&self, (misses, _): Stage, plan: &FloorPlan, most_steps: u64) -> Result<Look, Infallible> {
+    fn examine(
+        &self,
+        (misses, _): Stage,
+        plan: &FloorPlan,
+        most_steps: u64,
+    ) -> Result<LayoutOutcome, Infallible> {
         let floors = Floors { scheme: self.scheme, plan: *plan, misses };
-        Ok(floors.look(self.agents, most_steps.min(MAX_STEPS)))
+        Ok(floors.examine(self.agents, most_steps.min(MAX_STEPS)))
     }
 
-    fn add(&self, report: &mut TrapReport, _: &FloorPlan, look: Look) -> Result<(), Infallible> {
+    fn add(&self, report: &mut TrapReport, _: &FloorPlan, outcome: LayoutOutcome) -> Result<(), Infallible> {
         report.layouts += 1;
-        report.states += look.states;
-        report.steps += look.steps;
+        report.states += outcome.states;
+        report.steps += outcome.steps;
         let is_smaller =
             |trap: &Trap| report.trap.as_ref().is_none_or(|smallest| trap.moves < smallest.moves);
-        report.trap = look.trap.filter(is_smaller).or(report.trap.take());
+        report.trap = outcome.trap.filter(is_smaller).or(report.trap.take());
         Ok(())
     }
 
@@ -171,7 +176,7 @@ impl TrapReport {
 /// The outcome of a search of one layout.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Look {
+pub struct LayoutOutcome {
     /// States of agents and floors.
     pub states: u64,
     /// Team moves.
@@ -182,7 +187,7 @@ pub struct Look {
     pub trap: Option<Trap>,
 }
 
-impl lots::Look for Look {
+impl cases::Outcome for LayoutOutcome {
     fn steps(&self) -> u64 {
         self.steps
     }
@@ -214,12 +219,12 @@ struct TeamMove {
 }
 
 impl<S: Scheme> Floors<S> {
-    /// Looks at every start.
-    fn look(&self, agents: u32, most_steps: u64) -> Look {
+    /// The outcome from every start.
+    fn examine(&self, agents: u32, most_steps: u64) -> LayoutOutcome {
         let starts: Vec<Vec<Cell>> = self.plan.starts(agents).collect();
         let found = search(self, starts.iter().map(|cells| self.start(cells)), Limits::steps(most_steps));
         let trap = found.broken.first().map(|run| self.trap(&starts, run));
-        Look { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
+        LayoutOutcome { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
     }
 
     fn start(&self, cells: &[Cell]) -> StateOf<S> {

@@ -282,14 +282,14 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     ///
     /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
     fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
-        let limits = Limits { room: context.room, ..Limits::NONE };
+        let limits = Limits { memory: context.memory, ..Limits::NONE };
         let answer = |found: &Findings<Demand>, evidence| {
             let is_covered = self.covers.iter().all(|situation| found.covered.contains(situation));
             Answer::new(evidence, found.is_whole && is_covered, Method::<Rule>::shows(self), found.states)
         };
         if until == Until::Exhausted {
             let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, self.max_small, *rule);
-            let (found, _) = context.memory.recall(asked, |_| self.look(rule, None, limits))?;
+            let (found, _) = context.cache.recall(asked, |_| self.look(rule, None, limits))?;
             if found.broken.is_empty() {
                 return Ok(answer(found, None));
             }

@@ -9,7 +9,7 @@ use tautline_kernel::frontier::{Basis, Occupancy, Rule};
 use super::areas::{Areas, Size};
 use super::detour::{self, Round};
 use super::drift::{self, Drift, PARTS};
-use super::fused::{self, FusedBudget, StandingRobot};
+use super::fusion::{self, FusedBudget, StandingRobot};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
@@ -353,8 +353,8 @@ pub const CLAUSES: [Clause; 12] = [
         checks: &[&Check::holds(
             NamedRule::new("repaired", FusedBudget::FUSED),
             &EveryAnswer {
-                body: fused::stays,
-                range: fused::errors,
+                body: fusion::stays,
+                range: fusion::errors,
                 covers: &["a fix that is believed", "a fix that is weighed"],
             },
             &[
@@ -371,8 +371,8 @@ pub const CLAUSES: [Clause; 12] = [
         checks: &[&Check::holds(
             NamedRule::new("repaired", StandingRobot::REPAIRED),
             &EveryAnswer {
-                body: fused::is_sure_again,
-                range: fused::stops,
+                body: fusion::is_sure_again,
+                range: fusion::stops,
                 covers: &["it moves on", "it stands"],
             },
             &[

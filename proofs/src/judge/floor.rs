@@ -12,7 +12,7 @@ pub use super::{Objection, Place};
 
 /// A counterexample, written down.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Exhibit {
+pub struct JudgeInput {
     /// The clause that it is said to break.
     pub clause: &'static str,
     /// Columns of the layout.
@@ -42,7 +42,7 @@ pub struct Turn {
     pub is_done: bool,
 }
 
-/// The judgement of an exhibit in which everything is possible.
+/// The judgement of a run in which everything is possible.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Judgement {
     /// The clause is broken.
@@ -51,20 +51,20 @@ pub enum Judgement {
     Unseen,
 }
 
-/// Judges an exhibit: whether every turn is possible in its layout, and whether the last one, and no earlier one,
+/// Judges a run: whether every turn is possible in its layout, and whether the last one, and no earlier one,
 /// breaks the clause; or whether it is broken by how the run ends, or by going round for ever.
 ///
 /// # Errors
 /// The first [`Objection`].
-pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
-    let Exhibit { clause, starts, turns, round, .. } = exhibit;
+pub fn judge(input: &JudgeInput) -> Result<Judgement, Objection> {
+    let JudgeInput { clause, starts, turns, round, .. } = input;
     if starts.is_empty() || turns.is_empty() || *round > turns.len() {
         return Err("a counterexample needs an agent and its turns".into());
     }
-    if !starts.iter().all(|&start| exhibit.is_free(start)) {
+    if !starts.iter().all(|&start| input.is_free(start)) {
         return Err("an agent starts where there is no free cell".into());
     }
-    let due = exhibit.connected();
+    let due = input.connected();
     let mut court =
         Court { places: starts.clone(), done: vec![false; starts.len()], explored: BTreeSet::new() };
     court.explored.extend(starts);
@@ -75,7 +75,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
             before = Some(court.clone());
         }
         moves += usize::from(court.places.get(turn.agent).is_some_and(|&from| from != turn.to));
-        court.hear(exhibit, turn).map_err(|what| Objection { at: index + 1, what })?;
+        court.hear(input, turn).map_err(|what| Objection { at: index + 1, what })?;
         acting.extend((index >= home).then_some(turn.agent));
         let is_early = turn.is_done && !due.is_subset(&court.explored);
         let is_broken = match *clause {
@@ -113,7 +113,7 @@ pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
     }
 }
 
-impl Case for Exhibit {
+impl Case for JudgeInput {
     fn clause(&self) -> &'static str {
         self.clause
     }
@@ -128,7 +128,7 @@ impl Case for Exhibit {
     }
 }
 
-impl Exhibit {
+impl JudgeInput {
     fn is_free(&self, place: Place) -> bool {
         let (x, y) = place;
         (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&place)
@@ -167,13 +167,13 @@ struct Court {
 }
 
 impl Court {
-    fn hear(&mut self, exhibit: &Exhibit, turn: &Turn) -> Result<(), &'static str> {
+    fn hear(&mut self, input: &JudgeInput, turn: &Turn) -> Result<(), &'static str> {
         let &Turn { agent, to, is_done } = turn;
         let Some(&from) = self.places.get(agent) else { return Err("there is no such agent") };
         if self.done[agent] {
             return Err("an agent acts that is done");
         }
-        if to != from && !exhibit.is_open(from, to) {
+        if to != from && !input.is_open(from, to) {
             return Err("an agent goes where it cannot go");
         }
         if is_done && to != from {

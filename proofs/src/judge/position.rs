@@ -148,7 +148,7 @@ fn apart((x, y): Place, other: Place) -> f64 {
 
 impl Second {
     /// The sum of the squared residuals, in square millimetres.
-    fn misfit(&self, at: Place) -> f64 {
+    fn residual(&self, at: Place) -> f64 {
         let misses = self.anchors.iter().zip(self.distances);
         misses.map(|(&anchor, far)| (f64::from(far) - apart(anchor, at)).powi(2)).sum()
     }
@@ -156,7 +156,7 @@ impl Second {
     /// Whether no place beside it fits better.
     fn is_minimum(&self, (x, y): Place) -> bool {
         let beside = (-1..=1).flat_map(|column| (-1..=1).map(move |row| (x + column, y + row)));
-        beside.into_iter().all(|place| self.misfit(place) >= self.misfit((x, y)))
+        beside.into_iter().all(|place| self.residual(place) >= self.residual((x, y)))
     }
 }
 
@@ -177,6 +177,6 @@ impl Case for Second {
         must(told.iter().all(|&place| apart(place, other) > ONE_MM), "the other position is told")?;
         let errors = distances.map(|far| (f64::from(far) * f64::from(noise) / 1e6).powi(2));
         let alike = 3.84 * errors.iter().sum::<f64>() / 3.0;
-        Ok(must((self.misfit(other) - self.misfit(best)).abs() <= alike, "the two do not fit alike")?)
+        Ok(must((self.residual(other) - self.residual(best)).abs() <= alike, "the two do not fit alike")?)
     }
 }

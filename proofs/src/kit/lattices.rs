@@ -150,11 +150,11 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
     fn decide(&self, rule: &Rule, until: Until, context: &mut Context<'_, '_>) -> MethodResult {
-        let limits = Limits { room: context.room, ..Limits::NONE };
+        let limits = Limits { memory: context.memory, ..Limits::NONE };
         if self.pass == Pass::Together && until == Until::Exhausted {
             let key = (self.family(rule), *rule);
             let kept: Result<&(Findings<Demand>, FirstBreach<ROBOTS>), MethodError> =
-                context.memory.recall(key, |_| Ok(self.look(rule, None, (until, limits))));
+                context.cache.recall(key, |_| Ok(self.look(rule, None, (until, limits))));
             if let (looked, None) = kept? {
                 return Ok(self.answer(looked, None));
             }

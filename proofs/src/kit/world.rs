@@ -2,8 +2,8 @@
 //! it turns, whether it sees another one, and whether a side is blocked, are choices. What the clauses demand is in
 //! plain arithmetic here; of the kernel's rule only what robots do is used.
 
-mod broken;
 mod turns;
+mod violations;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};

@@ -50,7 +50,7 @@ pub type Hear = Arc<dyn Fn(News<'_>) -> ControlFlow<()> + Send + Sync>;
 #[derive(Clone, Debug)]
 pub struct Limits {
     /// The memory that searches over states may take together.
-    pub room: Arc<MemoryLimit>,
+    pub memory: Arc<MemoryLimit>,
     /// Seconds that one step may take: a team move, a case of a body, a step between states. They are far more than any
     /// step takes that ends, on any machine.
     pub patience_s: u32,
@@ -61,7 +61,7 @@ pub const PATIENCE_S: u32 = 60;
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { room: Arc::new(MemoryLimit::unbounded()), patience_s: PATIENCE_S }
+        Self { memory: Arc::new(MemoryLimit::unbounded()), patience_s: PATIENCE_S }
     }
 }
 
@@ -171,11 +171,11 @@ impl SharedState {
         let send = |told| drop(tell.send(told));
         let work = || {
             let job = &jobs[number];
-            let memory = &mut Cache::default();
+            let cache = &mut Cache::default();
             let watch = &mut |progress: &Progress<'_>| (self.hear)(News::Search(progress));
             for &question in &job.questions {
                 let words = question.words(&self.checks);
-                let mut context = Context { memory, watch, room: self.limits.room.asked(&words) };
+                let mut context = Context { cache, watch, memory: self.limits.memory.asked(&words) };
                 match job.answer(question, &self.checks, &mut context) {
                     Ok(answer) => {
                         let (variant, seconds) = (question.variant(&self.checks), task.spent().as_secs_f64());

@@ -8,12 +8,12 @@
 //! many.
 
 mod action;
-mod broken;
 mod demand;
 mod next;
 mod parts;
 mod setting;
 mod turn;
+mod violations;
 
 use std::mem;
 

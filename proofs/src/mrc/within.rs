@@ -54,9 +54,9 @@ impl Method<Subject> for Within {
             Until::Exhausted => space::Until::Exhausted,
             Until::Violation => space::Until::Broken(demand),
         };
-        let limits = Limits { room: context.room, ..Limits::steps(MOST_STEPS) };
+        let limits = Limits { memory: context.memory, ..Limits::steps(MOST_STEPS) };
         let found: Result<&space::Findings, MethodError> = context
-            .memory
+            .cache
             .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, limits)));
         let found = found?;
         let evidence = found.broken(demand).map(|broken| Self::evidence(&setting, broken));

@@ -321,7 +321,7 @@ impl Method<Subject> for Networks {
             Until::Violation => None,
             Until::Exhausted => {
                 let shown: Result<&Vec<Findings>, MethodError> =
-                    context.memory.recall(*observed, |observed| Ok(show(observed)));
+                    context.cache.recall(*observed, |observed| Ok(show(observed)));
                 self.kept(observed, shown?)
             }
         };

@@ -6,9 +6,9 @@ use tautline_kernel::pack::{Condition, Rule};
 use super::floors::{Bounds, Drawing, Floors, Size, Starts};
 use super::gains::Gains;
 use super::local;
-use super::played::{Demand, SITUATIONS};
 use super::rays::{self, Rays};
 use super::readings::{Flaw, PAPER, READINGS, Subject};
+use super::run::{Demand, SITUATIONS};
 use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::EveryAnswer;
 use crate::local::EveryNumber;
@@ -239,8 +239,8 @@ mod tests {
 
     #[test]
     fn under_every_reading_of_the_gain_robots_keep_apart_go_step_by_step_and_end() {
-        let (memory, watch) = (&mut Cache::default(), &mut unwatched);
-        let mut context = Context { memory, watch, room: MemoryLimit::any() };
+        let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+        let mut context = Context { cache, watch, memory: MemoryLimit::any() };
         for (name, subject) in READINGS {
             for asked in [Demand::Single, Demand::Free, Demand::Ends] {
                 let found = demand(OF_FEW, asked).decide(&subject, Until::Exhausted, &mut context);

@@ -4,8 +4,8 @@
 use tautline_kernel::ground::{Area, Cell, neighbours};
 
 use super::gains::Gains;
-use super::played::{Demand, Floor, RunOutcome, play, story};
 use super::readings::{Subject, place};
+use super::run::{Demand, Floor, RunOutcome, play, story};
 use crate::decide::{
     self, Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
     RefutationPlay, Verdict,
@@ -275,7 +275,7 @@ impl Method<Subject> for Floors {
         let once;
         let found = match until {
             Until::Exhausted => {
-                context.memory.recall((self.bounds, *subject), |_| self.bounds.search(subject, None))?
+                context.cache.recall((self.bounds, *subject), |_| self.bounds.search(subject, None))?
             }
             Until::Violation => {
                 once = self.bounds.search(subject, Some(self.demand))?;

@@ -4,7 +4,7 @@
 use tautline_kernel::ground::Cell;
 use tautline_kernel::pack::Rule;
 
-use super::played::Floor;
+use super::run::Floor;
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::judge::pack::{Metric, Run};

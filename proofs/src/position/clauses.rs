@@ -1,12 +1,12 @@
 //! The clauses of POSITION, in the order of `SPEC.md`.
 
 use super::belief::{self, Takes};
-use super::broken;
 use super::lattice;
 use super::minima;
-use super::refused;
+use super::refusals;
 use super::swarm::{self, Best, Conduct};
 use super::way::{self, Way};
+use super::wrong_ways;
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, holding};
@@ -65,19 +65,19 @@ const EXACT: EveryAnswer<Way> = EveryAnswer {
 };
 
 const INEXACT: [NamedRule<Way>; 2] = [
-    NamedRule::new("each anchor takes the distance of the next", broken::exchanged),
-    NamedRule::new("the last distance is that of the first", broken::without_the_last),
+    NamedRule::new("each anchor takes the distance of the next", wrong_ways::exchanged),
+    NamedRule::new("the last distance is that of the first", wrong_ways::without_the_last),
 ];
 
 const REFUSES: EveryAnswer<Way> = EveryAnswer {
-    body: refused::is_refused_or_told,
-    range: refused::numbers,
+    body: refusals::is_refused_or_told,
+    range: refusals::numbers,
     covers: &["refused for want of anchors or numbers", "told"],
 };
 
 const CREDULOUS: [NamedRule<Way>; 2] = [
-    NamedRule::new("nobody looks at what is divided by", broken::unchecked),
-    NamedRule::new("a distance that is no number is 0", broken::lenient),
+    NamedRule::new("nobody looks at what is divided by", wrong_ways::unchecked),
+    NamedRule::new("a distance that is no number is 0", wrong_ways::lenient),
 ];
 
 const MIRRORED: EveryAnswer<Way> = EveryAnswer {
@@ -93,8 +93,8 @@ const FOLLOWS_TWO: EveryAnswer<Way> =
     EveryAnswer { body: lattice::follows, range: lattice::moves, covers: &["one position", "two positions"] };
 
 const UNMOVED: [NamedRule<Way>; 2] = [
-    NamedRule::new("places are told from the first anchor", broken::from_the_first),
-    NamedRule::new("distances along y count twice", broken::stretched),
+    NamedRule::new("places are told from the first anchor", wrong_ways::from_the_first),
+    NamedRule::new("distances along y count twice", wrong_ways::stretched),
 ];
 
 const COARSE: EveryAnswer<Conduct> = EveryAnswer {
@@ -164,11 +164,15 @@ pub const CLAUSES: [Clause; 7] = [
         id: "POSITION-3",
         sentence: "Two positions that fit alike MUST both be told.",
         checks: &[
-            &Check::holds(METRES, &MIRRORED, &[NamedRule::new("the better one alone", broken::better_alone)]),
+            &Check::holds(
+                METRES,
+                &MIRRORED,
+                &[NamedRule::new("the better one alone", wrong_ways::better_alone)],
+            ),
             &Check::holds(
                 DECIBELS,
                 &MIRRORED,
-                &[NamedRule::new("the better one alone", broken::better_level_alone)],
+                &[NamedRule::new("the better one alone", wrong_ways::better_level_alone)],
             ),
             &Check::refuted(
                 METRES,

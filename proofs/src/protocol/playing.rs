@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use tautline_kernel::choice::Oracle;
 
-use super::erased::{AnyProtocol, MoveWords, StateBytes, TypedProtocol};
+use super::any_protocol::{AnyProtocol, MoveWords, StateBytes, TypedProtocol};
 use super::{Demand, Protocol, Surroundings, beside};
 use crate::decide::{Depiction, Evidence, MethodError};
 use crate::engine::states::{self, Bits, Ending, Findings, Limits, Run, Scratch, Step, System, Unsound};

@@ -11,8 +11,8 @@ use tautline_proofs::demands;
 use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
+use crate::arguments::{List, entries};
 use crate::diagnostic::{Kind, error};
-use crate::given::{List, entries};
 use crate::script::{Script, attribute, attribute_of, held, kept, shown, word};
 
 /// Different words of moves that a rule may have, which are kept as long as the process.

@@ -7,7 +7,7 @@ use tautline_proofs::team::{
     Act, Cover, Demand, Ground, Places, Rule, Scene, Senses, Setting, TeamStep, View, Which,
 };
 
-use super::written::{Cells, MAX_ROBOTS, Move, RuleScript, WallHits, When};
+use super::python_rule::{Cells, MAX_ROBOTS, Move, RuleScript, WallHits, When};
 
 /// The rule, asked as a robot asks it.
 #[derive(Clone)]
@@ -95,7 +95,7 @@ impl<'a> Questions<'a> {
     }
 
     pub(super) fn demands(&'a self, written: &RuleScript) -> Vec<Demand<'a, PythonRule>> {
-        let demand = |(number, demand): (usize, &super::written::Demand)| {
+        let demand = |(number, demand): (usize, &super::python_rule::Demand)| {
             let (id, words) = (demand.clause.as_str(), demand.words);
             match demand.when {
                 When::Always(_) => Demand::always(id, words, &*self.of_moves[number]),

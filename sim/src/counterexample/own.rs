@@ -33,8 +33,8 @@ impl<R: Rule> OwnRun<'_, R> {
         let limits = Limits::stopping_at(clause);
         let (layout, starts) = layout_of(self.run)?;
         let setup = Setup { limits, ..Setup::named(self.setting.scheme, self.rule.0, layout, &starts) };
-        let aside = AtomicFile::new(path, replaceable)?;
-        let mut writer = Writer::new(aside, &setup, clause)?;
+        let file = AtomicFile::new(path, replaceable)?;
+        let mut writer = Writer::new(file, &setup, clause)?;
         let mut add = |made: &TeamMove<'_>| {
             writer.add(made);
             Ok(())

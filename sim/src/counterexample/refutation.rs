@@ -271,8 +271,8 @@ fn play<'a>(
     for &(clause, check) in checks {
         match check.replay(choices) {
             Ok(RefutationPlay { of: asked, evidence }) => {
-                let misfit = (0..).zip(asked.iter().zip(of)).find(|(_, (asked, of))| asked != of);
-                return match misfit {
+                let mismatch = (0..).zip(asked.iter().zip(of)).find(|(_, (asked, of))| asked != of);
+                return match mismatch {
                     Some((place, (asked, _))) => {
                         Err(at(place, &format!("here there are {asked} to choose from")))
                     }

@@ -138,9 +138,9 @@ pub fn trajectories(layout: &Layout, area: Area, caption: &str, ways: &[Vec<Cell
     let frame = Frame(area);
     let mut body = format!("<style>{SERIES_STYLE}</style>") + &ground(layout, area);
     for (robot, way) in (0_i32..).zip(ways) {
-        let aside = 2 * robot - ways.len() as i32 + 1;
+        let file = 2 * robot - ways.len() as i32 + 1;
         let points = way.iter().map(|&cell| frame.centre(cell)).fold(String::new(), |mut points, (x, y)| {
-            let _ = write!(points, "{},{} ", x + aside, y + aside);
+            let _ = write!(points, "{},{} ", x + file, y + file);
             points
         });
         let colour = robot as usize % SERIES;

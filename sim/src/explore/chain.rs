@@ -3,7 +3,7 @@
 
 mod areas;
 pub mod hunt;
-mod shown;
+mod layers;
 mod team;
 
 use tautline_io::diagnostic::Diagnostic;
@@ -20,7 +20,7 @@ use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH, HEARD};
 use super::catalogue::{By, Completeness, Look, Profile, RandomPart, Starts};
 use super::clause::Clause;
-use super::judge_input::exhibit;
+use super::judge_input::judge_input;
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{Team, TeamMove};
 use super::setup::Setup;
@@ -78,7 +78,7 @@ pub static CHAIN: Profile = Profile {
     // In which order robots went is not written down.
     case: |setup, clause, frames| {
         let is_judged = clause != ANY_ORDER && judges(clause.as_str());
-        is_judged.then(|| Box::new(exhibit(setup, clause.as_str(), frames)) as Box<dyn Case>)
+        is_judged.then(|| Box::new(judge_input(setup, clause.as_str(), frames)) as Box<dyn Case>)
     },
     ..Profile::named("chain")
 };

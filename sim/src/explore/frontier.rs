@@ -2,8 +2,8 @@
 //! cells, and runs that a search has found.
 
 mod hunt;
+mod layers;
 mod scripted;
-mod shown;
 
 use std::collections::BTreeSet;
 
@@ -15,11 +15,11 @@ use tautline_proofs::run::Frame;
 use self::hunt::{KernelHunt, RivalHunt};
 use super::catalogue::{By, Look, Profile, RandomPart, Starts};
 use super::clause::{Clause, ClauseId};
+use super::connectivity::has_double;
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use super::together::has_double;
 use crate::frontier::{Allowance, AssignedTeam, Assignment, Explorers, TeamEnd};
 use crate::objects::ObjectReport;
 use crate::options::{Extra, Options};
@@ -261,15 +261,15 @@ impl Team for FrontierTeam {
 
     fn layers(&self) -> Vec<Layer> {
         match &self.who {
-            Who::Robots(robots) => shown::layers(robots),
-            Who::Assigned(_) => shown::layers_of_assigned(),
+            Who::Robots(robots) => layers::layers(robots),
+            Who::Assigned(_) => layers::layers_of_assigned(),
         }
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
         match &self.who {
-            Who::Robots(robots) => shown::show(robots, scene),
-            Who::Assigned(robots) => shown::show_assigned(robots, scene),
+            Who::Robots(robots) => layers::show(robots, scene),
+            Who::Assigned(robots) => layers::show_assigned(robots, scene),
         }
     }
 }

@@ -7,8 +7,8 @@ use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, Tra
 use tautline_proofs::plural::counted;
 
 use super::agents::{self, PREMATURE};
+use super::by_layout::Each;
 use super::catalogue::Scheme;
-use super::each::Each;
 use super::hunt::{Bound, CoveredBound, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
 use super::rule::{RuleId, SwitchableRule};
 use super::setup::Setup;

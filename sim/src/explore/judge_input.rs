@@ -2,16 +2,16 @@
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::judge::chain::{Exhibit, Move, Place, Repairs};
+use tautline_proofs::judge::chain::{JudgeInput, Move, Place, Repairs};
 use tautline_proofs::judge::floor;
 use tautline_proofs::run::Frame;
 
 use super::{ClauseId, RuleId, Setup};
 
 /// The run of `setup` with these frames, said to break `clause`.
-pub fn exhibit(setup: &Setup, clause: &'static str, frames: &[Frame]) -> Exhibit {
+pub fn judge_input(setup: &Setup, clause: &'static str, frames: &[Frame]) -> JudgeInput {
     let layout = &setup.layout;
-    Exhibit {
+    JudgeInput {
         clause,
         repairs: if setup.rule == RuleId::PUBLISHED { Repairs::Without } else { Repairs::With },
         width: layout.width().into(),
@@ -25,14 +25,14 @@ pub fn exhibit(setup: &Setup, clause: &'static str, frames: &[Frame]) -> Exhibit
 }
 
 /// The run of the only agent of `setup` with these frames, which is done in the last one, said to break `clause`.
-pub fn of_agent(setup: &Setup, clause: ClauseId, frames: &[Frame]) -> floor::Exhibit {
+pub fn of_agent(setup: &Setup, clause: ClauseId, frames: &[Frame]) -> floor::JudgeInput {
     let layout = &setup.layout;
     let turn = |(number, frame): (usize, &Frame)| floor::Turn {
         agent: 0,
         to: frame.cells.first().copied().map_or((-1, -1), place),
         is_done: number == frames.len(),
     };
-    floor::Exhibit {
+    floor::JudgeInput {
         clause: clause.as_str(),
         width: layout.width().into(),
         height: layout.height().into(),

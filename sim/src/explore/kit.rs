@@ -6,8 +6,8 @@
 //! driven no new path for twenty drives a path is taken to go round for ever.
 
 mod hunt;
+mod layers;
 mod scripted;
-mod shown;
 
 use std::collections::BTreeSet;
 use std::num::NonZeroU32;
@@ -22,11 +22,11 @@ use self::hunt::KernelHunt;
 
 use super::catalogue::{By, Profile, RandomPart, Starts};
 use super::clause::{Clause, ClauseId};
+use super::connectivity::unlinked;
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use super::together::unlinked;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::options::Extra;
 use tautline_grids::layout::Layout;
@@ -251,12 +251,12 @@ impl Team for KitTeam {
     }
 
     fn layers(&self) -> Vec<Layer> {
-        shown::layers(self.reach)
+        layers::layers(self.reach)
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
         if let Some(drive) = self.drive {
-            shown::show(&*self.course, drive, self.cells.len(), scene);
+            layers::show(&*self.course, drive, self.cells.len(), scene);
         }
     }
 }

@@ -69,9 +69,10 @@ impl<R: Rule + PartialEq + 'static> OwnRule<R> {
             let mut planned = scene.clone();
             let Some(plan) = world.plan(&mut planned, &[]) else { break };
             let step = outcomes(|oracle| {
-                let (mut after, mut lots) = (planned.clone(), Lots { oracle, drawn: Vec::new() });
-                world.settle(&mut after, &plan, &mut Vec::new(), &mut lots);
-                Some((after, lots.drawn))
+                let (mut after, mut answers) =
+                    (planned.clone(), RecordedAnswers { oracle, drawn: Vec::new() });
+                world.settle(&mut after, &plan, &mut Vec::new(), &mut answers);
+                Some((after, answers.drawn))
             });
             let Some((after, drawn)) = { step }.nth(number as usize) else { break };
             scene = after;
@@ -113,7 +114,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (mut found, mut cases, mut is_complete) = (Vec::new(), 0, true);
-        let mut memory = Cache::default();
+        let mut cache = Cache::default();
         for (number, demand) in self.setting.demands.iter().enumerate() {
             let far = Far::Words(format!("{}, {} of {}", demand.id, number + 1, self.setting.demands.len()));
             let mut is_ended = hunter.hears(far).is_break();
@@ -122,7 +123,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
                 is_ended |= hunter.hears(Far::Tree(progress)).is_break();
                 if is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let context = &mut Context { memory: &mut memory, watch: &mut watch, room: MemoryLimit::any() };
+            let context = &mut Context { cache: &mut cache, watch: &mut watch, memory: MemoryLimit::any() };
             let answer = Keeps(self.setting, number).decide(&self.rule, Until::Exhausted, context);
             let answer = answer.map_err(|why| Diagnostic::usage(why, "change the setting of the rule"))?;
             cases = cases.max(answer.cases);
@@ -163,12 +164,12 @@ impl<R: Rule + 'static> fmt::Debug for OwnRule<R> {
 }
 
 /// Passes questions on, and keeps the answers to those that are not about the layout.
-struct Lots<'a> {
+struct RecordedAnswers<'a> {
     oracle: &'a mut dyn Oracle,
     drawn: Vec<u32>,
 }
 
-impl Oracle for Lots<'_> {
+impl Oracle for RecordedAnswers<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         self.drawn.push(self.oracle.pick(below));
         self.drawn.last().copied().unwrap_or(0)

@@ -3,7 +3,7 @@
 //!
 //! A cell is explored once a robot has seen it (II.A), and not only where a robot was.
 
-mod shown;
+mod layers;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
@@ -16,11 +16,11 @@ use tautline_proofs::run::Frame;
 
 use super::catalogue::{Profile, Starts};
 use super::clause::{Clause, ClauseId};
+use super::connectivity::{has_double, unlinked};
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
 use super::scene::{Layer, Scene};
 use super::setup::Setup;
-use super::together::{has_double, unlinked};
 use crate::options::Extra;
 use tautline_grids::layout::Layout;
 
@@ -222,10 +222,10 @@ impl Team for PackTeam {
     }
 
     fn layers(&self) -> Vec<Layer> {
-        shown::layers(self.robots.rule())
+        layers::layers(self.robots.rule())
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
-        shown::show(&self.obstacles, self.robots.aims().flatten(), scene);
+        layers::show(&self.obstacles, self.robots.aims().flatten(), scene);
     }
 }

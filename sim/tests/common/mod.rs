@@ -14,13 +14,13 @@ pub(crate) fn generated(description: &str, seed: u64) -> Layout {
 
 /// Runs each counterexample that has a file once more, checks that it breaks its clause, and counts them.
 pub(crate) fn run_again(hunted: &HuntReport) -> usize {
-    let stored = hunted.found.iter().filter_map(|quarry| match quarry.shown {
-        Exhibit::Run(clause) | Exhibit::Story(clause, _) => Some((clause, quarry)),
+    let stored = hunted.found.iter().filter_map(|finding| match finding.shown {
+        Exhibit::Run(clause) | Exhibit::Story(clause, _) => Some((clause, finding)),
         Exhibit::Endless | Exhibit::Told(_) => None,
     });
     let mut count = 0;
-    for (clause, quarry) in stored {
-        let report = explore(&quarry.setup, &mut |_| Ok(())).expect("a run");
+    for (clause, finding) in stored {
+        let report = explore(&finding.setup, &mut |_| Ok(())).expect("a run");
         let is_broken = report.violations.iter().any(|violation| violation.clause == clause);
         assert!(is_broken, "{clause}: {:?}", report.violations);
         count += 1;

@@ -65,7 +65,7 @@ mod tests {
     fn found(rule: &str) -> Value {
         let mut page = Page::default();
         let settings = json!({ "scheme": "east", "rule": rule, "robots": 2, "ground": ["4a", "4a"] });
-        ask(&mut page, &json!({ "do": "hunt", "settings": settings, "quarry": {} }));
+        ask(&mut page, &json!({ "do": "hunt", "settings": settings, "bounds": {} }));
         while ask(&mut page, &json!({ "do": "slice" }))["more"] == true {}
         ask(&mut page, &json!({ "do": "found" }))
     }

@@ -122,7 +122,7 @@ impl Table for KitRange {
             .estimate("s to 88 %", 11, 1, |line| line.most)
             .estimate("s to all", 11, 1, |line| line.all)
             .text();
-        Ok(super::printed::head(settings) + &body)
+        Ok(super::text::head(settings) + &body)
     }
 
     /// A repaired team always keeps within its range, and drives every path.

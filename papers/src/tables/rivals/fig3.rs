@@ -1,8 +1,8 @@
 //! Fig. 3: team moves to 50 % and to 75 % of the cells by the density of walls, and in two buildings.
 
 use super::super::prelude::*;
-use super::asked::RivalSettings;
 use super::claims::{Race, alike};
+use super::parameters::RivalSettings;
 use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times};
 use crate::rivals::Links;
 use tautline_sim::explore::{Limits, Milestone, RuleName};

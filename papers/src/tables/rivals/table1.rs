@@ -2,8 +2,8 @@
 //! far the rivals' figures depend on what the paper does not say.
 
 use super::super::prelude::*;
-use super::asked::RivalSettings;
 use super::claims::{about, alike};
+use super::parameters::RivalSettings;
 use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
 use crate::rivals::{Cells, Links, Search};
 use tautline_sim::explore::{Limits, Milestone, RuleName};

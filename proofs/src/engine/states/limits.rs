@@ -15,7 +15,7 @@ pub struct Limits<'a> {
     /// Steps between states that it may make.
     pub most_steps: u64,
     /// The memory that it may take.
-    pub room: Room<'a>,
+    pub memory: Memory<'a>,
     /// The threads that it takes, of which nothing depends that it finds; as many as are idle, unless it is said.
     pub workers: Option<NonZeroUsize>,
 }
@@ -26,13 +26,13 @@ impl Limits<'static> {
 
     /// At most so many steps, in any memory.
     pub const fn steps(most_steps: u64) -> Self {
-        Self { most_steps, room: MemoryLimit::any(), workers: None }
+        Self { most_steps, memory: MemoryLimit::any(), workers: None }
     }
 }
 
 /// The memory of searches that answer one question.
 #[derive(Clone, Copy, Debug)]
-pub struct Room<'a> {
+pub struct Memory<'a> {
     limit: &'a MemoryLimit,
     /// The folder in which a search goes on.
     pub(super) spill: Option<&'a Spill>,
@@ -40,7 +40,7 @@ pub struct Room<'a> {
     pub(super) question: Option<(&'a str, usize)>,
 }
 
-impl Room<'_> {
+impl Memory<'_> {
     /// That of the search with this number among those that answer the question.
     #[must_use]
     pub const fn of_search(self, number: usize) -> Self {
@@ -76,8 +76,8 @@ pub struct MemoryLimit {
 
 impl MemoryLimit {
     /// As much as there is.
-    pub const fn any() -> Room<'static> {
-        Room { limit: &ANY, spill: None, question: None }
+    pub const fn any() -> Memory<'static> {
+        Memory { limit: &ANY, spill: None, question: None }
     }
 
     /// As much as there is, for searches of one's own.
@@ -103,14 +103,14 @@ impl MemoryLimit {
     }
 
     /// The memory of searches that answer no question in particular.
-    pub const fn room(&self) -> Room<'_> {
-        Room { limit: self, spill: self.spill.as_ref(), question: None }
+    pub const fn memory(&self) -> Memory<'_> {
+        Memory { limit: self, spill: self.spill.as_ref(), question: None }
     }
 
     /// The memory of searches that answer this question, by words that stand for it alone: one that was killed is taken
     /// up when the same question is asked again.
-    pub const fn asked<'a>(&'a self, question: &'a str) -> Room<'a> {
-        Room { question: Some((question, 0)), ..self.room() }
+    pub const fn asked<'a>(&'a self, question: &'a str) -> Memory<'a> {
+        Memory { question: Some((question, 0)), ..self.memory() }
     }
 
     /// Whether there is a folder in which a search goes on.
@@ -136,7 +136,7 @@ impl MemoryLimit {
 
 /// A search's share of a [`MemoryLimit`].
 pub(super) struct MemoryShare<'a> {
-    room: Room<'a>,
+    memory: Memory<'a>,
     large: Option<MutexGuard<'a, ()>>,
     /// Bytes of what stays.
     pub(super) held: u64,
@@ -145,8 +145,8 @@ pub(super) struct MemoryShare<'a> {
 }
 
 impl<'a> MemoryShare<'a> {
-    pub(super) const fn new(room: Room<'a>) -> Self {
-        Self { room, large: None, held: 0, most: 0 }
+    pub(super) const fn new(memory: Memory<'a>) -> Self {
+        Self { memory, large: None, held: 0, most: 0 }
     }
 
     /// Holds so many bytes in all; false if a search may not have them.
@@ -158,7 +158,7 @@ impl<'a> MemoryShare<'a> {
     /// Has so many bytes in all for a while; false if a search may not have them. A search that becomes large waits
     /// until no other one is.
     pub(super) fn reaches(&mut self, bytes: u64) -> bool {
-        let limit = self.room.limit;
+        let limit = self.memory.limit;
         if bytes > limit.small && self.large.is_none() {
             self.large = Some(limit.large.lock().unwrap_or_else(PoisonError::into_inner));
         }
@@ -171,19 +171,19 @@ impl<'a> MemoryShare<'a> {
 
     /// Whether a search may have so many bytes.
     pub(super) const fn fits(&self, bytes: u64) -> bool {
-        bytes <= self.room.limit.most
+        bytes <= self.memory.limit.most
     }
 
     /// The memory did not suffice, and the search stops.
     pub(super) fn was_too_small(&self) {
-        self.room.limit.was_too_small.store(true, Ordering::Relaxed);
+        self.memory.limit.was_too_small.store(true, Ordering::Relaxed);
     }
 
     /// The bytes that steps may take at a time beside so many, if a search goes on in a folder: the
     /// states to which they lead may take as many, and a table as many again while it grows.
     /// Nothing if that is too little to go on with.
     pub(super) const fn for_steps(&self, beside: u64) -> u64 {
-        let most = self.room.limit.most;
+        let most = self.memory.limit.most;
         let bytes = most.saturating_sub(beside) / 4;
         if bytes < most / 32 { 0 } else { bytes }
     }
@@ -200,23 +200,23 @@ mod tests {
     #[test]
     fn one_search_gets_three_quarters_whatever_is_beside_it() {
         for beside in [0, 1, 64] {
-            let room = MemoryLimit::of(1024, beside);
-            let mut taken = MemoryShare::new(room.room());
+            let memory = MemoryLimit::of(1024, beside);
+            let mut taken = MemoryShare::new(memory.memory());
             assert!(taken.hold(768) && !taken.hold(769));
-            assert_eq!((taken.held, taken.most, room.most()), (769, 768, 768));
+            assert_eq!((taken.held, taken.most, memory.most()), (769, 768, 768));
         }
         assert!(MemoryShare::new(MemoryLimit::any()).hold(u64::MAX));
     }
 
     #[test]
     fn a_second_large_search_waits_for_the_first() {
-        let room = MemoryLimit::of(1024, 2);
+        let memory = MemoryLimit::of(1024, 2);
         let (told, heard) = channel();
         thread::scope(|scope| {
-            let mut first = MemoryShare::new(room.room());
+            let mut first = MemoryShare::new(memory.memory());
             assert!(first.hold(200));
             scope.spawn(|| {
-                let mut second = MemoryShare::new(room.room());
+                let mut second = MemoryShare::new(memory.memory());
                 assert!(second.hold(100), "a small one does not wait");
                 told.send("small").expect("somebody hears");
                 assert!(second.hold(300));

@@ -7,8 +7,8 @@ use std::hint::black_box;
 use std::mem;
 
 use super::code::{Code, HashOfState, hash_of, hash_of_part, number};
-use super::known::{Parts, StateTable};
 use super::spill::Lookup;
+use super::state_table::{Parts, StateTable};
 use super::{Places, System};
 
 /// States that wait to be looked up in a table, in the order in which they are to be met.

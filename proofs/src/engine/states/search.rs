@@ -5,14 +5,14 @@ use std::num::NonZeroUsize;
 use std::ops::{ControlFlow, Range};
 use std::{io, iter, mem};
 
+use super::chunk::{self, Chunk, Expansion};
 use super::code::Code;
 use super::graph::{Arc, Graph};
-use super::known::{Cursor, StateTable};
-use super::limits::{Limits, MemoryShare, Room};
+use super::limits::{Limits, Memory, MemoryShare};
 use super::queue::Queue;
 use super::rounds::{Round, TooLarge};
 use super::spill::{Disk, Numbers};
-use super::together::{self, Chunk, Expansion};
+use super::state_table::{Cursor, StateTable};
 use super::{Bits, END, Ending, Findings, Places, Run, System, TRIED, steps};
 use crate::engine::threads;
 
@@ -74,7 +74,7 @@ pub(super) struct Search<'a, S: System> {
     pub(super) shown: Option<Box<Cursor<S::State>>>,
     /// A chunk that was taken.
     spare: Chunk<S>,
-    room: Room<'a>,
+    memory: Memory<'a>,
     taken: MemoryShare<'a>,
     /// The situations that occurred, a bit for each.
     occurred: u64,
@@ -98,8 +98,8 @@ impl<'a, S: System> Search<'a, S> {
             making: 0,
             shown: None,
             spare: Chunk::new(),
-            room: limits.room,
-            taken: MemoryShare::new(limits.room),
+            memory: limits.memory,
+            taken: MemoryShare::new(limits.memory),
             occurred: 0,
             has_ended: false,
             broken: Vec::new(),
@@ -130,7 +130,7 @@ impl<'a, S: System> Search<'a, S> {
         // The last word: a run may have to be read, too.
         let is_whole = matches!(stop, None | Some(Stop::Enough)) && self.known.fault().is_none();
         self.known.leave_disk(is_whole);
-        if let (Some(spill), Some(fault)) = (self.room.spill, self.known.fault()) {
+        if let (Some(spill), Some(fault)) = (self.memory.spill, self.known.fault()) {
             spill.note(fault.clone());
         }
         let situations = self.system.covers().into_iter().zip(0..);
@@ -246,12 +246,12 @@ impl<'a, S: System> Search<'a, S> {
 
     /// The number of nodes from this one on whose steps so many workers make at once.
     fn at_once(&self, next: usize, workers: usize) -> usize {
-        if workers == 1 || self.known.len() - next < together::FEWEST {
+        if workers == 1 || self.known.len() - next < chunk::FEWEST {
             return BETWEEN;
         }
         // They take a quarter of the memory for steps, if those from one state take 1 KiB.
         let most = if self.known.disk.is_some() { self.for_steps() >> 12 } else { u64::MAX };
-        (together::MOST as u64).min(most.max(BETWEEN as u64)) as usize
+        (chunk::MOST as u64).min(most.max(BETWEEN as u64)) as usize
     }
 
     fn make_steps_from(&mut self, nodes: Range<usize>, workers: usize) -> ControlFlow<Stop, Vec<Chunk<S>>> {
@@ -259,8 +259,8 @@ impl<'a, S: System> Search<'a, S> {
             return ControlFlow::Break(Stop::Unfinished);
         };
         let of = (self.system, &self.known);
-        let chunks = if workers > 1 && nodes.len() >= together::FEWEST {
-            together::share_out(of, &shown, nodes, workers)
+        let chunks = if workers > 1 && nodes.len() >= chunk::FEWEST {
+            chunk::share_out(of, &shown, nodes, workers)
         } else {
             let mut chunk = mem::replace(&mut self.spare, Chunk::new());
             chunk.fill(of, nodes, &mut shown);
@@ -290,8 +290,8 @@ impl<'a, S: System> Search<'a, S> {
 
     /// Writes the states in memory to disk, if there is a folder for them.
     fn write(&mut self) -> ControlFlow<Stop> {
-        let Some(spill) = self.room.spill else { return ControlFlow::Break(Stop::Full) };
-        let question = self.room.question.filter(|_| self.known.is_bytes());
+        let Some(spill) = self.memory.spill else { return ControlFlow::Break(Stop::Full) };
+        let question = self.memory.question.filter(|_| self.known.is_bytes());
         let disk = self.known.disk.get_or_insert_with(|| Disk::new(spill, question));
         // What is broken is not written down.
         if !self.broken.is_empty() {
@@ -308,7 +308,7 @@ impl<'a, S: System> Search<'a, S> {
 
     /// Takes up the search from this start that was killed, if there was one.
     fn take_up(&mut self, start: &S::State) {
-        let (Some(spill), Some(question)) = (self.room.spill, self.room.question) else { return };
+        let (Some(spill), Some(question)) = (self.memory.spill, self.memory.question) else { return };
         if self.system.places(start) > 0 {
             return;
         }

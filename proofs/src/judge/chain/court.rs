@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use super::judge_input::{Exhibit, Move, Repairs};
+use super::judge_input::{JudgeInput, Move, Repairs};
 use super::place::{Place, add, is_covered, is_safe, side_between};
 
 /// The team's knowledge, kept by the judge.
 #[derive(Clone)]
 pub(super) struct Court<'a> {
-    pub(super) exhibit: &'a Exhibit,
+    pub(super) input: &'a JudgeInput,
     pub(super) places: Vec<Place>,
     /// Displacements of the advances that are not taken back.
     pub(super) history: Vec<Vec<Place>>,
@@ -25,14 +25,14 @@ pub(super) struct Court<'a> {
 
 impl<'a> Court<'a> {
     /// Before the first move. The number of robots is checked with each move, and may be any before.
-    pub(super) fn new(exhibit: &'a Exhibit, robots: usize) -> Self {
+    pub(super) fn new(input: &'a JudgeInput, robots: usize) -> Self {
         Self {
-            exhibit,
-            places: vec![exhibit.base; robots],
+            input,
+            places: vec![input.base; robots],
             history: Vec::new(),
             walls: BTreeSet::new(),
             open: BTreeSet::new(),
-            explored: BTreeSet::from([exhibit.base]),
+            explored: BTreeSet::from([input.base]),
             refused: BTreeSet::new(),
             gained: true,
             unfolds: false,
@@ -40,7 +40,7 @@ impl<'a> Court<'a> {
     }
 
     pub(super) fn are_all_there(&self, made: &Move) -> Result<(), &'static str> {
-        let robots = self.exhibit.robots;
+        let robots = self.input.robots;
         if [made.tried.len(), made.blocked.len(), made.places.len(), self.places.len()] != [robots; 4] {
             return Err("every robot has a step, an outcome and a place");
         }
@@ -51,7 +51,7 @@ impl<'a> Court<'a> {
         if made.tried.iter().any(|&(x, y)| x.unsigned_abs().saturating_add(y.unsigned_abs()) > 1) {
             return Err("a step leads to a side neighbour or nowhere");
         }
-        if made.tried[0] != (0, 0) || made.blocked[0] || made.places[0] != self.exhibit.base {
+        if made.tried[0] != (0, 0) || made.blocked[0] || made.places[0] != self.input.base {
             return Err("the base does something");
         }
         if made.is_backtrack {
@@ -59,7 +59,7 @@ impl<'a> Court<'a> {
         } else {
             self.hear_advance(made)?;
         }
-        for robot in 0..self.exhibit.robots {
+        for robot in 0..self.input.robots {
             let arrived = if made.blocked[robot] { self.places[robot] } else { self.target(made, robot) };
             if made.places[robot] != arrived {
                 return Err("a robot is not where its step leads");
@@ -87,7 +87,7 @@ impl<'a> Court<'a> {
             if made.blocked[robot] && !is_step {
                 return Err("a robot that stays is not blocked");
             }
-            if is_step && made.blocked[robot] == self.exhibit.is_open(self.side(robot, made.tried[robot])) {
+            if is_step && made.blocked[robot] == self.input.is_open(self.side(robot, made.tried[robot])) {
                 return Err("a robot is blocked where nothing is in the way, or passes where something is");
             }
         }
@@ -110,7 +110,7 @@ impl<'a> Court<'a> {
         for robot in 1..planned.len() {
             self.admits_step(robot, tried[robot])?;
             self.admits_pair(robot, tried[robot], planned[robot - 1])?;
-            if planned[robot] != self.exhibit.base && planned[1..robot].contains(&planned[robot]) {
+            if planned[robot] != self.input.base && planned[1..robot].contains(&planned[robot]) {
                 return Err("two robots plan to be in one cell outside the base");
             }
         }
@@ -123,13 +123,13 @@ impl<'a> Court<'a> {
         if !stays && self.is_known_wall(self.side(robot, step)) {
             return Err("a robot plans to cross a known wall");
         }
-        let is_null = stays && robot + 1 == self.exhibit.robots;
+        let is_null = stays && robot + 1 == self.input.robots;
         if !is_null && !is_covered(self.places[robot - 1], planned) {
             return Err("a planned position is not in E_C of the present position behind");
         }
         let others = self.places.iter().filter(|&&place| place == planned).count();
-        let is_full = !stays && planned != self.exhibit.base && others >= 2;
-        if is_full && self.exhibit.repairs == Repairs::With {
+        let is_full = !stays && planned != self.input.base && others >= 2;
+        if is_full && self.input.repairs == Repairs::With {
             return Err("a robot plans to enter a cell that two others occupy");
         }
         Ok(())
@@ -141,14 +141,14 @@ impl<'a> Court<'a> {
             return Err("a planned position is not in E_S of the planned position ahead");
         }
         let is_sure = step == (0, 0) || self.open.contains(&self.side(robot, step));
-        if self.exhibit.repairs == Repairs::With && !is_sure && !is_covered(self.places[robot], behind) {
+        if self.input.repairs == Repairs::With && !is_sure && !is_covered(self.places[robot], behind) {
             return Err("behind an unsure neighbour a robot plans to leave E_C of its present position");
         }
         Ok(())
     }
 
     pub(super) fn is_known_wall(&self, side: (Place, Place)) -> bool {
-        self.walls.contains(&side) || self.exhibit.is_border(side)
+        self.walls.contains(&side) || self.input.is_border(side)
     }
 
     fn target(&self, made: &Move, robot: usize) -> Place {
@@ -164,8 +164,8 @@ impl<'a> Court<'a> {
 mod tests {
     use super::*;
 
-    fn exhibit(repairs: Repairs) -> Exhibit {
-        Exhibit {
+    fn input(repairs: Repairs) -> JudgeInput {
+        JudgeInput {
             clause: "",
             repairs,
             width: 7,
@@ -180,15 +180,15 @@ mod tests {
 
     #[test]
     fn only_the_leader_may_stay_where_it_is_not_in_e_c_of_the_robot_behind() {
-        let exhibit = exhibit(Repairs::Without);
-        let mut court = Court::new(&exhibit, 4);
+        let input = input(Repairs::Without);
+        let mut court = Court::new(&input, 4);
         let stays = |court: &Court<'_>, robot| court.admits_step(robot, (0, 0)).is_ok();
         assert!((1..4).all(|robot| stays(&court, robot)));
         court.places[3] = (5, 4);
         assert!((1..4).all(|robot| stays(&court, robot)) && court.admits_step(3, (1, 0)).is_err());
         assert!(court.admits_step(3, (0, -1)).is_ok());
         for robot in [1, 2] {
-            let mut court = Court::new(&exhibit, 4);
+            let mut court = Court::new(&input, 4);
             court.places[robot] = (5, 4);
             assert!((1..4).all(|other| stays(&court, other) == (other == 3 || other != robot && other != robot + 1)));
         }
@@ -196,8 +196,8 @@ mod tests {
 
     #[test]
     fn who_crosses_a_side_that_was_crossed_before_is_sure() {
-        let exhibit = exhibit(Repairs::With);
-        let mut court = Court::new(&exhibit, 4);
+        let input = input(Repairs::With);
+        let mut court = Court::new(&input, 4);
         let made = |tried: [Place; 4], blocked: [bool; 4], places: [Place; 4]| Move {
             is_backtrack: false,
             tried: tried.to_vec(),

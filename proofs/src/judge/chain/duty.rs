@@ -46,11 +46,11 @@ const MOST_LOOKS: u32 = 1_000_000;
 impl Court<'_> {
     /// The team's next duty, by the rule; new virtual obstacles and epochs are noted.
     pub(super) fn duty(&mut self) -> Result<Duty, &'static str> {
-        if self.exhibit.inside().all(|place| self.explored.contains(&place)) {
+        if self.input.inside().all(|place| self.explored.contains(&place)) {
             return Ok(Duty::Nothing);
         }
-        let is_target = self.exhibit.repairs == Repairs::With
-            && !self.exhibit.within_reach(|side| !self.is_known_wall(side)).is_subset(&self.explored);
+        let is_target = self.input.repairs == Repairs::With
+            && !self.input.within_reach(|side| !self.is_known_wall(side)).is_subset(&self.explored);
         for is_fresh in [false, true] {
             if self.unfolds && !self.gained && is_target {
                 return Ok(Duty::Unfold);
@@ -74,7 +74,7 @@ impl Court<'_> {
     /// The step of the leader that its rule chooses: of its candidates the first that the others can follow.
     fn lead(&mut self) -> Result<Option<Place>, &'static str> {
         let leader = self.places.len() - 1;
-        let (at, base) = (self.places[leader], self.exhibit.base);
+        let (at, base) = (self.places[leader], self.input.base);
         let mut list: Vec<(u32, i32, Place)> = SIDES
             .into_iter()
             .filter(|&step| !self.is_shut(self.side(leader, step)))
@@ -110,12 +110,12 @@ impl Court<'_> {
     fn can_follow(&self, tried: &mut [Place], robot: usize, looks: &mut u32) -> Result<bool, &'static str> {
         let behind = robot - 1;
         if behind == 0 {
-            return Ok(self.admits_pair(robot, tried[robot], self.exhibit.base).is_ok());
+            return Ok(self.admits_pair(robot, tried[robot], self.input.base).is_ok());
         }
         for step in SIDES.into_iter().chain([(0, 0)]) {
             *looks = looks.checked_sub(1).ok_or("followers have too many ways for the judge to look at")?;
             let planned = add(self.places[behind], step);
-            let is_taken = planned != self.exhibit.base
+            let is_taken = planned != self.input.base
                 && (robot..tried.len()).any(|ahead| add(self.places[ahead], tried[ahead]) == planned);
             if is_taken
                 || self.admits_step(behind, step).is_err()
@@ -158,11 +158,11 @@ impl Court<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::chain::judge_input::Exhibit;
+    use crate::judge::chain::judge_input::JudgeInput;
 
     #[test]
     fn a_chain_unfolds_until_it_has_gained_as_long_as_there_is_something_within_reach() {
-        let mut exhibit = Exhibit {
+        let mut input = JudgeInput {
             clause: "",
             repairs: Repairs::With,
             width: 5,
@@ -174,9 +174,9 @@ mod tests {
             moves: Vec::new(),
         };
         for repairs in [Repairs::With, Repairs::Without] {
-            exhibit.repairs = repairs;
+            input.repairs = repairs;
             for (unfolds, gained) in [(false, false), (false, true), (true, false), (true, true)] {
-                let mut court = Court::new(&exhibit, 3);
+                let mut court = Court::new(&input, 3);
                 (court.unfolds, court.gained) = (unfolds, gained);
                 let is_unfolding = unfolds && !gained && repairs == Repairs::With;
                 let expected = if is_unfolding { Duty::Unfold } else { Duty::Lead((1, 0)) };
@@ -184,8 +184,8 @@ mod tests {
             }
         }
         // Only a corner is left, and its three neighbours are shut off: nothing is within reach.
-        let mut court = Court::new(&exhibit, 3);
-        court.explored = exhibit.inside().filter(|&place| place != (4, 4)).collect();
+        let mut court = Court::new(&input, 3);
+        court.explored = input.inside().filter(|&place| place != (4, 4)).collect();
         court.walls = BTreeSet::from([((3, 4), (4, 4)), ((4, 3), (4, 4))]);
         (court.unfolds, court.gained) = (true, false);
         assert!(court.duty() == Ok(Duty::Nothing));

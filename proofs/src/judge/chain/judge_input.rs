@@ -6,7 +6,7 @@ use super::place::{Place, SIDES, add, side_between};
 
 /// A counterexample, written down.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Exhibit {
+pub struct JudgeInput {
     /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2` or `CHAIN-3`, or its end, `CHAIN-13` or
     /// `CHAIN-14`.
     pub clause: &'static str,
@@ -50,7 +50,7 @@ pub struct Move {
     pub places: Vec<Place>,
 }
 
-impl Exhibit {
+impl JudgeInput {
     pub(super) fn is_free(&self, (x, y): Place) -> bool {
         (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&(x, y))
     }
@@ -114,7 +114,7 @@ mod tests {
     fn the_area_is_what_is_in_the_layout_and_at_most_n_minus_1_columns_and_rows_from_the_base() {
         for (robots, base) in [(2, (0, 0)), (2, (3, 1)), (3, (2, 2)), (4, (1, 3)), (9, (4, 0))] {
             let blocked = BTreeSet::from([(1, 1), (4, 3), (-1, 2)]);
-            let exhibit = Exhibit {
+            let input = JudgeInput {
                 clause: "",
                 repairs: Repairs::With,
                 width: 6,
@@ -130,12 +130,12 @@ mod tests {
             for place in (-2..=8).flat_map(|x| (-2..=8).map(move |y| (x, y))) {
                 let (x, y) = place;
                 let is_there = (0..6).contains(&x) && (0..4).contains(&y);
-                assert_eq!(exhibit.is_free(place), is_there && !blocked.contains(&place), "{place:?}");
+                assert_eq!(input.is_free(place), is_there && !blocked.contains(&place), "{place:?}");
                 let is_near = (x - base.0).abs().max((y - base.1).abs()) <= range;
-                assert_eq!(exhibit.is_inside(place), is_there && is_near, "{robots} {place:?}");
+                assert_eq!(input.is_inside(place), is_there && is_near, "{robots} {place:?}");
                 area.extend((is_there && is_near).then_some(place));
             }
-            assert_eq!(exhibit.inside().collect::<BTreeSet<_>>(), area, "{robots}");
+            assert_eq!(input.inside().collect::<BTreeSet<_>>(), area, "{robots}");
         }
     }
 }

@@ -68,8 +68,8 @@ fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<A
 
 /// The report of a search.
 fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
-    let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
-    let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    let findings = found.broken.iter().map(|smallest| finding(asked, smallest));
+    let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     let &Areas { max_cells, max_walls, robots, .. } = areas;
     let (robots, runs, moves) = (robots as u64, found.runs(), found.moves());
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
@@ -89,12 +89,12 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
             counted(bases, "place") + " of the base"
         ),
         through: format!("{all_runs} and {all_moves}"),
-        outcome: outcome(&quarries, found.is_complete, covered),
-        found: quarries,
+        outcome: outcome(&findings, found.is_complete, covered),
+        found: findings,
     })
 }
 
-fn quarry(asked: &HuntRequest<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {
+fn finding(asked: &HuntRequest<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {
     let run = bounds.run(found);
     let setup = setup(asked.scheme, asked.rule, &run)?;
     let (columns, rows) = (bounds.area.width(), bounds.area.height());

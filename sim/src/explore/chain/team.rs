@@ -14,7 +14,7 @@ use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
 use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
-use super::shown;
+use super::layers;
 use crate::explore::{
     Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Surroundings, Survey, Team,
 };
@@ -457,7 +457,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     }
 
     fn layers(&self) -> Vec<Layer> {
-        shown::layers(self.is_faulty)
+        layers::layers(self.is_faulty)
     }
 
     fn show(&self, before: &[Cell], scene: &mut Scene) {
@@ -467,11 +467,11 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
             scene.note(Change::Fail { robot });
         }
         for (from, to) in &self.unheard {
-            scene.say(shown::LOST, 0, *from, Hearers::These(to.clone()));
+            scene.say(layers::LOST, 0, *from, Hearers::These(to.clone()));
         }
         if let Some(Whole::Chain(chain)) = &self.whole {
             let before: Vec<Cell> = self.left.iter().map(|&robot| before[robot]).collect();
-            shown::show(chain.grid(), &before, self.epochs < chain.epochs(), scene);
+            layers::show(chain.grid(), &before, self.epochs < chain.epochs(), scene);
         }
     }
 }

@@ -223,7 +223,7 @@ fn everybody_who_is_awake_acts_in_a_round() {
 fn a_search_that_would_take_too_much_memory_is_not_whole() {
     let all = found(&GRAPH);
     let in_room =
-        |bytes| search(&GRAPH, [0], Limits { room: MemoryLimit::of(bytes, 1).room(), ..Limits::NONE });
+        |bytes| search(&GRAPH, [0], Limits { memory: MemoryLimit::of(bytes, 1).memory(), ..Limits::NONE });
     assert_eq!(in_room(2 * all.bytes), all);
     let cut_off = in_room(8);
     assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 0, vec![]));
@@ -234,7 +234,7 @@ fn a_search_that_would_take_too_much_memory_is_not_whole() {
     let cut_off = search(
         &owing,
         [0],
-        Limits { room: MemoryLimit::of(all.bytes * 4 / 3 - 4, 1).room(), ..Limits::NONE },
+        Limits { memory: MemoryLimit::of(all.bytes * 4 / 3 - 4, 1).memory(), ..Limits::NONE },
     );
     assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 7, vec![]));
 }

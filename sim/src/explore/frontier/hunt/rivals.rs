@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::engine::lots::{self, Lots};
+use tautline_proofs::engine::cases::{self, Cases};
 
 use super::super::ENDS;
 use super::{SMALL, areas, bounds, report, title};
-use crate::explore::each::{Each, FoundBy};
+use crate::explore::by_layout::{Each, FoundBy};
 use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, RunSize};
 use crate::explore::run::{Limits, run};
 use crate::explore::states::Count;
@@ -48,7 +48,7 @@ impl Each for RivalHunt {
         (count, mut found): FoundBy<Self>,
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
-        found.sort_by_key(|quarry| quarry.clause);
+        found.sort_by_key(|finding| finding.clause);
         Ok(report(asked, bounds(asked, SMALL.most_cells as u64)?, &Count { is_complete, ..count }, found))
     }
 }
@@ -92,7 +92,7 @@ struct BrokenClause {
     steps: u32,
 }
 
-impl lots::Look for LayoutFindings {
+impl cases::Outcome for LayoutFindings {
     fn steps(&self) -> u64 {
         self.steps
     }
@@ -106,10 +106,10 @@ impl lots::Look for LayoutFindings {
     }
 }
 
-impl Lots for Layouts {
+impl Cases for Layouts {
     type Stage = (i16, i16);
-    type Lot = BlockedArea;
-    type Look = LayoutFindings;
+    type Case = BlockedArea;
+    type Outcome = LayoutFindings;
     type Findings = (Count, Vec<Finding>);
     type Error = Diagnostic;
 
@@ -117,7 +117,7 @@ impl Lots for Layouts {
         self.areas.clone()
     }
 
-    fn lots(&self, area: (i16, i16)) -> Result<Vec<BlockedArea>, Diagnostic> {
+    fn cases(&self, area: (i16, i16)) -> Result<Vec<BlockedArea>, Diagnostic> {
         let mut sets: Vec<u32> = (0..1_u32 << (area.0 * area.1)).collect();
         sets.retain(|set| set.count_ones() <= self.max_walls);
         sets.sort_by_key(|set| (set.count_ones(), *set));
@@ -128,7 +128,7 @@ impl Lots for Layouts {
         u64::from(blocked.cells(false).len() as u32).saturating_pow(self.robots as u32 + 1)
     }
 
-    fn look(&self, _: (i16, i16), blocked: &BlockedArea, _: u64) -> Result<LayoutFindings, Diagnostic> {
+    fn examine(&self, _: (i16, i16), blocked: &BlockedArea, _: u64) -> Result<LayoutFindings, Diagnostic> {
         let mut tried = LayoutFindings { runs: 0, steps: 0, broken: Vec::new() };
         for (start, starts) in blocked.starts(self.robots).iter().enumerate() {
             let setup = self.setup(blocked, starts)?;
@@ -151,15 +151,15 @@ impl Lots for Layouts {
         &self,
         (count, found): &mut (Count, Vec<Finding>),
         blocked: &BlockedArea,
-        look: LayoutFindings,
+        outcome: LayoutFindings,
     ) -> Result<(), Diagnostic> {
-        count.states += look.runs;
-        count.steps += look.steps;
-        for BrokenClause { clause, start, steps } in look.broken {
+        count.states += outcome.runs;
+        count.steps += outcome.steps;
+        for BrokenClause { clause, start, steps } in outcome.broken {
             if found.iter().all(|known| known.clause != clause.as_str())
                 && let Some(starts) = blocked.starts(self.robots).get(start)
             {
-                found.push(quarry(self.setup(blocked, starts)?, clause, steps));
+                found.push(finding(self.setup(blocked, starts)?, clause, steps));
             }
         }
         Ok(())
@@ -236,7 +236,7 @@ fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Diagnostic> {
 }
 
 /// A run that breaks a clause, as one that can be stored, unless it goes on for ever.
-fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Finding {
+fn finding(setup: Setup, clause: ClauseId, steps: u32) -> Finding {
     let layout = &setup.layout;
     let size = [layout.width() as usize, layout.height() as usize];
     let walls = layout.size().cells() - layout.free_cells();

@@ -111,9 +111,9 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
             Until::Exhausted => Vec::new(),
             Until::Violation => vec![Promise(self.1)],
         };
-        let Context { memory, watch, .. } = context;
+        let Context { cache, watch, .. } = context;
         let key = (std::ptr::from_ref(self.0).addr(), rule.clone(), until, wanted);
-        memory.recall(key, |(_, rule, until, wanted)| {
+        cache.recall(key, |(_, rule, until, wanted)| {
             let mut tree = self.0.search(rule, *until, wanted)?;
             while tree.wave() && watch(&tree.progress()).is_continue() {}
             Ok(tree.found())
@@ -140,7 +140,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         };
         let playing = self.0.playing_from(rule, &[Promise(self.1)], start)?;
         states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
-        let limits = states::Limits { room: context.room, ..states::Limits::NONE };
+        let limits = states::Limits { memory: context.memory, ..states::Limits::NONE };
         let found = states::search(&playing, starts.iter().cloned(), limits);
         let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
         let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));

@@ -63,20 +63,20 @@ fn order_loses_contact(before: &[Place], after: &[Place]) -> bool {
 
 /// CHAIN-13: some place at most N−1 links from the base was never explored.
 fn misses_within_reach(court: &Court<'_>) -> bool {
-    let within_reach = court.exhibit.within_reach(|side| court.exhibit.is_open(side));
+    let within_reach = court.input.within_reach(|side| court.input.is_open(side));
     !within_reach.is_subset(&court.explored)
 }
 
 /// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored. It
 /// is said if there are at most so many configurations.
 fn misses_reachable(court: &Court<'_>, most: usize) -> Result<bool, &'static str> {
-    let start = vec![court.exhibit.base; court.exhibit.robots];
+    let start = vec![court.input.base; court.input.robots];
     // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
     let mut informed = court.clone();
-    for place in court.exhibit.inside() {
+    for place in court.input.inside() {
         for step in [(1, 0), (0, 1)] {
             let side = side_between(place, add(place, step));
-            let known = if court.exhibit.is_open(side) { &mut informed.open } else { &mut informed.walls };
+            let known = if court.input.is_open(side) { &mut informed.open } else { &mut informed.walls };
             known.insert(side);
         }
     }
@@ -104,12 +104,12 @@ impl Court<'_> {
     fn configurations(&self, tried: &mut Vec<Place>, sink: &mut dyn FnMut(Vec<Place>)) {
         let robot = tried.len();
         let planned: Vec<Place> = tried.iter().zip(&self.places).map(|(&step, &at)| add(at, step)).collect();
-        if robot == self.exhibit.robots {
+        if robot == self.input.robots {
             return sink(planned);
         }
         for step in SIDES.into_iter().chain([(0, 0)]) {
             let to = add(self.places[robot], step);
-            let is_taken = to != self.exhibit.base && planned[1..].contains(&to);
+            let is_taken = to != self.input.base && planned[1..].contains(&to);
             if !is_taken
                 && self.admits_step(robot, step).is_ok()
                 && self.admits_pair(robot, step, planned[robot - 1]).is_ok()
@@ -127,11 +127,11 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::judge::chain::judge_input::{Exhibit, Repairs};
+    use crate::judge::chain::judge_input::{JudgeInput, Repairs};
 
     /// A layout without walls, its base in the middle.
-    fn exhibit(width: i32, height: i32, robots: usize) -> Exhibit {
-        Exhibit {
+    fn input(width: i32, height: i32, robots: usize) -> JudgeInput {
+        JudgeInput {
             clause: "",
             repairs: Repairs::With,
             width,
@@ -147,9 +147,9 @@ mod tests {
     #[test]
     fn the_judge_looks_at_so_many_configurations_and_no_more() {
         // In the base, one cell to the east, and one to the west.
-        let exhibit = exhibit(3, 1, 2);
-        let mut court = Court::new(&exhibit, 2);
-        court.explored = exhibit.inside().collect();
+        let input = input(3, 1, 2);
+        let mut court = Court::new(&input, 2);
+        court.explored = input.inside().collect();
         assert_eq!([3, 4].map(|most| misses_reachable(&court, most)), [Ok(false); 2]);
         assert!([1, 2].iter().all(|&most| misses_reachable(&court, most).is_err()));
         court.explored.remove(&(0, 0));
@@ -160,12 +160,12 @@ mod tests {
     fn the_configurations_that_follow_are_those_of_the_moves_that_the_court_admits() {
         let places = || (0..3).flat_map(|x| (0..3).map(move |y| (x, y)));
         for repairs in [Repairs::Without, Repairs::With] {
-            let exhibit = Exhibit { repairs, ..exhibit(3, 3, 3) };
-            let mut court = Court::new(&exhibit, 3);
+            let input = JudgeInput { repairs, ..input(3, 3, 3) };
+            let mut court = Court::new(&input, 3);
             court.walls.insert(((1, 1), (1, 2)));
             court.open.extend([((0, 1), (1, 1)), ((1, 1), (2, 1)), ((1, 0), (1, 1))]);
             for (one, other) in places().flat_map(|one| places().map(move |other| (one, other))) {
-                court.places = vec![exhibit.base, one, other];
+                court.places = vec![input.base, one, other];
                 let mut found = BTreeSet::new();
                 court.configurations(&mut vec![(0, 0)], &mut |next| {
                     found.insert(next);

@@ -133,7 +133,7 @@ impl Part for Shard<'_> {
         let (clause, number) = self.dealt.checks[place];
         let (check, start) = (clause.checks[number], Instant::now());
         let watch = &mut |_: &Progress<'_>| std::ops::ControlFlow::Continue(());
-        let mut context = Context { memory: &mut Cache::default(), watch, room: MemoryLimit::any() };
+        let mut context = Context { cache: &mut Cache::default(), watch, memory: MemoryLimit::any() };
         let answer = check.decide_portion(variant, portion, &mut context);
         let answer = answer
             .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;

@@ -9,8 +9,8 @@ use tautline_kernel::ground::{Cell, Edge, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
-use super::observed::Subject;
-use super::whole::{MANY, NO_MESSAGE, key, listed, start};
+use super::subject::Subject;
+use super::whole_runs::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
 
 /// Robots, most walls, and most walls that appear, of [`in_few_walls`].

@@ -4,8 +4,8 @@
 
 use std::ops::{ControlFlow, Range};
 
-use super::known::{Cursor, StateTable};
 use super::queue::Queue;
+use super::state_table::{Cursor, StateTable};
 use super::{Bits, Scratch, Step, System};
 use crate::engine::threads;
 use crate::engine::watchdog::Steps;

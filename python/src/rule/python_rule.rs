@@ -10,9 +10,9 @@ use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::ClauseId;
 use tautline_sim::trace::{self, letter};
 
-use super::moved::TeamMove;
+use super::team_move::TeamMove;
+use crate::arguments::{At, Int, List};
 use crate::diagnostic::{Kind, error};
-use crate::given::{At, Int, List};
 use crate::script::{Script, attribute, attribute_of, held, kept, number, shown, word};
 
 /// The most robots of a rule written in Python.

@@ -4,6 +4,7 @@
 use tautline_kernel::chain::Condition::{CoveredBehind, Hold, SafeAhead};
 use tautline_kernel::chain::{Habit, Rule, Walls};
 
+use super::appearing_walls::{self, WallsCase};
 use super::barrier::{self, Reading};
 use super::clauses::{
     AREAS, FICKLE, FIVE_TWO_WALLS, FOUR_FEWER_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD,
@@ -13,10 +14,9 @@ use super::death::{self, Aftermath, DeathCase};
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact};
-use super::observed::Subject;
 use super::search::EveryLayout;
-use super::shut::{self, WallsCase};
-use super::{pair, whole};
+use super::subject::Subject;
+use super::{pair, whole_runs};
 use crate::clause::{Check, Clause, NamedRule};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
 use crate::ground::clauses::NARROWER;
@@ -140,8 +140,8 @@ const fn shut(observed: Subject, walls: Walls) -> WallsCase {
 const SHUT: Check<WallsCase> = Check::holds(
     NamedRule::new("reel", shut(Subject::REEL, Walls::Changing)),
     &EveryAnswer {
-        body: shut::in_few_walls,
-        range: shut::few_walls,
+        body: appearing_walls::in_few_walls,
+        range: appearing_walls::few_walls,
         covers: &["a wall appears", "no wall appears"],
     },
     &[
@@ -156,9 +156,9 @@ const SHUT: Check<WallsCase> = Check::holds(
 const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
     SHUT.about,
     &RandomAnswers {
-        body: shut::at_random,
+        body: appearing_walls::at_random,
         runs: 200,
-        range: shut::random_layouts,
+        range: appearing_walls::random_layouts,
         covers: &["a wall appears"],
     },
     Verdict::Unrefuted,
@@ -236,9 +236,9 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::new(
                 REEL,
                 &RandomAnswers {
-                    body: whole::any_order,
+                    body: whole_runs::any_order,
                     runs: 200,
-                    range: whole::orders,
+                    range: whole_runs::orders,
                     covers: &["a whole run"],
                 },
                 Verdict::Unrefuted,
@@ -337,7 +337,8 @@ mod tests {
     /// Whether contact is lost when one robot stops on its way and the others go, in a run in a random layout.
     fn breaks_when_one_stops(observed: Subject, seed: u64) -> bool {
         let mut world = SeededOracle::new(23, seed);
-        let mut chain: Chain<SmallGrid, 8> = whole::start(&observed, 8, SmallGrid::new).expect("it fits");
+        let mut chain: Chain<SmallGrid, 8> =
+            whole_runs::start(&observed, 8, SmallGrid::new).expect("it fits");
         let mut log = Vec::new();
         while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
             let before = chain.cells().to_vec();
@@ -358,11 +359,12 @@ mod tests {
         let broken = |runs: &dyn Fn(u64) -> bool| (0..100).filter(|&seed| runs(seed)).count();
         let breaks = |observed: Subject| {
             let world = |seed| SeededOracle::new(19, seed);
-            let speeds = broken(&|seed| whole::any_order(&observed, &mut world(seed)).is_err());
+            let speeds = broken(&|seed| whole_runs::any_order(&observed, &mut world(seed)).is_err());
             let stops = broken(&|seed| breaks_when_one_stops(observed, seed));
             let lost = Err(Stop::Violated("neighbours are in contact when walls have appeared"));
-            let walls =
-                broken(&|seed| shut::at_random(&shut(observed, Walls::Changing), &mut world(seed)) == lost);
+            let walls = broken(&|seed| {
+                appearing_walls::at_random(&shut(observed, Walls::Changing), &mut world(seed)) == lost
+            });
             [speeds, stops, walls]
         };
         assert!(breaks(Subject::REPAIRED).iter().all(|&runs| runs > 0), "{:?}", breaks(Subject::REPAIRED));

@@ -72,7 +72,7 @@ where
     fn exhausted(&self, limits: Limits<'_>) -> Result<(Vec<u8>, u64), NoCertificate> {
         let (system, starts) = (&self.system, (self.starts)(&self.system));
         // All states are gone through in any order.
-        let mut search = Search::new(system, Limits { room: limits.room.in_memory(), ..limits });
+        let mut search = Search::new(system, Limits { memory: limits.memory.in_memory(), ..limits });
         let unwatched = &mut |_| ControlFlow::Continue(());
         let found = search.run_from(&mut starts.iter().cloned(), limits.most_steps, unwatched);
         if found.broken.iter().any(|run| (self.is_asked)(system, run.demand)) {

@@ -1,4 +1,4 @@
-//! Hunts that look at each layout by itself, in one process or dealt out among shards.
+//! Hunts that examine each layout by itself, in one process or dealt out among shards.
 
 use std::fmt;
 
@@ -7,15 +7,15 @@ use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use tautline_io::checkpoint::{Facts, Part, decode, encode};
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
+use tautline_proofs::engine::cases::{self, Cases, Outcome, Shard};
 use tautline_proofs::plural::counted;
 
 use super::hunt::{Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, HuntRequest, Hunter, RUN_AGAIN};
 
-/// A hunt that looks at each layout by itself.
+/// A hunt that outcomes at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
     /// The layouts.
-    type Layouts: Lots<Look: Serialize + DeserializeOwned, Error: Into<Diagnostic>>;
+    type Layouts: Cases<Outcome: Serialize + DeserializeOwned, Error: Into<Diagnostic>>;
 
     /// The bounds that it takes, as of a [`Hunt`].
     const TAKES: &'static [Bound];
@@ -47,7 +47,7 @@ pub(super) trait Each: fmt::Debug + Sync {
 }
 
 /// The findings of a hunt.
-pub(super) type FoundBy<E> = <<E as Each>::Layouts as Lots>::Findings;
+pub(super) type FoundBy<E> = <<E as Each>::Layouts as Cases>::Findings;
 
 impl<E: Each> Hunt for E {
     fn takes(&self) -> &'static [Bound] {
@@ -61,7 +61,7 @@ impl<E: Each> Hunt for E {
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let layouts = self.layouts(asked)?;
         let mut hears = |found: &FoundBy<E>| hunter.hears(Far::Words(self.so_far(asked, found)));
-        let searched = lots::search(&layouts, asked.budget, &mut hears);
+        let searched = cases::search(&layouts, asked.budget, &mut hears);
         let (found, is_complete) = searched.map_err(Into::into)?;
         self.report(asked, found, is_complete)
     }
@@ -73,7 +73,7 @@ impl<E: Each> Hunt for E {
 
 impl<E: Each> Deals for E {
     fn deal(&self, asked: &HuntRequest<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
-        let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
+        let left = cases::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
         Ok(Dealt { deal: Deal::write(asked, ())?, left, of: "layout", moves: 0 })
     }
 
@@ -85,14 +85,14 @@ impl<E: Each> Deals for E {
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Part + 'a>, Diagnostic> {
         let (asked, ()) = Deal::read(deal, asked)?;
-        let looks = far.map(|far| decode(far, RUN_AGAIN)).transpose()?.unwrap_or_default();
-        let shard = Shard::new(self.layouts(&asked)?, shard, looks, asked.budget);
+        let outcomes = far.map(|far| decode(far, RUN_AGAIN)).transpose()?.unwrap_or_default();
+        let shard = Shard::new(self.layouts(&asked)?, shard, outcomes, asked.budget);
         let shard = shard.map_err(Into::into)?;
         if !shard.is_in_order() {
             let what = "this shard has not done what the plan dealt it before it went on";
             return Err(Diagnostic::usage(what, RUN_AGAIN));
         }
-        Ok(Box::new(Looks(shard)))
+        Ok(Box::new(LayoutShard(shard)))
     }
 
     fn merge(
@@ -102,30 +102,30 @@ impl<E: Each> Deals for E {
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
         let (asked, ()) = Deal::read(deal, asked)?;
-        let looks = shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<_>, _>>()?;
-        let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
+        let outcomes = shards.iter().map(|far| decode(far, RUN_AGAIN)).collect::<Result<Vec<_>, _>>()?;
+        let (found, is_complete) = cases::merged(&self.layouts(&asked)?, outcomes).map_err(Into::into)?;
         self.report(&asked, found, is_complete)
     }
 }
 
-/// The looks that a shard takes.
-struct Looks<L: Lots>(Shard<L>);
+/// A shard of the layouts.
+struct LayoutShard<L: Cases>(Shard<L>);
 
-impl<L: Lots> Looks<L> {
-    /// Those that it has taken, and their steps.
+impl<L: Cases> LayoutShard<L> {
+    /// How many layouts it has examined, and the steps that were made.
     fn count(&self) -> (usize, u64) {
-        let all = || self.0.looks().iter().flatten();
-        (all().count(), all().map(Look::steps).sum())
+        let all = || self.0.outcomes().iter().flatten();
+        (all().count(), all().map(Outcome::steps).sum())
     }
 }
 
-impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Part for Looks<L> {
+impl<L: Cases<Outcome: Serialize, Error: Into<Diagnostic>>> Part for LayoutShard<L> {
     fn step(&mut self) -> Result<bool, Halt> {
         self.0.wave().map_err(|fault| fault.into().into())
     }
 
     fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
-        encode(&self.0.looks())
+        encode(&self.0.outcomes())
     }
 
     fn is_done(&self) -> bool {

@@ -10,8 +10,8 @@ use tautline_kernel::ground::{
 };
 
 use super::breach::CHEAP_LOOKS;
-use super::observed::{Deception, Subject};
 use super::plain::{PlainChain, PlainIntent, TooMany};
+use super::subject::{Deception, Subject};
 use crate::engine::{Outcome, Stop, require};
 
 /// The area of the paper for `robots`: (2N−1)² cells with the base in the middle.

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 
 use tautline_kernel::choice::Oracle;
 
-use super::erased::StateBytes;
+use super::any_protocol::StateBytes;
 use super::playing::ErasedProtocol;
 use super::{Bound, Protocol};
 use crate::decide::{
@@ -74,7 +74,7 @@ impl<P: Protocol> Method<P> for Keeps<P> {
         until: Until,
         context: &mut Context<'_, '_>,
     ) -> MethodResult {
-        let limits = Limits { room: context.room, ..Limits::NONE };
+        let limits = Limits { memory: context.memory, ..Limits::NONE };
         answered((&self.playing(rule, false)?, P::COVERS), portion, (until, limits), self.shows())
     }
 
@@ -227,7 +227,7 @@ fn searched(
     'all: for places in own.chunks(64 * at_once) {
         let limits = Limits { most_steps: limits.most_steps - whole.steps, workers, ..limits };
         let found = threads::each_by(at_once, places, |&place| {
-            all[place].search(Limits { room: limits.room.of_search(place), ..limits })
+            all[place].search(Limits { memory: limits.memory.of_search(place), ..limits })
         });
         for (&place, found) in places.iter().zip(found) {
             let mut found = found?;

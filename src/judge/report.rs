@@ -9,7 +9,7 @@ use tautline_io::svg::Panel;
 use tautline_logs::{Breach, Demand, Doubt, Limits, Log, Numbers, Strays, Tracks, Verdict};
 use tautline_proofs::plural::counted;
 
-use super::given::LogMap;
+use super::ground::LogMap;
 use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 
