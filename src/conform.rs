@@ -45,7 +45,7 @@ pub(super) struct Conform {
     /// A file that `explore --trace`, `hunt`, `minimise` or `prove --out` wrote.
     file: PathBuf,
     /// Seconds that each answer may take.
-    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = PATIENCE)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive::<NonZeroU32>, default_value_t = PATIENCE)]
     patience: NonZeroU32,
     #[command(flatten)]
     format: FormatArgs,

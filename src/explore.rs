@@ -74,7 +74,7 @@ pub(super) struct Explore {
     #[command(flatten)]
     told: SchemeOptions,
     /// Stop when a robot has entered so many cells.
-    #[arg(long, value_name = "CELLS", value_parser = positive)]
+    #[arg(long, value_name = "CELLS", value_parser = positive::<NonZeroU32>)]
     max_moves: Option<NonZeroU32>,
     /// Stop when so many percent of the free cells in reach are explored.
     #[arg(long, value_parser = chosen::<Milestone>(), value_name = "50|75|100", hide_possible_values = true)]

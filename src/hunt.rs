@@ -17,7 +17,7 @@ use tautline_io::value_parser::real;
 use tautline_proofs::decide::Verdict;
 
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
-use super::output::Output;
+use super::output::{Output, argument};
 use super::shards::{Scope, ShardArgs};
 use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{shards, value_parser};
@@ -315,7 +315,7 @@ impl Answer<'_> {
             let mut story = picture(finding)?;
             if let Some(file) = file {
                 // Writing to a string cannot fail.
-                let _ = writeln!(story, "replay it with: tautline replay {file}");
+                let _ = writeln!(story, "replay it with: tautline replay {}", argument(file));
             }
             let name = format!("{} by {} ({rule})", finding.clause, scheme.name);
             let outcome = Outcome::Broken(finding.title.clone(), story);
@@ -353,11 +353,12 @@ impl Answer<'_> {
 
 /// How to see the run of a file again, and, where no search has chosen anything in it, to hold a rule to it.
 pub(super) fn again(file: &str, setup: &Setup) -> String {
+    let file = argument(file);
     let again = format!("replay it with: tautline replay {file}\n");
     if !setup.choices.is_empty() || !setup.missed.is_empty() {
         return again;
     }
-    again + "try a rule on it: tautline explore " + file + " --rule RULE\n"
+    again + "try a rule on it: tautline explore " + &file + " --rule RULE\n"
 }
 
 /// A counterexample as a person sees it.

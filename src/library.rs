@@ -4,6 +4,7 @@ pub(super) mod hunt;
 mod jobs;
 
 use std::fmt::Write;
+use std::num::{NonZeroU32, NonZeroU64};
 use std::path::PathBuf;
 
 use clap::Args;
@@ -16,7 +17,7 @@ pub(super) use self::jobs::rows;
 use super::output::Output;
 use super::prove::{DecisionArgs, Detail};
 use super::shards::Scope;
-use super::{Exit, needless, number, whole};
+use super::{Exit, needless, number, positive, whole};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -48,15 +49,15 @@ pub(super) struct Library {
     larger: bool,
     /// Hunt: in place of all states, make at most N random runs for each check, until one breaks its promise. Of
     /// mutants none are made.
-    #[arg(long, value_name = "N", value_parser = number::<u64>)]
+    #[arg(long, value_name = "N", value_parser = positive::<NonZeroU64>)]
     #[arg(conflicts_with_all = ["html", "certificate", "memory", "spill", "patience"])]
-    runs: Option<u64>,
+    runs: Option<NonZeroU64>,
     /// The seed of the random runs, 0 unless this says otherwise.
     #[arg(long, value_name = "SEED", value_parser = number::<u64>, requires = "runs")]
     seed: Option<u64>,
     /// Most moves of a random run, 1000 unless this says otherwise.
-    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "runs")]
-    max_moves: Option<u32>,
+    #[arg(long, value_name = "K", value_parser = positive::<NonZeroU32>, requires = "runs")]
+    max_moves: Option<NonZeroU32>,
     /// The plan: with --shards it is stored in FILE, with --shard it is read from there.
     #[arg(long, value_name = "FILE")]
     plan: Option<PathBuf>,
@@ -100,8 +101,9 @@ impl Library {
                 jobs::plan((path, shards), (&rules, self.larger), (self.how.force(), format.plain()?), out)
             }
             (_, Some(runs)) => {
-                let (seed, most_moves) = (self.seed.unwrap_or(0), self.max_moves.unwrap_or(MAX_MOVES));
-                let runs = RandomRuns { runs, seed, most_moves };
+                let (seed, most_moves) =
+                    (self.seed.unwrap_or(0), self.max_moves.map_or(MAX_MOVES, NonZeroU32::get));
+                let runs = RandomRuns { runs: runs.get(), seed, most_moves };
                 hunt::hunt(&clauses, &runs, (folder, &replaceable), format, out)
             }
             (_, None) => self.how.decide(&clauses, Detail::Rows, out),

@@ -40,7 +40,6 @@ mod value_parser;
 mod viewers;
 
 use std::io::{self, IsTerminal, Write};
-use std::num::NonZeroU32;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -292,9 +291,10 @@ impl FromStr for SizeArg {
     }
 }
 
-/// A whole number above 0.
-fn positive(text: &str) -> Result<NonZeroU32, String> {
-    text.parse().map_err(|_| format!("write a whole number from 1 to {}", u32::MAX))
+/// A whole number above 0, of a type without 0.
+fn positive<T: FromStr>(text: &str) -> Result<T, String> {
+    let largest = u128::MAX >> (128 - 8 * size_of::<T>());
+    text.parse().map_err(|_| format!("write a whole number from 1 to {largest}"))
 }
 
 /// Runs the program with the arguments of this process.

@@ -423,8 +423,9 @@ async fn answer(entry: &Entry, line: &Line<'_>) -> Result<Value, String> {
     serde_json::from_slice(&told).map_err(|_| reason())
 }
 
-/// The words of a command with arguments instead of options: `max_walls` for `--max-walls`. An alternative is left out
-/// if it names an option that the tool does not take: `is_taken` tells which it does.
+/// The words of a command with arguments instead of the options that the tool takes, as `is_taken` tells: `max_walls`
+/// for `--max-walls`. An alternative is left out if it names another option; else that is left as it stands, as is what
+/// is no option.
 fn with_arguments(words: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut told = String::new();
     for line in words.trim().lines().take_while(|line| !line.starts_with("For more information")) {
@@ -436,9 +437,14 @@ fn with_arguments(words: &str, is_taken: impl Fn(&str) -> bool) -> String {
             for piece in pieces {
                 let end = piece.find(|sign: char| !sign.is_ascii_lowercase() && sign != '-');
                 let (name, rest) = piece.split_at(end.unwrap_or(piece.len()));
-                let name = name.replace('-', "_");
-                is_open &= is_taken(&name);
-                part += &(name + rest);
+                let argument = name.replace('-', "_");
+                let is_option = !part.ends_with(|sign: char| sign.is_alphanumeric() || "-_./".contains(sign));
+                if is_option && is_taken(&argument) {
+                    part += &(argument + rest);
+                } else {
+                    is_open &= !is_option;
+                    part += &["--", name, rest].concat();
+                }
             }
             if is_open || number == 0 {
                 told += &part;

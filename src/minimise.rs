@@ -16,7 +16,7 @@ use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
 
 use super::explore::DrawnMoves;
-use super::output::Output;
+use super::output::{Output, argument};
 use super::replay::draw;
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, evidence, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
@@ -35,7 +35,7 @@ Examples:
 /// Of the minimal run no robot, column, row, blocked cell, wall or missed sensor can go: taken alone, without any one
 /// of them the clause is not broken. It ends with the team move that breaks it. Where a search has chosen what happens
 /// in which order, every smaller team and layout is searched. Of a run over states, as `library` stores it, a shortest
-/// one from the same start is left.
+/// one from the same start is left, or of promises that runs break which go on for ever a shorter one.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Minimise {
@@ -77,7 +77,8 @@ pub(super) struct ShortenedJson {
     bound: String,
     before: RunLength,
     after: RunLength,
-    /// Whether no run from the same start gets there sooner; else more states were led to than may be looked at.
+    /// Whether no run from the same start gets there sooner. Else that is not known: more states were led to than may
+    /// be looked at, or the promise is broken by runs that go on for ever, too.
     shortest: bool,
     /// Where it is stored, unless it was left out.
     file: Option<String>,
@@ -105,7 +106,7 @@ impl ShortenedJson {
         let why = if *shortest {
             "No run from the same start gets there sooner."
         } else {
-            "More states are led to than may be looked at: nothing but detours was taken out."
+            "Whether another run from the same start gets there sooner was not decided."
         };
         format!(
             "{clause} as {rule}: {name}\n{}\n               before   after\n\
@@ -224,7 +225,7 @@ impl Minimise {
                 let story = evidence::story(clause, check, &played.evidence)?;
                 out.text(minimised.told(&self.file.display().to_string()) + &story)?;
                 if let Some(file) = &minimised.file {
-                    out.text(format_args!("\nreplay it with: tautline replay {file}\n"))?;
+                    out.text(format_args!("\nreplay it with: tautline replay {}\n", argument(file)))?;
                 }
             }
         }

@@ -29,6 +29,13 @@ pub(super) struct VersionedJson<'a, T> {
     content: &'a T,
 }
 
+/// `path` as an argument of a command that a person pastes into a shell.
+pub(super) fn argument(path: &str) -> String {
+    let is_plain = |sign: char| sign.is_alphanumeric() || "/._-+,:=@%".contains(sign);
+    let path = if path.starts_with('-') { format!("./{path}") } else { path.to_owned() };
+    if path.chars().all(is_plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
+}
+
 impl Output {
     pub(super) fn stdout() -> Self {
         Self { stdout: Some(BufWriter::new(io::stdout().lock())), files: Vec::new(), has_left_out: false }

@@ -25,7 +25,7 @@ use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::{keep, make_folder};
-use super::output::Output;
+use super::output::{Output, argument};
 use super::{Exit, ForceArgs, needless, positive, progress, spill};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
@@ -101,7 +101,7 @@ pub(super) struct DecisionArgs {
     spill: Option<PathBuf>,
     /// Seconds that one step may take: a team move, a case, a step between states. Where one does not end by then and
     /// no other check goes on, its check is left open.
-    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = PATIENCE)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive::<NonZeroU32>, default_value_t = PATIENCE)]
     patience: NonZeroU32,
     #[command(flatten)]
     force: ForceArgs,
@@ -503,7 +503,7 @@ fn certify((row, memory): (&Row, &MemoryLimit), folder: &Path, replaceable: &Rep
 pub(super) fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
     let Some(evidence) = &row.decision.counterexample else { return Ok(String::new()) };
     let story = evidence::story(row.clause, row.check, evidence)?;
-    let file = file.map(|file| format!("\nreplay it with: tautline replay {file}\n"));
+    let file = file.map(|file| format!("\nreplay it with: tautline replay {}\n", argument(file)));
     Ok(format!("\n{story}{}", file.unwrap_or_default()))
 }
 

@@ -193,12 +193,20 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
         ("explore", json!({"layout": "open:5x5", "seed": 3}), "seed has no effect"),
         ("prove", json!({"clauses": []}), "name a clause"),
         ("prove", json!({"clauses": ["CHAIN-99"]}), "there is no clause"),
-        ("replay", json!({"file": "nothing.jsonl"}), "there is no such file"),
+        ("replay", json!({"file": "no-such.jsonl"}), "no-such.jsonl: there is no such file"),
         ("dance", json!({}), "dance"),
     ] {
         let said = client.refused(tool, &arguments);
         assert!(said.contains(word), "{tool} {arguments}: {said}");
-        assert!(!said.contains("--") && !said.contains("drawn"), "{tool} {arguments}: {said}");
+        // A command of a terminal is one between backticks.
+        let beside: String = said.split('`').step_by(2).collect();
+        assert!(!beside.contains("--") && !said.contains("drawn"), "{tool} {arguments}: {said}");
+    }
+    // What the caller wrote stands as it was written.
+    for file in ["no--such-file.jsonl", "a--trace.jsonl"] {
+        let said = client.refused("replay", &json!({"file": file}));
+        assert!(said.contains(&format!("{file}: there is no such file")), "{said}");
+        assert!(said.contains("`tautline explore --trace`"), "{said}");
     }
     let id = client.begins("tools/call", &json!({"name": "hunt", "arguments": long(600)}));
     client

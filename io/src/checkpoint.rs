@@ -94,6 +94,8 @@ pub trait Task: Serialize + DeserializeOwned {
     const FIELDS: &'static [&'static str];
     /// The remedy for a file that is none.
     const AGAIN: &'static str;
+    /// The remedy for a file of another format, which may be of use elsewhere.
+    const OTHER_FORMAT: &'static str = Self::AGAIN;
     /// The remedy for a file of another task.
     const ELSEWHERE: &'static str;
 
@@ -143,7 +145,8 @@ impl<T: Task> Lines<T> {
         };
         let magic: Magic = parse::<T, _>(path, 1, first)?;
         if let Some((field, what)) = magic.differs(T::FORMAT, VERSION) {
-            return Err(in_header(path, first, field, what, T::AGAIN));
+            let remedy = if field == "format" { T::OTHER_FORMAT } else { T::AGAIN };
+            return Err(in_header(path, first, field, what, remedy));
         }
         let task = parse::<T, T>(path, 1, first)?;
         if let Some((field, what)) = asked.and_then(|asked| asked.unknown(&task)) {

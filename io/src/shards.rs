@@ -82,6 +82,7 @@ impl Task for ShardTask {
     const OTHER: &'static str = "this is another shard";
     const FIELDS: &'static [&'static str] = &["plan", "shard"];
     const AGAIN: &'static str = "remove it, and run the shard again";
+    const OTHER_FORMAT: &'static str = "leave it out, or name a shard in its place";
     const ELSEWHERE: &'static str = "give the plan that it was run by, or remove it and run the shard again";
 
     fn set_done(&mut self, is_done: bool) {

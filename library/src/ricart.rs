@@ -65,7 +65,7 @@ impl Protocol for Conditions {
 
     fn moves(&self, _: &Net, (nodes, mail): &State) -> Vec<Move<State>> {
         let act = |(me, &(phase, own, known, replies, waiting)): (usize, &Node)| {
-            let others = ((1 << nodes.len()) - 1) & !(1 << me);
+            let others = u8::MAX >> (8 - nodes.len()) & !(1 << me);
             let (words, node, receivers, number) = match phase {
                 Phase::Idle => ("asks", (Phase::Wants, known + 1, known + 1, 0, 0), others, known + 1),
                 Phase::Wants if replies == others => {

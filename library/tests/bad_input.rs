@@ -7,7 +7,7 @@ use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::{Method, RandomRuns, Verdict};
 use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger;
-use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring};
+use tautline_proofs::protocol::{Compact, Keeps, Move, Protocol, Ring, Start};
 use tautline_proofs::team::{Crew, Deployment, Graphs, Kind, Moves};
 use tautline_proofs::{bound, demands};
 
@@ -75,10 +75,27 @@ fn a_state_that_does_not_come_back_from_its_bytes_is_refused() {
 fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
     let ring = Ring { nodes: 2, ..gathering::row(3, Moves::Together) };
     assert_eq!(refused(&gathering::RULE, ring, 0), "the ring has no room for the robots");
+    for (places, robots, words) in
+        [(&[0, 2][..], 3, "[0, 2]"), (&[0, 9], 2, "[0, 9]"), (&[1, 1], 2, "[1, 1]")]
+    {
+        let ring = Ring { nodes: 9, starts: Start::At(places), ..gathering::row(robots, Moves::Together) };
+        let words = format!(
+            "{robots} robots of a ring of 9 nodes do not start at first in {words}: each has a node of its own"
+        );
+        assert_eq!(refused(&gathering::RULE, ring, 0), words);
+    }
     assert_eq!(refused(&ricart::RULE, ricart::Net::of(9, 0), 0), "there are 1 to 8 nodes, not 9");
     let words = "a ring has at least two machines of two states";
     assert_eq!(refused(&dijkstra::Rule::Published, dijkstra::Machines::of(1, 5), 0), words);
     assert_eq!(refused(&Counter::AsItSays, Starts::of(1), 7), "there is no demand 7");
+}
+
+/// The set of all eight nodes fits into its byte.
+#[test]
+fn the_largest_net_that_is_not_refused_is_searched() {
+    let found = Keeps(ricart::Net::of(8, 0), 0).search(&ricart::RULE, Limits::steps(10_000));
+    let found = found.expect("eight nodes are within the bound");
+    assert_eq!((found.is_whole, found.broken), (false, vec![]));
 }
 
 /// A number that grows beyond its bytes, long after the states that are tried first; or does not.

@@ -6,15 +6,16 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Instant;
-use std::{env, fs, io, process};
+use std::{env, fmt, fs, io, process};
 
 use stateright::{Checker, Model};
 use tautline_library::{RULES, alpha, dijkstra, gathering, ricart};
-use tautline_proofs::decide::{Answer, Cache, Context, Portion, Verdict};
+use tautline_proofs::decide::{Answer, Cache, Context, MethodError, Portion, Verdict};
+use tautline_proofs::demands;
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::{Limits, MemoryLimit};
 use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::protocol::{Bound, Keeps, Protocol};
+use tautline_proofs::protocol::{Bound, Keeps, Move, Protocol};
 use tautline_proofs::team::Moves;
 
 use crate::model::CountedModel;
@@ -92,6 +93,54 @@ fn a_check_in_portions_has_the_verdict_the_counts_and_the_counterexample_of_the_
         assert_eq!(Answer::merged(parts), whole, "{check:?}");
     }
     assert_eq!(refuted, 3);
+}
+
+/// So many surroundings, in each of which a number grows to 20.
+struct Many(u16);
+
+impl fmt::Display for Many {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} surroundings", self.0)
+    }
+}
+
+impl Bound for Many {
+    type Surroundings = u16;
+
+    fn each(&self) -> Result<Vec<u16>, MethodError> {
+        Ok((0..self.0).collect())
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Grows;
+
+impl Protocol for Grows {
+    type Bound = Many;
+    type State = u8;
+    demands! { always "it is small", |_, _, _, &number| number < 21; }
+
+    fn starts(&self, _: &u16) -> impl IntoIterator<Item = u8> {
+        [0]
+    }
+
+    fn moves(&self, _: &u16, &number: &u8) -> Vec<Move<u8>> {
+        (number < 20).then(|| Move::of(0, "grows", number + 1)).into_iter().collect()
+    }
+}
+
+/// Before, how far a budget went depended on the number of threads, and one that was overdrawn was as good as none.
+#[test]
+fn a_budget_ends_a_search_of_many_surroundings_in_the_same_place_on_any_number_of_threads() {
+    for steps in [100, 6_000, 1_000_000] {
+        let found = |workers| {
+            let limits = Limits { workers: NonZeroUsize::new(workers), ..Limits::steps(steps) };
+            let found = Keeps::<Grows>(Many(1000), 0).search(&Grows, limits).expect("a search");
+            (found.states, found.steps, found.is_whole)
+        };
+        let one = found(1);
+        assert_eq!((one.2, [2, 3, 8].map(found)), (steps == 1_000_000, [one; 3]), "{steps} steps");
+    }
 }
 
 /// Four robots of Alpha on a square of `ALPHA_SIDE` cells a side, 16 unless it says otherwise; what is found is

@@ -176,6 +176,21 @@ fn a_search_is_not_taken_up_from_what_is_damaged_or_of_another_rule() {
     assert_eq!(refused(&Writes { most: 4, ..WRITES }, |_| {}), Some(SpillFault::Foreign));
 }
 
+/// Before, a search that took up the states of one file twice never ended.
+#[test]
+fn a_file_in_the_place_of_another_one_is_damaged() {
+    let (folder, bytes) = killed();
+    let file = |end: &str| {
+        let name = files(&folder).into_iter().find(|name| name.ends_with(end)).expect("a file");
+        folder.path().join(name)
+    };
+    fs::copy(file("-1.states"), file("-2.states")).expect("it is copied");
+    let memory = memory(bytes, &folder);
+    let some = written(&WRITES, Limits { memory: memory.asked("words"), ..Limits::NONE }, 1);
+    assert_eq!((some.is_whole, some.broken), (false, vec![]));
+    assert_eq!(memory.fault().map(|error| error.fault), Some(SpillFault::Damaged));
+}
+
 #[test]
 fn a_search_for_another_question_begins_anew_and_leaves_the_files_of_the_first() {
     let (folder, bytes) = killed();

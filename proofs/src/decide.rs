@@ -288,7 +288,7 @@ pub trait Method<R>: Sync {
     }
 
     /// The counterexample to `rule` that these choices make, made as short as it can be from its start within `limits`,
-    /// and whether none from there is shorter; `None` if the method cannot tell.
+    /// and whether it is known that none from there is shorter; `None` if the method cannot tell.
     ///
     /// # Errors
     /// [`MethodError`] if it cannot begin, or these choices make none.

@@ -229,13 +229,14 @@ pub struct EveryNumber {
     pub most_robots: usize,
     /// Steps of each of these searches.
     pub most_steps: u64,
-    /// The largest team that is asked how it starts: of larger ones the start is believed. A verdict about small teams
-    /// alone has a smaller number.
+    /// The largest team that is asked how it starts, and which of its robots are bound: of larger ones that is
+    /// believed. A verdict about small teams alone has a smaller number.
     pub most_starts: usize,
 }
 
 impl EveryNumber {
-    /// Every number of robots; teams of up to four robots, in a hundred thousand steps each, and starts of up to 16.
+    /// Every number of robots; teams of up to four robots, in a hundred thousand steps each, and starts and bound
+    /// robots of up to 16.
     pub const DEFAULT: Self =
         Self { teams: "every N", part: "", most_robots: 4, most_steps: 100_000, most_starts: 16 };
 
@@ -270,7 +271,7 @@ impl EveryNumber {
                 return Ok(Answer::new(Some(evidence), true, Verdict::Holds, invariant.cases));
             }
         }
-        if let Some(wider) = Wider::of(rule, self.most_robots) {
+        if let Some(wider) = Wider::of(rule, self.most_robots.max(self.most_starts)) {
             let invariant = Invariant::found(&wider)?;
             if invariant.holds() {
                 return Ok(invariant.answer());

@@ -5,8 +5,8 @@
 //!
 //! A setting is searched in one of two ways. As a tree ([`Game`](crate::engine::tree::Game)): the layout with the
 //! fewest walls that breaks a demand comes first, and a search can be left, taken up again and dealt out. As states
-//! ([`System`](crate::engine::states::System)): ways that lead to the same are gone once, and the shortest run comes
-//! first. [`Setting::strategy`] says which; where both can be asked, they agree.
+//! ([`System`](crate::engine::states::System)): ways that lead to the same are gone once, and the shortest run that
+//! ends comes first. [`Setting::strategy`] says which; where both can be asked, they agree.
 
 mod check;
 mod graph;

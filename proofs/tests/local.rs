@@ -10,7 +10,7 @@ use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
 use tautline_proofs::local::{
-    Act, EveryNumber, Far, GuardedPlanner, Invariant, Local, Plan, Robot, chain, in_a_row,
+    Act, EveryNumber, Far, GuardedPlanner, Invariant, Local, Plan, Robot, all_tuples, chain, in_a_row,
 };
 
 pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> MethodResult {
@@ -220,6 +220,68 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     insta::assert_snapshot!(reach, @"the promise looks -1 cells far: give 0 or more");
     let fewer = EveryNumber { teams: "up to four robots", most_starts: 4, ..EveryNumber::DEFAULT };
     assert_eq!(decided_by(fewer, &Leash { slip: Slip::FifthStartsFarAway, ..LEASH }).0, Verdict::Holds);
+}
+
+/// Robots in one cell, of which the first of those that are bound stays: each two are bound in a team of three or four,
+/// and in a larger one the first two alone.
+struct FewAreBound;
+
+impl Local for FewAreBound {
+    type State = ();
+    type Act = Step;
+
+    fn least(&self) -> usize {
+        3
+    }
+
+    fn states(&self) -> Vec<()> {
+        vec![()]
+    }
+
+    fn acts(&self, (): ()) -> Vec<Act<(), Step>> {
+        let act = |step: Step| {
+            let goes = step != Step::Stay;
+            let ends = if goes { vec![(true, ()), (false, ())] } else { vec![(true, ())] };
+            Act { act: step, step, ends, needs_open: false }
+        };
+        Step::ALL.map(act).to_vec()
+    }
+
+    fn admits(&self, plans: &[Plan<(), Step>]) -> bool {
+        plans[0].step == Step::Stay
+    }
+
+    fn keeps(&self, robots: &[Robot<()>]) -> bool {
+        robots[0].at == robots[1].at
+    }
+
+    fn reach(&self) -> (i16, Far) {
+        (1, Far::Broken)
+    }
+
+    fn may_start(&self, robots: &[Robot<()>]) -> bool {
+        self.keeps(robots)
+    }
+
+    fn start(&self, robots: usize) -> Vec<Robot<()>> {
+        vec![Robot::new(Cell::new(0, 0), ()); robots]
+    }
+
+    fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
+        if robots < 5 { all_tuples(robots, 2) } else { vec![vec![0, 1]] }
+    }
+}
+
+/// Places of three robots keep the promise, but no three of five robots are bound so. Before, only teams that are
+/// searched were asked which of them are bound, and the promise of five was taken to hold.
+#[test]
+fn robots_that_only_a_small_team_binds_prove_nothing_of_larger_ones() {
+    assert_eq!(decided(&FewAreBound).0, Verdict::Open);
+    let up_to_five = EveryNumber { most_robots: 5, ..EveryNumber::DEFAULT };
+    let (verdict, size, _) = decided_by(up_to_five, &FewAreBound);
+    assert_eq!((verdict, size), (Verdict::Refuted, Some((5, 1))));
+    let up_to_four = EveryNumber { teams: "three and four robots", most_starts: 4, ..EveryNumber::DEFAULT };
+    assert_eq!(decided_by(up_to_four, &FewAreBound).0, Verdict::Holds);
 }
 
 /// A planner that picks any acts, and a generator of its own.

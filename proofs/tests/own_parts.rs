@@ -2,7 +2,7 @@
 //! blocked cells, goals, starts, sight, who acts when, lost messages, robots that die, and eventually under weak
 //! fairness. Where a question can be asked of a tree and of the states, both say the same.
 
-use tautline_kernel::ground::{Cell, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::decide::{Answer, Cache as Known, Context, Depiction, Method, Verdict};
 use tautline_proofs::engine::states::{self, MemoryLimit};
 use tautline_proofs::engine::tree::unwatched;
@@ -269,6 +269,102 @@ fn a_tree_and_the_states_say_the_same() {
         let (tree, states) = (run(tree), run(states));
         assert!(tree.walls.len() + tree.obstacles.len() <= states.walls.len() + states.obstacles.len());
         assert!(states.frames.len() <= tree.frames.len());
+    }
+}
+
+/// A robot that waits, goes round four cells, and is done where it knows that the first way south is open.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Tour;
+
+const GATE: Edge = Edge::new(Cell::new(0, 0), Side::South);
+
+impl Rule for Tour {
+    type Memory = usize;
+    type Message = ();
+
+    fn start(&self, _: usize, _: &[Cell]) -> usize {
+        0
+    }
+
+    fn act(&self, _: &mut View<'_, Self>, acts: &mut usize) -> Act {
+        let ahead = [Side::East, Side::South, Side::West, Side::North];
+        let waits = 32;
+        *acts = if *acts < waits { *acts + 1 } else { waits + (*acts + 1 - waits) % ahead.len() };
+        acts.checked_sub(waits).map_or(Act::Wait, |place| Act::Go(ahead[(place + 3) % 4]))
+    }
+
+    fn is_done(&self, _: usize, scene: &Scene<Self>) -> bool {
+        scene.cell(0) == Cell::new(1, 0) && scene.map().is_some_and(|map| map.edge(GATE) == Some(true))
+    }
+}
+
+const AT_HOME: Demand<'static, Tour> =
+    Demand::at_the_end("T-1", "it ends at home", &|scene| scene.cell(0) == Cell::new(0, 0));
+const TOUR_ENDS: Demand<'static, Tour> = Demand::never_endless("T-2", "it ends");
+
+const fn touring(moves: Moves) -> Setting<'static, Tour> {
+    let ground = Ground::open(2, 2).walls(Which::Met(1));
+    let corner = Places::At(|_: &Tour| vec![Cell::new(0, 0)]);
+    let demands = &[AT_HOME, TOUR_ENDS];
+    Setting { moves, longest_run: 1000, demands, ..Setting::new("tour", ground, 1, corner) }
+}
+
+static TOUR: Setting<'static, Tour> = touring(Moves::Together);
+static TOUR_AS_STATES: Setting<'static, Tour> = touring(Moves::OneAtATime);
+
+/// A way that can only be open is known from when it is met. Before, a search of the tree took the robot that came back
+/// for one that goes on for ever, although it knew more than when it was there first.
+#[test]
+fn a_robot_that_comes_back_and_knows_more_of_the_layout_does_not_go_round() {
+    assert_eq!((TOUR.strategy(), TOUR_AS_STATES.strategy()), (Strategy::Tree, Strategy::States));
+    for setting in [&TOUR, &TOUR_AS_STATES] {
+        assert_eq!(verdict(&Tour, setting, 0), Verdict::Refuted);
+    }
+    let rounds = [&TOUR, &TOUR_AS_STATES].map(|setting| run(decided(&Tour, setting, 1)).walls.len());
+    assert_eq!(rounds, [1, 1], "without a wall it ends");
+}
+
+/// Robots that go to the middle of three cells, until somebody is there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Seat;
+
+const SEAT: Cell = Cell::new(1, 0);
+
+impl Rule for Seat {
+    type Memory = ();
+    type Message = ();
+
+    fn start(&self, _: usize, _: &[Cell]) {}
+
+    fn act(&self, view: &mut View<'_, Self>, (): &mut ()) -> Act {
+        let is_taken = (0..view.robots()).any(|other| view.sees(other) == Some(SEAT));
+        let side = if view.cell().x < SEAT.x { Side::East } else { Side::West };
+        if is_taken || view.cell() == SEAT { Act::Wait } else { Act::Go(side) }
+    }
+
+    fn is_done(&self, _: usize, scene: &Scene<Self>) -> bool {
+        scene.cells().any(|cell| cell == SEAT)
+    }
+}
+
+const NO_TWO: Demand<'static, Seat> =
+    Demand::always("S-1", "no two robots are in one cell", &|moved| moved.after.cells_differ());
+
+const fn seating(moves: Moves) -> Setting<'static, Seat> {
+    let ends = Places::At(|_: &Seat| vec![Cell::new(0, 0), Cell::new(2, 0)]);
+    let setting = Setting::new("seat", Ground::open(3, 1), 2, ends);
+    Setting { senses: Senses::TEAM, moves, demands: &[NO_TWO], ..setting }
+}
+
+static SEATS: [Setting<'static, Seat>; 3] =
+    [seating(Moves::Together), seating(Moves::AnySubset), seating(Moves::LookThenMove)];
+
+/// Whatever robots can do together they can do when they look and move at times of their own. Before, the second one
+/// forgot its move when the first one came in.
+#[test]
+fn a_robot_that_has_looked_moves_although_nothing_is_left_to_do() {
+    for setting in &SEATS {
+        assert_eq!(verdict(&Seat, setting, 0), Verdict::Refuted, "{:?}", setting.moves);
     }
 }
 

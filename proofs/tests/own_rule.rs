@@ -115,11 +115,11 @@ fn every_demand_is_decided_in_its_own_way() {
 fn a_run_that_comes_back_breaks_what_demands_an_end_and_is_over_where_nothing_does() {
     let endless = decided(Walk::Patrols, (&ROW, 1)).expect("it can be decided");
     assert_eq!(endless.verdict, Verdict::Refuted);
-    // East once, and then there and back, with a wall at either end.
+    // East once, and then there and back, with a wall at either end, until it learns no more of the layout.
     let Some(Depiction::Robots(run)) = endless.counterexample.map(|found| found.seen) else {
         panic!("a run")
     };
-    assert_eq!(run.frames.len(), 1 + 8);
+    assert_eq!(run.frames.len(), 1 + 10);
     let patrol = decided(Walk::Patrols, (&PATROL, 0)).expect("it can be decided");
     assert_eq!((patrol.verdict, patrol.given_up), (Verdict::Holds, 0));
 }

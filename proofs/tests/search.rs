@@ -99,9 +99,14 @@ fn a_position_of_another_search_is_refused() {
         refused == Some(Unsearchable::Search(tree::Unsearchable::Foreign))
     };
     assert!(foreign(&Bounds::new(Subject::PUBLISHED, 5, 2), &position));
+    // The start is a place in every tree, but not what is left of this one; nor is what is left when a lane is lost.
     let mut start = lanes(&position);
     start[0] = json!({"answers": [], "fixed": 0, "next": "advance"});
-    assert!(!foreign(&bounds, &with_lanes(&position, start)), "the start is a place in every tree");
+    let fewer = lanes(&position).split_off(1);
+    for lanes in [start, fewer] {
+        let refused = Search::at(&bounds, &with_lanes(&position, lanes)).err();
+        assert_eq!(refused, Some(Unsearchable::Search(tree::Unsearchable::Short)));
+    }
     for place in 0..lanes(&position).len() {
         let mut damaged = lanes(&position);
         damaged[place]["answers"].as_array_mut().expect("a list").push(json!(7));
@@ -117,6 +122,7 @@ fn every_lane_is_another_part_of_the_tree_and_none_is_empty() {
     let bounds = Bounds::new(Subject::PUBLISHED, 4, 3);
     let whole = found(&bounds);
     let mut search = Search::new(&bounds).expect("four robots fit");
+    let deal = serde_json::to_value(Search::new(&bounds).expect("four robots fit").deal(1)).expect("JSON");
     let mut most = 0;
     while search.wave() {
         let position = search.position();
@@ -127,12 +133,16 @@ fn every_lane_is_another_part_of_the_tree_and_none_is_empty() {
             continue;
         }
         most = all.len();
-        // The parts add up to the whole, and each has runs of its own.
-        let at = |lanes| {
-            let mut part = Search::at(&bounds, &with_lanes(&position, lanes)).expect("a position of its own");
-            let (levels, before) = (part.progress().levels.len(), part.progress().runs);
-            while part.progress().levels.len() == levels && part.wave() {}
-            part.progress().levels.get(levels).map_or(0, |_| part.progress().runs) - before
+        // The parts add up to the whole, and each has runs of its own: those of a shard that is dealt it alone.
+        let at = |lanes: Vec<Value>| {
+            let mut ways = vec![json!([]); 4];
+            ways[position.levels().len()] = Value::Array(lanes);
+            let mut dealt = deal.clone();
+            (dealt["shards"], dealt["left"]) = (json!([ways]), json!([0]));
+            let deal = serde_json::from_value(dealt).expect("a deal");
+            let mut part = Search::shard(&bounds, &deal, 0).expect("a shard");
+            while part.wave() {}
+            part.progress().runs
         };
         let parts: Vec<u64> = all.iter().map(|lane| at(vec![lane.clone()])).collect();
         assert!(parts.iter().all(|&runs| runs > 0), "{parts:?}");

@@ -57,7 +57,7 @@ pub(crate) struct Decision {
     complete: bool,
     /// The moves that occurred, of those that must.
     covered: Vec<String>,
-    /// A shortest run that breaks the demand.
+    /// A run that breaks the demand: a shortest one if it ends.
     counterexample: Option<Py<StateRun>>,
 }
 

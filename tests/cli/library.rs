@@ -64,6 +64,13 @@ fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_mini
     printed(folder, &["replay", "mutex-2-published-states-2-minimal.jsonl"], 1);
     // Its own clause can be named, in small letters, too; any other one is none of its.
     json(folder, &["minimise", stored, "--clause", "mutex-2"], 0);
+    for none in [["--runs", "0"].as_slice(), &["--runs", "9", "--max-moves", "0"]] {
+        let said = refused(folder, &[&["library", "ricart-agrawala"], none].concat());
+        assert!(said.contains("write a whole number from 1 to"), "{said}");
+    }
+    // A name that a shell would take apart.
+    let told = printed(folder, &[&hunt[..], &["--out", "my runs"]].concat(), 1);
+    assert!(told.contains(&format!("tautline replay 'my runs/{}'", &stored["found/".len()..])), "{told}");
     let said = refused(folder, &["minimise", stored, "--clause", "CHAIN-2"]);
     assert!(said.contains("this is a counterexample to MUTEX-2, not to CHAIN-2"), "{said}");
     let minimised = json(folder, &["minimise", stored, "--out", "again"], 0);

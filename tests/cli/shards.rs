@@ -30,6 +30,8 @@ fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
     for shard in [3, 7, 1, 2, 6, 4, 5] {
         hunt_shard(many, "plan.json", shard);
     }
+    let said = refused(many, &["merge", "plan.json", "plan.json"]);
+    assert!(said.contains("leave it out, or name a shard in its place"), "{said}");
     // A shard that is done is not searched again.
     let kept = read(many, "plan-3.json");
     hunt_shard(many, "plan.json", 3);

@@ -76,8 +76,10 @@ const MOST_DILUTION: f64 = 20.0;
 /// the error is then about the square of it.
 const LAST_STEP: f64 = 1e-5;
 
-/// Minima nearer to each other than this, in the same proportion, are one.
+/// Minima nearer to each other than this, in the same proportion, are one, and none that are farther apart than half a
+/// metre.
 const ONE_PLACE: f64 = 1e-2;
+const ONE_PLACE_M: f64 = 0.5;
 
 /// Costs nearer to each other than this, in the same proportion squared, are one.
 const ONE_COST: f64 = 1e-12;
@@ -119,7 +121,7 @@ pub fn locate(
     let error = signal.relative_error();
     let ambiguous = AMBIGUOUS * error * error * variance + ONE_COST * rounding;
     let descent = Descent { ranges, residual, area: None, last_m: LAST_STEP * layout.spread_m[0] };
-    let mut minima = Minima::new(start(&descent, &layout), ONE_PLACE * layout.spread_m[0]);
+    let mut minima = Minima::new(start(&descent, &layout), (ONE_PLACE * layout.spread_m[0]).min(ONE_PLACE_M));
     let mut mirrored = None;
     for _ in 0..MOST_ROUNDS {
         let best = minima.best.at;
@@ -309,6 +311,7 @@ mod tests {
     use super::super::normal::Normal;
     use super::super::place::SymmetricMatrix;
     use super::*;
+    use crate::net::Propagation;
 
     /// A minimum so many metres to the east.
     fn minimum(x_m: f64, cost: f64) -> Landing {
@@ -338,6 +341,22 @@ mod tests {
             let parts = first.fold(0_u32, |parts, part| parts | 1 << part);
             assert!(count <= MOST_IMAGES || parts == 0xff, "{count}: {parts:b}");
         }
+    }
+
+    /// Before, positions that were 6 metres apart were one where anchors were a kilometre apart.
+    #[test]
+    fn the_image_of_a_robot_beside_a_long_line_of_anchors_is_told() {
+        let robot = Point::new(300.0, 3.0);
+        let ranges = [0.0, 500.0, 1000.0].map(|x_m| {
+            let anchor = Point::new(x_m, 0.0);
+            Range::new(anchor, anchor.distance_m(robot))
+        });
+        let signal = Signal::new(Propagation::FREE_SPACE, 0.0).expect("no noise");
+        let told = locate(&ranges, Residual::Metres, &signal, None).expect("a position");
+        let Fix::Two(one, other) = told else { panic!("{told:?}") };
+        let mut sides = [one, other].map(|estimate| estimate.at.y_m);
+        sides.sort_by(f64::total_cmp);
+        assert!((sides[0] + 3.0).abs() < 1e-3 && (sides[1] - 3.0).abs() < 1e-3, "{told:?}");
     }
 
     #[test]

@@ -94,12 +94,4 @@ impl Bounds {
         let base = self.base;
         area(self.area, base, self.robots).ok_or(SetupError::BaseOutside(base))
     }
-
-    /// How many edges can be walls.
-    ///
-    /// # Errors
-    /// [`SetupError`] if the base is outside.
-    pub fn edges(&self) -> Result<u32, SetupError> {
-        Ok(self.reach()?.edges().count() as u32)
-    }
 }

@@ -8,6 +8,18 @@ use tautline_kernel::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Side};
 /// The cells of `area` within reach of a chain of `robots`, nearest first, where `is_open` tells the edges without a
 /// wall.
 pub fn within_reach(area: Area, base: Cell, robots: usize, is_open: impl Fn(Edge) -> bool) -> Vec<Cell> {
+    reach_by_robots(area, base, robots, is_open).0
+}
+
+/// The cells of `area` within reach of a chain of `most` robots, nearest first, and how many of them are within that of
+/// a chain of one robot, of two, and so on, up to `most` or to the first chain for which one more robot reaches no
+/// other cell.
+pub fn reach_by_robots(
+    area: Area,
+    base: Cell,
+    most: usize,
+    is_open: impl Fn(Edge) -> bool,
+) -> (Vec<Cell>, Vec<usize>) {
     let mut is_reached = vec![false; area.width() * area.height()];
     let mut reached = Vec::new();
     let mut reach = |cell: Cell, reached: &mut Vec<Cell>| {
@@ -20,9 +32,13 @@ pub fn within_reach(area: Area, base: Cell, robots: usize, is_open: impl Fn(Edge
         }
     };
     reach(base, &mut reached);
-    let mut first = 0;
-    for _ in 1..robots {
+    let (mut first, mut counts) = (0, Vec::new());
+    while first < reached.len() {
         let last = reached.len();
+        counts.push(last);
+        if counts.len() >= most {
+            break;
+        }
         for place in first..last {
             let cell = reached[place];
             for side in Side::ALL.into_iter().filter(|&side| is_open(Edge::new(cell, side))) {
@@ -37,7 +53,7 @@ pub fn within_reach(area: Area, base: Cell, robots: usize, is_open: impl Fn(Edge
         }
         first = last;
     }
-    reached
+    (reached, counts)
 }
 
 /// Whether all is explored that is within reach of such a chain by the walls that are known.

@@ -1,9 +1,9 @@
-//! The search of cases, each of which is examined by itself: all layouts of an area, say. Cases come in stages, smallest
-//! first, and no stage is examined after one in which enough was found. They are examined in waves of a fixed number,
-//! so that all comes out the same on any number of threads.
+//! The search of cases, each of which is examined by itself: all layouts of an area, say. Cases come in stages,
+//! smallest first, and no stage is examined after one in which enough was found. They are examined in waves of a fixed
+//! number, so that all comes out the same on any number of threads.
 //!
-//! Cases can be dealt out among shards. A shard examines its own cases, stage by stage, until it has found enough itself;
-//! the outcomes of all shards are put together by the same search that one process makes.
+//! Cases can be dealt out among shards. A shard examines its own cases, stage by stage, until it has found enough
+//! itself; the outcomes of all shards are put together by the same search that one process makes.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -228,11 +228,7 @@ impl<L: Cases> Shard<L> {
         outcomes.truncate(stages.len());
         let left = budget_steps.unwrap_or(u64::MAX);
         let mut shard = Self { cases, number, stages, owners, outcomes, own: Vec::new(), left };
-        if shard.outcomes.is_empty() {
-            shard.begin()?;
-        } else {
-            shard.own = shard.own_cases()?;
-        }
+        shard.own = shard.own_cases()?;
         shard.go_on()?;
         Ok(shard)
     }
@@ -293,13 +289,6 @@ impl<L: Cases> Shard<L> {
     /// Begins the next stage with a case of its own.
     fn go_on(&mut self) -> Result<(), L::Error> {
         while self.is_at_end() && !self.is_done() {
-            self.begin()?;
-        }
-        Ok(())
-    }
-
-    fn begin(&mut self) -> Result<(), L::Error> {
-        if self.outcomes.len() < self.stages.len() {
             self.outcomes.push(Vec::new());
             self.own = self.own_cases()?;
         }

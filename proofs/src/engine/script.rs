@@ -79,11 +79,6 @@ impl<'a> Script<'a> {
         Self { choices, of: Vec::new() }
     }
 
-    /// The choices.
-    pub const fn choices(&self) -> &'a Choices {
-        self.choices
-    }
-
     /// Makes the next choice, one of `of`, which is none of those that come again.
     ///
     /// # Errors

@@ -319,7 +319,7 @@ pub struct Findings<D> {
     pub is_whole: bool,
     /// The situations that occurred, sorted.
     pub covered: Vec<&'static str>,
-    /// A shortest run for each demand that is broken.
+    /// A run for each demand that is broken: a shortest one of those that end, or one that goes round.
     pub broken: Vec<Run<D>>,
 }
 

@@ -207,7 +207,8 @@ pub enum Unsearchable {
     },
     /// A position that the runs of this rule do not get to.
     Foreign,
-    /// A position of a shard that has searched other parts than it was dealt, or not all of them.
+    /// A position of a search, or of a shard, in which what was searched and what is left are not all that it has to
+    /// search, each part once.
     Short,
 }
 
@@ -231,7 +232,9 @@ impl fmt::Display for Unsearchable {
             Self::Foreign => {
                 f.write_str("the runs of this rule do not get to where this search is said to be")
             }
-            Self::Short => f.write_str("this shard has not done what the plan dealt it"),
+            Self::Short => {
+                f.write_str("what this search has done and what it has left are not the whole of it")
+            }
         }
     }
 }

@@ -383,9 +383,9 @@ pub const CLAUSES: [Clause; 12] = [
     },
     Clause {
         id: "FRONTIER-12",
-        sentence: "A robot whose place errs by at most E, with E + F < L/2 for the five steps F of a detour, MUST \
-                   stay in its cell until it enters the next one through the side between both, and MUST pass the \
-                   middle of that side at F/2 − (1 + F/L) E or more.",
+        sentence: "A robot that takes itself to be at the midpoint of its cell and errs by at most E, with E + F < \
+                   L/2 for the five steps F of a detour, MUST stay in its cell until it enters the next one through \
+                   the side between both, and MUST pass the middle of that side at F/2 − (1 + F/L) E or more.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", Round::FIVE_STEPS),
             &EveryAnswer {

@@ -114,7 +114,7 @@ pub(super) fn occupied(occupancy: &Occupancy, choices: &Choices) -> Option<Box<d
 
 /// The bound of [`occupies`], in words.
 pub(super) fn places() -> String {
-    format!("two places within a cell of its midpoint, on a lattice of 1/{PARTS}")
+    format!("two places of a cell, its rim included, on a lattice of 1/{PARTS}")
 }
 
 /// FRONTIER-8: the occupancy probability at two places.

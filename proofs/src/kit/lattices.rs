@@ -188,7 +188,9 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     }
 
     fn smallest(&self, rule: &Rule) -> Result<Option<DrawnCertificate>, MethodError> {
-        let most = Most { cells: 10, barriers: 4, robots: 1..=3 };
+        // In which order three robots of one speed arrive is not modelled.
+        let robots = if self.speeds == Speeds::Equal { 1..=2 } else { 1..=3 };
+        let most = Most { cells: 10, barriers: 4, robots };
         let of = |class: Class, _| match class.robots {
             1 => Ok(Lattices::<1>::of(self).shortest(rule, class)),
             2 => Ok(Lattices::<2>::of(self).shortest(rule, class)),

@@ -58,7 +58,7 @@ fn situation(stances: [Stance; 2]) -> &'static str {
 pub(super) fn pairs() -> String {
     let (stances, offsets) = (Step::ALL.len() as u32, OFFSETS.pow(2));
     format!(
-        "two robots, {} places of one round the other, each at every quarter of its path",
+        "two robots, {} places of one round the other, each at every third of its path",
         stances * stances * offsets
     )
 }

@@ -88,7 +88,7 @@ pub enum Starts {
 pub enum Speeds {
     /// Each drive takes any time.
     Any,
-    /// All drives take the same time: who has left first arrives first.
+    /// All drives take the same time: who has left first arrives first. Of at most two robots.
     Equal,
     /// Nobody decides while another one drives.
     OneByOne,

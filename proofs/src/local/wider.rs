@@ -1,6 +1,8 @@
 //! A rule that speaks of `k` robots, as one that speaks of `k + 1`: whatever each `k` of them may plan at once. What a
 //! robot does to two others may break a promise of two that all three together keep.
 
+use std::collections::BTreeSet;
+
 use super::invariant::{promised, relative};
 use super::{Act, Far, Local, NumberedRule, Plan, Robot, all_tuples};
 
@@ -19,15 +21,15 @@ impl<'r> Wider<'r> {
         let is_due = rule.least() > rule.robots() && rule.reach().1 == Far::Broken && !wider.parts.is_empty();
         let covers = |robots: usize| {
             let within = wider.tuples(robots);
-            let has = |wide: &Vec<usize>, narrow: &Vec<usize>| {
-                wider
-                    .parts
-                    .iter()
-                    .any(|part| part.iter().map(|&robot| wide[robot]).eq(narrow.iter().copied()))
-            };
-            rule.tuples(robots).iter().all(|narrow| within.iter().any(|wide| has(wide, narrow)))
+            let covered: BTreeSet<Vec<usize>> = within.iter().flat_map(|wide| wider.parts_of(wide)).collect();
+            rule.tuples(robots).iter().all(|tuple| covered.contains(tuple))
         };
         (is_due && (rule.least()..=most.max(rule.least())).all(covers)).then_some(wider)
+    }
+
+    /// The tuples of the rule among the robots of this one.
+    fn parts_of(&self, wide: &[usize]) -> impl Iterator<Item = Vec<usize>> {
+        self.parts.iter().map(|part| part.iter().map(|&robot| wide[robot]).collect())
     }
 }
 
@@ -79,10 +81,8 @@ impl Local for Wider<'_> {
 
     /// Every tuple that is bound as the first robots of a team are.
     fn tuples(&self, robots: usize) -> Vec<Vec<usize>> {
-        let bound = self.rule.tuples(robots);
-        let is_bound = |wide: &Vec<usize>| {
-            self.parts.iter().all(|part| bound.contains(&part.iter().map(|&robot| wide[robot]).collect()))
-        };
+        let bound: BTreeSet<Vec<usize>> = self.rule.tuples(robots).into_iter().collect();
+        let is_bound = |wide: &Vec<usize>| self.parts_of(wide).all(|part| bound.contains(&part));
         all_tuples(robots, self.robots()).into_iter().filter(is_bound).collect()
     }
 }

@@ -168,7 +168,9 @@ fn hunted(all: &[ErasedProtocol], runs: &RandomRuns) -> Result<Answer, MethodErr
     Ok(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases))
 }
 
-/// A shortest run from the start of another one, or that one without its detours; and whether it is a shortest one.
+/// A shorter run from the start of another one: the first that a search finds, or that one without its detours; and
+/// whether none is shorter. Of a promise that runs break which go on for ever that is not known: a search looks for
+/// them where no run breaks it that ends, and takes the first round.
 fn shortened(
     all: &[ErasedProtocol],
     choices: &Choices,
@@ -176,12 +178,13 @@ fn shortened(
 ) -> Result<Option<(Choices, bool)>, MethodError> {
     let (_, run) = play(all, choices).map_err(MethodError::new)?;
     let Some((playing, start)) = starts(all).nth(run.start) else { return Ok(None) };
-    let shortest = states::search(playing, [start.clone()], limits).broken.into_iter().next();
+    let found = states::search(playing, [start.clone()], limits).broken.into_iter().next();
     playing.states_came_back()?;
-    Ok(Some(match shortest {
-        Some(found) => (playing.unfolded(&start, Run { start: run.start, ..found }).choices(), true),
-        None => (states::without_detours(playing, &start, &run).choices(), false),
-    }))
+    let found = found.map(|found| playing.unfolded(&start, Run { start: run.start, ..found }));
+    let is_shortest = found.is_some() && !playing.may_be_endless();
+    let cut = states::without_detours(playing, &start, &run);
+    let shorter = found.filter(|found| found.length() <= cut.length()).unwrap_or(cut);
+    Ok(Some((shorter.choices(), is_shortest)))
 }
 
 fn evidence(all: &[ErasedProtocol], run: &Run) -> Option<Evidence> {
@@ -205,6 +208,10 @@ fn is_sound(all: &[ErasedProtocol]) -> Result<(), MethodError> {
     Ok(())
 }
 
+/// Surroundings that are searched beside each other before what they took of the steps is counted: as many with any
+/// number of threads, so that a budget ends the search in the same place.
+const WAVE: usize = 256;
+
 /// The findings of a search that can be believed: of all surroundings in a portion, or up to the first in which the
 /// demand is broken. The run is a shortest one, in the first of them that has one.
 fn searched(
@@ -224,8 +231,8 @@ fn searched(
             (limits.workers.map_or_else(rayon::current_num_threads, NonZeroUsize::get), NonZeroUsize::new(1))
         }
     };
-    'all: for places in own.chunks(64 * at_once) {
-        let limits = Limits { most_steps: limits.most_steps - whole.steps, workers, ..limits };
+    'all: for places in own.chunks(WAVE) {
+        let limits = Limits { most_steps: limits.most_steps.saturating_sub(whole.steps), workers, ..limits };
         let found = threads::each_by(at_once, places, |&place| {
             all[place].search(Limits { memory: limits.memory.of_search(place), ..limits })
         });

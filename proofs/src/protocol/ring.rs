@@ -18,6 +18,15 @@ pub enum Start {
     Any,
 }
 
+impl Start {
+    /// Whether so many robots can start so on a ring of so many nodes.
+    fn is_of(self, nodes: u8, robots: u8) -> bool {
+        let Self::At(places) = self else { return true };
+        let differ = |place: usize| places[place] < nodes && !places[..place].contains(&places[place]);
+        places.len() == usize::from(robots) && (0..places.len()).all(differ)
+    }
+}
+
 impl fmt::Display for Start {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -32,7 +41,9 @@ bound! {
     /// A ring, and the robots on it.
     pub Ring { nodes: u8, robots: u8, starts: Start, moves: Moves }
     "{robots} robots, a ring of {nodes} nodes, {starts}, {moves}";
-    robots <= nodes, "the ring has no room for the robots"
+    robots <= nodes, "the ring has no room for the robots";
+    starts.is_of(nodes, robots),
+        "{robots} robots of a ring of {nodes} nodes do not start {starts}: each has a node of its own"
 }
 
 /// A robot: where it is, and to where it is about to go.

@@ -24,6 +24,8 @@ const CLOSER: u16 = 10;
 pub(super) struct Patience {
     pub(super) tries: u8,
     pub(super) times: u8,
+    /// Whether it takes a signal that is as strong as at its node for none while it walks.
+    pub(super) walks_past: bool,
 }
 
 /// The knowledge that a robot should have.
@@ -60,7 +62,7 @@ impl Way {
 }
 
 /// The rule's patience.
-pub(super) const TRUE: Patience = Patience { tries: 2, times: 1 };
+pub(super) const TRUE: Patience = Patience { tries: 2, times: 1, walks_past: false };
 
 /// The bound of [`whole_way`].
 pub(super) fn events() -> String {
@@ -84,10 +86,14 @@ pub(super) fn whole_way(patience: &Patience, oracle: &mut dyn Oracle) -> Outcome
         } else {
             let parent = NodeId(way.asked.saturating_sub(1).into());
             robot = robot.hear(Nav { wfr: WFR, node, hops: way.asked, parent });
-            if !walks(&mut robot, &way, number, oracle)? {
+            let Some(comes) = walks(&mut robot, &way, (number, patience.walks_past), oracle)? else {
                 return Ok("on its way");
-            }
-            if robot.hops() == way.asked {
+            };
+            require(
+                (robot.hops() == way.asked) == comes,
+                "it is at the node where it hears it as strong as there",
+            )?;
+            if comes {
                 way.reaches();
                 if robot.stage() == Stage::Arrived {
                     require(robot.hops() == 0, "it has arrived at the WFR alone")?;
@@ -104,9 +110,14 @@ pub(super) fn whole_way(patience: &Patience, oracle: &mut dyn Oracle) -> Outcome
     Ok("it asks")
 }
 
-/// A scan, and a walk; whether the robot has come to the node or lost its signal. In scan `number` two directions are
-/// as good.
-fn walks(robot: &mut Homing, way: &Way, number: u8, oracle: &mut dyn Oracle) -> Result<bool, Stop> {
+/// A scan, and a walk; whether the robot has come to the node or lost its signal, unless it goes on. In scan `number`
+/// two directions are as good.
+fn walks(
+    robot: &mut Homing,
+    way: &Way,
+    (number, walks_past): (u8, bool),
+    oracle: &mut dyn Oracle,
+) -> Result<Option<bool>, Stop> {
     let strongest = one_of(oracle, &[None, Some(way.due() - 1), Some(way.due())]);
     let best = [5 + number % 2, 9].map(|steps| Heading::FIRST.turned(steps));
     for heading in Heading::all() {
@@ -114,14 +125,17 @@ fn walks(robot: &mut Homing, way: &Way, number: u8, oracle: &mut dyn Oracle) -> 
         let weaker = if best.contains(&heading) { 0 } else { 7 };
         *robot = robot.measure(strongest.map(|strongest| Strength(strongest - weaker)));
     }
-    let Some(strongest) = strongest.filter(|&strongest| strongest < way.due()) else { return Ok(true) };
+    let strongest = match strongest {
+        Some(strongest) if strongest < way.due() => strongest,
+        near_or_none => return Ok(Some(near_or_none.is_some())),
+    };
     let ahead = Order::Walk(best[0]);
     require(robot.order() == ahead, "it walks in the first of the strongest directions")?;
     let heard = match oracle.pick(5) {
         0 => {
             *robot = robot.measure(Some(Strength(strongest)));
             require(robot.order() == ahead, "it goes on while the signal is not weaker")?;
-            return Ok(false);
+            return Ok(None);
         }
         1 => None,
         2 => Some(way.due()),
@@ -131,11 +145,11 @@ fn walks(robot: &mut Homing, way: &Way, number: u8, oracle: &mut dyn Oracle) -> 
                 require(robot.order() == Order::Point(heading), "it scans again")?;
                 *robot = robot.measure(None);
             }
-            return Ok(true);
+            return Ok(Some(false));
         }
     };
-    *robot = robot.measure(heard.map(Strength));
-    Ok(true)
+    *robot = robot.measure(heard.filter(|_| !walks_past).map(Strength));
+    Ok(Some(heard.is_some()))
 }
 
 /// The number of events of a node that guides.

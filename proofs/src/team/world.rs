@@ -34,9 +34,10 @@ pub struct Event {
 }
 
 impl<'a, R: Rule> TeamWorld<'a, R> {
-    /// The robots that have something left to do, a bit for each.
+    /// The robots that have something left to do, a bit for each. A robot that has looked still makes its move.
     fn awake(&self, scene: &Scene<R>) -> Bits {
-        let is_awake = |robot: &usize| !scene.is_dead(*robot) && !self.rule.is_done(*robot, scene);
+        let is_due = |robot: usize| scene.bodies[robot].pending.is_some() || !self.rule.is_done(robot, scene);
+        let is_awake = |&robot: &usize| !scene.is_dead(robot) && is_due(robot);
         (0..scene.robots()).filter(is_awake).fold(0, |set, robot| set | 1 << robot)
     }
 
@@ -222,8 +223,9 @@ impl<R: Rule> Game for TeamWorld<'_, R> {
         self.setting.demands[demand].words
     }
 
+    /// What is known of the layout grows without an answer, too: a side that can only be open is noted when it is met.
     fn recurs(&self, then: &Scene<R>, _: usize, now: &Scene<R>, _: &[u8]) -> ControlFlow<Vec<Promise>> {
-        if then.bodies != now.bodies {
+        if (&then.bodies, then.map) != (&now.bodies, now.map) {
             return ControlFlow::Continue(());
         }
         ControlFlow::Break(self.broken_by_never_ending())

@@ -18,11 +18,6 @@ impl CellSet {
         Self { area, words: vec![0; cells_of(area).div_ceil(64)] }
     }
 
-    /// The cells that it may hold.
-    pub const fn area(&self) -> Area {
-        self.area
-    }
-
     /// Adds `cell`; no effect outside the area.
     pub fn insert(&mut self, cell: Cell) {
         if let Some(index) = index(self.area, cell) {

@@ -6,17 +6,18 @@
 //! runs are those of a search in memory.
 //!
 //! Each file also has what was added to the graph, and how far the search is, and is put in its place when it is whole:
-//! a search that is killed is taken up after its last file. Blocks have checksums.
+//! a search that is killed is taken up after its last file, by the same program. Blocks have checksums.
 
 mod file;
 
+use std::env;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use tautline_certificates::digest;
 
@@ -139,14 +140,18 @@ pub(super) struct Disk {
     fault: Option<SpillError>,
 }
 
+/// The digest of the program: another one may have another rule or demand by the same name. Nothing where it cannot be
+/// read.
+static PROGRAM: LazyLock<u128> =
+    LazyLock::new(|| env::current_exe().and_then(fs::read).map_or(0, |bytes| digest(&bytes)));
+
 /// The number of the next search that cannot be taken up.
 static NEXT: AtomicU64 = AtomicU64::new(0);
 
 impl Disk {
     /// Nothing yet, of a search that can be taken up if there is a question.
     pub(super) fn new(spill: &Spill, question: Option<(&str, usize)>) -> Self {
-        let question =
-            question.map(|(words, number)| format!("{}, {words}, {number}", env!("CARGO_PKG_VERSION")));
+        let question = question.map(|(words, number)| format!("{:032x}, {words}, {number}", *PROGRAM));
         let name = match &question {
             Some(question) => format!("{:016x}", digest(question.as_bytes()) as u64),
             None => NEXT.fetch_add(1, Ordering::Relaxed).to_string(),
@@ -216,7 +221,8 @@ impl Disk {
         let question = self.question.as_deref().unwrap_or_default();
         let written = (self.create)(&part).and_then(|file| {
             let first = nodes.start as u32;
-            let [in_order, by_hash] = Writer::new(file, question)?.write(first, (codes, sorted), numbers)?;
+            let [in_order, by_hash] =
+                Writer::new(file, question, nodes.start)?.write(first, (codes, sorted), numbers)?;
             if is_whole {
                 fs::rename(&part, &path)?;
             }

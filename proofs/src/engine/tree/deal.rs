@@ -12,6 +12,7 @@ use super::count::Count;
 use super::forecast::{self, Forecast};
 use super::lane::{Lane, Place};
 use super::search::{Position, Tree};
+use super::share::Share;
 use super::{Game, Level, Unsearchable, Waves};
 use crate::engine::watchdog::Steps;
 
@@ -177,7 +178,8 @@ impl<G: Game> Tree<G> {
         if !self.count.follows(&self.levels, 0) || !self.records(&self.count) {
             return Err(Unsearchable::Foreign);
         }
-        Ok(())
+        let is_all = self.count.searched == Share::WHOLE.times(levels as u32);
+        if is_all { Ok(()) } else { Err(Unsearchable::Short) }
     }
 }
 

@@ -180,17 +180,22 @@ impl<G: Game> Tree<G> {
         })
     }
 
+    /// The lanes with which a level begins.
+    fn first_lanes(&self, walls: u32) -> Vec<Lane<G>> {
+        match &self.shard {
+            None => vec![Lane::whole(&self.game, walls)],
+            Some((ways, _)) => {
+                let places = ways.get(walls as usize).into_iter().flatten();
+                places.filter_map(|place| Lane::at(&self.game, walls, place)).collect()
+            }
+        }
+    }
+
     /// Begins the next level, if there is one.
     pub(super) fn begin(&mut self) {
         let walls = self.levels.len() as u32;
         if walls <= self.limits.max_walls {
-            match &self.shard {
-                None => self.lanes.push(Lane::whole(&self.game, walls)),
-                Some((ways, _)) => {
-                    let places = ways.get(walls as usize).into_iter().flatten();
-                    self.lanes.extend(places.filter_map(|place| Lane::at(&self.game, walls, place)));
-                }
-            }
+            self.lanes.extend(self.first_lanes(walls));
         }
     }
 
@@ -221,16 +226,14 @@ impl<G: Game> Tree<G> {
         position.levels.starts_with(&self.levels)
     }
 
-    /// Whether a shard has searched what it was dealt of the levels that it has begun, but for what is left;
-    /// `is_at_end` says that it has begun no other level than those that are done.
-    fn has_done_what_it_was_dealt(&self, is_at_end: bool) -> bool {
-        let Some((ways, _)) = &self.shard else { return true };
-        let begun = self.levels.len() + usize::from(!is_at_end);
-        let dealt = (0..).zip(ways).take(begun).flat_map(|(walls, places)| {
-            places.iter().filter_map(move |place| Lane::at(&self.game, walls, place))
-        });
-        let dealt = dealt.fold(Share::NONE, |sum, lane| sum.and(lane.share_left()));
-        self.lanes.iter().fold(self.count.searched, |sum, lane| sum.and(lane.share_left())) == dealt
+    /// Whether all of the levels that were begun has been searched, but for what is left; `is_at_end` says that no
+    /// other level was begun than those that are done.
+    fn has_searched_the_rest(&self, is_at_end: bool) -> bool {
+        let left =
+            |lanes: &[Lane<G>], sum| lanes.iter().fold(sum, |sum: Share, lane| sum.and(lane.share_left()));
+        let begun = self.levels.len() as u32 + u32::from(!is_at_end);
+        let all = (0..begun).fold(Share::NONE, |sum, walls| left(&self.first_lanes(walls), sum));
+        left(&self.lanes, self.count.searched) == all
     }
 
     fn is_over(&self) -> bool {
@@ -341,7 +344,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         self.count = position.count.clone();
         self.before = self.count.moves;
         self.lanes = lanes;
-        if !self.has_done_what_it_was_dealt(is_done) {
+        if !self.has_searched_the_rest(is_done) {
             return Err(Unsearchable::Short);
         }
         self.wave.clear();

@@ -45,7 +45,7 @@ impl Hunt for Walls {
                 "the robots of a chain have no floor sensors to miss"
             }
         };
-        (what.to_owned(), "give `max-walls`, or `scheme` ants, bricks or bricks-ants".to_owned())
+        (what.to_owned(), "give `max-walls`, or a `scheme` of agents on a floor, as bricks".to_owned())
     }
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {

@@ -11,7 +11,7 @@ use tautline_kernel::choice::Oracle as _;
 use tautline_kernel::conditions::Conditional as _;
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
-use tautline_proofs::chain::links::within_reach;
+use tautline_proofs::chain::links::{reach_by_robots, within_reach};
 use tautline_proofs::run::Frame;
 
 use super::layers;
@@ -316,24 +316,10 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
 /// How far a chain of so many robots comes from `base`, unless it comes everywhere.
 fn reach(layout: &Layout, base: Cell, robots: usize) -> Option<Reach> {
     let area = layout.size().area();
-    let within = |robots| within_reach(area, base, robots, |edge| layout.is_open(edge)).len();
-    let (cells, connected) = (within(robots), layout.spread(&[base]).count());
-    if cells == connected {
-        return None;
-    }
-    let (mut too_few, mut enough) = (robots, 2 * robots);
-    while within(enough) < connected {
-        (too_few, enough) = (enough, 2 * enough);
-    }
-    while too_few + 1 < enough {
-        let half = too_few.midpoint(enough);
-        if within(half) < connected {
-            too_few = half;
-        } else {
-            enough = half;
-        }
-    }
-    Some(Reach { cells, connected, robots: enough })
+    let (connected, counts) = reach_by_robots(area, base, usize::MAX, |edge| layout.is_open(edge));
+    let cells = counts.get(robots.checked_sub(1)?).copied()?;
+    let (connected, enough) = (connected.len(), counts.len());
+    (cells < connected).then_some(Reach { cells, connected, robots: enough })
 }
 
 impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {

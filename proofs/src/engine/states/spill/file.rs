@@ -38,14 +38,15 @@ impl Segment {
     /// Opens a file whose first state has this number, and which answers this question.
     pub(super) fn open(path: &Path, first: usize, question: &str) -> io::Result<(Self, Numbers)> {
         let mut blocks = Blocks::open(path)?;
-        let mut head = vec![0; head(question).len()];
+        let right = head(question, first);
+        let mut head = vec![0; right.len()];
         blocks.file.read_exact(&mut head)?;
         let mut last = [0; size_of::<u64>()];
         blocks.file.seek(SeekFrom::End(-(last.len() as i64))).map_err(|_| damaged())?;
         blocks.file.read_exact(&mut last)?;
         let mut numbers = Numbers { blocks, at: 0, next: u64::from_le_bytes(last) };
         let count = numbers.next()? as usize;
-        if head != self::head(question) || first + count > u32::MAX as usize {
+        if head != right || first + count > u32::MAX as usize {
             return Err(damaged());
         }
         let mut index = || -> io::Result<Index> {
@@ -97,9 +98,9 @@ impl Segment {
     }
 }
 
-/// The first lines of a file.
-fn head(question: &str) -> Vec<u8> {
-    format!("{HEAD}{question}\n").into_bytes()
+/// The first lines of a file whose first state has this number.
+fn head(question: &str, first: usize) -> Vec<u8> {
+    format!("{HEAD}{question}, from state {first}\n").into_bytes()
 }
 
 fn damaged() -> io::Error {
@@ -129,8 +130,8 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    pub(super) fn new(file: Box<dyn Write>, question: &str) -> io::Result<Self> {
-        let (mut file, head) = (BufWriter::new(file), head(question));
+    pub(super) fn new(file: Box<dyn Write>, question: &str, first: usize) -> io::Result<Self> {
+        let (mut file, head) = (BufWriter::new(file), head(question, first));
         file.write_all(&head)?;
         Ok(Self { file, at: head.len() as u64, block: Vec::new(), begins: None, index: Vec::new() })
     }
