@@ -21,7 +21,8 @@ Where there are more states than memory, `--memory 8GiB --spill DIR` keeps them 
 `tautline library pibt --larger --runs 100000 --out found` hunts: it makes random runs, each by the seed and its number,
 and stores the first that breaks a promise. A run that goes round for ever is found, too, if it is weakly fair.
 `tautline minimise FILE` makes it a shortest one from its start, or a shorter one if it goes round. What no run breaks
-is *not refuted*, and may be broken all the same. With `--plan` and `--shards` the checks are dealt out among machines: see [shards.md](shards.md).
+is *not refuted*, and may be broken all the same. With `--plan` and `--shards` the checks are dealt out among machines:
+see [shards.md](shards.md).
 
 The models are ours: a file says how it reads its source, and a verdict is about that reading. PIBT and LaCAM break ties
 by the numbers of cells; the ring has the legitimate phase of its algorithm alone; Alpha's robots move on a grid. Not

@@ -3,8 +3,8 @@
 //! A *body* is one case of a clause; the same body is a bounded proof under [`exhaust`], a property under a [`Tape`]
 //! that proptest or a fuzzer wrote, a random test under [`SeededOracle`], a regression under [`Replay`], and a Kani
 //! harness. A [`Game`](tree::Game) is a team in layouts that are decided as it meets them; a [`System`](states::System)
-//! has states that many ways lead to; [`Cases`](cases::Cases) are examined each by itself. What was found by any of them
-//! is a list of [`Choices`], which anyone can make again.
+//! has states that many ways lead to; [`Cases`](cases::Cases) are examined each by itself. What was found by any of
+//! them is a list of [`Choices`], which anyone can make again.
 
 mod bodies;
 pub mod cases;
