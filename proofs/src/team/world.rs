@@ -223,7 +223,7 @@ impl<R: Rule> Game for TeamWorld<'_, R> {
         self.setting.demands[demand].words
     }
 
-    /// What is known of the layout grows without an answer, too: a side that can only be open is noted when it is met.
+    /// The map takes part: it grows without an answer, too, where a side is met that can only be open.
     fn recurs(&self, then: &Scene<R>, _: usize, now: &Scene<R>, _: &[u8]) -> ControlFlow<Vec<Promise>> {
         if (&then.bodies, then.map) != (&now.bodies, now.map) {
             return ControlFlow::Continue(());
