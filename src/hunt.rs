@@ -17,7 +17,7 @@ use tautline_io::value_parser::real;
 use tautline_proofs::decide::Verdict;
 
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
-use super::output::{Output, argument};
+use super::output::{Output, argument, replay_line};
 use super::shards::{Scope, ShardArgs};
 use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{shards, value_parser};
@@ -314,8 +314,7 @@ impl Answer<'_> {
         let broken = self.hunted.found.iter().zip(&self.files).map(|(finding, file)| {
             let mut story = picture(finding)?;
             if let Some(file) = file {
-                // Writing to a string cannot fail.
-                let _ = writeln!(story, "replay it with: tautline replay {}", argument(file));
+                story += &replay_line(file);
             }
             let name = format!("{} by {} ({rule})", finding.clause, scheme.name);
             let outcome = Outcome::Broken(finding.title.clone(), story);
@@ -353,12 +352,11 @@ impl Answer<'_> {
 
 /// How to see the run of a file again, and, where no search has chosen anything in it, to hold a rule to it.
 pub(super) fn again(file: &str, setup: &Setup) -> String {
-    let file = argument(file);
-    let again = format!("replay it with: tautline replay {file}\n");
+    let again = replay_line(file);
     if !setup.choices.is_empty() || !setup.missed.is_empty() {
         return again;
     }
-    again + "try a rule on it: tautline explore " + &file + " --rule RULE\n"
+    again + "try a rule on it: tautline explore " + &argument(file) + " --rule RULE\n"
 }
 
 /// A counterexample as a person sees it.

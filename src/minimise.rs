@@ -16,7 +16,7 @@ use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
 
 use super::explore::DrawnMoves;
-use super::output::{Output, argument};
+use super::output::{Output, replay_line};
 use super::replay::draw;
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, evidence, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
@@ -225,7 +225,7 @@ impl Minimise {
                 let story = evidence::story(clause, check, &played.evidence)?;
                 out.text(minimised.told(&self.file.display().to_string()) + &story)?;
                 if let Some(file) = &minimised.file {
-                    out.text(format_args!("\nreplay it with: tautline replay {}\n", argument(file)))?;
+                    out.text(format_args!("\n{}", replay_line(file)))?;
                 }
             }
         }

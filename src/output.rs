@@ -36,6 +36,11 @@ pub(super) fn argument(path: &str) -> String {
     if path.chars().all(is_plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }
 
+/// The line that says how to see the run of a file again.
+pub(super) fn replay_line(file: &str) -> String {
+    format!("replay it with: tautline replay {}\n", argument(file))
+}
+
 impl Output {
     pub(super) fn stdout() -> Self {
         Self { stdout: Some(BufWriter::new(io::stdout().lock())), files: Vec::new(), has_left_out: false }

@@ -25,7 +25,7 @@ use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::{keep, make_folder};
-use super::output::{Output, argument};
+use super::output::{Output, replay_line};
 use super::{Exit, ForceArgs, needless, positive, progress, spill};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
@@ -503,7 +503,7 @@ fn certify((row, memory): (&Row, &MemoryLimit), folder: &Path, replaceable: &Rep
 pub(super) fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
     let Some(evidence) = &row.decision.counterexample else { return Ok(String::new()) };
     let story = evidence::story(row.clause, row.check, evidence)?;
-    let file = file.map(|file| format!("\nreplay it with: tautline replay {}\n", argument(file)));
+    let file = file.map(|file| format!("\n{}", replay_line(file)));
     Ok(format!("\n{story}{}", file.unwrap_or_default()))
 }
 

@@ -15,7 +15,7 @@ use tautline_proofs::plural::counted;
 use crate::evidence::{EvidenceJson, shown};
 use crate::findings::{self, Case, Format, Outcome};
 use crate::hunt::make_folder;
-use crate::output::{Output, argument};
+use crate::output::{Output, replay_line};
 use crate::prove::{stored, story};
 use crate::{Exit, progress};
 
@@ -135,8 +135,7 @@ fn words(row: &Row, runs: &RandomRuns, file: Option<&str>) -> Result<String, Hal
     let told = if moves <= DRAWN {
         story(row, file)?
     } else {
-        let again = |file| format!("replay it with: tautline replay {}\n", argument(file));
-        let file = file.map(again).unwrap_or_default();
+        let file = file.map(replay_line).unwrap_or_default();
         format!("\nNot so: {}, after {}.\n{file}", found.demand, counted(moves, "move"))
     };
     let shorter = file.map(|file| format!("shorten it with: tautline minimise {file}\n")).unwrap_or_default();

@@ -38,7 +38,7 @@ impl<P: Protocol> Keeps<P> {
         Ok(each.map(|here| ErasedProtocol::new(rule.clone(), here, how)).collect())
     }
 
-    /// The states, and the shortest run that breaks the demand if there is one.
+    /// The states, and a run that breaks the demand if there is one: a shortest one if it ends.
     ///
     /// # Errors
     /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function
@@ -213,7 +213,7 @@ fn is_sound(all: &[ErasedProtocol]) -> Result<(), MethodError> {
 const WAVE: usize = 256;
 
 /// The findings of a search that can be believed: of all surroundings in a portion, or up to the first in which the
-/// demand is broken. The run is a shortest one, in the first of them that has one.
+/// demand is broken. The run is a shortest of those that were found, in the first of them that has one.
 fn searched(
     all: &[ErasedProtocol],
     portion: Portion,

@@ -316,10 +316,9 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
 /// How far a chain of so many robots comes from `base`, unless it comes everywhere.
 fn reach(layout: &Layout, base: Cell, robots: usize) -> Option<Reach> {
     let area = layout.size().area();
-    let (connected, counts) = reach_by_robots(area, base, usize::MAX, |edge| layout.is_open(edge));
-    let cells = counts.get(robots.checked_sub(1)?).copied()?;
-    let (connected, enough) = (connected.len(), counts.len());
-    (cells < connected).then_some(Reach { cells, connected, robots: enough })
+    let (reached, counts) = reach_by_robots(area, base, usize::MAX, |edge| layout.is_open(edge));
+    let (&cells, connected) = (counts.get(robots.checked_sub(1)?)?, reached.len());
+    (cells < connected).then_some(Reach { cells, connected, robots: counts.len() })
 }
 
 impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
