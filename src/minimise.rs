@@ -35,7 +35,7 @@ Examples:
 /// Of the minimal run no robot, column, row, blocked cell, wall or missed sensor can go: taken alone, without any one
 /// of them the clause is not broken. It ends with the team move that breaks it. Where a search has chosen what happens
 /// in which order, every smaller team and layout is searched. Of a run over states, as `library` stores it, a shortest
-/// one from the same start is left, or of promises that runs break which go on for ever a shorter one.
+/// one from the same start is left, or it is said that this is not known.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Minimise {

@@ -20,8 +20,8 @@ Where there are more states than memory, `--memory 8GiB --spill DIR` keeps them 
 ([commands.md](commands.md#larger-than-memory)). Where there are more than either holds,
 `tautline library pibt --larger --runs 100000 --out found` hunts: it makes random runs, each by the seed and its number,
 and stores the first that breaks a promise. A run that goes round for ever is found, too, if it is weakly fair.
-`tautline minimise FILE` makes it a shortest one from its start, or a shorter one if it goes round. What no run breaks
-is *not refuted*, and may be broken all the same. With `--plan` and `--shards` the checks are dealt out among machines:
+`tautline minimise FILE` makes it a shortest one from its start. What no run breaks is *not refuted*, and may be broken
+all the same. With `--plan` and `--shards` the checks are dealt out among machines:
 see [shards.md](shards.md).
 
 The models are ours: a file says how it reads its source, and a verdict is about that reading. PIBT and LaCAM break ties
@@ -29,9 +29,8 @@ by the numbers of cells; the ring has the legitimate phase of its algorithm alon
 every demand is one that the source makes: some say what a reader may expect and the rule does not promise, such as that
 no two robots set out for one frontier.
 
-A counterexample that ends is the shortest one within the bound that ends; of those that are as short, one in the
-smallest layout. Of one that goes round a shortest way leads to a short round, which need not be the shortest. Robots
-are numbers; the letter behind is the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all
+A counterexample is a shortest one within the bound, one that goes round by its moves until it begins again; of those
+that are as short, one in the smallest layout. Robots are numbers; the letter behind is the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all
 that were looked at. [stateright](https://www.stateright.rs) counts the same ones of Dijkstra's ring, Ricart–Agrawala
 and gathering by the same moves, and SPIN those of Ricart–Agrawala by a model of its own, 3,300 and, with a message that
 may be lost, 10,522: [library/tests/counts.rs](../library/tests/counts.rs).

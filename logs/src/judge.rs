@@ -24,7 +24,8 @@ pub enum Demand {
         of: Group,
     },
     /// KIT-3: robots that have left their starts are apart. A robot has left its start, the first place of it in the
-    /// log, for ever once it was farther from it than this distance and the tolerance.
+    /// log, for ever once it was as far from it as the next node within the tolerance. Of one on its way there that is
+    /// in doubt.
     Apart {
         /// The least distance.
         least_mm: u32,
@@ -97,6 +98,8 @@ pub enum Doubt {
     Alone,
     /// The robots do not hear each other when they start: the clause asks for nothing.
     Parted(i64),
+    /// Two robots are as near at this stamp, and one of them is on its way from its start.
+    Leaving(i64, [u32; 2]),
     /// Within the tolerance, this cell may have been visited or not; in all so many.
     Cell([i32; 2], usize),
     /// The log ends in the midst.
@@ -247,11 +250,13 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     }
     let tolerance = f64::from(limits.tolerance_mm);
     let mut is_started = false;
-    let mut parted = None;
-    let left = if let Demand::Apart { least_mm } = demand {
-        leaving(tracks, f64::from(*least_mm) + tolerance)
+    let (mut parted, mut in_doubt) = (None, None);
+    let starts: Vec<_> = tracks.starts().collect();
+    // When each robot has left its start, and when it was first off it.
+    let [left, off] = if let Demand::Apart { least_mm } = demand {
+        [f64::from(*least_mm) - tolerance, tolerance].map(|far| leaving(tracks, far))
     } else {
-        Vec::new()
+        [Vec::new(), Vec::new()]
     };
     let pair = |([one, other], far): ([u32; 2], f64)| Finding {
         robots: vec![one, other],
@@ -274,11 +279,22 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         }
         Demand::Apart { least_mm } => {
             let least = f64::from(*least_mm) - tolerance;
-            let has_left = |robot: &u32| left[*robot as usize].is_some_and(|since| since <= moment.at_us);
-            let near = moment
-                .pairs(|_| moment.robots().collect())
-                .filter(|&(robots, far)| far < least && robots.iter().all(has_left));
-            near.min_by(|a, b| a.1.total_cmp(&b.1)).map(pair)
+            let has = |since: &[Option<i64>], robot: u32| {
+                since[robot as usize].is_some_and(|at| at <= moment.at_us)
+            };
+            let pairs = moment.pairs(|_| moment.robots().collect());
+            let near: Vec<_> = pairs.filter(|&(_, far)| far < least).collect();
+            // Robots that part from one start are near until one of them has left it.
+            let may_be = |robots: [u32; 2]| {
+                robots.iter().all(|&robot| has(&off, robot))
+                    && (robots.iter().any(|&robot| has(&left, robot))
+                        || matches!(robots.map(|robot| starts[robot as usize]), [Some(one), Some(other)] if apart(one, other) >= least))
+            };
+            if let Some(&(robots, _)) = near.iter().find(|&&(robots, _)| may_be(robots)) {
+                in_doubt.get_or_insert(Doubt::Leaving(moment.at_us, robots));
+            }
+            let left = near.into_iter().filter(|(robots, _)| robots.iter().all(|&robot| has(&left, robot)));
+            left.min_by(|a, b| a.1.total_cmp(&b.1)).map(pair)
         }
         Demand::Crowd { grid, most, base } => crowded(moment, *grid, limits.tolerance_mm, *most, *base),
         Demand::Visited { .. } => None,
@@ -298,7 +314,7 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
     if let Some(breach) = first {
         return Ok(Verdict::Broken(breach));
     }
-    Ok(silent.map_or(Verdict::Kept, Verdict::Unknown))
+    Ok(in_doubt.or(silent).map_or(Verdict::Kept, Verdict::Unknown))
 }
 
 /// The number that a demand allows.

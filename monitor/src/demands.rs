@@ -67,7 +67,8 @@ impl Demand for Connectivity {
 }
 
 /// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it
-/// was first heard; it has left it once it was heard farther from it than the demand and its tolerance, and for ever.
+/// was first heard; it has left it, for ever, once it was heard as far from it as the next node within the tolerance. Of
+/// robots that are still on their way there nothing is said.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Apart {
     /// The least distance.
@@ -79,9 +80,8 @@ pub struct Apart {
 impl Demand for Apart {
     fn breach(&self, track: &mut Track<&mut [Robot]>) -> Option<Breach> {
         let least = self.least_mm.saturating_sub(self.tolerance_mm);
-        let left = self.least_mm.saturating_add(self.tolerance_mm);
         let is_near = |[one, other]: &[(usize, Place); 2]| {
-            let has_left = |robot: usize| track.has_strayed(robot, left);
+            let has_left = |robot: usize| track.has_strayed(robot, least);
             one.1.squared(other.1) < square(least) && has_left(one.0) && has_left(other.0)
         };
         let [one, other] = track.pairs().find(is_near)?;

@@ -23,7 +23,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::run::Frame;
 
-/// Team moves for each cell without anything new, after which a team is taken to go round for ever.
+/// Team moves for each cell without anything new, after which a run is over.
 const PATIENCE: usize = 100;
 
 /// The deeds of each robot in a team move.
@@ -62,6 +62,8 @@ pub enum TeamEnd {
     Known,
     /// No robot will ever do anything.
     Still,
-    /// Nothing new was found for so long that the team is taken to go round for ever.
+    /// Every robot would do the same again, for ever.
     Endless,
+    /// Nothing new was found for so long that the team may go on for ever, or be slow.
+    Idle,
 }

@@ -183,7 +183,7 @@ fn pack(rule: RuleId, runs: u64) -> RunCounts {
             Ok(())
         });
         let report = report.map_err(|_| ()).expect("a run");
-        let judged = judged.and_then(|()| judge.end(report.stopped != StopReason::Endless));
+        let judged = judged.and_then(|()| judge.end(report.stopped != StopReason::Idle));
         Some((
             format!("{text}, starts {starts:?}, sight {sight}, range {range}"),
             report.steps.into(),

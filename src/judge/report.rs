@@ -260,6 +260,14 @@ impl LogReport<'_> {
                     seconds(*at_us)
                 )
             }
+            Doubt::Leaving(at_us, robots) => {
+                let [one, other] = robots.map(|robot| self.robot(robot));
+                format!(
+                    "at {} s robots {one} and {other} are too near, and one is on its way from its start: whether it \
+                     has left it is not told by positions",
+                    seconds(*at_us)
+                )
+            }
             Doubt::Cell(cell, count) => {
                 format!(
                     "within the tolerance {} may have been visited or not, the first is {}",

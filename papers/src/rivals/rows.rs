@@ -137,7 +137,7 @@ impl Team for Rivals {
         self.0.advance(&mut |edge| world.is_open(edge)).map_err(|over| match over {
             Standstill::Explored => End::Explored,
             Standstill::Enclosed => End::Exhausted,
-            Standstill::Stuck => End::Endless,
+            Standstill::Stuck => End::Idle,
         })
     }
 

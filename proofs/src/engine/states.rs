@@ -319,7 +319,9 @@ pub struct Findings<D> {
     pub is_whole: bool,
     /// The situations that occurred, sorted.
     pub covered: Vec<&'static str>,
-    /// A run for each demand that is broken: a shortest one of those that end, or one that goes round.
+    /// Whether each of these runs is known to be a shortest one, one that goes round by its steps until it begins again.
+    pub is_shortest: bool,
+    /// A run for each demand that is broken.
     pub broken: Vec<Run<D>>,
 }
 
@@ -331,6 +333,7 @@ impl<D> Findings<D> {
         steps: 0,
         bytes: 0,
         is_whole: true,
+        is_shortest: true,
         covered: Vec::new(),
         broken: Vec::new(),
     };
@@ -342,6 +345,7 @@ impl<D> Findings<D> {
         self.steps += other.steps;
         self.bytes = self.bytes.max(other.bytes);
         self.is_whole &= other.is_whole;
+        self.is_shortest &= other.is_shortest;
         self.covered.extend(other.covered);
         self.covered.sort_unstable();
         self.covered.dedup();
@@ -375,7 +379,7 @@ pub enum Ending {
 
 impl<D> Run<D> {
     /// How many steps it has, those of its round once.
-    pub(crate) fn length(&self) -> usize {
+    pub fn length(&self) -> usize {
         self.steps.len() + self.round().len()
     }
 

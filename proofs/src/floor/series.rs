@@ -365,7 +365,7 @@ impl<D: Copy> Floors<D> {
                 let run = found.broken.into_iter().next();
                 let shortest = run.map(|run| (run.length(), team.plan.to_string()));
                 let is_enough = shortest.is_some() && until == Until::Violation;
-                all.add(ClassFindings { cases: found.states, is_whole: found.is_whole, shortest });
+                all.add(ClassFindings { cases: found.states, is_whole: found.is_shortest, shortest });
                 if is_enough {
                     return all;
                 }

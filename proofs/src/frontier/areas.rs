@@ -353,7 +353,7 @@ impl<const ROBOTS: usize> Areas<ROBOTS> {
         let found = search(&setting, setting.starts(), Limits::NONE);
         let run = found.broken.into_iter().next();
         let shortest = run.map(|run| (run.length(), Counterexample { setting, run }.story()));
-        Ok(ClassFindings { cases: found.states, is_whole: found.is_whole, shortest })
+        Ok(ClassFindings { cases: found.states, is_whole: found.is_shortest, shortest })
     }
 
     /// From how many each choice is made, and the run.

@@ -218,7 +218,7 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         let context = (Limits::NONE, &mut looked);
         let found = self.search(rule, (width, height, walls), Some(self.demand), context);
         let shortest = found.map(|found| (found.run.length(), found.story()));
-        ClassFindings { cases: looked.states, is_whole: looked.is_whole, shortest }
+        ClassFindings { cases: looked.states, is_whole: looked.is_shortest, shortest }
     }
 
     /// From how many each choice is made, and the run.

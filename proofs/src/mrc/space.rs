@@ -20,7 +20,7 @@ pub enum Until {
     Broken(Demand),
 }
 
-/// The shortest run that breaks a demand.
+/// A run that breaks a demand.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Refutation {
     /// The run, from one of [`Setting::starts`].
@@ -42,12 +42,14 @@ pub struct Findings {
     pub bytes: u64,
     /// Whether the search came to its end, and not to one of its limits.
     pub complete: bool,
-    /// The demands that are broken, each by its shortest run.
+    /// Whether each run is known to be a shortest one.
+    pub is_shortest: bool,
+    /// The demands that are broken, each by a run.
     pub broken: Vec<Refutation>,
 }
 
 impl Findings {
-    /// The shortest run that breaks `demand`.
+    /// The run that breaks `demand`.
     pub fn broken(&self, demand: Demand) -> Option<&Refutation> {
         self.broken.iter().find(|broken| broken.run.demand == demand)
     }
@@ -64,6 +66,7 @@ pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Findings {
         steps: found.steps,
         bytes: found.bytes,
         complete: found.is_whole,
+        is_shortest: found.is_shortest,
         broken,
     }
 }

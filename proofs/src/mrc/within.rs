@@ -95,7 +95,7 @@ impl Method<Subject> for Within {
             let found = space::search(&setting, space::Until::Broken(demand), Limits::NONE);
             let broken = found.broken(demand);
             let shortest = broken.map(|broken| (broken.run.length(), chart(&setting, broken)));
-            Ok::<_, MethodError>(ClassFindings { cases: found.states, is_whole: found.complete, shortest })
+            Ok::<_, MethodError>(ClassFindings { cases: found.states, is_whole: found.is_shortest, shortest })
         };
         Ok(Some(Certificate::in_order(Counts::up_to(&most), search)?.drawn(|chart| chart)))
     }

@@ -168,9 +168,8 @@ fn hunted(all: &[ErasedProtocol], runs: &RandomRuns) -> Result<Answer, MethodErr
     Ok(Answer::new(evidence, true, Verdict::Unrefuted, tally.cases))
 }
 
-/// A shorter run from the start of another one: the first that a search finds, or that one without its detours; and
-/// whether none is shorter. Of a promise that runs break which go on for ever that is not known: a search looks for
-/// them where no run breaks it that ends, and takes the first round.
+/// A shorter run from the start of another one: the one that a search finds, or that one without its detours; and
+/// whether it is known that none is shorter.
 fn shortened(
     all: &[ErasedProtocol],
     choices: &Choices,
@@ -178,10 +177,10 @@ fn shortened(
 ) -> Result<Option<(Choices, bool)>, MethodError> {
     let (_, run) = play(all, choices).map_err(MethodError::new)?;
     let Some((playing, start)) = starts(all).nth(run.start) else { return Ok(None) };
-    let found = states::search(playing, [start.clone()], limits).broken.into_iter().next();
+    let Findings { broken, is_shortest, .. } = states::search(playing, [start.clone()], limits);
     playing.states_came_back()?;
-    let found = found.map(|found| playing.unfolded(&start, Run { start: run.start, ..found }));
-    let is_shortest = found.is_some() && !playing.may_be_endless();
+    let found =
+        broken.into_iter().next().map(|found| playing.unfolded(&start, Run { start: run.start, ..found }));
     let cut = states::without_detours(playing, &start, &run);
     let shorter = found.filter(|found| found.length() <= cut.length()).unwrap_or(cut);
     Ok(Some((shorter.choices(), is_shortest)))

@@ -55,6 +55,7 @@ impl Course {
                     End::Explored => StopReason::Explored,
                     End::Exhausted => StopReason::Exhausted,
                     End::Endless => StopReason::Endless,
+                    End::Idle => StopReason::Idle,
                     End::Silent => StopReason::Silent,
                     End::Refused => StopReason::Refused,
                 };

@@ -219,6 +219,7 @@ impl Team for FrontierTeam {
                 TeamEnd::Known if self.left.is_empty() => End::Explored,
                 TeamEnd::Known | TeamEnd::Still => End::Exhausted,
                 TeamEnd::Endless => End::Endless,
+                TeamEnd::Idle => End::Idle,
             }
         })
     }
@@ -241,7 +242,7 @@ impl Team for FrontierTeam {
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
-        let is_short = end != End::Endless && !self.missed(layout, chart).is_empty();
+        let is_short = !matches!(end, End::Endless | End::Idle) && !self.missed(layout, chart).is_empty();
         let is_endless = end == End::Endless;
         let knows_not = self.ended == Some(TeamEnd::Still);
         [is_short.then_some(COVERS), is_endless.then_some(ENDS), knows_not.then_some(KNOWS)]

@@ -2,8 +2,8 @@
 //! and its team. A team move is one robot's drive, in the order in which they begin; whoever drives is drawn where it
 //! arrives.
 //!
-//! As published no robot knows when everything is driven: whoever watches them ends the run then. A team that has
-//! driven no new path for twenty drives a path is taken to go round for ever.
+//! As published no robot knows when everything is driven: whoever watches them ends the run then. A run in
+//! which no new path is driven for twenty drives a path is over.
 
 mod hunt;
 mod layers;
@@ -69,7 +69,7 @@ pub const AHEAD: RuleId = RuleId::new("ahead");
 
 const MISSED: &str = "Within reach and not driven to";
 
-/// Drives a path without a new one after which a team is taken to go round.
+/// Drives a path without a new one after which a run is over.
 const PATIENCE: usize = 20;
 
 /// Robots that drive every path between two nodes, and keep in touch.
@@ -199,7 +199,7 @@ impl Team for KitTeam {
             return Err(End::Explored);
         }
         if self.idle > PATIENCE * self.due.len() {
-            return Err(End::Endless);
+            return Err(End::Idle);
         }
         let Some(drive) = self.course.drive() else {
             return Err(if self.is_driven() { End::Explored } else { End::Exhausted });
@@ -242,7 +242,7 @@ impl Team for KitTeam {
             End::Exhausted if is_full => Vec::new(),
             End::Exhausted if self.course.is_over() => vec![COVERS],
             End::Exhausted => vec![MOVES],
-            End::Explored | End::Endless | End::Silent | End::Refused => Vec::new(),
+            End::Explored | End::Endless | End::Idle | End::Silent | End::Refused => Vec::new(),
         }
     }
 

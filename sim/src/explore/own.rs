@@ -165,6 +165,7 @@ impl<R: Rule> Team for Own<'_, R> {
                 self.playing.broken_at_end(&self.scene, &[])
             }
             End::Endless => self.playing.broken_by_never_ending(),
+            End::Idle => Vec::new(),
         })
     }
 }

@@ -36,7 +36,7 @@ pub const COVERS: ClauseId = ClauseId::new("PACK-3");
 /// The run goes on for ever.
 pub const ENDS: ClauseId = ClauseId::new("PACK-4");
 
-/// Team moves for each cell without anything new, after which a pack is taken to go on for ever.
+/// Team moves for each cell without anything new, after which a run is over.
 const PATIENCE: usize = 100;
 
 /// Robots that see, and stay connected.
@@ -165,7 +165,7 @@ impl Team for PackTeam {
 
     fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
         if self.idle > PATIENCE * self.reached.len() {
-            return Err(End::Endless);
+            return Err(End::Idle);
         }
         let Self { robots, chart, past, reached, queue, gains, rounds, .. } = self;
         let mut steps = [Step::Stay; MAX_ROBOTS];
@@ -211,7 +211,7 @@ impl Team for PackTeam {
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         match end {
-            End::Endless => vec![ENDS],
+            End::Endless | End::Idle => Vec::new(),
             End::Explored | End::Exhausted | End::Silent | End::Refused
                 if self.missed(layout, chart).is_empty() =>
             {

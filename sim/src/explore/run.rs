@@ -257,6 +257,8 @@ pub enum End {
     Exhausted,
     /// The team goes round and round.
     Endless,
+    /// Nothing new was found for so long that the team may go on for ever, or be slow.
+    Idle,
     /// The robots that are left wait for one that is silent.
     Silent,
     /// The robots refuse what they have told each other.
@@ -273,6 +275,8 @@ pub enum StopReason {
     Exhausted,
     /// The team goes round and round, and would for ever.
     Endless,
+    /// Nothing new was found for so long that the team may go on for ever, or be slow.
+    Idle,
     /// The robots that are left wait for one that is silent, and would for ever.
     Silent,
     /// The robots refuse what they have told each other, as damaged.
@@ -292,6 +296,7 @@ impl StopReason {
             Self::Explored => "every cell of the area is explored",
             Self::Exhausted => "the team can explore nothing more",
             Self::Endless => "the team is where it was, and would go round for ever",
+            Self::Idle => "nothing new was found for so long that the team may go on for ever, or be slow",
             Self::Silent => "the robots that are left stay where they are, and wait for one that is silent",
             Self::Refused => "the robots refuse what they have told each other, as damaged",
             Self::MaxMoves => "a robot has entered as many cells as it may",

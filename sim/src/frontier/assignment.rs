@@ -120,8 +120,11 @@ impl AssignedTeam {
         self.idle = if self.chart.len() == before { self.idle + 1 } else { 0 };
         // Who assigns anew does the same again when nobody has moved.
         let waits = is_still && matches!(self.assignment, Assignment::Earlier | Assignment::HungarianAnew);
-        if waits || self.idle > PATIENCE * self.area.width() * self.area.height() {
+        if waits {
             return Err(TeamEnd::Endless);
+        }
+        if self.idle > PATIENCE * self.area.width() * self.area.height() {
+            return Err(TeamEnd::Idle);
         }
         Ok(moves.frame(&self.cells))
     }

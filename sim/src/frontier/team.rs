@@ -282,7 +282,7 @@ impl Explorers {
         let after: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
         self.idle = if after == before { self.idle + 1 } else { 0 };
         if self.idle > PATIENCE * self.area.width() * self.area.height() {
-            return Err(TeamEnd::Endless);
+            return Err(TeamEnd::Idle);
         }
         Ok(moves.frame(&self.cells))
     }

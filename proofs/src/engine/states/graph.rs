@@ -87,6 +87,17 @@ impl Graph {
         self.from.len()
     }
 
+    /// Each node in its order, and the fewest steps to it.
+    pub(super) fn depths(&self) -> impl Iterator<Item = (usize, usize)> {
+        let mut level = (0, 0);
+        (0..self.len()).map(move |node| {
+            if node >= self.starts.len() && self.from.at(node) as usize >= level.0 {
+                level = (node, 1 + level.1);
+            }
+            (node, level.1)
+        })
+    }
+
     pub(super) fn bytes(&self) -> u64 {
         let starts = self.starts.capacity() * size_of::<u32>();
         starts as u64 + self.from.bytes() + self.owed.bytes() + self.first_arc.bytes() + self.arcs.bytes()

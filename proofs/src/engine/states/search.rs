@@ -10,7 +10,7 @@ use super::code::Code;
 use super::graph::{Arc, Graph};
 use super::limits::{Limits, Memory, MemoryShare};
 use super::queue::Queue;
-use super::rounds::{Round, TooLarge};
+use super::rounds::{Round, ShortestRound, TooLarge};
 use super::spill::{Disk, Numbers};
 use super::state_table::{Cursor, StateTable};
 use super::{Bits, END, Ending, Findings, Places, Run, System, TRIED, steps};
@@ -120,8 +120,17 @@ impl<'a, S: System> Search<'a, S> {
         }
         let mut stop = self.meet_starts(starts.skip(self.begun as usize)).break_value();
         stop = stop.or_else(|| self.look_at_all(most_steps, watch).break_value());
-        if let (None, Some(demand)) = (stop, self.system.broken_by_endless_runs()) {
-            stop = self.look_for_rounds(demand).err();
+        let mut is_shortest = true;
+        if let Some(demand) = self.system.broken_by_endless_runs() {
+            // One that is broken by an end may be broken by a shorter run that goes round.
+            let is_broken = self.broken.last().is_some_and(|last| last.demand == demand);
+            if stop.is_none() || stop == Some(Stop::Enough) && is_broken {
+                match self.look_for_rounds(demand) {
+                    Ok(is_known) => is_shortest = is_known,
+                    Err(_) if stop.is_some() => is_shortest = false,
+                    Err(short) => stop = Some(short),
+                }
+            }
         }
         if stop == Some(Stop::Full) {
             self.taken.was_too_small();
@@ -143,6 +152,7 @@ impl<'a, S: System> Search<'a, S> {
             steps: self.steps,
             bytes: self.taken.most,
             is_whole,
+            is_shortest: is_whole && is_shortest,
             broken: if self.known.fault().is_some() { Vec::new() } else { broken },
             covered,
         }
@@ -484,27 +494,41 @@ impl<'a, S: System> Search<'a, S> {
         numbers
     }
 
-    /// Looks for runs that go round and owe the same thing throughout. The one that gets there first counts, unless a
-    /// run that breaks the same demand stays in a state that is found before.
-    fn look_for_rounds(&mut self, demand: S::Demand) -> Result<(), Stop> {
-        let mut round = self.first_round();
+    /// Looks for a shortest run that goes round and owes the same thing throughout, and takes it if no run that breaks
+    /// the same demand is as short; whether none is shorter than the one that is taken, or known.
+    fn look_for_rounds(&mut self, demand: S::Demand) -> Result<bool, Stop> {
+        let known = self.broken.iter().position(|broken| broken.demand == demand);
+        let fewer_than = known.map_or(usize::MAX, |place| self.length(&self.broken[place]));
+        let mut round = self.shortest_round(fewer_than);
         if round.is_err() {
             // Without the states there may be memory for the graph.
             self.write().break_value().map_or(Ok(()), Err)?;
-            round = self.first_round();
+            round = self.shortest_round(fewer_than);
         }
-        let round = round.map_err(|TooLarge| Stop::Full)?;
-        let Some((node, round)) = round else { return Ok(()) };
-        let new = Violation { demand, node, how: How::Round(round) };
-        match self.broken.iter_mut().find(|broken| broken.demand == demand) {
-            Some(known) if known.node <= node => {}
-            Some(known) => *known = new,
-            None => self.broken.push(new),
+        let shortest = round.map_err(|TooLarge| Stop::Full)?;
+        let is_known = shortest.is_known();
+        if let Some(Round { node, steps }) = shortest.round {
+            let new = Violation { demand, node, how: How::Round(steps) };
+            match known {
+                Some(place) => self.broken[place] = new,
+                None => self.broken.push(new),
+            }
         }
-        Ok(())
+        Ok(is_known)
     }
 
-    fn first_round(&mut self) -> Result<Option<Round>, TooLarge> {
+    /// How many steps the run has that breaks something.
+    fn length(&self, broken: &Violation<S::Demand>) -> usize {
+        let (_, way) = self.graph.way(broken.node);
+        way.len() - 1
+            + match &broken.how {
+                How::Step(_) => 1,
+                How::Still => 0,
+                How::Round(steps) => steps.len(),
+            }
+    }
+
+    fn shortest_round(&mut self, fewer_than: usize) -> Result<ShortestRound, TooLarge> {
         self.making = 0;
         let bytes = self.bytes();
         let Self { system, known, graph, shown, taken, .. } = self;
@@ -514,7 +538,9 @@ impl<'a, S: System> Search<'a, S> {
             known.show(*system, node, shown)?;
             Some(system.awake(&shown.state))
         };
-        graph.first_round(&mut |node| awake(node).unwrap_or_default(), taken)
+        let mut shortest = ShortestRound::new(fewer_than);
+        graph.look_for_rounds(&mut shortest, &mut |node| awake(node).unwrap_or_default(), taken)?;
+        Ok(shortest)
     }
 }
 

@@ -399,7 +399,7 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         match end {
-            End::Silent => Vec::new(),
+            End::Silent | End::Idle => Vec::new(),
             End::Refused => vec![HEARD],
             // A wall that appears may cut robots off: CHAIN-13 is not promised.
             End::Explored | End::Exhausted | End::Endless if self.wall.is_some() => Vec::new(),
