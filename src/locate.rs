@@ -166,6 +166,15 @@ impl Locate {
         if self.power_dbm.is_some() {
             return Err(needless("--power-dbm", "there is no file of levels").into());
         }
+        if self.advice && self.at.is_some() {
+            let what = "--advice is about a whole floor, and --at is one place of it";
+            return Err(Diagnostic::usage(what, "leave --at or --advice out").into());
+        }
+        let trials = self.trials.unwrap_or(10_000);
+        if self.advice && trials < Advice::FEWEST {
+            let what = format!("--runs {trials} are too few for the 99th percentile of --advice");
+            return Err(Diagnostic::usage(what, format_args!("give {} or more", Advice::FEWEST)).into());
+        }
         let [picture] = self.force.files([&self.svg], [])?;
         let named = self.anchors.iter().map(|&Metres([x_m, y_m])| Point::new(x_m, y_m));
         let places = if self.anchors.is_empty() { SQUARE.to_vec() } else { named.collect() };
@@ -176,9 +185,18 @@ impl Locate {
             solver: self.solver,
             rule: self.rule(),
             inside: self.inside,
-            trials: self.trials.unwrap_or(10_000),
+            trials,
             seed: self.seed.unwrap_or(0),
         };
+        let outside = |&[x_m, y_m]: &[f64; 2]| {
+            let at = Point::new(x_m, y_m);
+            setting.anchors.area().nearest(at) != at
+        };
+        if let Some([x_m, y_m]) = setting.at_m.filter(|at| setting.inside && outside(at)) {
+            let what =
+                format!("--inside keeps to the rectangle that the anchors span, and {x_m},{y_m} is outside");
+            return Err(Diagnostic::usage(what, "give --at a place within it, or leave --inside out").into());
+        }
         let report = progress::during("locating", setting.parts(), |watch| setting.run(watch))?;
         if let Some(mut picture) = picture {
             picture.append(draw::position::spots(
@@ -267,9 +285,9 @@ fn text(setting: &Setting, report: &Report) -> String {
     columns.row(["Cramér–Rao bound".to_owned(), String::new(), String::new(), bound]);
     let inside = if setting.inside { ", kept inside" } else { "" };
     let mut text = format!(
-        "{anchors} anchors, {place}; {}{inside}; {} trials, seed {}\n\n{}\n[…]: the 95 % interval\n",
+        "{anchors} anchors, {place}; {}{inside}; {}, seed {}\n\n{}\n[…]: the 95 % interval\n",
         title(setting),
-        setting.trials,
+        counted(setting.trials, "trial"),
         setting.seed,
         columns.text()
     );
@@ -306,7 +324,9 @@ fn positions(found: &[FixReport]) -> String {
             .chain([Column::left(Width::Fit)]),
     );
     columns.row(["fix", "x, m", "y, m", "± rms, m", "dilution", "residual", ""]);
-    let told = |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}"));
+    let told = |number: Option<f64>| {
+        number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}").replace("-0.000", "0.000"))
+    };
     for FixReport { fix, positions } in found {
         for (number, place) in positions.iter().enumerate() {
             let Place { x_m, y_m, rms_m, dilution, residual, flags, .. } = place;

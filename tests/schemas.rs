@@ -108,7 +108,8 @@ const COMMANDS: [(&str, &str); 15] = [
         "locate",
         "locate --runs 20
          locate --solver closed-form --runs 20 --noise-db 0
-         locate --advice --runs 20 --at 3,3
+         locate --advice --runs 300
+         locate --runs 20 --at 3,3
          locate measured.csv",
     ),
     ("show", "show open:3x3"),

@@ -425,6 +425,15 @@ mod tests {
     }
 
     #[test]
+    fn nodes_that_failed_before_the_call_and_those_behind_them_are_not_connected() {
+        let mut scenario = row(Rule::REPAIRED, &ROW, &[(20.0, None)], &[(2, 100)]);
+        scenario.wfrs[0].pauses_ns = vec![100_000_000_000];
+        let report = scenario.rescue(&mut SeededOracle::new(0, 0)).expect("a rescue");
+        let spreads = report.spreads.iter().map(|spread| (spread.reached, spread.component));
+        assert_eq!(spreads.collect::<Vec<_>>(), [(4, 4), (2, 2)]);
+    }
+
+    #[test]
     fn whom_nobody_can_reach_or_has_heard_of_is_told_apart() {
         let alone = row(Rule::REPAIRED, &ROW, &[(150.0, None)], &[]);
         let fates =

@@ -99,6 +99,12 @@ impl Estimate {
         let interval = self.interval.map(|bounds| bounds.map(|bound| bound * factor));
         Self { mean: self.mean * factor, interval, ..self }
     }
+
+    /// The share of the others.
+    pub fn rest(self) -> Self {
+        let interval = self.interval.map(|[low, high]| [1.0 - high, 1.0 - low]);
+        Self { mean: 1.0 - self.mean, interval, ..self }
+    }
 }
 
 /// Exact sums over whole numbers, to be added up in any order.
@@ -275,6 +281,8 @@ mod tests {
         assert_eq!(bounds(5, 10), [2_366, 7_634]);
         assert_eq!(bounds(1, 1), [2_065, 10_000]);
         assert_eq!(bounds(100, 200), [4_314, 5_686]);
+        let rest = Estimate::share(10, 10).expect("a share").rest();
+        assert_eq!((rounded(rest.mean), rest.interval.map(|ends| ends.map(rounded))), (0, Some([0, 2_775])));
     }
 
     proptest! {

@@ -111,7 +111,7 @@ fn levels_tell_the_distances_that_they_fall_over() {
 fn what_tells_no_position_is_refused_with_what_would_be_right() {
     let folder = folder();
     let folder = folder.path();
-    let wrong: [&[&str]; 20] = [
+    let wrong: [&[&str]; 23] = [
         &["--anchors", "0,0", "--anchors", "20,0"],
         &["--anchors", "0,0", "--anchors", "20,0", "--anchors", "0,0"],
         &["--anchors", "0,0", "--anchors", "10,10", "--anchors", "20,20"],
@@ -138,6 +138,9 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
         &["--at", "0,0"],
         &["--rule", "published"],
         &["--inside", "--solver", "pso"],
+        &["--inside", "--at", "20.5,5"],
+        &["--advice", "--at", "5,5"],
+        &["--advice", "--runs", "299"],
         &["nowhere.csv"],
         &["nowhere.csv", "--runs", "5"],
         &["nowhere.csv", "--power-dbm", "-201"],
@@ -220,4 +223,17 @@ fn what_is_wrong_with_the_place_or_the_noise_is_said_of_them() {
 fn without_noise_the_bound_is_0() {
     let told = json(folder().path(), &["locate", "--noise-db", "0", "--runs", "10"], 0);
     assert_eq!(told["crlb_rms_m"], 0.0);
+}
+
+#[test]
+fn the_rim_is_inside_and_numbers_are_written_as_people_do() {
+    let folder = folder();
+    let told = printed(folder.path(), &["locate", "--inside", "--at", "20,5", "--runs", "1"], 0);
+    assert!(told.contains("; 1 trial, seed 0"), "{told}");
+    printed(folder.path(), &["locate", "--advice", "--runs", "300"], 0);
+    // A robot at the first anchor's corner, a hair to the west of it.
+    let west = "fix,x_m,y_m,range_m\na,0,0,0.001\na,20,0,20.0001\na,0,20,20\n";
+    fs::write(folder.path().join("m.csv"), west).expect("a file");
+    let told = printed(folder.path(), &["locate", "m.csv"], 0);
+    assert!(told.contains(" 0.000") && !told.contains("-0.000"), "{told}");
 }

@@ -8,7 +8,7 @@ use crate::radio::{Air, Field, Point};
 pub struct Spread {
     /// Nodes that know of it, the WFR included.
     pub reached: u32,
-    /// Nodes that links connect with the WFR, itself included.
+    /// Nodes that live when the call goes out and that links connect with the WFR, over such nodes; itself included.
     pub component: u32,
     /// Nodes that forwarded it, the WFR not included.
     pub rebroadcasts: u32,

@@ -18,7 +18,7 @@ use crate::stats::{Estimate, rounded};
 pub struct Summary {
     /// The share of all nodes that the first call for an event reaches, the WFR included.
     pub reach: Estimate,
-    /// The share of the nodes that links connect with the WFRs.
+    /// The share of the nodes that live when the call goes out and that links connect with the WFR, over such nodes.
     pub reach_component: Estimate,
     /// Nodes that forward a first call, the WFR not included.
     pub rebroadcasts: Estimate,

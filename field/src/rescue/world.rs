@@ -110,6 +110,8 @@ struct Happening {
     at_ns: u64,
     /// The epoch of the first call for it.
     epoch: Epoch,
+    /// How many nodes were connected with the WFR then.
+    component: u32,
     /// The spread of that call, once there was another.
     spread: Option<Spread>,
     /// How many robots have come.

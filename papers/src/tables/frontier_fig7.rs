@@ -10,7 +10,7 @@ use std::num::NonZeroU32;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
-use super::sentences::below;
+use super::sentences::{always, below};
 use tautline_grids::chance::Dice;
 use tautline_grids::layout::Layout;
 use tautline_sim::explore::frontier::{ALONE, FRONTIER};
@@ -282,8 +282,8 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
         |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| text(of(rule, robots).and_then(part), 1);
     let estimate = |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| of(rule, robots).and_then(part);
     let ends = |estimate: Option<Estimate>| estimate.and_then(|estimate| estimate.interval);
-    let is_whole = estimate(|line| line.explored, "published", 1).map(|explored| explored.mean >= 100.0);
-    let is_alone = estimate(|line| line.double, "published", 8).map(|double| double.mean <= 0.0);
+    let whole = estimate(|line| line.whole, "published", 1).map(|whole| whole.times(0.01));
+    let alone = estimate(|line| line.double, "published", 8).map(|double| double.times(0.01).rest());
     let largest = lines.iter().map(|line| line.robots).max().unwrap_or(BEST);
     let [eight, six] = [8, 6].map(|robots| ends(estimate(|line| line.moves, "wanders", robots)));
     vec![
@@ -309,7 +309,7 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
                 percent(|line| line.whole, "published", 1),
                 percent(|line| line.whole, "repaired", 1)
             ),
-            is_whole.map_or(Verdict::Open, Verdict::of),
+            always(whole),
         ),
         Judgement::new(
             "“avoiding overlapping”",
@@ -319,7 +319,7 @@ fn judged(lines: &[Line]) -> Vec<Judgement> {
                 percent(|line| line.double, "published", 8),
                 percent(|line| line.double, "repaired", 8)
             ),
-            is_alone.map_or(Verdict::Open, Verdict::of),
+            always(alone),
         ),
     ]
 }

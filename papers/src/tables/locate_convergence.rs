@@ -18,7 +18,7 @@ use tautline_field::stats::quantile;
 /// The anchors, as in `tautline locate`.
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
 
-/// Iterations after which it is looked.
+/// Iterations of a swarm in all.
 const ITERATIONS: [u32; 6] = [0, 5, 10, 20, 30, 50];
 
 /// The paper's error after 20 iterations, in metres.
@@ -70,17 +70,17 @@ pub(super) fn field(settings: &Field) -> Result<(Anchors, Signal), Halt> {
 /// One way to read the paper, by its place in [`VARIANTS`].
 type Job = usize;
 
-/// The course of the particles.
+/// The ends of swarms.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Course {
-    /// By the number of iterations.
-    pub after: Vec<CoursePoint>,
+pub struct Ends {
+    /// By the number of iterations in all.
+    pub after: Vec<End>,
 }
 
-/// Where particles have come.
+/// The end of swarms of so many iterations in all: an inertia that falls does so over exactly these.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct CoursePoint {
-    /// How many iterations.
+pub struct End {
+    /// How many iterations in all.
     pub iterations: u32,
     /// The median distance to the optimum, in metres, and its 95 % interval.
     pub optimum_m: f64,
@@ -108,15 +108,15 @@ pub struct Summary {
 pub struct Variant {
     /// Which.
     pub reading: &'static str,
-    /// The course of its particles.
+    /// The ends of its swarms.
     #[serde(flatten)]
-    pub course: Course,
+    pub ends: Ends,
 }
 
 impl Table for LocateConvergence {
     type Settings = Field;
     type Job = Job;
-    type Sample = Course;
+    type Sample = Ends;
     type Summary = Summary;
 
     fn about(&self) -> Description {
@@ -141,7 +141,7 @@ impl Table for LocateConvergence {
         Ok((0..VARIANTS.len()).collect())
     }
 
-    fn measure(&self, settings: &Field, &variant: &Job, _: &dyn Observer) -> Result<Course, Halt> {
+    fn measure(&self, settings: &Field, &variant: &Job, _: &dyn Observer) -> Result<Ends, Halt> {
         let (anchors, signal) = field(settings)?;
         let unknown = || Diagnostic::usage("there is no such reading", "take the job as tautline wrote it");
         let &(_, order, draws, parameters) = VARIANTS.get(variant).ok_or_else(unknown)?;
@@ -149,27 +149,26 @@ impl Table for LocateConvergence {
             let parameters = Parameters { order, draws, iterations, ..parameters };
             after(settings, (&anchors, &signal), parameters)
         };
-        Ok(Course { after: ITERATIONS.into_iter().map(after).collect::<Result<_, _>>()? })
+        Ok(Ends { after: ITERATIONS.into_iter().map(after).collect::<Result<_, _>>()? })
     }
 
     fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Summary, Halt> {
-        let named = |((reading, ..), (_, course)): (&(&'static str, _, _, _), (Job, Course))| Variant {
-            reading,
-            course,
-        };
+        let named =
+            |((reading, ..), (_, ends)): (&(&'static str, _, _, _), (Job, Ends))| Variant { reading, ends };
         Ok(Summary { field: settings.clone(), variants: VARIANTS.iter().zip(results).map(named).collect() })
     }
 
     fn text(&self, settings: &Field, merged: &Summary) -> Result<String, Halt> {
         let heading = format!(
-            "{PARTICLES} particles, medians of {} positions, noise {} dB, exponent {}, seed {}; after iterations:",
+            "{PARTICLES} particles, medians of {} positions, noise {} dB, exponent {}, seed {}; \
+             swarms of so many iterations in all:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
         );
-        let optimum = |CoursePoint { optimum_m, interval_m, .. }: CoursePoint| {
+        let optimum = |End { optimum_m, interval_m, .. }: End| {
             let ends = |[least, most]: [f64; 2]| format!(" [{:.1}, {:.1}]", 1e3 * least, 1e3 * most);
             format!("{:.1}{}", 1e3 * optimum_m, interval_m.map_or_else(String::new, ends))
         };
-        let parts: [(&str, &dyn Fn(CoursePoint) -> String); 3] = [
+        let parts: [(&str, &dyn Fn(End) -> String); 3] = [
             ("distance to the optimum, mm", &optimum),
             ("less than 5 cm from the optimum, % of runs", &|after| percent(after.below_5_cm, 1)),
             ("distance to the robot, m", &|after| format!("{:.2}", after.error_m)),
@@ -179,8 +178,8 @@ impl Table for LocateConvergence {
         figures.row("iterations", |&place| ITERATIONS[place].to_string());
         for (title, of) in parts {
             figures.title(title);
-            for Variant { reading, course } in &merged.variants {
-                figures.row(*reading, |&place| of(course.after[place]));
+            for Variant { reading, ends } in &merged.variants {
+                figures.row(*reading, |&place| of(ends.after[place]));
             }
         }
         Ok(figures.with_notes(&format!("{}\n±, […]: the 95 % interval", compared(merged))))
@@ -204,14 +203,14 @@ impl Table for LocateConvergence {
 
     /// The medians of each reading.
     fn draw(&self, _: usize, settings: &Field, merged: &Summary) -> Result<String, Halt> {
-        let point = |after: &CoursePoint| chart::Point {
+        let point = |after: &End| chart::Point {
             x: after.iterations.into(),
             y: 1e2 * after.optimum_m,
             interval: after.interval_m.map(|ends| ends.map(|end| 1e2 * end)),
         };
-        let series = |one: &Variant| Series::measured(one.reading, one.course.after.iter().map(point));
-        let title = format!("Particles on their way to the optimum, noise {} dB", settings.noise_db);
-        let x = Axis::new("iterations", "").showing([0.0, 50.0]);
+        let series = |one: &Variant| Series::measured(one.reading, one.ends.after.iter().map(point));
+        let title = format!("How near swarms end to the optimum, noise {} dB", settings.noise_db);
+        let x = Axis::new("iterations in all", "").showing([0.0, 50.0]);
         let y = Axis::new("median distance to the optimum", "cm").showing([0.0, 5.0]);
         Ok(LineChart::new(title, x, y, merged.variants.iter().map(series)).svg())
     }
@@ -225,9 +224,9 @@ fn numbers(merged: &Summary) -> Vec<Comparison> {
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);
-    let numbers = |Variant { reading, course }: &Variant| {
-        let CoursePoint { optimum_m, interval_m, error_m, error_interval_m, .. } = course.after[twenty];
-        let end = course.after[last];
+    let numbers = |Variant { reading, ends }: &Variant| {
+        let End { optimum_m, interval_m, error_m, error_interval_m, .. } = ends.after[twenty];
+        let end = ends.after[last];
         let conclusion = format!("{reading}: to the optimum, {} iterations", ITERATIONS[last]);
         [
             (format!("{reading}: to the optimum, 20 iterations"), PAPER_M, optimum_m, interval_m),
@@ -249,12 +248,12 @@ fn compared(merged: &Summary) -> String {
         .text()
 }
 
-/// Many swarms after so many iterations.
+/// Many swarms of so many iterations in all.
 fn after(
     settings: &Field,
     (anchors, signal): (&Anchors, &Signal),
     parameters: Parameters,
-) -> Result<CoursePoint, Halt> {
+) -> Result<End, Halt> {
     let (mut to_optimum, mut to_robot) = (Vec::new(), Vec::new());
     for trial in 0..settings.trials {
         let mut oracle = SeededOracle::new(settings.seed, trial.into());
@@ -274,7 +273,7 @@ fn after(
     let (optimum_m, interval_m) = quantile(&to_optimum, 0.5);
     let (error_m, error_interval_m) = quantile(&to_robot, 0.5);
     let is_near = share(&to_optimum, |&distance_m| distance_m < PAPER_M).unwrap_or(Estimate::NOTHING);
-    Ok(CoursePoint {
+    Ok(End {
         iterations: parameters.iterations,
         optimum_m: decimals(optimum_m, 1e6),
         interval_m: interval_m.map(|ends| ends.map(|end| decimals(end, 1e6))),

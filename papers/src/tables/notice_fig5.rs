@@ -136,7 +136,7 @@ impl Settings {
         Ok((Network::new(&field, radio, chance)?, NodeId(chance.pick(nodes as u32))))
     }
 
-    /// A broadcast by every scheme in a topology; each scheme draws its waits from a stream of its own.
+    /// A broadcast by every scheme in a topology; all draw their waits from the start of the same stream.
     fn sample(&self, nodes: usize, topology: u32) -> Result<Sample, Problem> {
         let (network, source) = self.topology(nodes, topology)?;
         let range_um = self.radio()?.range_um();

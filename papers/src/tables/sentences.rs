@@ -5,6 +5,7 @@ use serde::Serialize;
 use tautline_field::stats::Estimate;
 use tautline_io::text_table::{Column, TextTable, Width};
 
+use super::notice_fig5::NEAR;
 use super::paper::Verdict;
 
 /// A sentence of a paper, and what is so.
@@ -48,6 +49,16 @@ pub(super) fn at_least(least: f64, ours: Estimate) -> Verdict {
     Verdict::decided(low >= least, high < least)
 }
 
+/// Whether all runs are such, by the share of those that are: one that is not is enough for *fails*, and for *holds*
+/// nearly all are by the whole 95 % interval.
+pub(super) fn always(share: Option<Estimate>) -> Verdict {
+    match share {
+        Some(share) if share.mean < 1.0 => Verdict::Fails,
+        Some(share) => at_least(NEAR, share),
+        None => Verdict::Open,
+    }
+}
+
 /// Whether one figure is below another one, by their whole 95 % intervals.
 pub(super) fn below(one: Option<[f64; 2]>, other: Option<[f64; 2]>) -> Verdict {
     match (one, other) {
@@ -89,6 +100,9 @@ mod tests {
         assert_eq!(all.map(|interval| same(100.0, of(interval))), [Holds, Fails, Fails, Open, Open]);
         let all = [ends(95.0, 100.0), ends(90.0, 94.9), ends(90.0, 100.0), None];
         assert_eq!(all.map(|interval| at_least(95.0, of(interval))), [Holds, Fails, Open, Open]);
+        let all = [(999, 1000), (1, 1), (72, 72), (73, 73)].map(|(hits, count)| Estimate::share(hits, count));
+        assert_eq!(all.map(always), [Fails, Open, Open, Holds]);
+        assert_eq!(always(None), Open);
         let other = ends(3.0, 4.0);
         let all = [ends(1.0, 2.0), ends(5.0, 6.0), ends(2.0, 3.5), ends(3.5, 5.0), None];
         assert_eq!(all.map(|one| below(one, other)), [Holds, Fails, Open, Open, Open]);

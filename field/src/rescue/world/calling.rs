@@ -127,16 +127,18 @@ impl World<'_> {
         self.judge.happens(wfr, event);
         self.turn_wfr(wfr, now_ns, None, Wfr::raise);
         let epoch = self.wfrs[wfr].call().epoch;
-        self.happenings[wfr].push(Happening { at_ns: now_ns, epoch, spread: None, visits: 0 });
+        let component = self.linked(self.scenario.wfrs[wfr].node).len() as u32;
+        self.happenings[wfr].push(Happening { at_ns: now_ns, epoch, component, spread: None, visits: 0 });
     }
 
     /// How far the first call for the latest event so far has come: to be asked before another call.
     pub(super) fn measure_spread(&mut self, wfr: usize) {
-        let Some(Happening { epoch, spread, .. }) = self.happenings[wfr].last_mut() else { return };
+        let Some(Happening { epoch, component, spread, .. }) = self.happenings[wfr].last_mut() else {
+            return;
+        };
         spread.get_or_insert_with(|| {
             let Reach { reached, rebroadcasts } = self.broadcasts[wfr].reach(*epoch);
-            let component = self.scenario.network.component(self.scenario.wfrs[wfr].node) as u32;
-            Spread { reached, component, rebroadcasts }
+            Spread { reached, component: *component, rebroadcasts }
         });
     }
 

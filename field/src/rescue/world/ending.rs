@@ -53,10 +53,7 @@ impl World<'_> {
             return Fate::Served { by: first.robot, visits };
         }
         let node = self.scenario.wfrs[wfr].node;
-        let lives = |node: NodeId| !self.sensors[node.0 as usize].has_failed;
-        let hops = hops(&self.scenario.network, node, lives);
-        let linked = (0..).map(NodeId).zip(hops).filter(|&(node, hops)| hops.is_some() && lives(node));
-        let nodes: Vec<NodeId> = linked.map(|(node, _)| node).collect();
+        let nodes = self.linked(node);
         let is_linked = |rover: &&Rover| {
             !rover.has_failed && nodes.iter().any(|&node| self.link(node, rover, node).is_some())
         };
@@ -70,5 +67,13 @@ impl World<'_> {
         } else {
             Fate::Unheard
         }
+    }
+
+    /// The nodes that live and are connected with `node` by links, over such nodes; itself included.
+    pub(super) fn linked(&self, node: NodeId) -> Vec<NodeId> {
+        let lives = |node: NodeId| !self.has_failed(node);
+        let hops = hops(&self.scenario.network, node, lives);
+        let linked = (0..).map(NodeId).zip(hops).filter(|&(node, hops)| hops.is_some() && lives(node));
+        linked.map(|(node, _)| node).collect()
     }
 }

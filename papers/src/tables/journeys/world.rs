@@ -81,7 +81,7 @@ impl World {
         Site { field: &self.field, network: &self.network, equipment: self.equipment }
     }
 
-    /// The broadcast and each journey have a stream of answers to themselves, different from that of the topology.
+    /// The stream of answers from whose start the broadcast and each journey draw; it is not that of the topology.
     fn chance(&self) -> SeededOracle {
         let (seed, topology) = self.stream;
         SeededOracle::new(seed, 2 * topology + 1)
