@@ -9,6 +9,7 @@ use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
 use super::sentences::{always, below};
+use tautline_field::stats::quantile;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::{RuleId, Setup, has_double};
 use tautline_sim::frontier::{Allowance, Explorers, TeamEnd};
@@ -67,10 +68,9 @@ pub struct Outcome {
     moves: Option<u32>,
     /// How often a robot stood to take another fix.
     stands: u32,
-    /// The root mean square error of where robots take themselves to be, in thousandths of a cell's side.
+    /// The root mean square error of where robots take themselves to be, in millionths of a cell's side.
     off: u32,
-    /// How far off the objects were that robots saw, in thousandths of a cell's
-    /// side, and how far off their ellipses say.
+    /// How far off the objects were that robots saw, in millionths of a cell's side, and how far off their ellipses say.
     objects: Vec<[u32; 2]>,
 }
 
@@ -315,13 +315,22 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
         matches!(ended, Some(TeamEnd::Known | TeamEnd::Still | TeamEnd::Endless)) || whole.is_some();
     let off = team.objects().iter().filter_map(|(object, known)| {
         let known = known.as_ref()?;
-        let thousandths = |sides: f64| (1000.0 * sides) as u32;
-        Some([thousandths(known.at.distance_m(*object)), thousandths(known.covariance.trace().sqrt())])
+        Some([millionths(known.at.distance_m(*object)), millionths(known.covariance.trace().sqrt())])
     });
     let objects = off.collect();
-    let off = (1000.0 * (squares / f64::from(count.max(1))).sqrt()) as u32;
+    let off = millionths((squares / f64::from(count.max(1))).sqrt());
     let stands = team.stands() as u32;
     Outcome { moves: whole.filter(|_| is_clean && is_over), stands, off, objects }
+}
+
+/// The sides of a cell, in what an outcome counts.
+fn millionths(sides: f64) -> u32 {
+    (1e6 * sides).round() as u32
+}
+
+/// The millionths in sides of a cell.
+fn in_sides(millionths: u32) -> f64 {
+    f64::from(millionths) / 1e6
 }
 
 impl Figure {
@@ -330,10 +339,9 @@ impl Figure {
             Some((f64::from(outcome.moves?), f64::from(plain.moves.filter(|&moves| moves > 0)?)))
         });
         let clean = || outcomes.iter().filter(|outcome| outcome.moves.is_some());
-        let mut errors: Vec<u32> =
-            clean().flat_map(|outcome| outcome.objects.iter().map(|[off, _]| *off)).collect();
-        errors.sort_unstable();
-        let at = |part: usize| errors.get(errors.len() * part / 100).map(|&off| f64::from(off) / 1000.0);
+        let mut errors: Vec<f64> =
+            clean().flat_map(|outcome| outcome.objects.iter().map(|[off, _]| in_sides(*off))).collect();
+        errors.sort_by(f64::total_cmp);
         let squares = |of: usize| -> f64 {
             clean()
                 .flat_map(|outcome| outcome.objects.iter().map(move |all| f64::from(all[of]).powi(2)))
@@ -345,8 +353,8 @@ impl Figure {
             moves: mean(clean().filter_map(|outcome| outcome.moves.map(f64::from))),
             ratio: ratio(both),
             stands: mean(clean().map(|outcome| f64::from(outcome.stands))),
-            off: mean(clean().map(|outcome| f64::from(outcome.off) / 1000.0)),
-            objects: at(50).zip(at(95)).map(|(median, most)| [median, most]),
+            off: mean(clean().map(|outcome| in_sides(outcome.off))),
+            objects: (!errors.is_empty()).then(|| [0.5, 0.95].map(|share| quantile(&errors, share).0)),
             objects_ratio: (squares(1) > 0.0).then(|| (squares(0) / squares(1)).sqrt()),
         }
     }
@@ -393,7 +401,7 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
             &floor,
             format!(
                 "root mean square errors in cells, where 0.02 cm are 0.0002 of 1 m: {}",
-                measured(off, 3)
+                measured(off, 4)
             ),
             below(teams[0].1.and_then(off).and_then(|off| off.interval), Some([0.0002; 2])),
         ));
