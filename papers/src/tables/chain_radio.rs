@@ -121,7 +121,9 @@ impl Table for ChainRadio {
                 u32::from(made.frame.cells.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])));
             Ok(())
         })?;
-        let mut dice = Dice::new(settings.seed.wrapping_add(robots.into()), *b"switches");
+        let mut tag = *b"switch 0";
+        tag[7] += robots as u8;
+        let mut dice = Dice::new(settings.seed, tag);
         let bridges = u32::from(robots) - 2;
         let run = || (0..report.steps * bridges).map(|_| switch(&mut dice)).sum::<u64>();
         let hops = u64::from(report.steps) * u64::from(robots - 1) * settings.hop_ms;
