@@ -70,7 +70,7 @@ pub struct Outcome {
     stands: u32,
     /// The root mean square error of where robots take themselves to be, in millionths of a cell's side.
     off: u32,
-    /// How far off the objects were that robots saw, in millionths of a cell's side, and how far off their ellipses say.
+    /// How far off the objects were that robots saw, in millionths of a cell's side, and what their ellipses say.
     objects: Vec<[u32; 2]>,
 }
 
