@@ -162,7 +162,11 @@ fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyRe
         let demand = example.broken.0;
         let clause = written.demands[demand].clause;
         let run = setting.run(written.starts().to_vec(), example);
-        let halted = |halt: Halt| written.script.failure(py).unwrap_or_else(|| halted(py, &halt));
+        let told = |halt: Halt| match halt {
+            Halt::Interrupted => written.script.not_pure(py),
+            Halt::Diagnostic(_) => halted(py, &halt),
+        };
+        let halted = |halt: Halt| written.script.checked(py).err().unwrap_or_else(|| told(halt));
         let (layout, _) = layout_of(&run).map_err(|problem| halted(problem.into()))?;
         let (made, report) = stored(written, (&setting, &rule), &layout, demand).map_err(halted)?;
         if report.violations.is_empty() {
@@ -190,7 +194,8 @@ fn stored(
     let setup = Setup { limits, ..setup };
     let file = AtomicFile::new(&path, &Replaceable::default())?;
     let mut writer = Writer::new(file, &setup, Some(clause))?;
-    let mut left = written.longest_run;
+    // The move that breaks the demand may be the last one of a longest run.
+    let mut left = written.longest_run.saturating_add(1);
     let team = setting.in_layout(rule, written.starts(), Vec::new()).wanting(&[Promise(demand)]);
     let report = run(&mut Own::new(team, 0), layout, limits, &mut |made| {
         left = left.saturating_sub(1);

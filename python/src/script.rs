@@ -50,6 +50,18 @@ pub(crate) fn word(py: Python<'_>, what: &str, name: &str) -> PyResult<&'static 
     Err(error(py, Kind::Input, format_args!("{name:?} is no name"), remedy))
 }
 
+/// Refuses demands of which two have one id.
+pub(crate) fn distinct<'a>(py: Python<'_>, mut ids: impl Iterator<Item = &'a str>) -> PyResult<()> {
+    let mut known = BTreeSet::new();
+    match ids.find(|&id| !known.insert(id)) {
+        Some(id) => {
+            let what = format_args!("two demands have the id {id}");
+            Err(error(py, Kind::Input, what, "give each demand an id of its own"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// An attribute of a rule, of this type.
 pub(crate) fn attribute<'py, T: for<'a> FromPyObject<'a, 'py>>(
     rule: &Bound<'py, PyAny>,
@@ -121,7 +133,8 @@ pub(crate) struct Script {
     states: Mutex<States>,
     /// Whether somebody wants the work to end.
     is_stopped: AtomicBool,
-    is_called: AtomicBool,
+    /// How often Python has begun or ended what it was asked: odd while it is at it.
+    turns: AtomicU64,
     /// The number that Python has for the thread that asks the rule.
     thread: AtomicU64,
     has_failed: AtomicBool,
@@ -137,7 +150,7 @@ impl Script {
             object: rule.clone().unbind(),
             states: Mutex::new(states),
             is_stopped: AtomicBool::new(false),
-            is_called: AtomicBool::new(false),
+            turns: AtomicU64::new(0),
             thread: AtomicU64::new(0),
             has_failed: AtomicBool::new(false),
             failure: Mutex::new(None),
@@ -168,7 +181,7 @@ impl Script {
         wait(py, &self.is_stopped, alone, |py| patience.look(py))?
     }
 
-    /// Calls Python, and tells whoever waits that it does.
+    /// Calls Python, as whoever waits is told.
     pub(crate) fn called<'py, T>(
         &self,
         py: Python<'py>,
@@ -176,10 +189,15 @@ impl Script {
         call: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<T>,
     ) -> PyResult<T> {
         self.calls.fetch_add(1, Ordering::Relaxed);
-        self.is_called.store(true, Ordering::Relaxed);
-        let answer = call(self.object.bind(py));
-        self.is_called.store(false, Ordering::Relaxed);
-        answer.map_err(|raised| self.refused(py, what, raised))
+        self.watched(|| call(self.object.bind(py))).map_err(|raised| self.refused(py, what, raised))
+    }
+
+    /// Lets Python work, and tells whoever waits that it does.
+    fn watched<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.turns.fetch_add(1, Ordering::Relaxed);
+        let done = work();
+        self.turns.fetch_add(1, Ordering::Relaxed);
+        done
     }
 
     /// The exception for one that Python code of the rule has raised.
@@ -214,14 +232,14 @@ impl Script {
             told.set_cause(py, Some(raised));
             told
         };
-        if let Some(number) = numbers.get_item(state).map_err(unhashable)? {
+        if let Some(number) = self.watched(|| numbers.get_item(state)).map_err(unhashable)? {
             return number.extract();
         }
         let mut states = held(&self.states);
         let number = states.values.len() as u32;
         states.values.push(state.clone().unbind());
         drop(states);
-        numbers.set_item(state, number).map_err(unhashable)?;
+        self.watched(|| numbers.set_item(state, number)).map_err(unhashable)?;
         Ok(number)
     }
 
@@ -297,16 +315,16 @@ impl Script {
 struct Patience<'a> {
     script: &'a Script,
     most: Duration,
-    /// Which call it is, and since when.
+    /// Which turn it is, and since when.
     since: (u64, Instant),
 }
 
 impl Patience<'_> {
     /// Interrupts a call that takes too long, as Python interrupts a thread: as soon as it executes Python code.
     fn look(&mut self, py: Python<'_>) -> PyResult<()> {
-        let call = self.script.calls.load(Ordering::Relaxed);
-        if call != self.since.0 || !self.script.is_called.load(Ordering::Relaxed) {
-            self.since = (call, Instant::now());
+        let turn = self.script.turns.load(Ordering::Relaxed);
+        if turn != self.since.0 || turn.is_multiple_of(2) {
+            self.since = (turn, Instant::now());
         } else if self.since.1.elapsed() > self.most {
             self.since.1 = Instant::now();
             let overdue = py.import("pytautline._errors")?.getattr("interrupt")?;

@@ -241,6 +241,15 @@ def test_a_rule_that_demands_nothing_of_states_is_refused(demands):
     assert refused.value.remedy
 
 
+def test_two_demands_of_one_id_are_refused():
+    class Twice(Lamp):
+        demands = [tautline.always("LAMP-7", "ever", all), tautline.at_the_end("LAMP-7", "never", lambda _: False)]
+
+    for asked in (tautline.decide_protocol, lambda rule: tautline.hunt_protocol(rule, runs=1)):
+        with pytest.raises(tautline.InputError, match="two demands have the id LAMP-7"):
+            asked(Twice())
+
+
 @pytest.mark.parametrize("function", ["starts", "moves", "alike", "draw"])
 def test_an_exception_of_the_rule_is_its_cause(function):
     def raises(*_):
@@ -284,6 +293,24 @@ def test_a_function_that_never_ends_is_interrupted():
 
     begun = time.monotonic()
     with pytest.raises(RuleNeverEnds, match="has not returned"):
+        tautline.decide_protocol(Stuck(), patience_s=0.2)
+    assert time.monotonic() - begun < 5
+
+
+@pytest.mark.parametrize("function", ["__eq__", "__hash__"])
+def test_a_comparison_of_states_that_never_ends_is_interrupted(function):
+    def forever(*_):
+        while True:
+            pass
+
+    state = type("State", (), {"__eq__": lambda *_: True, "__hash__": lambda _: 1, function: forever})
+
+    class Stuck(Lamp):
+        def moves(self, lamps):
+            return [Move.of(0, "goes", state()), Move.of(0, "goes", state())]
+
+    begun = time.monotonic()
+    with pytest.raises(RuleNeverEnds, match="comparing a state that moves returned .* has not returned"):
         tautline.decide_protocol(Stuck(), patience_s=0.2)
     assert time.monotonic() - begun < 5
 

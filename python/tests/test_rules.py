@@ -85,6 +85,25 @@ def test_a_demand_is_decided_as_if_it_stood_alone():
     assert found.complete and found.counterexamples[1].run.stopped == "endless"
 
 
+@pytest.mark.parametrize("longest_run, verdict", [(2, "open"), (3, "refuted"), (4, "refuted")])
+def test_the_last_move_of_a_longest_run_may_break_a_demand(longest_run, verdict):
+    class Far(Walker):
+        size = (5, 1)
+        demands = [tautline.always("WALK-4", "it never comes so far", lambda moved: moved.cells != ((3, 0),))]
+
+    Far.longest_run = longest_run
+    found = tautline.hunt_rule(Far())
+    assert (found.verdict, [example.run.steps for example in found.counterexamples]) == (verdict, [3][verdict == "open":])
+
+
+def test_two_demands_of_one_id_are_refused():
+    class Twice(Walker):
+        demands = [*Walker.demands, tautline.always("WALK-1", "never", lambda moved: False)]
+
+    with pytest.raises(tautline.InputError, match="two demands have the id WALK-1"):
+        tautline.hunt_rule(Twice())
+
+
 def test_what_is_heard_last_is_known_at_the_end():
     class Counts(Walker):
         """It knows at its end that it has met a wall, as it says."""

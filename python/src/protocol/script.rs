@@ -13,7 +13,7 @@ use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
 use crate::arguments::{List, entries};
 use crate::diagnostic::{Kind, error};
-use crate::script::{Script, attribute, attribute_of, held, kept, shown, word};
+use crate::script::{Script, attribute, attribute_of, distinct, held, kept, shown, word};
 
 /// Different words of moves that a rule may have, which are kept as long as the process.
 const MAX_WORDS: usize = 256;
@@ -55,10 +55,12 @@ impl StateScript {
             let remedy = "give the rule demands, made by pytautline.always and others";
             return Err(error(py, Kind::Input, "nothing is demanded", remedy));
         }
+        let demands = demands.iter().map(wanted).collect::<PyResult<Vec<_>>>()?;
+        distinct(py, demands.iter().map(|demand| demand.clause))?;
         Ok(Self {
             script: Script::new(rule, word(py, "name", &name)?),
             bound: kept(&bound),
-            demands: demands.iter().map(wanted).collect::<PyResult<_>>()?,
+            demands,
             covers: attribute::<List<_>>(rule, "covers", "covers, a list of the words of moves")?.0,
             starts: OnceLock::new(),
             met: Mutex::default(),

@@ -13,7 +13,7 @@ use tautline_sim::trace::{self, letter};
 use super::team_move::TeamMove;
 use crate::arguments::{At, Int, List};
 use crate::diagnostic::{Kind, error};
-use crate::script::{Script, attribute, attribute_of, held, kept, number, shown, word};
+use crate::script::{Script, attribute, attribute_of, distinct, held, kept, number, shown, word};
 
 /// The most robots of a rule written in Python.
 pub(super) const MAX_ROBOTS: usize = 8;
@@ -87,6 +87,7 @@ impl RuleScript {
         let List(covers): List<(String, Py<PyAny>)> =
             attribute(rule, "covers", "covers, a list of names and functions of a move")?;
         let demands = demands.iter().map(demand).collect::<PyResult<Vec<Demand>>>()?;
+        distinct(py, demands.iter().map(|demand| demand.clause.as_str()))?;
         if covers.len() > 64 {
             return Err(error(py, Kind::Input, format_args!("{} covers", covers.len()), "give at most 64"));
         }
