@@ -124,6 +124,8 @@ function asked(request) {
 // ---- The settings, and the ground as it is drawn
 
 let schemes = [], settings = null, columns = 0, rows = 0, blocked = null, walls = null;
+/** The ground that was drawn, while a world that brings a board of its own is shown. */
+let drawn = null;
 let tool = "wall", cursor = [0, 0], isByHand = false;
 
 const schemeOf = name => schemes.find(scheme => scheme.name === name);
@@ -210,7 +212,11 @@ function open(steps = 0, given = []) {
   }
   board = opened.board;
   // A world that has no layout brings a board of its own.
-  if (board.columns !== columns || board.rows !== rows) blank(board.columns, board.rows);
+  if (board.columns !== columns || board.rows !== rows) {
+    const ground = { columns, rows, blocked, walls };
+    blank(board.columns, board.rows);
+    drawn ??= ground;
+  }
   frames = [board.start];
   answers = given;
   const cells = columns * rows;
@@ -274,12 +280,15 @@ function go(to) {
 /** The answers that were given until the step that is shown. */
 const given = () => at ? answers.slice(0, frames[at].asked ?? 0) : [];
 
+/** Begins the engine's game anew, up to this step of it. */
+const replayed = (answers, steps) => asked({ do: "open", settings: fullAtStart(), answers, steps });
+
 /** Before another future: the game ends at the step that is shown. */
 function cut() {
   if (at === frames.length - 1) return;
   const kept = given(), here = at;
   // Walls that later answers made are gone with them.
-  const opened = asked({ do: "open", settings: fullAtStart(), answers: kept, steps: here });
+  const opened = replayed(kept, here);
   if (!opened.error) answers = kept;
   frames.length = here + 1;
   over = question = null;
@@ -294,6 +303,15 @@ function fullAtStart() {
   const all = full();
   for (const [side, isWall] of changes) walls[side] = isWall ? 1 : 0;
   return all;
+}
+
+/** The steps that are refused at the step that is shown. The later ones stay. */
+function refusals() {
+  const isLast = at >= frames.length - 1;
+  if (!isLast) replayed(given(), at);
+  const all = asked({ do: "refusals" });
+  if (!isLast) replayed(answers, frames.length - 1);
+  return all.error ? { without: [] } : all;
 }
 
 /** Makes the next step, or shows it if it was made; by hand it is decided anew. */
@@ -838,8 +856,13 @@ function firstLayout({ size: [width, height], starts }) {
   settings.robots = starts.length || settings.robots;
 }
 
-/** Takes another scheme, on the ground that is drawn. */
+/** Takes another scheme, on the ground that was drawn. */
 function choose(name) {
+  if (drawn) {
+    ({ columns, rows, blocked, walls } = drawn);
+    drawn = null;
+    cursor = [0, 0];
+  }
   const now = schemeOf(name), robots = Math.min(Math.max(settings.robots, now.robots[0]), now.robots[1]);
   const own = now.rules.find(({ name }) => name === settings.rule) ?? now.rules[0];
   settings = { scheme: name, rule: own.name, on: null, robots, seed: settings.seed, base: settings.base, starts: now.starts === "base" ? [] : settings.starts, options: {}, world: now.by_hand === "only" };
@@ -1004,7 +1027,7 @@ function show(found, isDone, isStopped = false) {
 /** Puts a counterexample on the board, at its last step. */
 function put(one) {
   const list = [...find("found").children], { textContent, className } = find("far");
-  restore({ settings: one.settings, answers: one.answers, steps: one.steps ?? 100000 });
+  restore({ settings: one.settings, answers: one.answers, steps: one.steps ?? MOST_STEPS });
   find("found").replaceChildren(...list);
   Object.assign(find("far"), { textContent, className });
   if (one.story && !board) find("say").textContent = one.story;
@@ -1013,6 +1036,8 @@ function put(one) {
 // ---- Links and files
 
 const VERSION = 1;
+/** Steps that are made at once: more of them would keep the page from answering. */
+const MOST_STEPS = 100000;
 
 function checksum(text) {
   let sum = 0x811c9dc5;
@@ -1050,10 +1075,11 @@ function restore({ settings: all, answers: given = [], steps = 0, hand = false }
   if (!schemeOf(rest.scheme)) return complain({ error: `this page does not know the scheme ${rest.scheme}`, remedy });
   if (!schemeOf(rest.scheme).rules.some(({ name }) => name === rest.rule)) return complain({ error: `this page does not know the rule ${rest.rule} of ${rest.scheme}`, remedy });
   readGround(ground);
+  if (schemeOf(rest.scheme).by_hand !== "only") drawn = null;
   settings = { on: null, robots: 1, seed: 0, base: null, starts: [], options: {}, ...rest };
   isByHand = find("hand").checked = hand;
   form();
-  open(steps, given);
+  open(Math.min(steps, MOST_STEPS), given);
   return true;
 }
 
@@ -1099,6 +1125,7 @@ async function dropped(file) {
     return;
   }
   readGround(read.layout.ground);
+  drawn = null;
   settings.starts = [];
   settings.base = read.layout.base;
   if (read.layout.robots) settings.robots = read.layout.robots;
@@ -1158,12 +1185,7 @@ function listen() {
     } else render();
   };
   find("refusals").onclick = () => {
-    if (refused) refused = null;
-    else {
-      if (at < frames.length - 1) cut();
-      const all = asked({ do: "refusals" });
-      refused = all.error ? { without: [] } : all;
-    }
+    refused = refused ? null : refusals();
     render();
   };
   find("find").onclick = seek;

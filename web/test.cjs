@@ -128,6 +128,50 @@ const tests = {
     await shoot(page, "refused");
   },
 
+  async "refused steps of an earlier step leave the later ones"(page) {
+    for (let i = 0; i < 6; i++) await page.click("#step");
+    const last = await page.evaluate(() => picture());
+    await page.evaluate(() => go(1));
+    await page.click("#refusals");
+    const why = await page.textContent("#why");
+    assert.match(why, / refuses/);
+    assert.deepEqual(await page.evaluate(() => [at, frames.length]), [1, 7]);
+    await page.evaluate(() => go(6));
+    assert.equal(await page.evaluate(() => picture()), last);
+    await page.click("#step");
+    const seventh = await page.evaluate(() => picture());
+    await page.evaluate(() => open(7));
+    assert.equal(await page.evaluate(() => picture()), seventh, "another step follows");
+    // As they were when the step was the last one.
+    await page.evaluate(() => open(1));
+    await page.click("#refusals");
+    assert.equal(await page.textContent("#why"), why);
+  },
+
+  async "the layout that is drawn is there again after a scheme with a board of its own"(page) {
+    await page.evaluate(() => { resize(10, 9); setWall(40, 1); setBlocked(5, 1); edited(); });
+    const drawn = await page.evaluate(() => ground());
+    for (const name of ["notice", "mrc", "notice", "chain"]) await page.selectOption("#scheme", name);
+    assert.deepEqual(await page.evaluate(() => ground()), drawn);
+    // A layout that takes its place stays.
+    await page.selectOption("#scheme", "mrc");
+    const link = await page.evaluate(() => linkOf({ settings: { scheme: "chain", rule: "repaired", ground: ["3a", "3a"], robots: 2, base: [0, 0] } }));
+    await page.evaluate(hash => { location.hash = hash; }, link);
+    await page.waitForFunction(() => settings.scheme === "chain");
+    await page.selectOption("#scheme", "kit");
+    assert.deepEqual(await page.evaluate(() => ground()), ["3a", "3a"]);
+  },
+
+  async "a link asks for no more steps than a page can make"(page) {
+    const asks = await page.evaluate(() => {
+      const whole = ask, steps = [];
+      ask = Object.assign(request => { if (request.do === "open") steps.push(request.steps); return whole({ ...request, steps: 0 }); }, { bytes: whole.bytes });
+      restore({ settings: full(), steps: 4e9 });
+      return steps;
+    });
+    assert.deepEqual(asks, [100000]);
+  },
+
   async "what each condition changes is seen for every scheme that has conditions"(page) {
     const seen = [];
     const names = await page.evaluate(() => schemes.filter(({ rules }) => rules.some(({ conditions }) => conditions)).map(({ name }) => name));
