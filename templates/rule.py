@@ -15,7 +15,7 @@ class East(tautline.Rule):
     robots = 2
     size = (4, 2)  # all layouts of 4x2 cells
     max_walls = 2  # in which a run meets at most two walls
-    longest_run = 20
+    longest_run = 100  # a round is noticed some 32 moves later
 
     def __init__(self, looks: bool = True) -> None:
         self.looks = looks  # what can be wrong is a field, so that a mutant is another value

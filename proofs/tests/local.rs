@@ -69,6 +69,7 @@ enum Slip {
     OneRobotTwice,
     StartsInNoState,
     FifthStartsFarAway,
+    StartsBeyondAll,
 }
 
 const LEASH: Leash = Leash {
@@ -137,6 +138,9 @@ impl Local for Leash {
         let mut team = in_a_row(robots, u8::from(self.slip == Slip::StartsInNoState));
         if let (Slip::FifthStartsFarAway, Some(fifth)) = (self.slip, team.get_mut(4)) {
             fifth.at = Cell::new(9, 9);
+        }
+        if self.slip == Slip::StartsBeyondAll {
+            team[0].at = Cell::new(i16::MIN, 0);
         }
         team
     }
@@ -216,6 +220,8 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     insta::assert_snapshot!(refusal(Slip::StartsInNoState),
         @"a team of 2 starts in 1, which is none of the states of the rule");
     insta::assert_snapshot!(refusal(Slip::FifthStartsFarAway), @"a team of 5 may not start so: 0,0 0 | 6,9 0");
+    insta::assert_snapshot!(refusal(Slip::StartsBeyondAll),
+        @"a team of 2 starts in -32768,0, more than 16000 columns or rows from 0,0: let it start nearer");
     let reach = Invariant::of(&Leash { reach: -1, ..LEASH }).expect_err("it is refused").to_string();
     insta::assert_snapshot!(reach, @"the promise looks -1 cells far: give 0 or more");
     let fewer = EveryNumber { teams: "up to four robots", most_starts: 4, ..EveryNumber::DEFAULT };

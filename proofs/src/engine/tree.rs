@@ -71,8 +71,8 @@ pub trait Game:
     /// How many mishaps there can be: a run asks for no more answers than this.
     fn edges(&self) -> u32;
 
-    /// Team moves after which a run is given up. A run that comes back to a state is never so long; one that neither
-    /// ends nor comes back needs such a budget.
+    /// Team moves after which a run is given up: one that neither ends nor comes back to a state needs such a budget.
+    /// That a run comes back is noticed some 32 team moves and its period later: let there be more.
     fn longest_run(&self) -> u32 {
         u32::MAX
     }

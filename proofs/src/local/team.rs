@@ -16,6 +16,9 @@ use crate::protocol::{beside, combinations};
 /// The demand.
 const PROMISE: &str = "the promise is kept by all robots of which the rule speaks";
 
+/// How far a start may be from cell (0, 0), in columns and rows: relative places fit into their numbers.
+const FARTHEST: u16 = 16_000;
+
 /// Robots, and what they have met of the layout.
 pub(super) type Start = (Vec<Robot<u32>>, Layout);
 
@@ -63,6 +66,13 @@ impl<'r> Team<'r> {
         let team = Self { rule, tuples: rule.tuples(robots), start: rule.start(robots) };
         if team.start.len() != robots {
             let why = format!("{} robots start where {robots} should", team.start.len());
+            return Err(MethodError::new(why));
+        }
+        let is_far = |at: &Cell| at.x.unsigned_abs().max(at.y.unsigned_abs()) > FARTHEST;
+        if let Some(at) = team.start.iter().map(|robot| robot.at).find(is_far) {
+            let why = format!(
+                "a team of {robots} starts in {at}, more than {FARTHEST} columns or rows from 0,0: let it start nearer"
+            );
             return Err(MethodError::new(why));
         }
         let is_coloured = team.start.iter().all(|robot| robot.on < rule.colours());

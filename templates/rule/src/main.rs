@@ -11,7 +11,8 @@ use tautline_proofs::team::{Demand, Ground, Keeps, Places, Senses, Setting, Whic
 /// The surroundings of the rule: every layout of 4×2 cells with at most two walls on the way.
 static SETTING: Setting<'_, East> = Setting {
     senses: Senses::TEAM,
-    longest_run: 20,
+    // A round is noticed some 32 moves later.
+    longest_run: 100,
     demands: &[
         Demand::always("EAST-1", "the robots are in different cells", &|moved| moved.after.cells_differ()),
         Demand::never_endless("EAST-2", "every run ends"),
