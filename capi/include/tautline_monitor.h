@@ -24,7 +24,8 @@
 #define TAUTLINE_DEMAND_NEIGHBOURS 0
 
 /*
- KIT-1, KIT-2, KIT-12: robots that are at most `length_mm` apart join all robots, directly or over others.
+ KIT-12, and of two robots KIT-1 and KIT-2: robots that are at most `length_mm` apart join all robots, directly or
+ over others. Whether they did when they started, as KIT-12 asks, is not looked at.
  */
 #define TAUTLINE_DEMAND_JOINED 1
 
@@ -141,8 +142,8 @@ typedef struct {
    */
   uint32_t doubt;
   /*
-   Two of the robots that break the clause, from 0; of a silent robot, or of
-   one that there is not, its number first.
+   Two of the robots that break the clause, from 0, or one that breaks it alone
+   twice; of a silent robot, or of one that there is not, its number first.
    */
   uint32_t robots[2];
   /*

@@ -18,7 +18,8 @@ pub const TAUTLINE_ROBOT_WORDS: usize = 5;
 
 /// CHAIN-3: robots whose numbers follow each other are at most `length_mm` apart.
 pub const TAUTLINE_DEMAND_NEIGHBOURS: u32 = 0;
-/// KIT-1, KIT-2, KIT-12: robots that are at most `length_mm` apart join all robots, directly or over others.
+/// KIT-12, and of two robots KIT-1 and KIT-2: robots that are at most `length_mm` apart join all robots, directly or
+/// over others. Whether they did when they started, as KIT-12 asks, is not looked at.
 pub const TAUTLINE_DEMAND_JOINED: u32 = 1;
 /// KIT-3: robots that have left their starts are at least `length_mm` apart.
 pub const TAUTLINE_DEMAND_APART: u32 = 2;
@@ -72,8 +73,8 @@ pub struct TautlineVerdict {
     pub kind: u32,
     /// The reason of an unknown verdict, one of `TAUTLINE_DOUBT_...`; else 0.
     pub doubt: u32,
-    /// Two of the robots that break the clause, from 0; of a silent robot, or of
-    /// one that there is not, its number first.
+    /// Two of the robots that break the clause, from 0, or one that breaks it alone
+    /// twice; of a silent robot, or of one that there is not, its number first.
     pub robots: [u32; 2],
     /// The distance in millimetres, or the robots in the cell, of a broken clause.
     pub measured: u32,

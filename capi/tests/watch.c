@@ -61,10 +61,15 @@ int main(void) {
             printf("%-10s at %.1f s: broken by %u and %u, %u where %u is allowed\n", WATCHED[watched].name, now_us / 1e6,
                    (unsigned)verdict.robots[0], (unsigned)verdict.robots[1], (unsigned)verdict.measured, (unsigned)verdict.allowed);
         }
+        /* A position that is not taken hides no breach. */
+        TautlineVerdict before = verdict;
         status = tautline_monitor_hear(&monitor, 0, ROBOTS, 0, 0, 0, &verdict);
-        if (status != TAUTLINE_STATUS_OK || verdict.doubt != TAUTLINE_DOUBT_NOBODY) return 2;
+        if (status != TAUTLINE_STATUS_OK) return 2;
+        if (before.kind == TAUTLINE_VERDICT_BROKEN ? verdict.kind != before.kind : verdict.doubt != TAUTLINE_DOUBT_NOBODY) return 2;
         status = tautline_monitor_at(&monitor, 9 * GAP_US, &verdict);
         if (status != TAUTLINE_STATUS_OK || verdict.doubt != TAUTLINE_DOUBT_SILENT) return 2;
+        status = tautline_monitor_hear(&monitor, 0, ROBOTS, 0, 0, 0, &verdict);
+        if (status != TAUTLINE_STATUS_OK || verdict.doubt != TAUTLINE_DOUBT_NOBODY) return 2;
     }
     printf("%zu bytes for a monitor, %zu for each robot\n", sizeof monitor, sizeof *robots);
     return 0;

@@ -31,8 +31,9 @@ impl Demand for Neighbours {
     }
 }
 
-/// KIT-1, KIT-2 and KIT-12: robots hear each other directly or over others. Two robots of KIT are within 10 m. Nothing
-/// is said before every robot is heard within the gap: a silent one may be the link.
+/// KIT-12, and of two robots KIT-1 and KIT-2, which speak of no more: robots hear each other directly or over others.
+/// Two robots of KIT are within 10 m. Nothing is said before every robot is heard within the gap: a silent one may be
+/// the link. KIT-12 asks this of robots that hear each other when they start, which is not looked at.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Connectivity {
     /// The range.
@@ -121,7 +122,8 @@ impl Demand for Cells {
         let cells = || track.heard().filter_map(|(robot, place)| Some((robot, self.cell(place)?)));
         let counted = |(robot, cell): (usize, [i32; 2])| {
             let others = || cells().filter(move |other| other.1 == cell && other.0 >= robot);
-            let (measured, second) = (others().count() as u32, others().nth(1)?.0);
+            let measured = others().count() as u32;
+            let second = others().nth(1).map_or(robot, |other| other.0);
             let is_broken = Some(cell) != self.base && measured > self.most;
             is_broken.then_some(Breach { robots: [robot, second], measured, allowed: self.most })
         };

@@ -85,7 +85,7 @@ pub enum Verdict {
 /// The breach of a clause.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Breach {
-    /// Two of the robots that break it, from 0, the lower number first.
+    /// Two of the robots that break it, from 0, the lower number first; one that breaks it alone stands there twice.
     pub robots: [usize; 2],
     /// The distance in millimetres, or the robots in the cell.
     pub measured: u32,
@@ -218,15 +218,21 @@ impl<D: Demand, R: AsMut<[Robot]>> Monitor<D, R> {
     }
 
     /// Takes the position of `robot` at `at_us` microseconds, and judges all positions of now, as [`Monitor::at`] does.
-    /// A stamp further ahead of now than the gap is not believed.
+    /// Of a position that is not taken the reason is told, unless the others of now break the clause.
     pub fn hear(&mut self, now_us: u64, robot: usize, at_us: u64, place: Place) -> Verdict {
-        match self.take(now_us, robot, at_us, place) {
-            Ok(()) => self.at(now_us),
-            Err(doubt) => Verdict::Unknown(doubt),
+        let taken = self.take(now_us, robot, at_us, place);
+        match (self.at(now_us), taken) {
+            (Verdict::Kept | Verdict::Unknown(_), Err(doubt)) => Verdict::Unknown(doubt),
+            (verdict, _) => verdict,
         }
     }
 
-    fn take(&mut self, now_us: u64, number: usize, at_us: u64, place: Place) -> Result<(), Doubt> {
+    /// Takes the position of a robot at `at_us` microseconds, and judges nothing.
+    ///
+    /// # Errors
+    /// [`Doubt`] if it is not taken: then it changes nothing. A stamp further ahead of now than the gap is not
+    /// believed.
+    pub fn take(&mut self, now_us: u64, number: usize, at_us: u64, place: Place) -> Result<(), Doubt> {
         let track = &mut self.track;
         let robot = track.robots.as_mut().get_mut(number).ok_or(Doubt::Nobody(number))?;
         if !place.is_near() {

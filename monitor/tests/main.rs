@@ -94,11 +94,9 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
             || place.iter().any(|along| along.unsigned_abs() > 1_000_000_000)
             || last.is_some_and(|last| at_us < last.2)
             || at_us > now_us + GAP_US;
-        if is_refused {
-            verdicts.push(None);
-            continue;
+        if !is_refused {
+            taken.push((now_us, robot, at_us, place));
         }
-        taken.push((now_us, robot, at_us, place));
         let seen: Vec<Option<[i32; 2]>> = (0..ROBOTS)
             .map(|robot| {
                 taken
@@ -161,7 +159,7 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
             Clause::Frontier2 => most(1, None),
         };
         let is_whole = seen.iter().all(Option::is_some);
-        verdicts.push(if is_broken { Some(true) } else { is_whole.then_some(false) });
+        verdicts.push(if is_broken { Some(true) } else { (is_whole && !is_refused).then_some(false) });
     }
     verdicts
 }
@@ -311,6 +309,29 @@ fn what_cannot_be_taken_is_said() {
     // Silence is said although nobody is heard.
     assert_eq!(monitor.at(3 * GAP_US), Verdict::Unknown(Doubt::Silent(1)));
     assert_eq!(Doubt::Silent(0).to_string(), "robot 0 was not heard within the gap");
+}
+
+#[test]
+fn a_position_that_is_not_taken_hides_no_breach() {
+    let mut chain = Monitor::new(RANGE, GAP_US, [Robot::UNHEARD; 2]);
+    chain.hear(10, 0, 10, Place::new(0, 0));
+    let broken = chain.hear(10, 1, 10, Place::new(5_000, 0));
+    assert!(matches!(broken, Verdict::Broken(_)));
+    for (robot, at_us, x_mm) in [(1, 5, 0), (1, 2 * GAP_US, 0), (2, 20, 0), (0, 20, i32::MAX)] {
+        assert_eq!(chain.hear(20, robot, at_us, Place::new(x_mm, 0)), broken, "{robot} {at_us} {x_mm}");
+    }
+    // Once the breach is too old to be believed, the reason is told.
+    assert_eq!(chain.hear(11 + GAP_US, 1, 5, Place::new(0, 0)), Verdict::Unknown(Doubt::Late));
+}
+
+#[test]
+fn where_no_robot_may_be_one_is_a_breach() {
+    let mut cell = Monitor::new(Cells { most: 0, ..PAIRS }, GAP_US, [Robot::UNHEARD; 2]);
+    cell.hear(0, 0, 0, Place::new(500, 500));
+    let Verdict::Broken(breach) = cell.hear(0, 1, 0, Place::new(2_500, 500)) else {
+        panic!("a robot is in a cell")
+    };
+    assert_eq!((breach.robots, breach.measured, breach.allowed), ([1, 1], 1, 0));
 }
 
 #[test]

@@ -234,6 +234,13 @@ impl ClauseTable {
             let why = format!("{id} is of 2 to {MOST_ROBOTS} robots, not of {}", robots.len());
             return Err(wrong(at, why));
         }
+        if matches!(id, Id::Kit1 | Id::Kit2) && robots.len() != 2 {
+            let why = format!(
+                "{id} speaks of two robots, not of {}: name two, or take KIT-12 of all",
+                robots.len()
+            );
+            return Err(wrong(at, why));
+        }
         let mut length = None;
         for (name, given) in [("range_m", self.range_m), ("least_m", self.least_m), ("cell_m", self.cell_m)] {
             match given {

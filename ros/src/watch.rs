@@ -9,8 +9,8 @@ use tautline_monitor::{
     AnyDemand, Apart, Breach, Cells, Connectivity, Doubt, Monitor, Neighbours, Place, Robot, Verdict,
 };
 
-/// How far a stamp may be ahead of this machine's clock. One that is farther ahead would make all other robots look
-/// silent, until their stamps reach it.
+/// How far a stamp may be ahead of this machine's clock, at most: no farther than the gap. One that is farther ahead
+/// would make all other robots look silent, until their stamps reach it.
 const MOST_AHEAD_US: u64 = 1_000_000;
 
 /// How often stderr is told, for each robot, that messages are refused.
@@ -129,7 +129,8 @@ impl Watch {
     fn take(&mut self, robot: usize, header: &Header, position: &Point) -> Result<(), String> {
         let at_us = header.stamp.micros().ok_or("its stamp is before 1970")?;
         let clock = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-        if at_us > clock.as_micros() as u64 + MOST_AHEAD_US {
+        let most_ahead_us = MOST_AHEAD_US.min(self.config.gap.as_micros() as u64);
+        if at_us > clock.as_micros() as u64 + most_ahead_us {
             return Err(
                 "its stamp is ahead of this machine's clock: set the clocks of the machines".to_owned()
             );
@@ -146,7 +147,10 @@ impl Watch {
         for watched in &mut self.clauses {
             let robots = &watched.clause.robots;
             let Some(number) = robots.iter().position(|&other| other == robot) else { continue };
-            watched.status = match watched.monitor.hear(at_us, number, at_us, Place::new(x_mm, y_mm)) {
+            let monitor = &mut watched.monitor;
+            let place = Place::new(x_mm, y_mm);
+            monitor.take(at_us, number, at_us, place).map_err(|refusal| refusal.to_string())?;
+            watched.status = match monitor.at(at_us) {
                 Verdict::Kept => Status::Kept,
                 Verdict::Broken(breach) => {
                     Status::Broken(Breach { robots: breach.robots.map(|number| robots[number]), ..breach })

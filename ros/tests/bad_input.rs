@@ -87,6 +87,11 @@ fn wrong_arguments_are_refused() {
         ("--clause CHAIN-9", "possible values: CHAIN-2, CHAIN-3"),
         ("--clause CHAIN-3", "--robots"),
         ("--clause CHAIN-3 --robots 3 --tolerance-m 0.1 --gap-s 1", "CHAIN-3 needs its range_m"),
+        (
+            "--clause KIT-1 --robots 3 --range-m 2 --tolerance-m 0.1 --gap-s 1",
+            "KIT-1 speaks of two robots, not of 3: name two, or take KIT-12",
+        ),
+        ("--clause KIT-2 --robots 4 --range-m 2 --tolerance-m 0.1 --gap-s 1", "KIT-2 speaks of two robots"),
         ("--clause CHAIN-3 --robots 65 --range-m 2 --tolerance-m 0.1 --gap-s 1", "2 to 64 robots"),
         (
             "--clause CHAIN-3 --robots 3 --range-m 0 --tolerance-m 0.1 --gap-s 1",
