@@ -3,8 +3,8 @@
 //! blocked. Where there is none, it goes back, by a shortest way through covered cells, to the nearest backtracking
 //! point. That is a covered cell beside which a corner of what is not covered begins: a free cell in the east or west
 //! whose northern or southern neighbour is blocked or covered, or in the south whose eastern or western one is; so the
-//! paper's (7) and (8) are, as public implementations write them. By these a robot leaves cells out. It does not if every
-//! covered cell beside a free one is a backtracking point.
+//! paper's (7) and (8) are, as public implementations write them. By these a robot leaves cells out. It does not if
+//! every covered cell beside a free one is a backtracking point.
 
 use crate::prelude::*;
 

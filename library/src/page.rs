@@ -30,10 +30,11 @@ every demand is one that the source makes: some say what a reader may expect and
 no two robots set out for one frontier.
 
 A counterexample is a shortest one within the bound, one that goes round by its moves until it begins again; of those
-that are as short, one in the smallest layout. Robots are numbers; the letter behind is the robot whose goal the cell is (`a` for 0). Blocked cells are `#`. *States* are all
-that were looked at. [stateright](https://www.stateright.rs) counts the same ones of Dijkstra's ring, Ricart–Agrawala
-and gathering by the same moves, and SPIN those of Ricart–Agrawala by a model of its own, 3,300 and, with a message that
-may be lost, 10,522: [library/tests/counts.rs](../library/tests/counts.rs).
+that are as short, one in the smallest layout. Robots are numbers; the letter behind is the robot whose goal the cell
+is (`a` for 0). Blocked cells are `#`. *States* are all that were looked at. [stateright](https://www.stateright.rs)
+counts the same ones of Dijkstra's ring, Ricart–Agrawala and gathering by the same moves, and SPIN those of
+Ricart–Agrawala by a model of its own, 3,300 and, with a message that may be lost, 10,522:
+[library/tests/counts.rs](../library/tests/counts.rs).
 
 An independent program counts 1,027,192 states of PIBT with three agents on all biconnected layouts to 3×3 cells, and
 697,628 with four agents on those of 5 and 6 cells. We do not know how it reads the paper where the paper leaves it

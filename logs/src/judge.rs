@@ -285,10 +285,13 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
             let pairs = moment.pairs(|_| moment.robots().collect());
             let near: Vec<_> = pairs.filter(|&(_, far)| far < least).collect();
             // Robots that part from one start are near until one of them has left it.
+            let start_apart = |[one, other]: [u32; 2]| {
+                let both = starts[one as usize].zip(starts[other as usize]);
+                both.is_some_and(|(one, other)| apart(one, other) >= least)
+            };
             let may_be = |robots: [u32; 2]| {
                 robots.iter().all(|&robot| has(&off, robot))
-                    && (robots.iter().any(|&robot| has(&left, robot))
-                        || matches!(robots.map(|robot| starts[robot as usize]), [Some(one), Some(other)] if apart(one, other) >= least))
+                    && (robots.iter().any(|&robot| has(&left, robot)) || start_apart(robots))
             };
             if let Some(&(robots, _)) = near.iter().find(|&&(robots, _)| may_be(robots)) {
                 in_doubt.get_or_insert(Doubt::Leaving(moment.at_us, robots));

@@ -68,8 +68,8 @@ impl Demand for Connectivity {
 }
 
 /// KIT-3: robots that have left their starts are never nearer to each other than 3 m. The start of a robot is where it
-/// was first heard; it has left it, for ever, once it was heard as far from it as the next node within the tolerance. Of
-/// robots that are still on their way there nothing is said.
+/// was first heard; it has left it, for ever, once it was heard as far from it as the next node within the tolerance.
+/// Of robots that are still on their way there nothing is said.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Apart {
     /// The least distance.

@@ -111,7 +111,7 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
         let has_left = |robot: usize| {
             let mut places = taken.iter().filter(|one| one.1 == robot).map(|one| one.3);
             let start = places.next().expect("it was heard");
-            places.any(|place| far(start, place) > 1_000.0 + tolerance)
+            places.any(|place| far(start, place) > 1_000.0 - tolerance)
         };
         let pairs = || {
             let all = (0..ROBOTS).flat_map(|one| (one + 1..ROBOTS).map(move |other| (one, other)));
@@ -261,7 +261,7 @@ fn each_wrong_monitor_is_found() {
             };
             let near = move |track: &Track<&mut [Robot]>| {
                 let has_left =
-                    |(robot, at): (usize, Place)| starts[robot].is_some_and(|start| far(start, at) > 1_100.0);
+                    |(robot, at): (usize, Place)| starts[robot].is_some_and(|start| far(start, at) > 900.0);
                 let mut pairs = track.pairs().filter(|[one, other]| far(one.1, other.1) < 900.0);
                 let [one, other] = pairs.find(|[one, other]| has_left(*one) && has_left(*other))?;
                 Some(tautline_monitor::Breach { robots: [one.0, other.0], measured: 0, allowed: 1_000 })

@@ -12,7 +12,7 @@ use super::sentences::{always, below};
 use tautline_field::stats::quantile;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::{RuleId, Setup, has_double};
-use tautline_sim::frontier::{Allowance, Explorers, TeamEnd};
+use tautline_sim::frontier::{Allowance, Explorers};
 use tautline_sim::objects::scattered;
 use tautline_sim::options::{Options, Wheels};
 
@@ -288,11 +288,7 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
     let mut seen: Vec<Cell> = starts.to_vec();
     let (mut moves, mut whole, mut is_clean) = (0, None, true);
     let (mut squares, mut count) = (0.0, 0);
-    let ended = loop {
-        match team.advance() {
-            Ok(_) => {}
-            Err(ended) => break Some(ended),
-        }
+    while team.advance().is_ok() {
         moves += 1;
         for off in team.errors() {
             (squares, count) = (squares + off * off, count + 1);
@@ -307,12 +303,9 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
             whole = Some(moves);
         }
         if !is_clean || moves == MOST_MOVES {
-            break None;
+            break;
         }
-    };
-    // Robots that wander never end; they are done when every cell is explored.
-    let is_over =
-        matches!(ended, Some(TeamEnd::Known | TeamEnd::Still | TeamEnd::Endless)) || whole.is_some();
+    }
     let off = team.objects().iter().filter_map(|(object, known)| {
         let known = known.as_ref()?;
         Some([millionths(known.at.distance_m(*object)), millionths(known.covariance.trace().sqrt())])
@@ -320,7 +313,7 @@ fn follow(mut team: Explorers, due: usize, starts: &[Cell]) -> Outcome {
     let objects = off.collect();
     let off = millionths((squares / f64::from(count.max(1))).sqrt());
     let stands = team.stands() as u32;
-    Outcome { moves: whole.filter(|_| is_clean && is_over), stands, off, objects }
+    Outcome { moves: whole.filter(|_| is_clean), stands, off, objects }
 }
 
 /// The sides of a cell, in what an outcome counts.
