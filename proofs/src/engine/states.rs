@@ -319,10 +319,10 @@ pub struct Findings<D> {
     pub is_whole: bool,
     /// The situations that occurred, sorted.
     pub covered: Vec<&'static str>,
-    /// Whether each of these runs is known to be a shortest one, one that goes round by its steps until it begins again.
-    pub is_shortest: bool,
     /// A run for each demand that is broken.
     pub broken: Vec<Run<D>>,
+    /// Whether each of these runs is known to be a shortest one: of those that go round, until they begin again.
+    pub is_shortest: bool,
 }
 
 impl<D> Findings<D> {

@@ -1,5 +1,6 @@
 //! Runs that go round: among the states that owe the same thing throughout, the strongly connected components (Tarjan
-//! 1972, with the memory of Pearce 2016) in which everybody acts who is awake throughout, and in these a shortest round.
+//! 1972, with the memory of Pearce 2016) in which everybody acts who is awake throughout, and in these a shortest
+//! round.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -164,7 +165,8 @@ impl Parts<'_> {
 }
 
 impl Graph {
-    /// Looks for a shortest run that goes round and owes the same thing throughout, all acting who are awake throughout.
+    /// Looks for a shortest run that goes round and owes the same thing throughout, everybody acting who is awake
+    /// throughout.
     pub(super) fn look_for_rounds(
         &self,
         shortest: &mut ShortestRound,
