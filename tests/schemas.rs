@@ -58,7 +58,8 @@ const COMMANDS: [(&str, &str); 15] = [
     ("reproduce-repair-cost", "merge table.json"),
     (
         "explore",
-        "explore open:3x3 --robots 2 --trace run.jsonl --mcap run.mcap
+        "explore open:2x2 --scheme frontier --robots 2 --loss 0.995 --seed 1
+         explore open:3x3 --robots 2 --trace run.jsonl --mcap run.mcap
          explore walls:7x7:0.2 --rule published --robots 4 --max-moves 9 --trace broken.jsonl
          explore open:7x7 --rule reel --robots 4 --fail 3@5
          explore open:3x3 --rule reel --robots 2 --loss 0.1

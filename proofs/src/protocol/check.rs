@@ -38,7 +38,7 @@ impl<P: Protocol> Keeps<P> {
         Ok(each.map(|here| ErasedProtocol::new(rule.clone(), here, how)).collect())
     }
 
-    /// The states, and a run that breaks the demand if there is one: a shortest one if it ends.
+    /// The states, and a run that breaks the demand if there is one: a shortest one, if [`Findings::is_shortest`].
     ///
     /// # Errors
     /// [`MethodError`] if there is no such demand, if there are no such surroundings, if the moves are not a function

@@ -242,8 +242,8 @@ impl Team for FrontierTeam {
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
-        let is_short = !matches!(end, End::Endless | End::Idle) && !self.missed(layout, chart).is_empty();
         let is_endless = end == End::Endless;
+        let is_short = !is_endless && end != End::Idle && !self.missed(layout, chart).is_empty();
         let knows_not = self.ended == Some(TeamEnd::Still);
         [is_short.then_some(COVERS), is_endless.then_some(ENDS), knows_not.then_some(KNOWS)]
             .into_iter()
