@@ -184,7 +184,7 @@ fn a_robot_goes_round_a_small_obstacle_with_its_claim_and_stores_it_only_without
             robot.tries(Side::East, east);
             robot.looked(&rule, sight);
         }
-        (robot.stance(), robot.aim(), robot.waits(), robot.map().status(east))
+        (robot.stance(), robot.aim(), robot.waits(), robot.map.status(east))
     };
     assert_eq!(met(Rule::REPAIRED), (Stance::Stands, Some(east), false, Status::Unexplored));
     let without = Rule::REPAIRED.without(Condition::Detour);

@@ -70,10 +70,8 @@ fn objection(
 /// `hears` is what a chain makes of messages that tell what `walls` are met, and of no others.
 fn hears(chain: &Team, walls: Walls, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> bool {
     let mut heard = *chain;
-    let result = match mute {
-        Some(mute) => heard.hear_without(plan, messages, mute + 1),
-        None => heard.hear(plan, messages),
-    };
+    let planned = mute.map_or(*plan, |mute| plan.without(mute + 1));
+    let result = heard.hear(&planned, messages);
     if let Some(damaged) = objection(chain, walls, plan, messages, mute) {
         assert_eq!(result, Err(damaged), "{plan:?} {messages:?}");
         assert!(heard == *chain, "it has changed");
@@ -87,10 +85,7 @@ fn hears(chain: &Team, walls: Walls, plan: &Plan<ROBOTS>, messages: &[u8], mute:
         message.expect("a message").outcome != Outcome::Blocked
     };
     let mut settled = *chain;
-    match mute {
-        Some(mute) => settled.settle_without(plan, mute + 1, is_open),
-        None => settled.settle(plan, is_open),
-    };
+    settled.settle(&planned, is_open);
     assert!(heard == settled, "{plan:?} {messages:?}");
     true
 }

@@ -110,13 +110,11 @@ impl Agent {
     /// The first pass while something unexplored is beside it. The second when it has nowhere to go in the first, or
     /// has gained little for long.
     fn choose_pass(&mut self, rule: Rule, scan: &Scan) {
+        let is_stuck = scan.reachable() == Ring::default() || self.idle >= rule.hope();
         if scan.reachable().and(scan.unexplored) != Ring::default() && self.lap.is_none() {
             self.pass = Pass::First;
-        } else if rule.has(Condition::SecondPass) && self.pass == Pass::First {
-            let is_stuck = scan.reachable() == Ring::default() || self.idle >= rule.hope();
-            if is_stuck {
-                (self.pass, self.idle) = (Pass::Second, 0);
-            }
+        } else if rule.has(Condition::SecondPass) && self.pass == Pass::First && is_stuck {
+            (self.pass, self.idle) = (Pass::Second, 0);
         }
     }
 

@@ -31,12 +31,20 @@ pub struct Plan<const ROBOTS: usize> {
     pub(super) robots: usize,
     /// The log entry that a further backtrack would take back, after this move.
     pub(super) last_open: Option<u32>,
+    /// The robot, counted from 0, that has died before it went.
+    pub(super) mute: Option<usize>,
 }
 
 impl<const ROBOTS: usize> Plan<ROBOTS> {
     /// The steps of R_1, the base, to R_N, the leader.
     pub fn steps(&self) -> &[Step] {
         &self.steps[..self.robots]
+    }
+
+    /// This plan where `robot`, numbered from 1, the base, has died and does not go. Nobody hears of it.
+    #[must_use]
+    pub const fn without(self, robot: usize) -> Self {
+        Self { mute: robot.checked_sub(1), ..self }
     }
 }
 

@@ -126,10 +126,7 @@ impl Move {
     /// Whether it is sure to be at P′ afterwards: it stays, or its way is known to be open.
     #[inline]
     pub const fn is_sure(self) -> bool {
-        match self.step {
-            Step::Stay => true,
-            Step::Cross(_) => self.known_open,
-        }
+        self.known_open || matches!(self.step, Step::Stay)
     }
 }
 

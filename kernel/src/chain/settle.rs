@@ -29,31 +29,16 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// Carries `plan` out. `is_open` answers for every edge that is crossed without being known, once each, in
     /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
-    pub fn settle(&mut self, plan: &Plan<ROBOTS>, is_open: impl FnMut(Edge) -> bool) -> MoveOutcome<ROBOTS> {
-        self.carry_out(plan, None, is_open)
-    }
-
-    /// Carries `plan` out as [`Chain::settle`] does, but `mute`, numbered from 1, the base, has died and does not go.
-    /// Nobody hears of it: its messages say that it stays, which no other robot relies on.
-    pub fn settle_without(
+    /// A robot that has died does not go: its message says that it stays, which no other robot relies on.
+    pub fn settle(
         &mut self,
         plan: &Plan<ROBOTS>,
-        mute: usize,
-        is_open: impl FnMut(Edge) -> bool,
-    ) -> MoveOutcome<ROBOTS> {
-        self.carry_out(plan, mute.checked_sub(1), is_open)
-    }
-
-    fn carry_out(
-        &mut self,
-        plan: &Plan<ROBOTS>,
-        mute: Option<usize>,
         mut is_open: impl FnMut(Edge) -> bool,
     ) -> MoveOutcome<ROBOTS> {
         let mut messages = [0; ROBOTS];
         let mut meets_wall_going_back = false;
         for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
-            let step = if mute == Some(robot) { Step::Stay } else { plan.steps[robot] };
+            let step = if plan.mute == Some(robot) { Step::Stay } else { plan.steps[robot] };
             let cell = self.cells[robot];
             let outcome = match (plan.kind, step, self.walls) {
                 (Kind::Advance, Step::Stay, _) => Outcome::Arrived,
@@ -103,34 +88,22 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     }
 
     /// Carries `plan` out as one who plans along and hears of the rest: `messages` are those of R_2 … R_N about this
-    /// team move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
+    /// team move, one byte each; whatever stands for that of a robot that has died is not read. Afterwards the chain
+    /// is what [`Chain::settle`] makes of the team that sent them.
     ///
     /// # Errors
     /// [`Damage`] if they cannot be about this plan and this world; then nothing has changed.
     pub fn hear(&mut self, plan: &Plan<ROBOTS>, messages: &[u8]) -> Result<(), Damage> {
-        self.take(plan, messages, None)
-    }
-
-    /// As [`Chain::hear`], after the robot `mute`, numbered from 1, the base, has died: whatever stands for its message
-    /// is not read. Afterwards the chain is what [`Chain::settle_without`] makes of the team.
-    ///
-    /// # Errors
-    /// As of [`Chain::hear`].
-    pub fn hear_without(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: usize) -> Result<(), Damage> {
-        self.take(plan, messages, mute.checked_sub(1))
-    }
-
-    fn take(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> Result<(), Damage> {
         let movers = self.robots - 1;
         if messages.len() != movers {
             return Err(Damage::Length { bytes: messages.len(), sent: movers });
         }
         let edge = |robot: usize| match plan.steps[robot] {
-            Step::Cross(side) if mute != Some(robot) => Some(Edge::new(self.cells[robot], side)),
+            Step::Cross(side) if plan.mute != Some(robot) => Some(Edge::new(self.cells[robot], side)),
             Step::Cross(_) | Step::Stay => None,
         };
         let mut outcomes = [Outcome::Arrived; ROBOTS];
-        for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| mute != Some(robot)) {
+        for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| plan.mute != Some(robot)) {
             let Message { step, outcome } = Message::decode(byte)?;
             let is_back = outcome == Outcome::TookBack;
             let is_shut = outcome == Outcome::Blocked && self.walls == Walls::Changing;
@@ -153,7 +126,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
         let crossed: [Option<Edge>; ROBOTS] =
             core::array::from_fn(|robot| (robot < self.robots).then(|| edge(robot)).flatten());
-        self.carry_out(plan, mute, |asked| {
+        self.settle(plan, |asked| {
             let first = (1..ROBOTS).find(|&robot| crossed[robot] == Some(asked));
             first.is_some_and(|robot| outcomes[robot] != Outcome::Blocked)
         });

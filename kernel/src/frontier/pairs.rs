@@ -53,15 +53,12 @@ impl Pair {
     /// The pair of `seeker` and the cell that it has found in `map`.
     pub fn new<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: Target) -> Self {
         let is_corner = rule.has(Condition::Corner);
-        let unexplored = |side: &Side| map.status(found.cell.beyond(*side)) == Status::Unexplored;
+        let unexplored =
+            |side: &&Side| is_corner && map.status(found.cell.beyond(**side)) == Status::Unexplored;
         Self {
             distance: found.distance,
             is_unclaimed: rule.has(Condition::Claim) && seeker.aim != Some(found.cell),
-            unexplored: if is_corner {
-                BY_NUMBER.iter().filter(|side| unexplored(side)).count() as u8
-            } else {
-                0
-            },
+            unexplored: BY_NUMBER.iter().filter(unexplored).count() as u8,
             inland: if is_corner { inland(map.area(), found.cell) } else { 0 },
             robot: number(seeker.cell),
             cell: number(found.cell),

@@ -93,7 +93,8 @@ pub enum Slot {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Robot<M> {
-    map: M,
+    /// Its map; it has no news of what others change there.
+    pub map: M,
     at: Cell,
     stance: Stance,
     aim: Option<Cell>,
@@ -112,25 +113,8 @@ impl<M: Map> Robot<M> {
             map.explore(cell);
         }
         map.explore(start);
-        Self {
-            map,
-            at: start,
-            stance: Stance::Stands,
-            aim: None,
-            waits: false,
-            has_news: true,
-            threshold: None,
-        }
-    }
-
-    /// The robot's map.
-    pub const fn map(&self) -> &M {
-        &self.map
-    }
-
-    /// The robot's map; it has no news of what is changed there.
-    pub const fn map_mut(&mut self) -> &mut M {
-        &mut self.map
+        let stance = Stance::Stands;
+        Self { map, at: start, stance, aim: None, waits: false, has_news: true, threshold: None }
     }
 
     /// The cell in which it takes itself to be.

@@ -217,7 +217,7 @@ mod tests {
     /// Who shifts, and whereto.
     fn shift(kit: &Trio) -> Option<(usize, Side)> {
         let (robot, step) =
-            kit.lead(&kit.robots.map(|robot| robot.stance.to())).expect("an uncovered side").shift?;
+            kit.lead(&kit.crew.robots.map(|robot| robot.stance.to())).expect("an uncovered side").shift?;
         let Step::Cross(side) = step else { panic!("it shifts to another node") };
         Some((robot, side))
     }

@@ -55,6 +55,7 @@ pub struct Talk {
     next: Cell,
     /// Where the other one will be next, as it was told last.
     told: Option<Cell>,
+    /// Whether it is its turn; without [`Condition::Turn`] this says nothing.
     has_turn: bool,
     /// The request that it has yet to answer: its number, and the node asked for.
     owed: Option<(u8, Cell)>,
@@ -109,11 +110,6 @@ impl Talk {
     /// The number of its latest request.
     pub const fn number(&self) -> u8 {
         self.number
-    }
-
-    /// Whether it is its turn; without [`Condition::Turn`] this says nothing.
-    pub const fn has_turn(&self) -> bool {
-        self.has_turn
     }
 
     /// It has come to a node where `sides` count as covered.
@@ -258,7 +254,7 @@ mod tests {
         let [None, Some(response), None] = first.drives(Cell::new(-1, 0), nothing) else {
             panic!("it answers")
         };
-        assert!(!first.has_turn());
+        assert!(!first.has_turn);
         second.hears(response, nothing);
         assert_eq!((second.phase(), second.told()), (Phase::Decides, Some(Cell::new(-1, 0))));
         assert!(first.arrived(Steps::NONE)[2].is_some(), "it asks for the turn");
@@ -273,21 +269,21 @@ mod tests {
         let response = first.drives(Cell::new(-1, 0), nothing)[1];
         let again = second.again(Steps::NONE).expect("it repeats");
         assert_eq!(first.hears(again, nothing), [None, response, None]);
-        assert!(!first.has_turn());
+        assert!(!first.has_turn);
     }
 
     #[test]
     fn requests_are_numbered_one_after_the_other_and_only_the_latest_is_answered() {
         let mut first = Talk::first(Rule::ROBUST, START);
         let (mut second, asked) = Talk::second(Rule::ROBUST, BESIDE, Steps::NONE);
-        assert_eq!((first.number(), second.number()), (0, 1));
-        assert_eq!((first.has_turn(), second.has_turn()), (true, false));
+        assert_eq!((first.number, second.number), (0, 1));
+        assert_eq!((first.has_turn, second.has_turn), (true, false));
         let mut request = asked[2].expect("it asks");
         let (mut asks, mut has) = (&mut second, &mut first);
         for turn in 0_u8..12 {
             // Each of the two asks every other time.
             let number = (turn / 2 + 1) % NUMBERS;
-            assert_eq!((request.number, asks.number()), (number, number));
+            assert_eq!((request.number, asks.number), (number, number));
             let other = |message| Letter { number: request.number ^ 1, message };
             let answer = Message::Response { next: START, sides: Steps::NONE };
             assert_eq!(asks.hears(other(Message::Acknowledged), nothing), NOTHING);
@@ -300,7 +296,7 @@ mod tests {
                 panic!("it answers, and asks for the turn that it passes")
             };
             assert!(asks.hears(response, nothing)[0].is_some());
-            assert_eq!((asks.phase(), asks.has_turn(), has.has_turn()), (Phase::Decides, true, false));
+            assert_eq!((asks.phase(), asks.has_turn, has.has_turn), (Phase::Decides, true, false));
             // It comes twice, and is not answered twice.
             assert_eq!(asks.hears(response, nothing), NOTHING);
             request = next;

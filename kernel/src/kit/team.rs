@@ -79,13 +79,15 @@ pub struct Robot {
     pub is_new: bool,
 }
 
-/// All that a team is but its rule and its records.
+/// All that changes of a team but its records.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Crew<const ROBOTS: usize> {
-    robots: [Robot; ROBOTS],
-    entered: u8,
-    turn: u8,
+    pub(super) robots: [Robot; ROBOTS],
+    /// Robots that have entered. Of those that start at one node each enters when the one before has left.
+    pub(super) entered: u8,
+    /// Whose turn it is, where robots take turns.
+    pub turn: u8,
 }
 
 /// A team of at most `ROBOTS` robots on a map of at most `NODES` nodes.
@@ -97,11 +99,9 @@ pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     pub(super) records: [G; ROBOTS],
     /// The union of the records of all.
     pub(super) union: G,
-    pub(super) robots: [Robot; ROBOTS],
     pub(super) count: u8,
-    /// Robots that have entered. Of those that start at one node each enters when the one before has left.
-    pub(super) entered: u8,
-    pub(super) turn: u8,
+    /// Its robots and whose turn it is, for a team that is told so.
+    pub crew: Crew<ROBOTS>,
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
@@ -142,10 +142,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             rule,
             records: [map; ROBOTS],
             union: map,
-            robots: core::array::from_fn(robot),
             count: robots as u8,
-            entered: if taken.is_some() { 1 } else { robots as u8 },
-            turn: 0,
+            crew: Crew {
+                robots: core::array::from_fn(robot),
+                entered: if taken.is_some() { 1 } else { robots as u8 },
+                turn: 0,
+            },
         })
     }
 
@@ -156,17 +158,17 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Where each robot is that has entered.
     pub fn stances(&self) -> impl Iterator<Item = Stance> + Clone {
-        self.robots.iter().take(self.entered.into()).map(|robot| robot.stance)
+        self.crew.robots.iter().take(self.crew.entered.into()).map(|robot| robot.stance)
     }
 
     /// Every robot, also those that have not entered.
     pub fn robots(&self) -> &[Robot] {
-        &self.robots[..self.count.into()]
+        &self.crew.robots[..self.count.into()]
     }
 
     /// Every robot, for a team that is told where they are.
     pub fn robots_mut(&mut self) -> &mut [Robot] {
-        &mut self.robots[..self.count.into()]
+        &mut self.crew.robots[..self.count.into()]
     }
 
     /// Where `robot` is.
@@ -181,24 +183,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whose turn it is, where robots take turns.
     pub fn turn(&self) -> Option<usize> {
-        self.rule.has(Condition::Turn).then_some(self.turn.into())
-    }
-
-    /// This team with the turn at `robot`, as it was told.
-    #[must_use]
-    pub fn with_turn(self, robot: u8) -> Self {
-        Self { turn: robot, ..self }
-    }
-
-    /// Its robots, those of them that have entered, and the turn.
-    pub const fn crew(&self) -> Crew<ROBOTS> {
-        Crew { robots: self.robots, entered: self.entered, turn: self.turn }
-    }
-
-    /// This team, of as many robots, with another crew, as it was kept.
-    #[must_use]
-    pub fn with_crew(self, Crew { robots, entered, turn }: Crew<ROBOTS>) -> Self {
-        Self { robots, entered, turn, ..self }
+        self.rule.has(Condition::Turn).then_some(self.crew.turn.into())
     }
 
     /// Whether `robot` knows that it is done.
@@ -213,7 +198,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whether `robot` stands, has been answered, and has not decided yet.
     pub fn may_decide(&self, robot: usize) -> bool {
-        if robot >= usize::from(self.entered) || !self.asks(robot) {
+        if robot >= usize::from(self.crew.entered) || !self.asks(robot) {
             return false;
         }
         if let Some(turn) = self.turn() {
@@ -236,7 +221,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if !self.may_decide(robot) {
             return Err(Misuse::Decides);
         }
-        let heading = self.robots[robot].heading;
+        let heading = self.crew.robots[robot].heading;
         Ok(match heading {
             Some(ahead) if self.rule.runs == Runs::Ahead => self.look(robot, ahead, Steps::NONE, Why::Ahead),
             Some(_) | None => self.look_beside(robot, oracle),
@@ -251,19 +236,19 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let Some(Task::Looks { side, left, why }) = self.robots().get(robot).map(|robot| robot.task) else {
             return Err(Misuse::Looks);
         };
-        let from = self.robots[robot].stance.to();
+        let from = self.crew.robots[robot].stance.to();
         let edge = Edge::new(from, side);
         if sight == Sight::Free && why != Why::Beside {
             let to = from.beyond(side);
             let is_new = !self.known(EdgeMark::Open, from).has(Step::Cross(side));
             self.record(robot, EdgeMark::Open, edge);
-            self.robots[robot] =
+            self.crew.robots[robot] =
                 Robot { stance: Stance::Drives { from, to }, task: Task::None, heading: Some(side), is_new };
-            self.entered = self.count.min(self.entered + 1);
+            self.crew.entered = self.count.min(self.crew.entered + 1);
             self.tell_of_change(robot);
             return Ok(Next::Drives(to));
         }
-        self.robots[robot].task = Task::None;
+        self.crew.robots[robot].task = Task::None;
         if sight == Sight::Obstacle && self.rule.has(Condition::Marked) {
             self.record(robot, EdgeMark::Wall, edge);
             self.tell_of_change(robot);
@@ -287,7 +272,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// [`Misuse`] if it does not drive.
     pub fn arrived(&mut self, robot: usize) -> Result<(), Misuse> {
         let Some(Stance::Drives { to, .. }) = self.stance(robot) else { return Err(Misuse::Drives) };
-        self.robots[robot].stance = Stance::Stands(to);
+        self.crew.robots[robot].stance = Stance::Stands(to);
         self.tell_of_change(robot);
         Ok(())
     }
@@ -299,7 +284,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     fn look_beside(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Next {
         let mut sides = Steps::NONE;
         if self.count > 2 && self.rule.has(Condition::Beside) {
-            let at = self.robots[robot].stance.to();
+            let at = self.crew.robots[robot].stance.to();
             let unknown = self.uncovered_by_all(at).minus(self.known(SEEN, at));
             sides =
                 unknown.filter(|step| self.stances().any(|other| other == Stance::Stands(at.after(step))));
@@ -317,7 +302,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// The KIT algorithm, from the uncovered sides on.
     fn keep_in_touch(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Next {
-        let sides = self.uncovered(robot, self.robots[robot].stance.to());
+        let sides = self.uncovered(robot, self.crew.robots[robot].stance.to());
         let admitted = match self.rule.filter {
             Filter::Everywhere => self.admitted(robot, sides),
             Filter::OldPaths => sides,
@@ -338,7 +323,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             let is_over = part.is_none() && self.stances().all(Stance::stands);
             return self.rest(robot, if is_over { Task::Done } else { Task::Stays });
         }
-        let blocked = self.known(EdgeMark::Wall, self.robots[robot].stance.to());
+        let blocked = self.known(EdgeMark::Wall, self.crew.robots[robot].stance.to());
         let all = Steps::ALL.without(Step::Stay).minus(blocked);
         let left = if self.rule.fallback == Fallback::Admitted { self.admitted(robot, all) } else { all };
         self.fall_back(robot, left, oracle)
@@ -354,7 +339,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// The side of those `left` that leads nearest to where the other goes, or any.
     fn fall_back(&mut self, robot: usize, left: Steps, oracle: &mut dyn Oracle) -> Next {
-        let at = self.robots[robot].stance.to();
+        let at = self.crew.robots[robot].stance.to();
         let distance = |step: Step| {
             let node = at.after(step);
             let to_each = self.others(robot).map(|other| {
@@ -375,12 +360,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     fn look(&mut self, robot: usize, side: Side, left: Steps, why: Why) -> Next {
-        self.robots[robot].task = Task::Looks { side, left: left.without(Step::Cross(side)), why };
+        self.crew.robots[robot].task = Task::Looks { side, left: left.without(Step::Cross(side)), why };
         Next::Looks(side)
     }
 
     fn rest(&mut self, robot: usize, task: Task) -> Next {
-        self.robots[robot].task = task;
+        self.crew.robots[robot].task = task;
         self.pass_turn();
         if task == Task::Done { Next::Done } else { Next::Stays }
     }
@@ -399,10 +384,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     fn pass_turn(&mut self) {
         let asks =
             |robot: &Robot| robot.stance.stands() && matches!(robot.task, Task::None | Task::Looks { .. });
-        let turn = usize::from(self.turn);
+        let turn = usize::from(self.crew.turn);
         let after = (turn..self.count.into()).chain(0..turn);
-        if let Some(next) = after.into_iter().find(|&robot| asks(&self.robots[robot])) {
-            self.turn = next as u8;
+        if let Some(next) = after.into_iter().find(|&robot| asks(&self.crew.robots[robot])) {
+            self.crew.turn = next as u8;
         }
     }
 }

@@ -76,7 +76,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Where all robots are.
     pub(super) fn formation(&self) -> Formation<ROBOTS> {
         let joined = [const { OnceCell::new() }; ROBOTS];
-        Formation { stances: self.robots.map(|robot| robot.stance), joined }
+        Formation { stances: self.crew.robots.map(|robot| robot.stance), joined }
     }
 
     /// Whether a robot of this formation is tied to one that goes to `node`.
@@ -156,7 +156,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// The bonds of `robot` to the others of this formation.
     pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
-        let others = first_robots(self.entered.into()) & !(1 << robot);
+        let others = first_robots(self.crew.entered.into()) & !(1 << robot);
         let stances = &formation.stances;
         let heard = sets(others, |one, other| self.rule.hears(stances[one], stances[other]));
         let mut tied = [0; ROBOTS];
@@ -175,7 +175,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let (from, to) = (path.from(), path.to());
         let stances = &formation.stances;
         let is_taken = |(other, &stance)| other != bonds.robot && !self.rule.keeps_apart(path, stance);
-        if stances.iter().take(self.entered.into()).enumerate().any(is_taken) {
+        if stances.iter().take(self.crew.entered.into()).enumerate().any(is_taken) {
             return false;
         }
         let is_heard = |set: &Set| robots(*set).any(|other| self.rule.hears(stances[other], path));

@@ -110,16 +110,8 @@ enum News {
 impl Node {
     /// Node `id`, which has not heard of any event of `source`.
     pub const fn new(id: NodeId, source: NodeId) -> Self {
-        Self {
-            id,
-            source,
-            event: 0,
-            parent: id,
-            hops: 0,
-            phase: Phase::Unaware,
-            heard: Senders::NOBODY,
-            until_ns: 0,
-        }
+        let (phase, heard) = (Phase::Unaware, Senders::NOBODY);
+        Self { id, source, event: 0, parent: id, hops: 0, phase, heard, until_ns: 0 }
     }
 
     /// How far it is with the latest event.
@@ -333,20 +325,12 @@ impl Node {
 
 /// Whether a node that waits may hear enough not to forward.
 const fn can_settle(scheme: Scheme) -> bool {
-    match scheme {
-        Scheme::Farthest { k } => k.is_some(),
-        Scheme::Counter { .. } | Scheme::Distance { .. } | Scheme::Scalable => true,
-        Scheme::Flooding => false,
-    }
+    !matches!(scheme, Scheme::Flooding | Scheme::Farthest { k: None })
 }
 
 /// Whether a scheme has to remember whom it has heard. Where it need not, hearing a sender again changes nothing.
 const fn is_counted(scheme: Scheme) -> bool {
-    match scheme {
-        Scheme::Farthest { k } => k.is_some(),
-        Scheme::Counter { .. } => true,
-        Scheme::Flooding | Scheme::Distance { .. } | Scheme::Scalable => false,
-    }
+    matches!(scheme, Scheme::Farthest { k: Some(_) } | Scheme::Counter { .. })
 }
 
 #[cfg(test)]

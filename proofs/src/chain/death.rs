@@ -215,8 +215,9 @@ impl Death<'_> {
         }
         let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else { return Err(Stop::Assumed) };
         let (before, mut heard) = (chain, chain);
-        let settled = chain.settle_without(&plan, self.robot + 1, &mut is_open);
-        heard.hear_without(&plan, settled.messages(), self.robot + 1).map_err(|_| NO_MESSAGE)?;
+        let plan = plan.without(self.robot + 1);
+        let settled = chain.settle(&plan, &mut is_open);
+        heard.hear(&plan, settled.messages()).map_err(|_| NO_MESSAGE)?;
         require(heard == chain, "who hears the others knows what they know")?;
         log.extend_from_slice(settled.messages());
         // The one that died may be anywhere on its way.

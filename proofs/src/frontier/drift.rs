@@ -207,7 +207,7 @@ impl World for Drift {
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
-        let is_right = turn.after.robot.map().is_within(&turn.after.truth);
+        let is_right = turn.after.robot.map.is_within(&turn.after.truth);
         if is_right { Vec::new() } else { vec![Demand::Marks.words()] }
     }
 
@@ -243,8 +243,7 @@ pub(super) fn tell(before: &State, after: &State) -> String {
     let (cell, at) = (cell_of(after.place), after.robot.at());
     let ((x, y), (fix_x, fix_y)) = (parts(after.place, cell), parts(after.fix, cell));
     let blocked = area.cells().find(|&cell| {
-        after.robot.map().status(cell) == Status::Obstacle
-            && before.robot.map().status(cell) != Status::Obstacle
+        after.robot.map.status(cell) == Status::Obstacle && before.robot.map.status(cell) != Status::Obstacle
     });
     match blocked {
         Some(blocked) => {

@@ -453,7 +453,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         to: u8,
         oracle: &mut dyn Oracle,
     ) -> u8 {
-        let (map, said) = (*world.robots[from].map(), says(&world.robots[from]));
+        let (map, said) = (world.robots[from].map, says(&world.robots[from]));
         let mut missed = 0;
         for other in (0..ROBOTS).filter(|&other| other != from && to >> other & 1 == 1) {
             if world.lost < self.max_losses && oracle.mishap() {
@@ -473,7 +473,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// Notes what wrong marks break, and makes states one that differ only in slots that nobody waits for.
     fn settle(&self, world: &mut World<ROBOTS>, breaks: &mut Vec<Demand>) {
-        let is_right = |robot: &Robot<TinyMap>| robot.map().is_within(&world.truth);
+        let is_right = |robot: &Robot<TinyMap>| robot.map.is_within(&world.truth);
         if self.is_wanted(Demand::Marks) && !world.robots.iter().all(is_right) {
             breaks.push(Demand::Marks);
         }

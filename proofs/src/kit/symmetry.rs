@@ -140,8 +140,10 @@ impl SymmetricLattice {
         for (robot, old) in taken.robots_mut().iter_mut().zip(order) {
             *robot = image.robot(self.setting.area, team.robots()[old]);
         }
-        let turn = team.turn().and_then(|turn| order.iter().position(|&robot| robot == turn));
-        turn.map_or(taken, |turn| taken.with_turn(turn as u8))
+        if let Some(turn) = team.turn() {
+            taken.crew.turn = u8::from(order[0] != turn);
+        }
+        taken
     }
 
     /// The image of a state.

@@ -344,7 +344,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         match place.checked_sub(ROBOTS) {
             None => Part::Map(state.team.records()[place]),
             Some(0) => Part::Map(state.truth),
-            Some(_) => Part::Rest(state.team.crew(), [state.walls, state.fresh, state.first]),
+            Some(_) => Part::Rest(state.team.crew, [state.walls, state.fresh, state.first]),
         }
     }
 
@@ -363,7 +363,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
                 state.team = team.with_records(record);
             }
             Part::Rest(crew, [walls, fresh, first]) => {
-                state.team = state.team.with_crew(*crew);
+                state.team.crew = *crew;
                 (state.walls, state.fresh, state.first) = (*walls, *fresh, *first);
             }
         }

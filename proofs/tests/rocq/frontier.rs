@@ -253,7 +253,7 @@ fn event<const ROBOTS: usize>(
 /// The cells that a robot takes for explored and for obstacles, and where it is.
 fn knows(area: Area, robot: &Robot<TinyMap>) -> String {
     let those = |status: Status| {
-        let cells = area.cells().filter(move |&cell| robot.map().status(cell) == status);
+        let cells = area.cells().filter(move |&cell| robot.map.status(cell) == status);
         list(cells.filter_map(|cell| area.place(cell)).map(|place| place.to_string()))
     };
     let at = area.place(robot.at()).expect("it is inside");

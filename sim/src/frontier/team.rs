@@ -71,7 +71,7 @@ impl Explorers {
         for &start in starts {
             entered.explore(start);
         }
-        let heard = robots.iter().map(|robot| robot.map().len()).collect();
+        let heard = robots.iter().map(|robot| robot.map.len()).collect();
         let radio = Radio::new(options, area, seed);
         let small = radio.small(area, seed);
         let knowledge = if radio.is_whole() { Knowledge::Common } else { Knowledge::Own };
@@ -183,7 +183,7 @@ impl Explorers {
     /// By robot what it has learned in the last team move, and in the first one with what it knew before: where all
     /// start.
     pub fn news(&self) -> impl Iterator<Item = (usize, &[(Cell, Status)])> {
-        let news = |(robot, &known): (usize, &usize)| (robot, self.robots[robot].map().learned(known));
+        let news = |(robot, &known): (usize, &usize)| (robot, self.robots[robot].map.learned(known));
         self.known.iter().enumerate().map(news)
     }
 
@@ -212,10 +212,10 @@ impl Explorers {
         self.is_wrong = false;
         self.told_now.clear();
         if self.has_begun {
-            self.known = self.robots.iter().map(|robot| robot.map().len()).collect();
+            self.known = self.robots.iter().map(|robot| robot.map.len()).collect();
         }
         self.has_begun = true;
-        let before: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
+        let before: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
         let (mut does_any, mut know_all) = (false, true);
         let mut entering: Vec<Option<(Cell, Pose)>> = vec![None; robots];
         let mut stands = vec![false; robots];
@@ -279,7 +279,7 @@ impl Explorers {
             self.tell(robot);
         }
         self.slot = (self.slot + 1) % robots.max(1);
-        let after: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
+        let after: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
         self.idle = if after == before { self.idle + 1 } else { 0 };
         if self.idle > PATIENCE * self.area.width() * self.area.height() {
             return Err(TeamEnd::Idle);
@@ -300,7 +300,7 @@ impl Explorers {
         let mut seekers: Vec<Seeker> = self.told[robot].iter().map(seeker).collect();
         let own = &self.robots[robot];
         seekers[robot] = Seeker { cell: own.at(), aim: own.aim() };
-        let way = self.waves.way(own.map(), &self.rule, robot, own.is_bound(&self.rule), &seekers);
+        let way = self.waves.way(&own.map, &self.rule, robot, own.is_bound(&self.rule), &seekers);
         own.follows(&self.rule, way, self.slot(robot))
     }
 
@@ -371,7 +371,7 @@ impl Explorers {
 
     /// Notes whether what `robot` has learned of `cell` is not so.
     fn note(&mut self, robot: usize, cell: Cell) {
-        self.is_wrong |= match self.robots[robot].map().status(cell) {
+        self.is_wrong |= match self.robots[robot].map.status(cell) {
             Status::Unexplored => false,
             Status::Explored => self.entered.status(cell) != Status::Explored,
             Status::Obstacle => self.layout.is_free(cell),
@@ -383,7 +383,7 @@ impl Explorers {
         let Self { rule, robots, cells, told, heard, radio, poses, told_now, .. } = self;
         let mut deaf = Vec::new();
         let says = Other { cell: robots[from].at(), place: poses[from].fix(), aim: robots[from].aim() };
-        let knows = robots[from].map().len();
+        let knows = robots[from].map.len();
         for to in (0..robots.len()).filter(|&to| to != from) {
             let is_heard = radio.is_heard(cells[from], cells[to]);
             if is_heard {
@@ -394,7 +394,7 @@ impl Explorers {
             // Whoever does not share says only once what is new.
             if is_heard || !rule.has(Condition::Share) {
                 let since = std::mem::replace(&mut heard[to][from], knows);
-                let news: Vec<(Cell, Status)> = robots[from].map().learned(since).to_vec();
+                let news: Vec<(Cell, Status)> = robots[from].map.learned(since).to_vec();
                 for (cell, status) in news.into_iter().filter(|_| is_heard) {
                     robots[to].hears(cell, status);
                 }

@@ -76,7 +76,7 @@ impl<const ROBOTS: usize> SceneWorld for Setting<ROBOTS> {
         let mut put = Vec::new();
         for (robot, body) in world.robots().iter().enumerate() {
             for cell in self.area.cells() {
-                let value = match body.map().status(cell) {
+                let value = match body.map.status(cell) {
                     Status::Unexplored => continue,
                     Status::Explored => 1,
                     Status::Obstacle => 2,

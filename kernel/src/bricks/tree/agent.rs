@@ -211,8 +211,7 @@ fn go_on(rule: Rule, view: &View, here: Note) -> Act {
     if let Some(side) = least(view.children()).filter(|_| rule.has(Condition::Childless)) {
         return act(Next::Goes(side));
     }
-    let higher = view.trees().filter(|&(_, label)| label > own).max_by_key(|&(_, label)| label);
-    if let Some((side, _)) = higher {
+    if let Some((side, _)) = view.trees().filter(|&(_, label)| label > own).max_by_key(|&(_, label)| label) {
         return act(Next::Goes(side));
     }
     if misses {
@@ -244,20 +243,17 @@ pub fn carry_out(rule: Rule, floor: &mut impl Floor<Note>, cell: Cell, act: &Act
     let Some(side) = next.side() else { return cell };
     let beyond = cell.beyond(side);
     let there = floor.sensor(beyond).unwrap_or_default();
-    let is_child = match next {
-        Next::Goes(_) | Next::Waits | Next::Done => false,
-        Next::Adopts(_) => true,
-        Next::Explores(_) => !rule.has(Condition::Bricks),
-    };
     let found = match next {
         Next::Explores(_) if !rule.has(Condition::Underfoot) => Note::default(),
         Next::Goes(_) | Next::Adopts(_) | Next::Explores(_) | Next::Waits | Next::Done => there,
     };
+    let is_adopted = match next {
+        Next::Goes(_) | Next::Waits | Next::Done => false,
+        Next::Adopts(_) => true,
+        Next::Explores(_) => !rule.has(Condition::Bricks) && found.state == State::Unexplored,
+    };
     let entered = found.entered();
-    let is_new = found.state == State::Unexplored;
-    let is_adopted = is_child && (is_new || matches!(next, Next::Adopts(_)));
-    let entered = if is_adopted { child(rule, entered, here, side.opposite()) } else { entered };
-    floor.put(beyond, entered);
+    floor.put(beyond, if is_adopted { child(rule, entered, here, side.opposite()) } else { entered });
     beyond
 }
 

@@ -122,14 +122,12 @@ impl Note {
     }
 
     /// The note once one agent more has entered.
-    pub(super) const fn entered(self) -> Self {
-        let crossings =
-            if self.crossings < Self::MOST_CROSSINGS { self.crossings + 1 } else { self.crossings };
+    pub(super) fn entered(self) -> Self {
         let state = match self.state {
             State::Unexplored => State::Explored,
             state @ (State::Explored | State::Open | State::Visited) => state,
         };
-        Self { state, crossings, ..self }
+        Self { state, crossings: Self::MOST_CROSSINGS.min(self.crossings + 1), ..self }
     }
 
     /// All that it stores but its depth, in the lowest [`Note::BITS`] bits.

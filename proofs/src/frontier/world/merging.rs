@@ -90,7 +90,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn part(&self, state: &World<ROBOTS>, place: usize) -> Part<ROBOTS> {
         match place.checked_sub(ROBOTS) {
-            None => Part::Map(*state.robots[place].map()),
+            None => Part::Map(state.robots[place].map),
             Some(robot) if robot < ROBOTS => {
                 Part::Robot(self.bare(state, robot), state.cells[robot], state.told[robot])
             }
@@ -101,7 +101,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn differing(&self, one: &World<ROBOTS>, other: &World<ROBOTS>) -> Places {
         let robots = || one.robots.iter().zip(&other.robots);
-        let maps = robots().map(|(one, other)| one.map() != other.map());
+        let maps = robots().map(|(one, other)| one.map != other.map);
         let rest = robots().enumerate().map(|(robot, (its, others))| {
             one.cells[robot] != other.cells[robot]
                 || one.told[robot] != other.told[robot]
@@ -112,13 +112,13 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
 
     fn put(&self, state: &mut World<ROBOTS>, place: usize, part: &Part<ROBOTS>) {
         match part {
-            Part::Map(map) if place < ROBOTS => *state.robots[place].map_mut() = *map,
+            Part::Map(map) if place < ROBOTS => state.robots[place].map = *map,
             Part::Map(map) => state.truth = *map,
             Part::Robot(bare, cell, told) => {
                 let robot = place - ROBOTS;
-                let map = *state.robots[robot].map();
+                let map = state.robots[robot].map;
                 (state.robots[robot], state.cells[robot], state.told[robot]) = (*bare, *cell, *told);
-                *state.robots[robot].map_mut() = map;
+                state.robots[robot].map = map;
             }
             Part::Clock([lost, wrong, small, slot, old, has_tried]) => {
                 (state.lost, state.wrong, state.small) = (*lost, *wrong, *small);
@@ -155,7 +155,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// A robot without its repository.
     fn bare(&self, world: &World<ROBOTS>, robot: usize) -> Robot<TinyMap> {
         let mut bare = world.robots[robot];
-        *bare.map_mut() = TinyMap::new(self.area).unwrap_or(world.truth);
+        bare.map = TinyMap::new(self.area).unwrap_or(world.truth);
         bare
     }
 }

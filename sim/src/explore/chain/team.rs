@@ -150,10 +150,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
         let mute = due.map(|failure| usize::from(failure.robot));
         let wall = self.wall.filter(|wall| wall.step.get() <= self.moves).map(|wall| wall.edge());
         let is_open = |edge: Edge| wall != Some(edge) && is_open(edge);
-        let settled = match mute {
-            None => chain.settle(plan, is_open),
-            Some(mute) => chain.settle_without(plan, mute, is_open),
-        };
+        let settled = chain.settle(&mute.map_or(*plan, |mute| plan.without(mute)), is_open);
         self.log.extend_from_slice(settled.messages());
         let made = frame(plan.kind, settled.messages(), chain.cells());
         let made = self.widened(&made);
