@@ -80,6 +80,15 @@ impl Verdict {
         }
     }
 
+    /// Whether both are so.
+    pub(super) const fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Fails, _) | (_, Self::Fails) => Self::Fails,
+            (Self::Holds, Self::Holds) => Self::Holds,
+            (Self::Open, _) | (_, Self::Open) => Self::Open,
+        }
+    }
+
     /// In a word.
     pub const fn word(self) -> &'static str {
         match self {

@@ -13,6 +13,7 @@ use self::parameters::RivalSettings;
 use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};
+use tautline_field::stats::quantile;
 use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, explore, run};
@@ -155,30 +156,47 @@ struct Times {
     mean: Option<Estimate>,
     /// The median of all runs, one that never gets there being later than any; none if most do not.
     median: Option<u32>,
+    /// Its 95 % interval, where there are runs enough; an end that is none is never.
+    median_interval: Option<[Option<u32>; 2]>,
 }
 
 impl Times {
     fn of(outcomes: &[&Outcome], milestone: Milestone) -> Self {
-        let mut moves: Vec<u32> = outcomes.iter().filter_map(|outcome| outcome.reached(milestone)).collect();
-        moves.sort_unstable();
-        let mean = mean(moves.iter().copied().map(f64::from)).filter(|_| moves.len() == outcomes.len());
+        let reached = outcomes.iter().map(|outcome| outcome.reached(milestone));
+        let mut moves: Vec<f64> = reached.map(|moves| moves.map_or(f64::INFINITY, f64::from)).collect();
+        moves.sort_by(f64::total_cmp);
+        let reached = count(&moves, |moves| moves.is_finite());
+        let runs = moves.len() as u32;
+        let (median, interval) = quantile(&moves, 0.5);
+        let ever = |moves: f64| moves.is_finite().then_some(moves as u32);
         Self {
-            runs: outcomes.len() as u32,
-            reached: moves.len() as u32,
-            mean: mean.map(|mean| rounded(mean, 100.0)),
-            median: moves.get(outcomes.len().saturating_sub(1) / 2).copied(),
+            runs,
+            reached,
+            mean: mean(moves).filter(|_| reached == runs).map(|mean| rounded(mean, 100.0)),
+            median: ever(median),
+            median_interval: interval.map(|ends| ends.map(ever)),
         }
     }
 
     /// The mean of all, or the median, or nothing; and how many get there.
     fn text(&self) -> String {
         let Self { runs, reached, .. } = self;
+        let end = |moves: Option<u32>| moves.map_or("-".to_owned(), |moves| moves.to_string());
         let moves = match (self.mean, self.median) {
             (Some(mean), _) => mean.text(1),
-            (None, Some(median)) => format!("median {median}"),
+            (None, Some(median)) => match self.median_interval {
+                Some([least, most]) => format!("median {median} [{}, {}]", end(least), end(most)),
+                None => format!("median {median}"),
+            },
             (None, None) => "-".to_owned(),
         };
         format!("{moves} ({reached}/{runs})")
+    }
+
+    /// The 95 % interval of the mean if all get there, else that of the median.
+    fn ends(&self) -> Option<[f64; 2]> {
+        let of_median = || Some(self.median_interval?.map(|end| end.map_or(f64::INFINITY, f64::from)));
+        self.mean.map_or_else(of_median, |mean| mean.interval)
     }
 
     /// The mean if all get there, else the median.
@@ -203,10 +221,12 @@ mod tests {
                 |&half: &Option<u32>| Outcome { milestones: [half, None, None], explored: 1, cells: 2 };
             let outcomes: Vec<Outcome> = moves.iter().map(outcome).collect();
             let times = Times::of(&outcomes.iter().collect::<Vec<_>>(), Milestone::Half);
+            assert_eq!(times.median_interval.is_some(), moves.len() > 5);
             (times.reached, times.mean.map(|mean| mean.mean), times.median)
         };
         assert_eq!(times(&[Some(30), Some(10), Some(21)]), (3, Some(20.33), Some(21)));
         assert_eq!(times(&[Some(30), None, Some(10), None, Some(20)]), (3, None, Some(30)));
         assert_eq!(times(&[Some(30), None, Some(10), None, None]), (2, None, None));
+        assert_eq!(times(&[None; 6]), (0, None, None));
     }
 }

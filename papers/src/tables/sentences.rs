@@ -36,11 +36,15 @@ impl Judgement {
 /// How far from a figure of a paper ours may be to be the same: a tenth of it. No paper gives a number.
 const SAME: f64 = 0.1;
 
+/// Whether a figure is between two others, by its whole 95 % interval; without one that is open.
+pub(super) fn within([least, most]: [f64; 2], ours: Option<[f64; 2]>) -> Verdict {
+    let Some([low, high]) = ours else { return Verdict::Open };
+    Verdict::decided(least <= low && high <= most, high < least || most < low)
+}
+
 /// Whether `ours` is the figure `paper`, by its whole 95 % interval; without one that is open.
 pub(super) fn same(paper: f64, ours: Estimate) -> Verdict {
-    let Some([low, high]) = ours.interval else { return Verdict::Open };
-    let [least, most] = [paper - SAME * paper.abs(), paper + SAME * paper.abs()];
-    Verdict::decided(least <= low && high <= most, high < least || most < low)
+    within([paper - SAME * paper.abs(), paper + SAME * paper.abs()], ours.interval)
 }
 
 /// Whether a figure is at least so much, by its whole 95 % interval; without one that is open.

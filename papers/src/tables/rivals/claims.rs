@@ -1,6 +1,8 @@
 //! The paper's claims about the chain and its rivals, and what is so.
 
 use super::super::prelude::*;
+use super::super::sentences::within;
+use tautline_field::stats::quantile;
 
 /// How far from a figure “about” is: a quarter of it. The paper gives no number.
 const ABOUT: f64 = 0.25;
@@ -8,75 +10,110 @@ const ABOUT: f64 = 0.25;
 /// How far from each other “almost the same” and “similar” are: a tenth.
 const ALIKE: f64 = 0.1;
 
-/// Whether `ours` is about `paper`; of no figure it is not.
-pub(super) fn about(paper: f64, ours: Option<f64>) -> Verdict {
-    Verdict::of(ours.is_some_and(|ours| (ours - paper).abs() <= ABOUT * paper))
+/// Whether a figure is about `paper`, by its whole 95 % interval.
+pub(super) fn about(paper: f64, ours: Option<[f64; 2]>) -> Verdict {
+    within([(1.0 - ABOUT) * paper, (1.0 + ABOUT) * paper], ours)
 }
 
-/// Whether two figures are alike; if there is one only, they are not.
-pub(super) fn alike(one: Option<f64>, other: Option<f64>) -> Verdict {
-    match (one, other) {
-        (Some(one), Some(other)) => Verdict::of((one - other).abs() <= ALIKE * one.max(other)),
-        (None, None) => Verdict::Open,
-        (Some(_), None) | (None, Some(_)) => Verdict::Fails,
-    }
+/// Whether a figure and `other` are alike, by the whole 95 % interval of the first.
+pub(super) fn alike(other: f64, ours: Option<[f64; 2]>) -> Verdict {
+    within([(1.0 - ALIKE) * other, other / (1.0 - ALIKE)], ours)
 }
 
 /// On how many of the same layouts one team is sooner than another; a team that never gets there is later than any.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, Default, JsonSchema, Serialize)]
 pub(super) struct Race {
-    pub(super) sooner: u32,
-    pub(super) later: u32,
-    pub(super) even: u32,
+    sooner: u32,
+    later: u32,
+    even: u32,
+    /// How many times the other's team moves the first takes, where one of them gets there: the median, in hundredths.
+    /// Never is so many team moves as no run makes.
+    ratio: Option<Estimate>,
 }
+
+/// The number of team moves that stands for never.
+const NEVER: f64 = u32::MAX as f64;
 
 impl Race {
     pub(super) fn of(pairs: impl Iterator<Item = (Option<u32>, Option<u32>)>) -> Self {
-        pairs.fold(Self::default(), |mut race, (one, other)| {
-            let late = |moves: Option<u32>| moves.map_or(u64::MAX, u64::from);
-            match late(one).cmp(&late(other)) {
+        let (mut race, mut ratios) = (Self::default(), Vec::new());
+        for (one, other) in pairs {
+            let [one_is, other_is] = [one, other].map(|moves| moves.map_or(NEVER, f64::from));
+            match one_is.total_cmp(&other_is) {
                 std::cmp::Ordering::Less => race.sooner += 1,
                 std::cmp::Ordering::Greater => race.later += 1,
                 std::cmp::Ordering::Equal => race.even += 1,
             }
-            race
-        })
+            if one.or(other).is_some() {
+                ratios.push(one_is / other_is.max(1.0));
+            }
+        }
+        ratios.sort_by(f64::total_cmp);
+        let (mean, interval) = quantile(&ratios, 0.5);
+        let ratio = Estimate { count: ratios.len() as u32, mean, interval };
+        Self { ratio: (ratio.count > 0).then(|| rounded(ratio, 100.0)), ..race }
     }
 
-    /// Whether the first is sooner more often than not, by the whole 95 % interval.
+    /// Whether the first is sooner more often than not.
     pub(super) fn is_won(self) -> Verdict {
-        let share = Estimate::share(self.sooner, self.sooner + self.later);
-        let [low, high] = share.and_then(|share| share.interval).unwrap_or([0.0, 1.0]);
-        Verdict::decided(low > 0.5, high < 0.5)
+        is_most(self.sooner, self.later)
+    }
+
+    /// Whether the first is later more often than not.
+    pub(super) fn is_lost(self) -> Verdict {
+        is_most(self.later, self.sooner)
+    }
+
+    /// Whether both are alike.
+    pub(super) fn is_alike(self) -> Verdict {
+        alike(1.0, self.ratio.and_then(|ratio| ratio.interval))
     }
 
     pub(super) fn text(self) -> String {
-        format!("sooner {}, even {}, later {}", self.sooner, self.even, self.later)
+        let ratio = self.ratio.map_or("-".to_owned(), |ratio| ratio.text(2));
+        format!("{ratio} times; sooner {}, even {}, later {}", self.sooner, self.even, self.later)
     }
+}
+
+/// Whether these are more than the others, by the whole 95 % interval of their share.
+fn is_most(these: u32, others: u32) -> Verdict {
+    let share = Estimate::share(these, these + others);
+    let [low, high] = share.and_then(|share| share.interval).unwrap_or([0.0, 1.0]);
+    Verdict::decided(low > 0.5, high < 0.5)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Verdict::{Fails, Holds, Open};
     use super::*;
 
     #[test]
     fn a_race_is_won_by_the_whole_interval_and_who_never_arrives_is_last() {
-        let race = |sooner, later| Race { sooner, later, even: 3 };
-        assert_eq!(race(60, 20).is_won(), Verdict::Holds);
-        assert_eq!(race(20, 60).is_won(), Verdict::Fails);
-        assert_eq!([race(5, 4).is_won(), race(0, 0).is_won()], [Verdict::Open; 2]);
+        let race = |sooner, later| Race { sooner, later, even: 3, ratio: None };
+        let all = [race(60, 20), race(20, 60), race(5, 4), race(0, 0)];
+        assert_eq!(all.map(Race::is_won), [Holds, Fails, Open, Open]);
+        assert_eq!(all.map(Race::is_lost), [Fails, Holds, Open, Open]);
         let pairs = [(Some(3), None), (None, Some(3)), (None, None), (Some(2), Some(3)), (Some(2), Some(2))];
-        assert_eq!(Race::of(pairs.into_iter()), Race { sooner: 2, later: 1, even: 2 });
+        let race = Race::of(pairs.into_iter());
+        assert_eq!((race.sooner, race.later, race.even), (2, 1, 2));
+        assert_eq!(race.ratio, Some(Estimate { count: 4, mean: 0.67, interval: None }));
     }
 
     #[test]
-    fn about_is_a_quarter_and_alike_a_tenth() {
-        assert_eq!(
-            [1.5, 2.5, 1.4, 2.6].map(|ours| about(2.0, Some(ours)) == Verdict::Holds),
-            [true, true, false, false]
-        );
-        assert_eq!(about(2.0, None), Verdict::Fails);
-        assert_eq!(alike(Some(90.0), Some(100.0)), Verdict::Holds);
-        assert_eq!([alike(Some(89.0), Some(100.0)), alike(None, Some(1.0))], [Verdict::Fails; 2]);
+    fn teams_are_alike_by_the_whole_interval_of_the_ratio_of_their_moves() {
+        let is_alike = |other: Option<u32>, runs| Race::of((0..runs).map(|_| (Some(90), other))).is_alike();
+        let all = [Some(100), Some(81), Some(101), Some(80), None];
+        assert_eq!(all.map(|other| is_alike(other, 6)), [Holds, Holds, Fails, Fails, Fails]);
+        assert_eq!(all.map(|other| is_alike(other, 5)), [Open; 5]);
+        let halves = (0..40).map(|run| (Some(90), Some(if run % 2 == 0 { 90 } else { 120 })));
+        assert_eq!(Race::of(halves).is_alike(), Open);
+        assert_eq!(Race::of([(None, None); 40].into_iter()).is_alike(), Open);
+    }
+
+    #[test]
+    fn about_is_a_quarter() {
+        let all = [[1.5, 2.5], [1.4, 2.5], [2.6, 3.0], [0.5, 1.4]];
+        assert_eq!(all.map(|ends| about(2.0, Some(ends))), [Holds, Open, Fails, Fails]);
+        assert_eq!(about(2.0, None), Open);
     }
 }

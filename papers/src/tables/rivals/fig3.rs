@@ -1,7 +1,7 @@
 //! Fig. 3: team moves to 50 % and to 75 % of the cells by the density of walls, and in two buildings.
 
 use super::super::prelude::*;
-use super::claims::{Race, alike};
+use super::claims::Race;
 use super::parameters::RivalSettings;
 use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times};
 use crate::rivals::Links;
@@ -140,8 +140,9 @@ impl Table for ChainFig3 {
             }
             text += &columns.text();
         }
-        text += "\nsooner, even, later: the chain as published on the same layouts; \
-                 who never gets there is later than any\n";
+        text += "\ntimes: how many times the rival's team moves the chain as published takes on the same layout, the \
+                 median\nsooner, even, later: the chain on the same layouts; who never gets there is later than \
+                 any\n";
         Ok(text)
     }
 
@@ -225,8 +226,8 @@ fn judged(areas: &[Area], pool: u32) -> Vec<Judgement> {
                 let race = rival.races[place];
                 let verdict = match says {
                     Claim::Sooner => race.is_won(),
-                    Claim::Later => Race { sooner: race.later, later: race.sooner, even: race.even }.is_won(),
-                    Claim::Alike => alike(chain.milestones[place].middle(), rival.milestones[place].middle()),
+                    Claim::Later => race.is_lost(),
+                    Claim::Alike => race.is_alike(),
                 };
                 let measured = format!(
                     "{} against {}: {}",
