@@ -3,6 +3,8 @@
 //! Gauss–Newton here also looks for a second minimum and tells the covariance, which levenberg-marquardt does not; one
 //! minimum alone, from the linear solution as for levenberg-marquardt, has a row of its own.
 
+#![expect(clippy::disallowed_methods, reason = "a benchmark compares no bits")]
+
 use std::hint::black_box;
 
 use argmin::core::{CostFunction, Error, Executor};

@@ -258,7 +258,7 @@ mod tests {
             let nodes = (0..700).map(NodeId).flat_map(|node| {
                 scenario.network.neighbours(node).iter().map(move |&other| (place(node), place(other)))
             });
-            nodes.filter(|(one, other)| (one.x_m - other.x_m).hypot(one.y_m - other.y_m) > 25.0).count()
+            nodes.filter(|(one, other)| libm::hypot(one.x_m - other.x_m, one.y_m - other.y_m) > 25.0).count()
         };
         let of_scenario =
             |setting: &Setting| setting.lay_out(&mut SeededOracle::new(0, 0)).expect("a scenario");

@@ -177,7 +177,7 @@ pub fn quantile(sorted: &[f64], share: f64) -> (f64, Option<[f64; 2]>) {
         sorted.get(place).copied().unwrap_or(0.0)
     };
     let margin = NORMAL * (count * share * (1.0 - share)).sqrt();
-    let are_enough = share.max(1.0 - share).powf(count) <= 0.025;
+    let are_enough = libm::pow(share.max(1.0 - share), count) <= 0.025;
     let interval = || [at((count * share - margin).floor()), at((count * share + margin).ceil())];
     (at((count * share).ceil()), are_enough.then(interval))
 }

@@ -139,7 +139,8 @@ struct Finding {
 }
 
 fn apart(one: [f64; 2], other: [f64; 2]) -> f64 {
-    (one[0] - other[0]).hypot(one[1] - other[1])
+    let [across, up] = [0, 1].map(|axis| one[axis] - other[axis]);
+    (across * across + up * up).sqrt()
 }
 
 /// A stamp, with the robots that have a position of it and the places of these in the log.

@@ -1,6 +1,11 @@
 //! Monitors against a judge of whole logs, which is written from the sentences of SPEC.md and shares nothing with them:
 //! it keeps every sample, and looks at all pairs and all ways at each one.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "a test that shares nothing with what it tries has its bounds beside it"
+)]
+
 use tautline_monitor::{
     Apart, Cells, Connectivity, Demand, Doubt, Monitor, Neighbours, Own, Place, Robot, Track, Verdict,
 };

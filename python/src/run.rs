@@ -146,7 +146,7 @@ impl Run {
     fn traced(&self, file: AtomicFile) -> Result<AtomicFile, Halt> {
         match &self.made {
             RunSource::Known(setup) => {
-                let mut writer = Writer::new(file, setup, self.clause).map_err(Diagnostic::from)?;
+                let mut writer = Writer::new(file, setup, self.clause)?;
                 let report = setup.play(&mut |made| {
                     writer.add(made);
                     Ok(())

@@ -1,5 +1,10 @@
 //! The simulator, tried as a whole.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "a test that shares nothing with what it tries has its bounds beside it"
+)]
+
 mod agents;
 mod beyond;
 mod common;

@@ -95,6 +95,7 @@ fn levels_tell_the_distances_that_they_fall_over() {
     let folder = folder.path();
     // A robot at 3,4 hears anchors at −40 dBm at one metre, and 25 dB less at ten times the distance.
     let at = [(0.0, 0.0), (20.0, 0.0), (0.0, 20.0)];
+    #[expect(clippy::disallowed_methods, reason = "printed with six decimals")]
     let level = |(x, y): (f64, f64)| -40.0 - 25.0 * (x - 3.0).hypot(y - 4.0).log10();
     let lines = at.map(|anchor| format!("a,{},{},{:.6}\n", anchor.0, anchor.1, level(anchor)));
     fs::write(folder.join("levels.csv"), format!("fix,x_m,y_m,level_dbm\n{}", lines.concat()))

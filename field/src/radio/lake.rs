@@ -98,7 +98,7 @@ mod tests {
         // Through the corner in which two rectangles touch each other, too.
         for turn in 0..64 {
             let angle = f64::from(turn) * 0.1;
-            let outside = Point { x_m: 50.0 + 49.0 * angle.cos(), y_m: 50.0 + 49.0 * angle.sin() };
+            let outside = Point { x_m: 50.0 + 49.0 * libm::cos(angle), y_m: 50.0 + 49.0 * libm::sin(angle) };
             assert!(!ring.has_way(middle, outside), "{turn}");
         }
     }

@@ -337,7 +337,7 @@ mod tests {
             .filter(|&(one, other, from, to)| {
                 one != other && !field.obstacles().iter().any(|obstacle| obstacle.stops(from, to))
             })
-            .map(|(one, other, from, to)| (one, other, (from.x_m - to.x_m).hypot(from.y_m - to.y_m)))
+            .map(|(one, other, from, to)| (one, other, libm::hypot(from.x_m - to.x_m, from.y_m - to.y_m)))
             .filter(|&(_, _, apart_m)| apart_m <= range_m)
             .map(|(one, other, apart_m)| (one, other, (apart_m * 1e6).round() as u32))
             .collect()

@@ -99,7 +99,7 @@ fn is_clear(pixels: &Layout, radius: f64, from: [f64; 2], to: [f64; 2]) -> bool 
             let is_met = if radius == 0.0 {
                 across < 0.0 && down < 0.0
             } else {
-                across.max(0.0).hypot(down.max(0.0)) < radius
+                libm::hypot(across.max(0.0), down.max(0.0)) < radius
             };
             !is_met || pixels.is_free(Cell::new(x, y))
         })

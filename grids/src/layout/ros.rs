@@ -37,7 +37,7 @@ impl Frame {
     /// This frame from another corner: so far along the rows of the image, and so far up its columns.
     #[must_use]
     pub fn moved(self, along_m: f64, up_m: f64) -> Self {
-        let (sine, cosine) = self.yaw_rad.sin_cos();
+        let (sine, cosine) = libm::sincos(self.yaw_rad);
         let (x_m, y_m) = (along_m * cosine - up_m * sine, along_m * sine + up_m * cosine);
         Self { x_m: self.x_m + x_m, y_m: self.y_m + y_m, ..self }
     }

@@ -27,7 +27,7 @@ impl Rule for PythonRule {
             cells[robot] = view.sees(robot).unwrap_or(cells[robot]);
             blocked[robot] = view.sees_blocked(robot).unwrap_or(false);
         }
-        let (next, steps) = self.0.step(*number, &cells, &blocked);
+        let (next, steps) = self.0.step(*number, &cells, blocked);
         *number = next;
         match steps.map(|steps| steps[view.me()]) {
             Some(Step::Cross(side)) => Act::Go(side),
@@ -37,7 +37,7 @@ impl Rule for PythonRule {
 
     fn is_done(&self, _: usize, scene: &Scene<Self>) -> bool {
         let (cells, blocked) = seen(scene);
-        self.0.step(*scene.memory(0), &cells, &blocked).1.is_none()
+        self.0.step(*scene.memory(0), &cells, blocked).1.is_none()
     }
 }
 
@@ -54,7 +54,7 @@ fn seen(scene: &Scene<PythonRule>) -> (Cells, WallHits) {
 fn moved(written: &RuleScript, moved: &TeamStep<'_, PythonRule>) -> Move {
     let (before, after) = (*moved.before.memory(0), *moved.after.memory(0));
     let ((from, was_blocked), (to, blocked)) = (seen(moved.before), seen(moved.after));
-    let steps = written.step(before, &from, &was_blocked).1.unwrap_or([Step::Stay; MAX_ROBOTS]);
+    let steps = written.step(before, &from, was_blocked).1.unwrap_or([Step::Stay; MAX_ROBOTS]);
     Move { before, after, from, to, steps, blocked }
 }
 
@@ -79,7 +79,7 @@ impl<'a> Questions<'a> {
             Box::new(move |scene| {
                 let (cells, blocked) = seen(scene);
                 // A rule that learns something at its end says so with its last answer.
-                let (last, _) = written.step(*scene.memory(0), &cells, &blocked);
+                let (last, _) = written.step(*scene.memory(0), &cells, blocked);
                 !written.is_broken_at_end(demand, last, &cells)
             })
         };

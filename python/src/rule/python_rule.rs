@@ -53,6 +53,8 @@ pub(super) type WallHits = [bool; MAX_ROBOTS];
 pub(super) type Steps = [Step; MAX_ROBOTS];
 /// The question to a rule: the number of its state, where robots are, and which met a wall.
 type Question = (u32, Cells, WallHits);
+/// The answer: the number of its next state, and the steps, if the run goes on.
+type Answer = (u32, Option<Steps>);
 
 /// A rule written in Python.
 pub(super) struct RuleScript {
@@ -66,7 +68,7 @@ pub(super) struct RuleScript {
     /// The rule as Python has it.
     pub(super) script: Script,
     /// The last question, and the answer.
-    last: Mutex<Option<(Question, (u32, Option<Steps>))>>,
+    last: Mutex<Option<(Question, Answer)>>,
     started: OnceLock<(u32, Cells)>,
     /// The demands that a run was seen to break.
     seen: Mutex<BTreeSet<usize>>,
@@ -158,11 +160,11 @@ impl RuleScript {
     }
 
     /// The number of the rule's state next, and what it does; no steps if the run is over, or if the rule has failed.
-    pub(super) fn step(&self, state: u32, cells: &Cells, blocked: &WallHits) -> (u32, Option<Steps>) {
+    pub(super) fn step(&self, state: u32, cells: &Cells, blocked: WallHits) -> Answer {
         if self.script.is_over() {
             return (state, None);
         }
-        let question = (state, *cells, *blocked);
+        let question = (state, *cells, blocked);
         if let Some((_, answer)) = held(&self.last).as_ref().filter(|(last, _)| *last == question) {
             return *answer;
         }
@@ -172,13 +174,7 @@ impl RuleScript {
         answer
     }
 
-    fn asked(
-        &self,
-        py: Python<'_>,
-        state: u32,
-        cells: &Cells,
-        blocked: &WallHits,
-    ) -> PyResult<(u32, Option<Steps>)> {
+    fn asked(&self, py: Python<'_>, state: u32, cells: &Cells, blocked: WallHits) -> PyResult<Answer> {
         let blocked = PyTuple::new(py, &blocked[..self.robots])?;
         let arguments = (self.script.state(py, state), self.cells(py, cells)?, blocked);
         let answer = self.script.called(py, "step", |rule| rule.call_method1("step", arguments))?;

@@ -185,7 +185,7 @@ mod tests {
     fn centres_of_neighbours_more_than_half_the_root_of_26_apart_at_any_two_ends_break_chain_3() {
         let base = (1, -1);
         for (x, y) in (-4..=4).flat_map(|x| (-4..=4).map(move |y| (x, y))) {
-            let is_far = f64::from(x).hypot(f64::from(y)) > 26_f64.sqrt() / 2.0;
+            let is_far = 4 * (x * x + y * y) > 26;
             let off = add(base, (x, y));
             let still = [base; 2];
             let pairs = [[base, off], [off, base]].map(|gone| [(gone, still), (still, gone)]);
@@ -199,9 +199,8 @@ mod tests {
             let half = add(base, (x / 2, y / 2));
             let crossing = range_is_left(&[base, half], &[half, off]);
             let are_near = [(base, half), (half, off), (base, off), (half, half)];
-            let any_far = are_near.iter().any(|(one, other)| {
-                f64::from(one.0 - other.0).hypot(f64::from(one.1 - other.1)) > 26_f64.sqrt() / 2.0
-            });
+            let square = |(one, other): &(Place, Place)| (one.0 - other.0).pow(2) + (one.1 - other.1).pow(2);
+            let any_far = are_near.iter().any(|pair| 4 * square(pair) > 26);
             assert_eq!(crossing, any_far, "{half:?} {off:?}");
         }
     }
