@@ -437,11 +437,11 @@ fn reach(setup: &Setup) -> String {
     let reach = team(setup).ok().and_then(|team| team.reach(&setup.layout));
     match reach {
         Some(Reach { cells, connected, robots }) => format!(
-            "{cells} of {} are within reach of a {} of {}; of one of {robots} all {connected} that are connected with \
-             the base\n",
+            "{cells} of {} are within {} of the base, the reach of this {}; that of one of {robots} robots has all \
+             {connected} that are connected with the base\n",
             counted(setup.layout.free_cells(), "free cell"),
+            counted(setup.robots.saturating_sub(1), "link"),
             setup.scheme.team,
-            setup.robots,
         ),
         None => String::new(),
     }

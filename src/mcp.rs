@@ -64,9 +64,11 @@ pub(super) struct Mcp {
 /// The bounds of a call, which every tool takes beside its own arguments.
 #[derive(Clone, Copy, Deserialize, JsonSchema)]
 struct Bounds {
-    /// Seconds that the call may take: 60 unless this says otherwise, at most 600.
+    /// Seconds that the call may take: 60 unless this says otherwise.
+    #[schemars(range(min = 1, max = MOST_SECONDS))]
     seconds: Option<u32>,
-    /// Mebibytes that it may take: 2048 unless this says otherwise, at most 16384.
+    /// Mebibytes that it may take: 2048 unless this says otherwise.
+    #[schemars(range(min = LEAST_MEMORY, max = MOST_MEMORY))]
     memory_mib: Option<u32>,
 }
 
@@ -74,6 +76,7 @@ struct Bounds {
 #[derive(Deserialize, JsonSchema)]
 struct Prove {
     /// Ids of clauses, such as CHAIN-1; at least one.
+    #[schemars(length(min = 1))]
     clauses: Vec<String>,
     /// A folder for the counterexamples.
     out: Option<String>,
@@ -86,8 +89,11 @@ struct Hunt {
     scheme: Option<String>,
     /// A rule of the scheme, such as published or repaired.
     rule: Option<String>,
+    /// Robots of the team, the base counted.
     robots: Option<u16>,
+    /// The most walls of a layout.
     max_walls: Option<u32>,
+    /// Search all areas of at most so many cells, with any number of walls up to `max_walls`.
     max_cells: Option<u32>,
     /// Columns and rows, such as 5x1.
     size: Option<String>,
@@ -102,9 +108,13 @@ struct Hunt {
 struct Explore {
     /// A file, or a generator such as open:15x15 or walls:15x15:0.1.
     layout: String,
+    /// A scheme, such as chain, kit or frontier.
     scheme: Option<String>,
+    /// A rule of the scheme, such as published or repaired.
     rule: Option<String>,
+    /// Robots of the team, the base counted.
     robots: Option<u16>,
+    /// The seed of whatever is left to chance.
     seed: Option<u64>,
     /// The cells that a robot may enter.
     max_moves: Option<u32>,

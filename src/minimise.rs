@@ -137,7 +137,10 @@ impl Minimise {
         let (setup, clause) = if json_lines::format(&self.file).as_deref() == Some(refutation::FORMAT) {
             let found = evidence::read(&self.file)?;
             match evidence::run(found.clause, found.check, &found.evidence)? {
-                Some(setup) => (setup, self.clause()?),
+                Some(setup) => {
+                    let own = || CATALOGUE.clause(found.clause.id);
+                    (setup, Some(self.clause()?.map_or_else(own, Ok)?))
+                }
                 None => return self.shorten(&found, out),
             }
         } else {

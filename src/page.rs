@@ -23,7 +23,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Page {
-    /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise` or `prove --out` wrote.
+    /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise`, `prove --out` or `library --out` wrote.
     file: PathBuf,
     /// The file of the page. Without it, it has the name of the run, in the folder where you are.
     #[arg(long, value_name = "FILE")]

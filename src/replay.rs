@@ -45,7 +45,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Replay {
-    /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise` or `prove --out` wrote.
+    /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise`, `prove --out` or `library --out` wrote.
     file: PathBuf,
     /// The team moves to show, the first and the last. Without it the last 100 are shown, or as many as fit into 500
     /// lines.

@@ -383,7 +383,7 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
         events_each(setting),
         scheme.word(),
         shadows(setting),
-        counted(setting.obstacles_m.len(), "obstacle"),
+        counted(setting.obstacles_m.len(), "rectangular obstacle"),
         channel.word(),
         counted(*failing, "robot"),
         counted(*failing_nodes, "node"),

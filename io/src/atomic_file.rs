@@ -348,8 +348,8 @@ pub fn lock(path: &Path, file: &File) -> Result<(), Diagnostic> {
     match file.try_lock() {
         Ok(()) => Ok(()),
         Err(TryLockError::WouldBlock) => {
-            let what = "another process is at work with this file";
-            Err(Diagnostic::in_file(path, what, "wait until it has ended, or name another file"))
+            let what = "another process is at work with it";
+            Err(Diagnostic::in_file(path, what, "wait until it has ended, or name another one"))
         }
         Err(TryLockError::Error(error)) => {
             tracing::warn!("{} cannot be locked against other processes: {error}", path.display());

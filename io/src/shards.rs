@@ -140,11 +140,19 @@ pub enum Gap {
     Unfinished(u32),
 }
 
+/// Where the file of a shard of the plan at `plan` stands.
+fn shard_path(plan: &Path, shard: u32) -> PathBuf {
+    let stem = plan.file_stem().unwrap_or_default().to_string_lossy();
+    let end = plan.extension().map_or(String::new(), |end| format!(".{}", end.to_string_lossy()));
+    plan.with_file_name(format!("{stem}-{shard}{end}"))
+}
+
 impl Plan {
     /// Stores a plan. Its file has yet to be put in its place.
     ///
     /// # Errors
-    /// A [`Diagnostic`] if nothing can be written there, or this program cannot be read.
+    /// A [`Diagnostic`] if nothing can be written there, if another plan stands there of which a shard is kept, or if
+    /// this program cannot be read.
     pub fn store(
         path: &Path,
         of: Work,
@@ -160,7 +168,17 @@ impl Plan {
             program: program()?,
         };
         let mut file = AtomicFile::new(path, replaceable)?;
-        file.append(checkpoint::text(&task, deal));
+        let text = checkpoint::text(&task, deal);
+        let before = fs::read_to_string(path).ok().filter(|before| *before != text);
+        let old = before.and_then(|before| serde_json::from_str::<PlanTask>(before.lines().next()?).ok());
+        let kept = old.and_then(|old| {
+            (1..=old.shards.min(MAX_SHARDS)).map(|shard| shard_path(path, shard)).find(|shard| shard.exists())
+        });
+        if let Some(shard) = kept {
+            let what = format!("this is another plan, and {} is a shard of it", shard.display());
+            return Err(Diagnostic::in_file(path, what, "name another plan, or remove that one's shards"));
+        }
+        file.append(text);
         Ok(file)
     }
 
@@ -219,9 +237,7 @@ impl Plan {
     /// Where the file of a shard stands unless it is said otherwise: beside the plan, with its number at the end of the
     /// name.
     pub fn shard_path(&self, shard: u32) -> PathBuf {
-        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
-        let end = self.path.extension().map_or(String::new(), |end| format!(".{}", end.to_string_lossy()));
-        self.path.with_file_name(format!("{stem}-{shard}{end}"))
+        shard_path(&self.path, shard)
     }
 
     /// The task of a shard.

@@ -485,7 +485,7 @@ fn two_hunts_are_not_kept_in_one_file() {
     let first = hunting(tautline(folder, &LONG_HUNT), folder);
     for _ in 0..3 {
         let said = refused(folder, &[&LONG_HUNT[..], &["--out", "new/found"]].concat());
-        assert!(said.contains("kept.json: another process is at work with this file"), "{said}");
+        assert!(said.contains("kept.json: another process is at work with it"), "{said}");
         assert!(!folder.join("new").exists(), "no folder is left of what was refused");
     }
     send("-KILL", &first);

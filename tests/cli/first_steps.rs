@@ -76,11 +76,11 @@ fn a_run_that_is_found_is_tried_with_another_rule() {
 fn a_run_says_how_far_the_team_comes() {
     let folder = folder();
     let told = printed(folder.path(), &["explore", "open:40x40", "--robots", "4", "--base", "20,20"], 0);
-    let reach: Vec<&str> = told.lines().filter(|line| line.contains("within reach")).collect();
+    let reach: Vec<&str> = told.lines().filter(|line| line.contains("the reach of")).collect();
     assert_snapshot!(
         reach.join("\n"),
-        @"49 of 1600 free cells are within reach of a chain of 4; of one of 21 \
-          all 1600 that are connected with the base"
+        @"49 of 1600 free cells are within 3 links of the base, the reach of this chain; that of one of 21 robots \
+          has all 1600 that are connected with the base"
     );
 }
 

@@ -46,6 +46,23 @@ fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
     assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &HUNT));
 }
 
+#[test]
+fn a_plan_of_which_a_shard_is_kept_is_not_replaced_by_another() {
+    let folder = folder();
+    let folder = folder.path();
+    let other = ["hunt", "--rule", "published", "--robots", "3", "--max-walls", "3"];
+    planned(folder, &other, "2");
+    planned(folder, &HUNT, "2");
+    hunt_shard(folder, "plan.json", 2);
+    planned(folder, &HUNT, "2");
+    let kept = read(folder, "plan.json");
+    let said = refused(folder, &[&other[..], &["--plan", "plan.json", "--shards", "2"]].concat());
+    assert!(said.contains("plan.json: this is another plan, and plan-2.json is a shard of it"), "{said}");
+    assert_eq!(read(folder, "plan.json"), kept);
+    fs::remove_file(folder.join("plan-2.json")).expect("a shard");
+    planned(folder, &other, "2");
+}
+
 /// Hunts that look at each layout by itself: states, runs and rivals; with a trap, without one, and with one in an
 /// early area.
 #[test]

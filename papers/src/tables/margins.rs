@@ -36,7 +36,8 @@ settings! {
 
 fn positive(text: &str) -> Result<f64, String> {
     let number = real(text)?;
-    if number.is_finite() && number > 0.0 { Ok(number) } else { Err("write a number above 0".to_owned()) }
+    let is_measure = (1e-6..=1e6).contains(&number);
+    is_measure.then_some(number).ok_or_else(|| "write a number from 0.000001 to 1000000".to_owned())
 }
 
 /// The measure of two robots.

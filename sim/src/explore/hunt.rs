@@ -390,7 +390,7 @@ pub enum CoveredBound {
 pub enum RunSize {
     /// In the one area that is searched: `runs` of them break the clause.
     Runs { runs: u64, walls: usize, steps: usize },
-    /// In an area of its own.
+    /// In an area of its own. Of KIT `steps` are drives alone, and not decisions to stay.
     Area { columns: usize, rows: usize, walls: usize, steps: usize },
     /// In an area of its own, with missed sensors.
     Misses { misses: usize, columns: i16, rows: i16, steps: u32 },

@@ -383,7 +383,13 @@ impl Setup {
         let wrong = |what: String, remedy: &str| Err(Diagnostic::of_field("starts", what, remedy));
         let are_not_for_each = |count: usize| {
             let what = format!("{} for {}", counted(count, "start"), counted(*robots, robot));
-            wrong(what, &format!("give one start for all, or one for each {robot}"))
+            let remedy = match scheme.starts {
+                Starts::Alone => format!("give each {robot} a start of its own"),
+                Starts::Base | Starts::Anywhere | Starts::Beside => {
+                    format!("give one start for all, or one for each {robot}")
+                }
+            };
+            wrong(what, &remedy)
         };
         match (scheme.starts, starts) {
             (Starts::Alone, None) => return are_not_for_each(1),
