@@ -31,8 +31,8 @@ pub struct Plan<const ROBOTS: usize> {
     pub(super) robots: usize,
     /// The log entry that a further backtrack would take back, after this move.
     pub(super) last_open: Option<u32>,
-    /// The robot, counted from 0, that has died before it went.
-    pub(super) mute: Option<usize>,
+    /// The robot, counted from 0, that has died before it went; the base, which does not go, if none has.
+    pub(super) mute: usize,
 }
 
 impl<const ROBOTS: usize> Plan<ROBOTS> {
@@ -44,7 +44,7 @@ impl<const ROBOTS: usize> Plan<ROBOTS> {
     /// This plan where `robot`, numbered from 1, the base, has died and does not go. Nobody hears of it.
     #[must_use]
     pub const fn without(self, robot: usize) -> Self {
-        Self { mute: robot.checked_sub(1), ..self }
+        Self { mute: robot.saturating_sub(1), ..self }
     }
 }
 

@@ -38,7 +38,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         let mut messages = [0; ROBOTS];
         let mut meets_wall_going_back = false;
         for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
-            let step = if plan.mute == Some(robot) { Step::Stay } else { plan.steps[robot] };
+            let step = if plan.mute == robot { Step::Stay } else { plan.steps[robot] };
             let cell = self.cells[robot];
             let outcome = match (plan.kind, step, self.walls) {
                 (Kind::Advance, Step::Stay, _) => Outcome::Arrived,
@@ -99,11 +99,11 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             return Err(Damage::Length { bytes: messages.len(), sent: movers });
         }
         let edge = |robot: usize| match plan.steps[robot] {
-            Step::Cross(side) if plan.mute != Some(robot) => Some(Edge::new(self.cells[robot], side)),
+            Step::Cross(side) if plan.mute != robot => Some(Edge::new(self.cells[robot], side)),
             Step::Cross(_) | Step::Stay => None,
         };
         let mut outcomes = [Outcome::Arrived; ROBOTS];
-        for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| plan.mute != Some(robot)) {
+        for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| plan.mute != robot) {
             let Message { step, outcome } = Message::decode(byte)?;
             let is_back = outcome == Outcome::TookBack;
             let is_shut = outcome == Outcome::Blocked && self.walls == Walls::Changing;

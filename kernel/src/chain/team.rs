@@ -351,7 +351,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         let team = &self.cells[..self.robots];
         self.refused = !self.rule.admits_plan(&mut self.grid, team, &steps[..self.robots]);
         let steps = if self.refused { [Step::Stay; ROBOTS] } else { steps };
-        Plan { kind: Kind::Advance, steps, robots: self.robots, last_open: Some(self.moves), mute: None }
+        Plan { kind: Kind::Advance, steps, robots: self.robots, last_open: Some(self.moves), mute: 0 }
     }
 
     /// The plan that takes log entry `entry` back.
@@ -400,6 +400,6 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         {
             return Err(Damage::NotHome(robot + 1));
         }
-        Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open, mute: None })
+        Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open, mute: 0 })
     }
 }
