@@ -11,13 +11,14 @@ function finish() {
     must_hold = harness ~ /::holds$/
     verdict = result == "" ? "no verdict" : result
     if (result != "SUCCESSFUL") complain(harness ": " verdict)
+    if (!must_hold && result == "SUCCESSFUL" && !panics) complain(harness ": it is not rejected")
     if (must_hold && covers == 0) complain(harness ": no cover is stated")
     if (must_hold && satisfied < covers) complain(harness ": only " satisfied " of " covers " covers satisfied")
     shown = must_hold ? satisfied " of " covers : "-"
     print "| `" harness "` | " (must_hold ? "hold" : "be rejected") " | " verdict " | " shown " |"
     holding += must_hold
     harness = result = ""
-    covers = satisfied = 0
+    covers = satisfied = panics = 0
 }
 
 BEGIN {
@@ -37,7 +38,10 @@ BEGIN {
     covers = $4
 }
 
-/^VERIFICATION:- / { result = $2 }
+/^VERIFICATION:- / {
+    result = $2
+    panics = /panics as expected/
+}
 
 /^Complete - / {
     summary = $0

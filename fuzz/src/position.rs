@@ -1,5 +1,5 @@
-//! Positions of any ranges: refused, or told in numbers, and the same when everything is turned or mirrored;
-//! and a belief that they correct.
+//! Positions of any ranges: refused, or told in numbers, also when everything is turned or mirrored; and a belief that
+//! they correct.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
@@ -24,8 +24,8 @@ fn metres(bytes: &mut Tape<'_>) -> f64 {
     }
 }
 
-/// No way panics, and whatever is told is a number; least squares do not fit worse where the axes are exchanged or a
-/// sign is.
+/// No way panics, and whatever is told is a number; least squares refuse the same ranges where the axes are exchanged or
+/// a sign is.
 pub fn position(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut bytes = Tape(&numbers);
