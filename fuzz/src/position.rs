@@ -24,8 +24,8 @@ fn metres(bytes: &mut Tape<'_>) -> f64 {
     }
 }
 
-/// No way panics, and whatever is told is a number; least squares refuse the same ranges where the axes are exchanged or
-/// a sign is.
+/// No way panics, and whatever is told is a number; least squares refuse the same ranges where the axes are exchanged,
+/// or a sign is.
 pub fn position(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut bytes = Tape(&numbers);
