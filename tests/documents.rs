@@ -341,8 +341,10 @@ fn the_tests_that_the_documents_run_and_the_files_that_they_name_are_there() {
                             })
                         })
                     };
-                    let is_there =
-                        files.iter().any(|(name, text)| name.contains(word) || text.lines().any(is_named));
+                    let is_of = |file: &str| {
+                        Path::new(file).file_stem().is_some_and(|stem| stem.to_string_lossy().contains(word))
+                    };
+                    let is_there = files.iter().any(|(file, text)| is_of(file) || text.lines().any(is_named));
                     assert!(is_there, "{}: `{line}` runs no test of {folders:?}", path.display());
                     found += 1;
                 }
