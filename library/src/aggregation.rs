@@ -17,7 +17,8 @@ enum Rule {
 bound! {
     /// Robots, the cells of a side of the arena, and who acts at once.
     Arena { robots: usize, side: i8, moves: Moves } "{robots} robots, {side}×{side} cells, every start, {moves}";
-    robots <= (side * side) as usize, "the arena has no room for the robots"
+    robots <= (side * side) as usize, "the arena has no room for the robots";
+    moves != Moves::LookThenMove, "a robot looks and goes in one step here"
 }
 
 /// Column, row, and heading in quarter turns.

@@ -19,7 +19,8 @@ pub struct Conditions {
 bound! {
     /// Robots on a grid without rim, so many cells wide and high; the range of each in cells, in both directions.
     pub Swarm { robots: usize, width: i8, range: i8, alpha: usize, moves: Moves }
-    "{robots} robots, {width}×{width} cells without rim, range {range}, α = {alpha}, every connected start, {moves}"
+    "{robots} robots, {width}×{width} cells without rim, range {range}, α = {alpha}, every connected start, {moves}";
+    moves != Moves::LookThenMove, "a robot looks and goes in one step here"
 }
 
 /// Column and row as seen from robot 0, heading in quarter turns, and whether it misses the others.

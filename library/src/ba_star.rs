@@ -78,7 +78,7 @@ impl Protocol for Conditions {
 }
 
 const fn floors(width: i16, height: i16) -> Crew {
-    Crew { robots: 1, graphs: Graphs::within(Kind::Connected, width, height), moves: Moves::OneAtATime }
+    Crew { robots: 1, graphs: Graphs::within(Kind::Connected, width, height) }
 }
 
 entry! { Conditions: "ba-star", "BA*", "SWEEP",

@@ -44,8 +44,7 @@ impl Explorers for Burgard {
     }
 }
 
-const CREW: Crew =
-    Crew { robots: 2, graphs: Graphs::within(Kind::Connected, 3, 3), moves: Moves::OneAtATime };
+const CREW: Crew = Crew { robots: 2, graphs: Graphs::within(Kind::Connected, 3, 3) };
 const RULE: Burgard = Burgard { weight: 1, range: 2, is_near: true };
 
 entry! { Exploration<Burgard>: "burgard", "coordinated exploration", "ASSIGN",

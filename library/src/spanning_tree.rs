@@ -71,8 +71,7 @@ impl Protocol for Conditions {
     }
 }
 
-const BLOCKS: Crew =
-    Crew { robots: 1, graphs: Graphs::within(Kind::Connected, 3, 3), moves: Moves::OneAtATime };
+const BLOCKS: Crew = Crew { robots: 1, graphs: Graphs::within(Kind::Connected, 3, 3) };
 const RULE: Conditions = Conditions { only_new: true, goes_back: true };
 
 entry! { Conditions: "spanning-tree", "spanning tree coverage", "STC",

@@ -40,7 +40,7 @@ impl Explorers for Yamauchi {
 }
 
 const fn crew(robots: usize, width: i16, height: i16) -> Crew {
-    Crew { robots, graphs: Graphs::within(Kind::Connected, width, height), moves: Moves::OneAtATime }
+    Crew { robots, graphs: Graphs::within(Kind::Connected, width, height) }
 }
 
 const RULE: Yamauchi = Yamauchi { reserves: false, goes_round: false, is_near: true };

@@ -75,6 +75,10 @@ fn a_state_that_does_not_come_back_from_its_bytes_is_refused() {
 fn bounds_without_room_and_demands_that_there_are_not_are_refused() {
     let ring = Ring { nodes: 2, ..gathering::row(3, Moves::Together) };
     assert_eq!(refused(&gathering::RULE, ring, 0), "the ring has no room for the robots");
+    for (nodes, robots) in [(200, 3), (17, 17)] {
+        let ring = Ring { nodes, ..gathering::row(robots, Moves::Together) };
+        assert_eq!(refused(&gathering::RULE, ring, 0), "a ring has at most 16 robots and 128 nodes");
+    }
     for (places, robots, words) in
         [(&[0, 2][..], 3, "[0, 2]"), (&[0, 9], 2, "[0, 9]"), (&[1, 1], 2, "[1, 1]")]
     {
@@ -224,7 +228,7 @@ impl Protocol for Stays {
 fn a_check_over_no_layout_with_room_for_the_robots_is_open() {
     const fn crew(robots: usize) -> Keeps<Stays> {
         let graphs = Graphs::within(Kind::Biconnected, 3, 2);
-        Keeps(Crew { robots, graphs, moves: Moves::Together }, 0)
+        Keeps(Crew { robots, graphs }, 0)
     }
     static FITS: Keeps<Stays> = crew(6);
     static TOO_MANY: Keeps<Stays> = crew(7);

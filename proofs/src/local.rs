@@ -152,11 +152,12 @@ pub trait Local: Sync {
     /// All states.
     fn states(&self) -> Vec<Self::State>;
 
-    /// Whatever a robot in this state can do.
+    /// Whatever a robot in this state can do, at least one act.
     fn acts(&self, state: Self::State) -> Vec<Act<Self::State, Self::Act>>;
 
     /// Whether as many robots as the rule speaks of may plan this at once. The answer may depend on where they are from
-    /// each other, and not on where they are: every answer is compared with that at one other place.
+    /// each other, and not on where they are: every answer is compared with those at three other
+    /// places.
     fn admits(&self, plans: &[Plan<Self::State, Self::Act>]) -> bool;
 
     /// The promise, of robots that are at most [`Local::reach`] columns and rows from the first one.
@@ -259,7 +260,7 @@ impl EveryNumber {
     fn decided(self, rule: &dyn NumberedRule, memory: Memory<'_>) -> MethodResult {
         let (invariant, teams) = (Invariant::found(rule)?, self.teams(rule)?);
         if invariant.holds() {
-            return Ok(invariant.answer());
+            return Ok(of_teams(rule, invariant.answer()));
         }
         for (more, team) in (0..).zip(&teams) {
             let limits = Limits { memory, ..Limits::steps(self.most_steps) };
@@ -274,7 +275,7 @@ impl EveryNumber {
         if let Some(wider) = Wider::of(rule, self.most_robots.max(self.most_starts)) {
             let invariant = Invariant::found(&wider)?;
             if invariant.holds() {
-                return Ok(invariant.answer());
+                return Ok(of_teams(rule, invariant.answer()));
             }
         }
         let note = format!(
@@ -295,6 +296,13 @@ impl EveryNumber {
         let seen = team.story(&run);
         Ok(RefutationPlay { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
     }
+}
+
+/// The answer, with a note where teams have more robots than the rule speaks of: nothing is said of smaller ones.
+fn of_teams(rule: &dyn NumberedRule, answer: Answer) -> Answer {
+    let note =
+        (rule.least() > rule.robots()).then(|| format!("of teams of {} robots and more", rule.least()));
+    Answer { note, ..answer }
 }
 
 impl<R: Local> Method<R> for EveryNumber {

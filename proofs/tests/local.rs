@@ -63,8 +63,10 @@ enum Slip {
     NoRobot,
     NoColour,
     NoState,
+    NoAct,
     NoOutcome,
     NoWall,
+    OnWhiteAlone,
     NoTuple,
     OneRobotTwice,
     StartsInNoState,
@@ -109,10 +111,15 @@ impl Local for Leash {
             _ => vec![(true, next), (false, state)],
         };
         let act = |step| Act { act: step, step, ends: ends.clone(), needs_open: false };
-        Step::ALL.into_iter().map(act).collect()
+        let all = if self.slip == Slip::NoAct { &[][..] } else { &Step::ALL };
+        all.iter().copied().map(act).collect()
     }
 
     fn admits(&self, plans: &[Plan<u8, Step>]) -> bool {
+        let is_white = (plans[0].robot.at.x + plans[0].robot.at.y).rem_euclid(2) == 0;
+        if self.slip == Slip::OnWhiteAlone && !is_white {
+            return true;
+        }
         let (one, other) = (&plans[0], &plans[1]);
         let mut pairs = vec![(one.to(), other.to())];
         if self.looks_at_present {
@@ -181,7 +188,11 @@ fn what_is_no_local_rule_is_refused_with_the_reason() {
     let refusal = |rule: Leash| Invariant::of(&rule).expect_err("no local rule").to_string();
     insta::assert_snapshot!(refusal(Leash { is_here_alone: true, ..LEASH }),
         @"the rule is not the same everywhere: it answers Cross(West) in 0,0, Cross(East) in -2,0 in \
-          another way 113 columns and 57 rows away");
+          another way 113 columns and 59 rows away");
+    // A chessboard is the same 113 columns and 59 rows away.
+    insta::assert_snapshot!(refusal(Leash { slip: Slip::OnWhiteAlone, ..LEASH }),
+        @"the rule is not the same everywhere: it answers Cross(East) in 0,0, Cross(East) in -2,0 in \
+          another way 1 column and 0 rows away");
     insta::assert_snapshot!(refusal(Leash { starts_apart: true, ..LEASH }),
         @"robots that start so break the promise: 0,0 0 | 2,1 0");
     insta::assert_snapshot!(refusal(Leash { grows: true, ..LEASH }), @"1 is none of the states of the rule");
@@ -209,6 +220,8 @@ fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     insta::assert_snapshot!(refusal(Slip::NoColour),
         @"the rule gives cells no colour: the promise would be about nothing");
     insta::assert_snapshot!(refusal(Slip::NoState), @"the rule names no state: the promise would be about nothing");
+    insta::assert_snapshot!(refusal(Slip::NoAct),
+        @"a robot in state 0 has no act: name one by which it stays in its cell");
     insta::assert_snapshot!(refusal(Slip::NoOutcome),
         @"Cross(East) in state 0 has no outcome: name at least one, or leave the act out");
     insta::assert_snapshot!(refusal(Slip::NoWall),

@@ -3,7 +3,7 @@
 
 use tautline_kernel::chain::{Condition, Role, Rule};
 use tautline_kernel::frontier::{Rule as FrontierRule, Stance};
-use tautline_kernel::ground::{Cell, Step};
+use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_kernel::kit::{Condition as KitCondition, Rule as KitRule};
 use tautline_proofs::chain::local::{Contact, Crowd};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
@@ -12,7 +12,9 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::frontier::local::Alone;
 use tautline_proofs::frontier::world::Rim;
 use tautline_proofs::kit::local::Two;
-use tautline_proofs::local::{Act, EveryNumber, Far, Invariant, Local, Plan, Robot, all_tuples};
+use tautline_proofs::local::{
+    Act, EveryNumber, Far, GuardedPlanner, Invariant, Local, Plan, Robot, all_tuples,
+};
 
 use crate::local::{decide, decided_by};
 
@@ -254,6 +256,18 @@ fn robots_on_a_ring_keep_their_distance_if_they_look_at_cells_and_goals() {
     leash, of goals and cells crosswise    refuted  2 robots, 1 steps
     leash, cells may be shared             refuted  2 robots, 1 steps
     ");
+}
+
+#[test]
+fn a_robot_that_is_sure_to_go_does_so_over_an_edge_alone_that_is_known_to_be_open() {
+    let rule = Own { meets_walls: false, ..leash(|_| true) };
+    let planner = |robots: &[Robot<()>]| {
+        let east = rule.acts(()).into_iter().find(|act| act.step == Step::Cross(Side::East));
+        vec![east.expect("an act"); robots.len()]
+    };
+    let (kept, team) = (GuardedPlanner { rule, planner }, rule.start(2));
+    assert!(kept.plan(&team, |_| true, |_| 0).is_some());
+    assert!(kept.plan(&team, |_| false, |_| 0).is_none());
 }
 
 /// Its promise is an invariant all the same: where nobody starts as the rule says, that says nothing.

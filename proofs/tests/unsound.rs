@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::decide::{
     Cache, Context, EveryAnswer, EveryState, Method, MethodResult, RandomAnswers, Verdict,
 };
-use tautline_proofs::engine::states::{MemoryLimit, System};
+use tautline_proofs::engine::states::{MemoryLimit, System, Unsound, repeats};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::engine::{Outcome, Stop, Until};
@@ -123,6 +123,59 @@ fn a_system_that_leaves_something_of_a_state_out_is_refused() {
     for slip in [Slip::TakesAllForOne, Slip::NeverCanonical] {
         let refusal = refusal(&COUNTED, &slip);
         assert!(refusal.starts_with("a state and the one that `make_canonical` makes"), "{refusal}");
+    }
+}
+
+/// A counter that may wait, of which one byte alone is kept.
+struct OneByte;
+
+impl World for OneByte {
+    type State = u16;
+    type Plan = ();
+    type Event = ();
+    type Demand = &'static str;
+
+    fn plan(&self, _: &mut u16, _: &[u8]) -> Option<()> {
+        Some(())
+    }
+
+    fn settle(&self, state: &mut u16, (): &(), _: &mut Vec<u8>, world: &mut impl Oracle) {
+        *state += u16::from(world.flip());
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        if *turn.after == 258 { vec!["it never comes to 258"] } else { Vec::new() }
+    }
+}
+
+impl System for OneByte {
+    type Part = u8;
+
+    fn places(&self, _: &u16) -> usize {
+        0
+    }
+
+    fn part(&self, _: &u16, _: usize) -> u8 {
+        0
+    }
+
+    fn put(&self, _: &mut u16, _: usize, _: &u8) {}
+
+    fn write(&self, state: &u16, to: &mut Vec<u8>) {
+        to.push(*state as u8);
+    }
+
+    fn read(&self, state: &mut u16, bytes: &[u8]) {
+        *state = bytes[0].into();
+    }
+}
+
+/// Steps that lead nowhere, and many starts, do not keep it from going beyond what a byte counts.
+#[test]
+fn a_state_that_is_lost_after_hundreds_of_steps_is_refused() {
+    for starts in [1, 400_u16] {
+        let starts = (0..starts).map(|start| if start == 0 { 0 } else { 1000 + start });
+        assert_eq!(repeats(&OneByte, starts), Err(Unsound::Torn));
     }
 }
 

@@ -26,6 +26,8 @@ use std::hash::Hash;
 use std::ops::ControlFlow;
 use std::{fmt, iter, mem};
 
+use rustc_hash::FxHashMap;
+
 pub use certificate::{AnySystem, NoCertificate};
 pub use chunk::{MOST as MOST_AT_ONCE, pieces};
 pub use limits::{Limits, Memory, MemoryLimit};
@@ -238,21 +240,34 @@ impl fmt::Display for Unsound {
     }
 }
 
-/// States that are tried before a search.
-pub(crate) const TRIED: usize = 500;
+/// States that are tried before a search: half of them depth first, and so beyond what a byte can count.
+pub(crate) const TRIED: usize = 600;
 
-/// The first few states, breadth first; one comes as often as it is met.
+/// The first few states: by turns the next one breadth first and the next one depth first, so that many starts do not
+/// keep it from going far. A state may come again, since two that are kept alike need not be one: twice, and where what
+/// goes deep meets nothing new.
 pub(crate) fn first_states<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
 ) -> impl Iterator<Item = S::State> {
     let making = watchdog::Steps::begin();
-    let mut ahead: VecDeque<S::State> = starts.into_iter().take(TRIED).collect();
+    let mut known: FxHashMap<_, u8> = FxHashMap::default();
+    let mut is_due = move |state: &S::State| {
+        let times = known.entry(walk::kept(system, state)).or_default();
+        *times = times.saturating_add(1);
+        *times <= 2
+    };
+    let mut ahead: VecDeque<S::State> = starts.into_iter().take(TRIED).filter(&mut is_due).collect();
+    let mut is_deep = false;
     let next = move || {
         making.next();
-        let state = ahead.pop_front()?;
-        let left = TRIED.saturating_sub(ahead.len());
-        ahead.extend(steps(system, &state).map(|step| step.state).take(left));
+        let state = if is_deep { ahead.pop_back() } else { ahead.pop_front() }?;
+        let (queued, reached) = (ahead.len(), || steps(system, &state).map(|step| step.state));
+        ahead.extend(reached().filter(&mut is_due).take(TRIED.saturating_sub(queued)));
+        if is_deep && ahead.len() == queued {
+            ahead.extend(reached().find(|next| !is_same(system, &state, next)));
+        }
+        is_deep = !is_deep;
         Some(state)
     };
     iter::from_fn(next).take(TRIED)

@@ -10,6 +10,7 @@ use super::certificate::terms;
 use super::{Act, ByNumber, Far, Local, NumberedRule, Plan, Robot};
 use crate::decide::{Answer, MethodError, Verdict};
 use crate::engine::watchdog;
+use crate::plural::counted;
 use crate::protocol::combinations;
 
 /// More relative places than these are refused.
@@ -270,8 +271,9 @@ pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)>) -> bool {
     seen.iter().all(|one| seen.iter().all(|other| other.0 != one.0 || other.1 == one.1))
 }
 
-/// A place far from (0, 0), to see whether a rule is the same there.
-const ELSEWHERE: (i16, i16) = (113, 57);
+/// Places other than (0, 0), to see whether a rule is the same there: one far away, and the next ones, which a pattern of
+/// a few columns or rows tells apart.
+const ELSEWHERE: [(i16, i16); 3] = [(113, 59), (1, 0), (0, 1)];
 
 /// The acts of robots by a rule.
 struct Steps<'r> {
@@ -281,10 +283,19 @@ struct Steps<'r> {
 
 impl<'r> Steps<'r> {
     /// # Errors
-    /// [`MethodError`] if an act has no outcome, or only such as a wall forbids, or one in no state of the rule.
+    /// [`MethodError`] if a state has no act, which would keep the others from theirs, or an act has no outcome, or only
+    /// such as a wall forbids, or one in no state of the rule.
     fn of(rule: &'r dyn NumberedRule) -> Result<Self, MethodError> {
         let acts: FxHashMap<_, Vec<_>> =
             rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
+        let idle = rule.states().into_iter().find(|state| acts[state].is_empty());
+        if let Some(idle) = idle {
+            let idle = rule.state_words(idle);
+            let why =
+                format_args!("a robot in state {idle} has no act: name one by which it stays in its cell")
+                    .to_string();
+            return Err(MethodError::new(why));
+        }
         for (state, act) in acts.iter().flat_map(|(state, acts)| acts.iter().map(move |act| (state, act))) {
             let what = || format!("{} in state {}", rule.act_words(act.act), rule.state_words(*state));
             MethodError::unless(
@@ -355,15 +366,15 @@ impl<'r> Steps<'r> {
         };
         let plans = plan(tuple);
         let is_admitted = self.rule.admits(&plans);
-        if self.rule.admits(&plan(&moved(tuple, ELSEWHERE))) == is_admitted {
-            return Ok(is_admitted);
-        }
+        let differs = |&place: &(i16, i16)| self.rule.admits(&plan(&moved(tuple, place))) != is_admitted;
+        let Some((columns, rows)) = ELSEWHERE.into_iter().find(differs) else { return Ok(is_admitted) };
         let word = |plan: &Plan<u32, u32>| format!("{} in {}", self.rule.act_words(plan.act), plan.robot.at);
         let words: Vec<String> = plans.iter().map(word).collect();
-        let (columns, rows) = ELSEWHERE;
         let why = format!(
-            "the rule is not the same everywhere: it answers {} in another way {columns} columns and {rows} rows away",
-            words.join(", ")
+            "the rule is not the same everywhere: it answers {} in another way {} and {} away",
+            words.join(", "),
+            counted(columns, "column"),
+            counted(rows, "row")
         );
         Err(MethodError::new(why))
     }

@@ -42,6 +42,7 @@ bound! {
     pub Ring { nodes: u8, robots: u8, starts: Start, moves: Moves }
     "{robots} robots, a ring of {nodes} nodes, {starts}, {moves}";
     robots <= nodes, "the ring has no room for the robots";
+    robots <= 16 && nodes <= 128, "a ring has at most 16 robots and 128 nodes";
     starts.is_of(nodes, robots),
         "{robots} robots of a ring of {nodes} nodes do not start {starts}: each has a node of its own"
 }

@@ -143,21 +143,19 @@ impl Task {
     }
 }
 
-/// So many robots in layouts, from every start.
+/// So many robots in layouts, from every start. They act one at a time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Crew {
     /// How many robots.
     pub robots: usize,
     /// The layouts.
     pub graphs: Graphs,
-    /// Who acts at once.
-    pub moves: Moves,
 }
 
 impl fmt::Display for Crew {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}, {}, every start", counted(self.robots as u32, "robot"), self.graphs)?;
-        if self.robots == 1 { Ok(()) } else { write!(f, ", {}", self.moves) }
+        if self.robots == 1 { Ok(()) } else { write!(f, ", {}", Moves::OneAtATime) }
     }
 }
 

@@ -140,10 +140,10 @@ pub(super) struct Disk {
     fault: Option<SpillError>,
 }
 
-/// The digest of the program: another one may have another rule or demand by the same name. Nothing where it cannot be
-/// read.
-static PROGRAM: LazyLock<u128> =
-    LazyLock::new(|| env::current_exe().and_then(fs::read).map_or(0, |bytes| digest(&bytes)));
+/// The digest of the program: another one may have another rule or demand by the same name. Where it cannot be read
+/// nothing is taken up.
+static PROGRAM: LazyLock<Option<u128>> =
+    LazyLock::new(|| env::current_exe().and_then(fs::read).ok().map(|bytes| digest(&bytes)));
 
 /// The number of the next search that cannot be taken up.
 static NEXT: AtomicU64 = AtomicU64::new(0);
@@ -151,7 +151,9 @@ static NEXT: AtomicU64 = AtomicU64::new(0);
 impl Disk {
     /// Nothing yet, of a search that can be taken up if there is a question.
     pub(super) fn new(spill: &Spill, question: Option<(&str, usize)>) -> Self {
-        let question = question.map(|(words, number)| format!("{:032x}, {words}, {number}", *PROGRAM));
+        let question = question.zip(*PROGRAM);
+        let question =
+            question.map(|((words, number), program)| format!("{program:032x}, {words}, {number}"));
         let name = match &question {
             Some(question) => format!("{:016x}", digest(question.as_bytes()) as u64),
             None => NEXT.fetch_add(1, Ordering::Relaxed).to_string(),

@@ -119,6 +119,12 @@ fn code<'a>(bytes: &mut &'a [u8]) -> io::Result<&'a [u8]> {
 /// Bytes from which on a block is full. An entry stands in one block.
 const BLOCK: usize = 1 << 14;
 
+/// The end of a block as it is written.
+fn within_block(block: &[u8]) -> io::Result<[u8; 2]> {
+    let end = u16::try_from(block.len());
+    end.map(u16::to_le_bytes).map_err(|_| io::Error::other("a state takes more than 48 KiB"))
+}
+
 /// A file that is written in blocks, each behind its length and its hash.
 pub(super) struct Writer {
     file: BufWriter<Box<dyn Write>>,
@@ -145,16 +151,16 @@ impl Writer {
             self.index.push((key, self.at));
         }
         if let Some(begins) = &mut self.begins {
-            begins.extend((self.block.len() as u16).to_le_bytes());
+            begins.extend(within_block(&self.block)?);
         }
         Ok(&mut self.block)
     }
 
     fn end_block(&mut self) -> io::Result<()> {
         if let Some(begins) = &mut self.begins {
-            let end = self.block.len() as u16;
+            let end = within_block(&self.block)?;
             self.block.append(begins);
-            self.block.extend(end.to_le_bytes());
+            self.block.extend(end);
         }
         for part in
             [&(self.block.len() as u32).to_le_bytes()[..], &hash_of(&self.block).to_le_bytes(), &self.block]
