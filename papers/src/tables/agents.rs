@@ -351,7 +351,9 @@ impl Table for Agents {
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        paper::judged(&merged.paper)
+        let mut judged = paper::judged(&merged.paper);
+        judged.extend(text::judged(self.figure, merged));
+        judged
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Summary) -> Result<String, Halt> {

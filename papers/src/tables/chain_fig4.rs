@@ -194,7 +194,7 @@ impl Table for ChainFig4 {
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
         let published = merged.runs.iter().filter(|run| run.rule == RuleName::Published);
         let judged = |run: &Run| {
-            let Run { on_squares, places, passed, .. } = run;
+            let Run { on_squares, places, walls, .. } = run;
             match run.place {
                 Place::Open => Judgement::new(
                     "“a regular pattern with concentric squares”",
@@ -206,9 +206,9 @@ impl Table for ChainFig4 {
                     Verdict::of(on_squares == places),
                 ),
                 Place::Obstacles => Judgement::new(
-                    "“clearly the two contact points”",
+                    "“clearly the two contact points with the obstacles”",
                     run.place.words(),
-                    format!("our obstacles are not the paper's; {}", counted(*passed, "contact")),
+                    format!("our obstacles are not the paper's; {}", counted(*walls, "contact")),
                     Verdict::Open,
                 ),
             }

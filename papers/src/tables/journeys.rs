@@ -341,18 +341,14 @@ impl Table for Journeys {
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        if self.figure == Figure::Shapes {
-            return merged.densities.iter().filter_map(Density::problems).collect();
+        let each = |of: fn(&Density) -> Option<Judgement>| merged.densities.iter().filter_map(of).collect();
+        match self.figure {
+            Figure::Shapes => each(Density::problems),
+            Figure::OneObstacle | Figure::FourObstacles => each(Density::success),
+            Figure::Trajectories | Figure::Ratios => {
+                Claim::ALL.into_iter().flat_map(|claim| claim.judged(&merged.densities)).collect()
+            }
         }
-        let judged = |place: usize, claim: Claim| {
-            let of = move |density: &Density| {
-                let Decision { difference, verdict, .. } = density.claims[place];
-                let measured = format!("TAN less {} {}", claim.rival().word(), text(difference, 2));
-                Judgement::new(claim.words(), counted(density.nodes as u32, "node"), measured, verdict)
-            };
-            merged.densities.iter().map(of)
-        };
-        Claim::ALL.into_iter().enumerate().flat_map(|(place, claim)| judged(place, claim)).collect()
     }
 
     fn draw(&self, _: usize, settings: &Settings, merged: &Summary) -> Result<String, Halt> {

@@ -256,6 +256,7 @@ impl Table for Kit {
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
         let mut judged = paper::judged(&merged.paper);
         if self.figure == Figure::Time {
+            judged.extend(text::sooner(&merged.races));
             judged.extend(text::directions(&merged.lines));
         }
         judged

@@ -225,14 +225,17 @@ fn numbers(merged: &Summary) -> Vec<Comparison> {
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);
     let numbers = |Variant { reading, ends }: &Variant| {
-        let End { optimum_m, interval_m, error_m, error_interval_m, .. } = ends.after[twenty];
-        let end = ends.after[last];
-        let conclusion = format!("{reading}: to the optimum, {} iterations", ITERATIONS[last]);
-        [
-            (format!("{reading}: to the optimum, 20 iterations"), PAPER_M, optimum_m, interval_m),
-            (conclusion, CONCLUSION_M, end.optimum_m, end.interval_m),
-            (format!("{reading}: to the robot, 20 iterations"), PAPER_M, error_m, error_interval_m),
-        ]
+        // The conclusion does not say after how many iterations.
+        let of = [(PAPER_M, twenty), (CONCLUSION_M, twenty), (CONCLUSION_M, last)];
+        let both = |(paper_m, place): (f64, usize)| {
+            let End { optimum_m, interval_m, error_m, error_interval_m, .. } = ends.after[place];
+            let of = |what| format!("{reading}: to the {what}, {} iterations", ITERATIONS[place]);
+            [
+                (of("optimum"), paper_m, optimum_m, interval_m),
+                (of("robot"), paper_m, error_m, error_interval_m),
+            ]
+        };
+        of.map(both).concat()
     };
     merged.variants.iter().flat_map(numbers).collect()
 }

@@ -80,6 +80,20 @@ impl Verdict {
         }
     }
 
+    /// Whether the contrary is so.
+    pub(super) const fn contrary(self) -> Self {
+        match self {
+            Self::Holds => Self::Fails,
+            Self::Fails => Self::Holds,
+            Self::Open => Self::Open,
+        }
+    }
+
+    /// Whether either is so.
+    pub(super) const fn or(self, other: Self) -> Self {
+        self.contrary().and(other.contrary()).contrary()
+    }
+
     /// Whether both are so.
     pub(super) const fn and(self, other: Self) -> Self {
         match (self, other) {

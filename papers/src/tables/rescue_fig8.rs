@@ -246,21 +246,16 @@ impl Table for RescueFig8 {
     }
 
     fn sentences(&self, merged: &Summary) -> Vec<Judgement> {
-        let judged = |line: &Line, what: &str, share: Comparison| {
-            let measured = format!("{} % of the topologies", percent(share.ours, 2));
-            Judgement::new(
-                "“for all simulated scenarios”",
-                format!("{}, {what}", line.rule),
-                measured,
-                always(Some(share.ours)),
-            )
-        };
-        let lines = merged.rules.iter();
-        lines
-            .flat_map(|line| {
-                [judged(line, "all served", line.served), judged(line, "a robot each", line.own)]
+        let judged = |sentence: &'static str, what: &'static str, share: fn(&Line) -> Comparison| {
+            merged.rules.iter().map(move |line| {
+                let ours = share(line).ours;
+                let measured = format!("{} % of the topologies", percent(ours, 2));
+                Judgement::new(sentence, format!("{}, {what}", line.rule), measured, always(Some(ours)))
             })
-            .collect()
+        };
+        let served = judged("“for all simulated scenarios” (4.3)", "all served", |line| line.served);
+        let own = judged("“one nearby mobile node” for each WFR (1)", "a robot each", |line| line.own);
+        served.chain(own).collect()
     }
 
     fn draw(&self, _: usize, settings: &Settings, _: &Summary) -> Result<String, Halt> {

@@ -16,7 +16,7 @@ use crate::rivals::{Cells, Links, Search};
 use tautline_field::stats::quantile;
 use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::{CHAIN, REEL};
-use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, explore, run};
+use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, StopReason, explore, run};
 
 pub use fig3::ChainFig3;
 pub use table1::ChainTable1;
@@ -29,6 +29,9 @@ const OPEN: &str = "open:15x15";
 
 /// Its buildings; the paper's are in a figure that we have not.
 const ROOMS: [&str; 2] = ["rooms-a", "rooms-b"];
+
+/// The paper's MAX_MOVES: a run stops when a robot has entered so many cells.
+const MAX_MOVES: u32 = 400;
 
 /// Who explores.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -123,17 +126,20 @@ impl Contender {
 }
 
 /// The outcome of a run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// The team moves to each milestone that it reached.
     milestones: [Option<u32>; Milestone::ALL.len()],
     explored: u32,
     cells: u32,
+    /// Whether it was stopped since a robot had entered as many cells as it may.
+    is_stopped: bool,
 }
 
 impl Outcome {
     const fn of(report: &Report) -> Self {
-        Self { milestones: report.milestones, explored: report.explored, cells: report.cells }
+        let &Report { milestones, explored, cells, stopped, .. } = report;
+        Self { milestones, explored, cells, is_stopped: matches!(stopped, StopReason::MaxMoves) }
     }
 
     const fn reached(&self, milestone: Milestone) -> Option<u32> {
@@ -205,7 +211,7 @@ impl Times {
     }
 }
 
-/// Runs that stop when a robot has entered so many cells, as the paper's do.
+/// Runs that stop when a robot has entered so many cells.
 fn stopping(max_moves: u32) -> Limits {
     Limits { max_moves: NonZeroU32::new(max_moves), ..Limits::default() }
 }
@@ -218,7 +224,7 @@ mod tests {
     fn a_run_that_never_gets_there_is_later_than_any_and_leaves_no_mean() {
         let times = |moves: &[Option<u32>]| {
             let outcome =
-                |&half: &Option<u32>| Outcome { milestones: [half, None, None], explored: 1, cells: 2 };
+                |&half: &Option<u32>| Outcome { milestones: [half, None, None], ..Outcome::default() };
             let outcomes: Vec<Outcome> = moves.iter().map(outcome).collect();
             let times = Times::of(&outcomes.iter().collect::<Vec<_>>(), Milestone::Half);
             assert_eq!(times.median_interval.is_some(), moves.len() > 5);

@@ -2,26 +2,87 @@
 
 use super::super::paper;
 use super::super::prelude::*;
+use super::super::sentences::{always, below};
 use super::{Duration, Figure, Line, READINGS, Summary, TEAMS, Team};
 
-/// The numbers that the paper prints: of Brick&Mortar in Fig. 11, and that Ants explore everything.
+/// The numbers that the paper prints: of Brick&Mortar in Fig. 11.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
-    let ([bricks, _, ants, ants_published, ..], [beside, counted]) = (TEAMS, READINGS);
+    let [bricks, ..] = TEAMS;
     let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
     let one = one.filter(|_| figure == Figure::Agents);
-    let least = |team: Team| {
-        let explored = lines.iter().filter(|line| line.team == team).map(|line| line.explored);
-        explored.min_by(|one, other| one.mean.total_cmp(&other.mean))
-    };
     let printed = [
         PrintedFigure::of("% explored by one agent of bricks", 50.0, one.map(|line| line.explored)),
         PrintedFigure::of("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
-        PrintedFigure::of("% explored by ants, at least", 100.0, least(ants)),
-        PrintedFigure::of("% explored by ants (published), at least", 100.0, least(ants_published)),
-        PrintedFigure::of("% explored by ants (beside), at least", 100.0, least(beside)),
-        PrintedFigure::of("% explored by ants (counted), at least", 100.0, least(counted)),
     ];
     printed.into_iter().flatten().collect()
+}
+
+/// The sentences of V.B, of every point of the figure.
+pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
+    let ([bricks, _, ants, ants_published, ..], [beside, in_count]) = (TEAMS, READINGS);
+    let of = |team: Team| merged.lines.iter().filter(move |line| line.team == team);
+    let whole = |line: &Line| line.exploration.map_or(0, |duration| duration.seconds.count);
+    let always_whole = |line| always(Estimate::share(whole(line), merged.layouts));
+    let fewest = |team| {
+        let fewest = of(team).map(whole).min().unwrap_or(0);
+        format!("everything in {fewest} of {} runs, at the worst point", merged.layouts)
+    };
+    match figure {
+        Figure::Agents => {
+            let reaches = of(bricks).map(always_whole).fold(Verdict::Fails, Verdict::or);
+            let never = of(bricks).all(|line| whole(line) < merged.layouts);
+            let most =
+                of(bricks).map(|line| line.explored).max_by(|one, other| one.mean.total_cmp(&other.mean));
+            let below_all = Judgement::new(
+                "“adding more agents … without however reaching the 100% mark”",
+                bricks.name(),
+                format!("at most {} %", Estimate::text_or_dash(most, 1)),
+                Verdict::decided(never, reaches == Verdict::Holds),
+            );
+            let ants = [ants, ants_published, beside, in_count].map(|team| {
+                let verdict = of(team).map(always_whole).fold(Verdict::Holds, Verdict::and);
+                Judgement::new(
+                    "“Ants always manage to explore 100% of the area's cells”",
+                    team.name(),
+                    fewest(team),
+                    verdict,
+                )
+            });
+            [below_all].into_iter().chain(ants).collect()
+        }
+        Figure::Area => {
+            let (first, last) = (of(bricks).next(), of(bricks).next_back());
+            let explored = |line: &Line| format!("{} % of {}x{1} cells", line.explored.text(1), line.side);
+            let judged = first.zip(last).map(|(first, last)| {
+                Judgement::new(
+                    "“as we increase the area size, the agents have more opportunities to be trapped”",
+                    bricks.name(),
+                    format!("{}, {}", explored(first), explored(last)),
+                    below(last.explored.interval, first.explored.interval),
+                )
+            });
+            judged.into_iter().collect()
+        }
+        Figure::Ideal => {
+            let ants = [ants, ants_published].into_iter().flat_map(|ants| {
+                of(bricks).zip(of(ants)).map(move |(one, other)| {
+                    let moves = |line: &Line| {
+                        let is_whole = whole(line) == merged.layouts;
+                        line.exploration.filter(|_| is_whole).map(|duration| duration.team_moves)
+                    };
+                    let (one_moves, other_moves) = (moves(one), moves(other));
+                    let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
+                    Judgement::new(
+                        "“in idealized conditions, Brick&Mortar significantly outperforms Ants in … exploration time”",
+                        format!("{}, {}", counted(one.agents, "agent"), ants.name()),
+                        format!("{} team moves against {}", Estimate::text_or_dash(one_moves, 0), Estimate::text_or_dash(other_moves, 0)),
+                        below(ends(one_moves), ends(other_moves)),
+                    )
+                })
+            });
+            ants.collect()
+        }
+    }
 }
 
 /// The figure for people.

@@ -1,9 +1,8 @@
 //! All ways at one number of nodes, over all topologies.
 
 use super::super::estimates;
-use super::super::notice_fig5::NEAR;
 use super::super::prelude::*;
-use super::super::sentences::at_least;
+use super::super::sentences::always;
 use super::Way;
 use super::claims::{Claim, Decision};
 use super::world::{Sample, Walk};
@@ -100,20 +99,21 @@ impl Density {
     /// Whether TAN has problems with this shape: robots that hear the call do not arrive. That it has none is said
     /// where nearly all arrive by the whole 95 % interval.
     pub(super) fn problems(&self) -> Option<Judgement> {
-        let arrive = self.told_arrive?;
-        let measured = format!(
-            "{} % hear the call, {} % of these arrive",
-            percent(self.told, 1),
-            percent(Some(arrive), 1)
-        );
-        let nearly_all = at_least(NEAR, arrive) == Verdict::Holds;
-        let verdict = Verdict::decided(arrive.mean < 1.0, nearly_all);
-        Some(Judgement::new(
-            "“might have problems … obstacles of any shapes” (5)",
-            self.shape?,
-            measured,
-            verdict,
-        ))
+        let verdict = always(Some(self.told_arrive?)).contrary();
+        let sentence = "“might have problems … obstacles of any shapes” (5)";
+        Some(Judgement::new(sentence, self.shape?, self.arrivals(), verdict))
+    }
+
+    /// Whether all robots that hear the call arrive.
+    pub(super) fn success(&self) -> Option<Judgement> {
+        let sentence = "“robots can be successfully navigated … for all simulated scenarios” (4.3)";
+        let of = counted(self.nodes as u32, "node");
+        Some(Judgement::new(sentence, of, self.arrivals(), always(Some(self.told_arrive?))))
+    }
+
+    fn arrivals(&self) -> String {
+        let [told, arrive] = [self.told, self.told_arrive].map(|share| percent(share, 1));
+        format!("{told} % hear the call, {arrive} % of these arrive")
     }
 }
 

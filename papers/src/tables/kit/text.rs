@@ -44,6 +44,26 @@ pub(super) fn directions(lines: &[Line]) -> impl Iterator<Item = Judgement> + '_
     })
 }
 
+/// Whether two robots find all nodes sooner than one; who never does is later than any.
+pub(super) fn sooner(races: &[Race]) -> impl Iterator<Item = Judgement> + '_ {
+    let is_said = |race: &&Race| {
+        race.team.rule != TeamRule::Repaired && (race.other.rule, race.other.robots) == (race.team.rule, 1)
+    };
+    races.iter().filter(is_said).map(|race| {
+        let [ahead, behind] = [race.ahead, race.behind].map(|share| share.and_then(|share| share.interval));
+        Judgement::new(
+            "“MAS is taking less time to explore and cover the area”",
+            format!("{}, {}", race.team.rule.word(), race.family),
+            format!(
+                "two are sooner in {} % of the layouts, one in {} %",
+                text(race.ahead, 1),
+                text(race.behind, 1)
+            ),
+            below(behind, ahead),
+        )
+    })
+}
+
 impl TeamRule {
     const fn word(self) -> &'static str {
         match self {

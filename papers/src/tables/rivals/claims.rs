@@ -26,17 +26,26 @@ pub(super) struct Race {
     sooner: u32,
     later: u32,
     even: u32,
+    /// The first's team moves less the other's, if both get there on every layout: the mean, in hundredths.
+    difference: Option<Estimate>,
     /// How many times the other's team moves the first takes, where one of them gets there: the median, in hundredths.
     /// Never is so many team moves as no run makes.
     ratio: Option<Estimate>,
 }
 
-/// The number of team moves that stands for never.
+/// The number of team moves that stands for never, and a ratio that is larger than any of two others.
 const NEVER: f64 = u32::MAX as f64;
+const EVER: f64 = 1e5;
+
+/// How many times as many team moves, with the 95 % interval; ∞ where one team never gets there.
+pub(super) fn or_never(times: f64, [low, high]: [f64; 2]) -> String {
+    let text = |times: f64| if times > EVER { "∞".to_owned() } else { format!("{times:.2}") };
+    format!("{} [{}, {}]", text(times), text(low), text(high))
+}
 
 impl Race {
     pub(super) fn of(pairs: impl Iterator<Item = (Option<u32>, Option<u32>)>) -> Self {
-        let (mut race, mut ratios) = (Self::default(), Vec::new());
+        let (mut race, mut ratios, mut differences) = (Self::default(), Vec::new(), Some(Vec::new()));
         for (one, other) in pairs {
             let [one_is, other_is] = [one, other].map(|moves| moves.map_or(NEVER, f64::from));
             match one_is.total_cmp(&other_is) {
@@ -44,24 +53,32 @@ impl Race {
                 std::cmp::Ordering::Greater => race.later += 1,
                 std::cmp::Ordering::Equal => race.even += 1,
             }
+            match (one.and(other), &mut differences) {
+                (Some(_), Some(differences)) => differences.push(one_is - other_is),
+                _ => differences = None,
+            }
             if one.or(other).is_some() {
                 ratios.push(one_is / other_is.max(1.0));
             }
         }
         ratios.sort_by(f64::total_cmp);
-        let (mean, interval) = quantile(&ratios, 0.5);
-        let ratio = Estimate { count: ratios.len() as u32, mean, interval };
-        Self { ratio: (ratio.count > 0).then(|| rounded(ratio, 100.0)), ..race }
+        let (median, interval) = quantile(&ratios, 0.5);
+        let ratio = Estimate { count: ratios.len() as u32, mean: median, interval };
+        let difference = differences.and_then(mean).map(|difference| rounded(difference, 100.0));
+        Self { difference, ratio: (ratio.count > 0).then(|| rounded(ratio, 100.0)), ..race }
     }
 
-    /// Whether the first is sooner more often than not.
+    /// Whether the first is sooner: in the mean if both get there on every layout, or else more often than not.
     pub(super) fn is_won(self) -> Verdict {
-        is_most(self.sooner, self.later)
+        match self.difference.and_then(|difference| difference.interval) {
+            Some([low, high]) => Verdict::decided(high < 0.0, low > 0.0),
+            None => is_most(self.sooner, self.later),
+        }
     }
 
-    /// Whether the first is later more often than not.
+    /// Whether the first is later, in the same way.
     pub(super) fn is_lost(self) -> Verdict {
-        is_most(self.later, self.sooner)
+        self.is_won().contrary()
     }
 
     /// Whether both are alike.
@@ -70,8 +87,14 @@ impl Race {
     }
 
     pub(super) fn text(self) -> String {
-        let ratio = self.ratio.map_or("-".to_owned(), |ratio| ratio.text(2));
-        format!("{ratio} times; sooner {}, even {}, later {}", self.sooner, self.even, self.later)
+        let ratio = match self.ratio {
+            None => "-".to_owned(),
+            Some(Estimate { mean, interval: Some(ends), .. }) if ends[1] > EVER => or_never(mean, ends),
+            Some(ratio) => ratio.text(2),
+        };
+        let by =
+            self.difference.map_or_else(String::new, |difference| format!("by {}; ", difference.text(1)));
+        format!("{by}{ratio} times; sooner {}, even {}, later {}", self.sooner, self.even, self.later)
     }
 }
 
@@ -89,14 +112,24 @@ mod tests {
 
     #[test]
     fn a_race_is_won_by_the_whole_interval_and_who_never_arrives_is_last() {
-        let race = |sooner, later| Race { sooner, later, even: 3, ratio: None };
+        let race = |sooner, later| Race { sooner, later, even: 3, ..Race::default() };
         let all = [race(60, 20), race(20, 60), race(5, 4), race(0, 0)];
         assert_eq!(all.map(Race::is_won), [Holds, Fails, Open, Open]);
         assert_eq!(all.map(Race::is_lost), [Fails, Holds, Open, Open]);
         let pairs = [(Some(3), None), (None, Some(3)), (None, None), (Some(2), Some(3)), (Some(2), Some(2))];
         let race = Race::of(pairs.into_iter());
-        assert_eq!((race.sooner, race.later, race.even), (2, 1, 2));
+        assert_eq!((race.sooner, race.later, race.even, race.difference), (2, 1, 2, None));
         assert_eq!(race.ratio, Some(Estimate { count: 4, mean: 0.67, interval: None }));
+    }
+
+    #[test]
+    fn where_both_always_get_there_the_mean_difference_decides_and_not_who_is_sooner_more_often() {
+        let race = |moves: [u32; 10]| Race::of(moves.into_iter().map(|moves| (Some(100), Some(moves))));
+        let rare = race([99, 99, 99, 99, 99, 99, 400, 400, 99, 99]);
+        assert_eq!((rare.later, rare.is_won(), rare.is_lost()), (8, Open, Open));
+        let all = [race([110; 10]), race([90; 10]), race([100; 10])];
+        assert_eq!(all.map(Race::is_won), [Holds, Fails, Open]);
+        assert_eq!(all.map(Race::is_lost), [Fails, Holds, Open]);
     }
 
     #[test]

@@ -3,11 +3,11 @@
 
 use super::super::prelude::*;
 use super::super::sentences::{always, below};
-use super::claims::{about, alike};
+use super::claims::{about, alike, or_never};
 use super::parameters::RivalSettings;
-use super::{Contender, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
+use super::{Contender, MAX_MOVES, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
 use crate::rivals::{Cells, Links, Search};
-use tautline_sim::explore::{Limits, Milestone, RuleName};
+use tautline_sim::explore::{Milestone, RuleName};
 
 /// Table I.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +25,8 @@ settings! {
     pub struct Settings {
         /// The parameters of the rivals
         told: RivalSettings = RivalSettings::default(), nested();
-        /// In buildings a run stops when a robot has entered so many cells
-        max_moves: u32 = 400, one("max-moves", "CELLS", from_to(1..=1_000_000));
+        /// A run stops when a robot has entered so many cells
+        max_moves: u32 = MAX_MOVES, one("max-moves", "CELLS", from_to(1..=1_000_000));
     }
 }
 
@@ -65,6 +65,8 @@ struct Share {
     explored: Option<Estimate>,
     /// Runs that explored all.
     whole: u32,
+    /// Runs that were stopped since a robot had entered as many cells as it may.
+    stopped: u32,
     runs: u32,
 }
 
@@ -111,10 +113,11 @@ impl Table for ChainTable1 {
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Outcome, Halt> {
         let (place, who) = run.at;
-        let (layout, limits) = match place {
-            Place::Open => (OPEN, Limits::default()),
-            Place::Rooms(room) => (ROOMS.get(room).copied().unwrap_or(OPEN), stopping(settings.max_moves)),
+        let layout = match place {
+            Place::Open => OPEN,
+            Place::Rooms(room) => ROOMS.get(room).copied().unwrap_or(OPEN),
         };
+        let limits = stopping(settings.max_moves);
         who.run(&settings.told, &generated(layout, 0)?, run.seed(settings.told.seed), limits)
     }
 
@@ -133,6 +136,7 @@ impl Table for ChainTable1 {
                 explored: mean(outcomes.iter().map(|outcome| outcome.explored()))
                     .map(|explored| rounded(explored, 100.0)),
                 whole: count(&outcomes, |outcome| outcome.explored == outcome.cells),
+                stopped: count(&outcomes, |outcome| outcome.is_stopped),
                 runs: outcomes.len() as u32,
             }
         };
@@ -145,8 +149,9 @@ impl Table for ChainTable1 {
         let Settings { told: RivalSettings { runs, seed, patience, .. }, max_moves } = settings;
         let heading = format!(
             "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals \
-             (reached / runs); stuck after {} without gain\n",
+             (reached / runs); a run stops when a robot has entered {}, and is stuck after {} without gain\n",
             counted(*runs, "run"),
+            counted(*max_moves, "cell"),
             counted(*patience, "team move"),
         );
         let or_dash = |number: Option<String>| number.unwrap_or_else(|| "-".to_owned());
@@ -165,13 +170,12 @@ impl Table for ChainTable1 {
             open = open.right(percent, Fit, move |line| line.milestones[place].text());
         }
         let rooms = Columns::of(&merged.rooms)
-            .title(format!(
-                "Percent explored when a robot has entered {max_moves} cells, or the team is stuck"
-            ))
+            .title("Percent explored when a run is over; runs that explored all, and that were stopped")
             .left("area", Fit, |share| share.room)
             .left("team", Fit, |share| share.who.name())
             .estimate("explored %", Fit, 1, |share| share.explored)
-            .right("all explored", Fit, |share| format!("{}/{}", share.whole, share.runs));
+            .right("all explored", Fit, |share| format!("{}/{}", share.whole, share.runs))
+            .right("stopped", Fit, |share| format!("{}/{}", share.stopped, share.runs));
         Ok([&heading, &paper.text(), &open.text(), &rooms.text()].map(String::as_str).concat())
     }
 
@@ -232,6 +236,14 @@ fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<PrintedFigure> {
     moves.chain(shares).collect()
 }
 
+/// The sentences about the buildings, in their order.
+const OF_ROOMS: [&str; 4] = [STOPPED, ALIKE, BETTER, AHEAD];
+const STOPPED: &str =
+    "“all three algorithms stopped before the 100% … because one of the robots reached the MAX_MOVES”";
+const ALIKE: &str = "“the proposed and the Full search algorithms have similar success rates”";
+const BETTER: &str = "“in the first case the former is better and in the second case the latter”";
+const AHEAD: &str = "“much better … than the reference algorithm having only 25% and 43%”";
+
 /// The sentences of Section E about Table I.
 fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
     let mut judged = Vec::new();
@@ -249,56 +261,52 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
         for links in [Links::Safe, Links::Covered] {
             let times = whole(open, Contender::Rival { search, links, cells: Cells::Distinct });
             let (Some(times), Some(chain)) = (times, chain) else { continue };
-            let measured = times.mean.map_or_else(
-                || format!("{} of {} get there", times.reached, times.runs),
-                |mean| format!("{} times", mean.times(1.0 / chain).text(2)),
-            );
             let ratio = times.ends().map(|ends| ends.map(|end| end / chain));
+            let get_there = format!("{} of {} get there", times.reached, times.runs);
+            let measured = match (times.mean, times.middle(), ratio) {
+                (Some(mean), ..) => format!("{} times", mean.times(1.0 / chain).text(2)),
+                (None, Some(median), Some(ends)) => {
+                    format!("median {} times; {get_there}", or_never(median / chain, ends))
+                }
+                (None, ..) => get_there,
+            };
             let of = format!("links by {}", links.symbol());
             judged.push(Judgement::new(sentence, of, measured, about(factor, ratio)));
         }
     }
-    let explored = |room: &str, who: Contender| {
-        let share = rooms.iter().find(|share| share.room == room && share.who == who);
-        share.and_then(|share| share.explored).unwrap_or(Estimate::NOTHING)
-    };
-    for room in ROOMS {
-        let is_said = |who: Contender| match who {
-            Contender::Chain(RuleName::Published) | Contender::Rival { .. } => true,
-            Contender::Chain(RuleName::Repaired) | Contender::Reel => false,
-        };
-        let said = |share: &&Share| share.room == room && is_said(share.who);
-        let shares = || rooms.iter().filter(said);
-        let (all, runs): (u32, u32) =
-            (shares().map(|share| share.whole).sum(), shares().map(|share| share.runs).sum());
-        judged.push(Judgement::new(
-            "“all three algorithms stopped before the 100 % exploration success”",
-            room.to_owned(),
-            format!("{all} of {runs} runs explore all"),
-            always(Estimate::share(runs - all, runs)),
-        ));
-    }
-    for room in ROOMS {
+    for (place, room) in ROOMS.into_iter().enumerate() {
         for links in [Links::Safe, Links::Covered] {
-            let chain = explored(room, Contender::Chain(RuleName::Published)).mean;
-            let [full, pool] =
-                [Contender::full(links), Contender::pool(pool, links)].map(|who| explored(room, who));
-            let much_better = |ends| below(pool.times(MUCH_BETTER).interval, ends);
+            let who =
+                [Contender::Chain(RuleName::Published), Contender::full(links), Contender::pool(pool, links)];
+            let find = |who| rooms.iter().find(|share| (share.room, share.who) == (room, who));
+            let [Some(chain), Some(full), Some(pool)] = who.map(find) else { continue };
             let of = format!("{room}, links by {}", links.symbol());
+            let stopped = |share: &Share| {
+                let Share { stopped, runs, who, .. } = *share;
+                let all = always(Estimate::share(stopped, runs));
+                if who.is_chancy() { all } else { Verdict::of(stopped == runs) }
+            };
+            let all = [chain, full, pool];
+            let [of_chain, of_full, of_pool] = all.map(|share| format!("{}/{}", share.stopped, share.runs));
             judged.push(Judgement::new(
-                "“the proposed and the Full search algorithms have similar success rates”",
+                STOPPED,
                 of.clone(),
-                format!("chain {chain:.1} %, Full search {} %", full.text(1)),
-                alike(chain, full.interval),
+                format!("chain {of_chain}, Full search {of_full}, pool {of_pool}"),
+                all.map(stopped).into_iter().fold(Verdict::Holds, Verdict::and),
             ));
-            judged.push(Judgement::new(
-                "“much better … than the reference algorithm having only 25% and 43%”",
-                of,
-                format!("chain {chain:.1} %, Full search {} %, pool {} %", full.text(1), pool.text(1)),
-                much_better(Some([chain; 2])).and(much_better(full.interval)),
-            ));
+            let [chain, full, pool] = all.map(|share| share.explored.unwrap_or(Estimate::NOTHING));
+            let chain = chain.mean;
+            let measured = format!("chain {chain:.1} %, Full search {} %", full.text(1));
+            judged.push(Judgement::new(ALIKE, of.clone(), measured.clone(), alike(chain, full.interval)));
+            let chain_leads = below(full.interval, Some([chain; 2]));
+            let is_so = if place == 0 { chain_leads } else { chain_leads.contrary() };
+            judged.push(Judgement::new(BETTER, of.clone(), measured.clone(), is_so));
+            let much_better = |ends| below(pool.times(MUCH_BETTER).interval, ends);
+            let is_so = much_better(Some([chain; 2])).and(much_better(full.interval));
+            judged.push(Judgement::new(AHEAD, of, format!("{measured}, pool {} %", pool.text(1)), is_so));
         }
     }
-    judged.sort_by_key(|judged| judged.sentence.starts_with("“much"));
+    let place = |judged: &Judgement| OF_ROOMS.iter().position(|&sentence| sentence == judged.sentence);
+    judged.sort_by_key(place);
     judged
 }
