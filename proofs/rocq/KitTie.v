@@ -57,6 +57,7 @@ Theorem kit_answers_agree :
   /\ drives_agree without_NextInReach asked_without_NextInReach admitted_without_NextInReach = true
   /\ drives_agree without_FromInReach asked_without_FromInReach admitted_without_FromInReach = true
   /\ drives_agree without_Apart asked_without_Apart admitted_without_Apart = true
+  /\ drives_agree without_NextInReach asked_REPAIRED admitted_REPAIRED = false
   /\ drives_agree without_FromInReach asked_REPAIRED admitted_REPAIRED = false
   /\ drives_agree without_Apart asked_REPAIRED admitted_REPAIRED = false.
 Proof. repeat split; vm_compute; reflexivity. Qed.

@@ -78,8 +78,10 @@ pub struct Findings {
     pub searched: Vec<AreaSearch>,
     /// All areas with at most so many cells are among them.
     pub cells: Option<u32>,
-    /// Whether all areas within the bounds were searched for all demands, or all demands are broken in the areas
-    /// searched.
+    /// Runs that were given up, since they grew too long.
+    pub given_up: u64,
+    /// Whether all areas within the bounds were searched for all demands to the end of each run, or all demands are
+    /// broken in the areas searched.
     pub is_complete: bool,
     /// The smallest for each demand broken, by demand. Where the search was ended, those with more than
     /// [`cells`](Self::cells) cells need not be the smallest.
@@ -146,7 +148,7 @@ pub fn search(
         }
         found.cells = Some(cells);
     }
-    found.is_complete = true;
+    found.is_complete = found.given_up == 0;
     Ok(found)
 }
 
@@ -202,6 +204,7 @@ impl Areas {
             area.runs += tree.runs;
             area.moves += tree.moves;
         }
+        found.given_up += tree.given_up;
         if tree.complete {
             return Ok(Some(tree));
         }

@@ -51,6 +51,10 @@ const fn high_from_present(subject: Subject) -> NamedRule<Subject> {
     NamedRule::new("P_high from present positions", subject.high_from_present())
 }
 
+const fn safe_too_wide(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("E_S with the radius of E_C", subject.with_safe(Circle::COVERED))
+}
+
 const fn base_follows(subject: Subject) -> NamedRule<Subject> {
     NamedRule::new("the base follows R_2", subject.deceiving(Deception::BaseFollows))
 }
@@ -80,7 +84,7 @@ step_checks! { Subject;
         covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
         unwind 6, mutants {
             without_safe_ahead: "without E_S ahead" => Subject::PUBLISHED.without(SafeAhead),
-            safe_too_wide: "E_S with the radius of E_C" => Subject::REPAIRED.with_safe(Circle::COVERED),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::PUBLISHED.with_safe(Circle::COVERED),
         };
     message: small::message, REPAIRED, small::messages,
         covers ["a byte", "a message", "no message"], unwind 6, mutants {
@@ -96,8 +100,8 @@ step_checks! { Subject;
         };
     ring: small::ring_of_neighbours, PUBLISHED, small::pairs_in_rings,
         covers ["farther in", "farther out", "in the same ring"], unwind 6, mutants {
-            safe_too_wide: "E_S with the radius of E_C" => Subject::REPAIRED.with_safe(Circle::COVERED),
-            without_safe_ahead: "without E_S ahead" => Subject::REPAIRED.without(SafeAhead),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::PUBLISHED.with_safe(Circle::COVERED),
+            without_safe_ahead: "without E_S ahead" => Subject::PUBLISHED.without(SafeAhead),
         };
     unfolding: walk::unfolding, REPAIRED, walk::walks,
         covers ["both go on", "both stay", "the robot ahead goes on"], unwind 6, mutants {
@@ -318,7 +322,11 @@ pub const CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_ROBOTS),
                 &[lacking(Subject::PUBLISHED, SafeAhead)],
             ),
-            &Check { about: UNCOVERED, ..coverage::CHECK },
+            &Check {
+                about: UNCOVERED,
+                mutants: &[lacking(Subject::UNCOVERED, SafeAhead), safe_too_wide(Subject::UNCOVERED)],
+                ..coverage::CHECK
+            },
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS),
@@ -465,7 +473,15 @@ pub const CLAUSES: [Clause; 15] = [
         id: "CHAIN-11",
         sentence: "A plan that keeps within its budget MUST be the one that the plain recursion of the paper returns.",
         checks: &[
-            &Check { about: PUBLISHED, ..SAME_PLAN },
+            &Check {
+                about: PUBLISHED,
+                mutants: &[
+                    high_from_present(Subject::PUBLISHED),
+                    lacking(Subject::PUBLISHED, Distinct),
+                    lacking(Subject::PUBLISHED, RefusedIsVirtual),
+                ],
+                ..SAME_PLAN
+            },
             &SAME_PLAN,
             &Check { method: &SAME_PLAN_AT_RANDOM, expected: Verdict::Unrefuted, ..SAME_PLAN },
         ],

@@ -54,7 +54,11 @@ impl Theorem {
 
     /// Whether it is about this clause, for this rule, within a check of this bound.
     fn is_about(&self, clause: &str, rule: &str, bound: &str) -> bool {
-        let has_so_many = |robots| bound.contains(&format!("{robots} robots"));
+        let has_so_many = |robots| {
+            let words = format!("{robots} robots");
+            let ends_a_number = |(at, _)| bound[..at].ends_with(|last: char| last.is_ascii_digit());
+            !bound.match_indices(&words).all(ends_a_number)
+        };
         self.clause == clause && self.rules.contains(&rule) && self.robots.is_none_or(has_so_many)
     }
 }
@@ -148,6 +152,7 @@ mod tests {
         let part = "composition: machine-checked in part (drives of two robots)";
         assert_eq!(words("all layouts, 2 robots, any speeds").as_deref(), Some(part));
         assert_eq!(words("all layouts, 3 robots, any speeds"), None);
+        assert_eq!(words("all layouts, 12 robots, any speeds"), None);
     }
 
     #[test]

@@ -222,7 +222,9 @@ pub(super) fn repeated(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
         let notice = Notice { call, hops: 0, sender: SENDERS[0] };
         let (mut robot, mut sent) = Robot::<1>::new(rule, ROBOT).receive(Downward::Notice(notice));
         for left in (0..=repeats).rev() {
-            require(sent.is_some() && robot.timer().is_some_and(|timer| timer.repeats_left == left), demand)?;
+            let is_move = |sent: Upward| sent.call == call && matches!(sent.word, Word::Move { .. });
+            let is_due = robot.timer().is_some_and(|timer| timer.repeats_left == left);
+            require(sent.is_some_and(is_move) && is_due, demand)?;
             if let Some(timer) = robot.timer() {
                 (robot, sent) = robot.expire(timer);
             }

@@ -39,6 +39,8 @@ struct Leg {
     before: Homing,
     nav: Nav,
     heard: Homing,
+    /// Whether it comes to the node, if it has followed the signal.
+    comes: bool,
     after: Homing,
 }
 
@@ -74,21 +76,22 @@ pub(super) fn goes_on(reading: &Reading, oracle: &mut dyn Oracle) -> Outcome {
         if !matches!(leg.heard.stage(), Stage::Scanning { .. }) {
             return Ok("no signal followed");
         }
-        let has_come = leg.after.hops() == leg.nav.hops && leg.after.hops() < leg.heard.hops();
+        let Nav { node, hops, parent, .. } = leg.nav;
+        let is_at_end = node == WFR;
         match leg.after.stage() {
             Stage::Arrived => {
-                require(
-                    has_come && leg.nav.node == WFR && leg.nav.hops == 0,
-                    "it has arrived at the WFR alone",
-                )?;
+                require(leg.comes && is_at_end, "it has arrived at the WFR alone")?;
                 Ok("at the WFR")
             }
-            Stage::Asking { node } if has_come => {
-                require(node == leg.nav.parent, "the next is the parent of the node")?;
+            Stage::Asking { node } if leg.comes => {
+                let is_next = !is_at_end && node == parent && leg.after.hops() == hops;
+                require(is_next, "the next is the parent of the node")?;
                 Ok("at a node")
             }
-            Stage::Asking { .. } | Stage::Lost => Ok("the signal lost"),
-            Stage::Scanning { .. } | Stage::Walking { .. } => Ok("on its way"),
+            Stage::Asking { .. } | Stage::Lost | Stage::Scanning { .. } | Stage::Walking { .. } => {
+                require(!leg.comes, "a robot that has come to a node knows it")?;
+                Ok("the signal lost")
+            }
         }
     })
 }
@@ -108,11 +111,16 @@ fn legs(
         }
         let nav = nav(oracle);
         let heard = robot.hear(read(reading, nav, robot));
-        let after = match heard.stage() {
-            Stage::Scanning { .. } => measured(heard, oracle.flip()),
-            Stage::Asking { .. } | Stage::Walking { .. } | Stage::Arrived | Stage::Lost => heard.expire(),
+        let (comes, after) = match heard.stage() {
+            Stage::Scanning { .. } => {
+                let comes = !oracle.flip();
+                (comes, measured(heard, comes))
+            }
+            Stage::Asking { .. } | Stage::Walking { .. } | Stage::Arrived | Stage::Lost => {
+                (false, heard.expire())
+            }
         };
-        situation = judge(&Leg { before: robot, nav, heard, after })?;
+        situation = judge(&Leg { before: robot, nav, heard, comes, after })?;
         robot = after;
     }
     Ok(situation)
@@ -129,8 +137,8 @@ fn nav(oracle: &mut dyn Oracle) -> Nav {
 }
 
 /// A robot that has turned its antenna once round, and then comes to the node, or loses its signal on the way.
-fn measured(mut robot: Homing, loses_it: bool) -> Homing {
-    let strength = if loses_it { NEARNESS.near.0 - 1 } else { 10 * NEARNESS.near.0 };
+fn measured(mut robot: Homing, comes: bool) -> Homing {
+    let strength = if comes { 10 * NEARNESS.near.0 } else { NEARNESS.near.0 - 1 };
     for _ in Heading::all() {
         robot = robot.measure(Some(Strength(strength)));
         if !matches!(robot.stage(), Stage::Scanning { .. }) {
