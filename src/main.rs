@@ -238,14 +238,18 @@ impl ForceArgs {
         AtomicFile::several(paths.map(Option::as_deref), &self.replaceable(inputs))
     }
 
-    /// The files that a command stores, as many as there may be, if it reads none.
+    /// The files that a command stores, as many as there may be, if it reads these.
     ///
     /// # Errors
     /// As of [`ForceArgs::files`].
     #[cfg(feature = "papers")]
-    fn each(&self, paths: &[Option<PathBuf>]) -> Result<Vec<Option<AtomicFile>>, Diagnostic> {
+    fn each(
+        &self,
+        paths: &[Option<PathBuf>],
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<Vec<Option<AtomicFile>>, Diagnostic> {
         self.has_effect(paths.iter().any(Option::is_some))?;
-        let replaceable = self.replaceable([]);
+        let replaceable = self.replaceable(inputs);
         let mut files: Vec<Option<AtomicFile>> = Vec::new();
         for path in paths {
             let beside = |path: &PathBuf| AtomicFile::beside(path, files.iter().flatten(), &replaceable);

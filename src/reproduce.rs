@@ -113,7 +113,7 @@ impl Request {
         if let Some((path, shards)) = &self.dealt {
             return self.deal(&*asked, path, *shards, out);
         }
-        let files = Files::of(self.pictures.clone(), self.csv.clone(), &self.force)?;
+        let files = Files::of(self.pictures.clone(), self.csv.clone(), (&self.force, []))?;
         let made = Show::over(self.table.about().doing, |show| asked.run(show))?;
         tell(&*made, files, self.format.format, out)
     }
@@ -149,18 +149,18 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// The pictures that have a place, and the values.
+    /// The pictures that have a place, and the values, of a command that reads these files.
     ///
     /// # Errors
     /// A [`Diagnostic`] if one of them has none, or there is nothing to force.
     pub(super) fn of(
         pictures: Pictures,
         csv: Option<PathBuf>,
-        force: &ForceArgs,
+        (force, inputs): (&ForceArgs, impl IntoIterator<Item = PathBuf>),
     ) -> Result<Self, Diagnostic> {
         let (names, mut paths): (Vec<String>, Vec<_>) = pictures.into_iter().unzip();
         paths.push(csv);
-        let mut files = force.each(&paths)?;
+        let mut files = force.each(&paths, inputs)?;
         let csv = files.pop().flatten();
         let pictures = names.into_iter().zip(files);
         Ok(Self { pictures: pictures.filter_map(|(name, file)| Some((name, file?))).collect(), csv })

@@ -276,7 +276,7 @@ impl Merge {
                 let picture =
                     |pair: &[PathBuf]| (pair[0].to_string_lossy().into_owned(), Some(pair[1].clone()));
                 let pictures = self.pictures.chunks(2).map(picture).collect();
-                let files = Files::of(pictures, self.csv.clone(), &self.force)?;
+                let files = Files::of(pictures, self.csv.clone(), (&self.force, inputs))?;
                 tell(&*made, files, self.format.format.plain()?, out)
             }
         }

@@ -63,6 +63,24 @@ fn a_plan_of_which_a_shard_is_kept_is_not_replaced_by_another() {
     planned(folder, &other, "2");
 }
 
+#[test]
+fn a_merge_replaces_neither_its_plan_nor_a_shard() {
+    let folder = folder();
+    let folder = folder.path();
+    planned(folder, &["reproduce", "margins"], "2");
+    for shard in ["1", "2"] {
+        printed(folder, &["reproduce", "--plan", "plan.json", "--shard", shard], 0);
+    }
+    for file in ["plan.json", "plan-1.json"] {
+        let kept = read(folder, file);
+        for force in [&[][..], &["--force"]] {
+            let said = refused(folder, &[&["merge", "plan.json", "--csv", file], force].concat());
+            assert!(said.contains(file), "{said}");
+            assert_eq!(read(folder, file), kept);
+        }
+    }
+}
+
 /// Hunts that look at each layout by itself: states, runs and rivals; with a trap, without one, and with one in an
 /// early area.
 #[test]

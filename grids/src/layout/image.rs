@@ -65,8 +65,10 @@ fn decode_pnm(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     let wrong = |what: &str| problem::unread_image(what);
     let mut numbers = Numbers(&bytes[2..]);
     let mut positive = |what: &str| numbers.next().filter(|&number| number > 0).ok_or_else(|| wrong(what));
-    let (width, height) =
-        (positive("its width is no number above 0")?, positive("its height is no number above 0")?);
+    let (width, height) = (
+        positive("its width is no number from 1 to 4294967295")?,
+        positive("its height is no number from 1 to 4294967295")?,
+    );
     let most = positive("its largest level is no number from 1 to 65535")?;
     let most = u16::try_from(most).map_err(|_| wrong("its largest level is no number from 1 to 65535"))?;
     let layout = Layout::open(width.into(), height.into())?;
