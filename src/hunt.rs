@@ -206,6 +206,8 @@ impl Hunt {
         watcher.spinner.finish_and_clear();
         tracing::info!("hunted through {} in {:.3} s", hunted.through, start.elapsed().as_secs_f64());
         let replaceable = self.force.replaceable(self.resume.clone());
+        let is_kept = !out.has_left_out();
+        let asked = HuntRequest { resume: asked.resume.filter(|_| is_kept), ..asked };
         tell((&asked, &hunted), (&self.out, &replaceable), self.format.format, out)
     }
 
