@@ -132,11 +132,11 @@ impl Protocol for Grows {
     }
 
     fn moves(&self, _: &Starts, &Wide(number): &Wide) -> Vec<Move<Wide>> {
-        let [doubled, grown] = [2 * number % 907, number + 1].map(|number| match self {
-            Self::Beyond => Wide(number),
-            Self::UpTo900 => Wide(number.min(900)),
-        });
-        vec![Move::of(0, "doubles", doubled), Move::of(0, "grows", grown)]
+        let grown = match self {
+            Self::Beyond => Wide(number + 1),
+            Self::UpTo900 => Wide((number + 1).min(900)),
+        };
+        vec![Move::of(0, "waits", Wide(number)), Move::of(0, "grows", grown)]
     }
 }
 

@@ -298,10 +298,13 @@ impl EveryNumber {
     }
 }
 
-/// The answer, with a note where teams have more robots than the rule speaks of: nothing is said of smaller ones.
+/// The answer, whose note says where teams have more robots than the rule speaks of: nothing is shown of smaller ones.
 fn of_teams(rule: &dyn NumberedRule, answer: Answer) -> Answer {
-    let note =
-        (rule.least() > rule.robots()).then(|| format!("of teams of {} robots and more", rule.least()));
+    if rule.least() == rule.robots() {
+        return answer;
+    }
+    let note = answer.note.map_or_else(String::new, |note| note + ", ");
+    let note = Some(format!("{note}of teams of {} robots and more", rule.least()));
     Answer { note, ..answer }
 }
 

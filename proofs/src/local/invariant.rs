@@ -271,8 +271,8 @@ pub(super) fn agree(seen: impl Iterator<Item = (Cell, u8)>) -> bool {
     seen.iter().all(|one| seen.iter().all(|other| other.0 != one.0 || other.1 == one.1))
 }
 
-/// Places other than (0, 0), to see whether a rule is the same there: one far away, and the next ones, which a pattern of
-/// a few columns or rows tells apart.
+/// Places other than (0, 0), to see whether a rule is the same there: one far away, and the next ones, which a pattern
+/// of a few columns or rows tells apart.
 const ELSEWHERE: [(i16, i16); 3] = [(113, 59), (1, 0), (0, 1)];
 
 /// The acts of robots by a rule.
@@ -283,8 +283,8 @@ struct Steps<'r> {
 
 impl<'r> Steps<'r> {
     /// # Errors
-    /// [`MethodError`] if a state has no act, which would keep the others from theirs, or an act has no outcome, or only
-    /// such as a wall forbids, or one in no state of the rule.
+    /// [`MethodError`] if a state has no act, which would keep the others from theirs, or an act has no outcome, or
+    /// only such as a wall forbids, or one in no state of the rule.
     fn of(rule: &'r dyn NumberedRule) -> Result<Self, MethodError> {
         let acts: FxHashMap<_, Vec<_>> =
             rule.states().into_iter().map(|state| (state, rule.acts(state))).collect();
@@ -292,8 +292,7 @@ impl<'r> Steps<'r> {
         if let Some(idle) = idle {
             let idle = rule.state_words(idle);
             let why =
-                format_args!("a robot in state {idle} has no act: name one by which it stays in its cell")
-                    .to_string();
+                format_args!("a robot in state {idle} has no act: name one by which it stays in its cell");
             return Err(MethodError::new(why));
         }
         for (state, act) in acts.iter().flat_map(|(state, acts)| acts.iter().map(move |act| (state, act))) {
