@@ -244,8 +244,8 @@ impl fmt::Display for Unsound {
 pub(crate) const TRIED: usize = 600;
 
 /// The first few states: by turns the next one breadth first and the next one depth first, so that many starts do not
-/// keep it from going far. A state may come again, since two that are kept alike need not be one: twice, and where what
-/// goes deep meets nothing new.
+/// keep it from going far. A state may come again, since two that are kept alike need not be one: twice, and where
+/// nothing new is met.
 pub(crate) fn first_states<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
@@ -264,7 +264,7 @@ pub(crate) fn first_states<S: System>(
         let state = if is_deep { ahead.pop_back() } else { ahead.pop_front() }?;
         let (queued, reached) = (ahead.len(), || steps(system, &state).map(|step| step.state));
         ahead.extend(reached().filter(&mut is_due).take(TRIED.saturating_sub(queued)));
-        if is_deep && ahead.len() == queued {
+        if ahead.len() == queued && (is_deep || queued == 0) {
             ahead.extend(reached().find(|next| !is_same(system, &state, next)));
         }
         is_deep = !is_deep;
