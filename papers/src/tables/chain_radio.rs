@@ -185,7 +185,8 @@ impl Table for ChainRadio {
             ),
             Judgement::new(
                 format!(
-                    "“in a big (conventional) scatternet, in almost any moment there is an unconnected part”: {ALMOST:.0} %"
+                    "“in a big (conventional) scatternet, in almost any moment there is an \
+                     unconnected part”: {ALMOST:.0} %"
                 ),
                 big.map_or_else(String::new, |line| format!("bridges, {}", counted(line.robots, "robot"))),
                 format!("at least {} % of the time", text(switching, 1)),

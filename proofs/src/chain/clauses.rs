@@ -13,7 +13,7 @@ use super::invariant::Invariant;
 use super::local::{self, Contact, Coverage, Crowd, OfThree};
 use super::readings::{LAST, PAPER, READINGS};
 use super::search::EveryLayout;
-use super::subject::{Deception, Subject};
+use super::subject::{Deception, Subject, base_follows, high_from_present, safe_too_wide, swapped_bits};
 use super::{crowd, optimum, pair, small, three, walk, whole_runs};
 use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
@@ -44,23 +44,6 @@ pub(super) const fn lacking(subject: Subject, condition: Condition) -> NamedRule
         Hold => "without hold",
     };
     NamedRule::new(name, subject.without(condition))
-}
-
-/// Followers that look where the robot ahead is, not where it goes.
-const fn high_from_present(subject: Subject) -> NamedRule<Subject> {
-    NamedRule::new("P_high from present positions", subject.high_from_present())
-}
-
-const fn safe_too_wide(subject: Subject) -> NamedRule<Subject> {
-    NamedRule::new("E_S with the radius of E_C", subject.with_safe(Circle::COVERED))
-}
-
-const fn base_follows(subject: Subject) -> NamedRule<Subject> {
-    NamedRule::new("the base follows R_2", subject.deceiving(Deception::BaseFollows))
-}
-
-const fn swapped_bits(subject: Subject) -> NamedRule<Subject> {
-    NamedRule::new("message bits swapped", subject.deceiving(Deception::SwappedBits))
 }
 
 step_checks! { Subject;

@@ -5,6 +5,7 @@ use tautline_kernel::chain::{Budget, Condition, Habit, High, Pursuit, Rule};
 use tautline_kernel::ground::Circle;
 
 use super::readings::Readings;
+use crate::clause::NamedRule;
 
 /// How the observer of a mutant is deceived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -113,4 +114,21 @@ impl Subject {
     pub const fn high_from_present(self) -> Self {
         self.following(Rule { high: High::Present, ..self.rule })
     }
+}
+
+/// Followers that look where the robot ahead is, not where it goes.
+pub(super) const fn high_from_present(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("P_high from present positions", subject.high_from_present())
+}
+
+pub(super) const fn safe_too_wide(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("E_S with the radius of E_C", subject.with_safe(Circle::COVERED))
+}
+
+pub(super) const fn base_follows(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("the base follows R_2", subject.deceiving(Deception::BaseFollows))
+}
+
+pub(super) const fn swapped_bits(subject: Subject) -> NamedRule<Subject> {
+    NamedRule::new("message bits swapped", subject.deceiving(Deception::SwappedBits))
 }

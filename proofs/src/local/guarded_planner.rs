@@ -15,8 +15,9 @@ pub struct GuardedPlanner<R, P> {
 }
 
 impl<R: Local, P: Fn(&[RobotOf<R>]) -> Vec<ActOf<R>> + Sync> GuardedPlanner<R, P> {
-    /// The acts that the planner returns, if the rule admits them; `None` if it does not: then no robot may act. One that
-    /// is sure to go does so over an edge that is known to be open alone. Known of the layout are which edges are open, and the colours of the cells in and beside which robots are.
+    /// The acts that the planner returns, if the rule admits them; `None` if it does not: then no robot may act. One
+    /// that is sure to go does so over an edge that is known to be open alone. Known of the layout are which edges are
+    /// open, and the colours of the cells in and beside which robots are.
     pub fn plan(
         &self,
         robots: &[RobotOf<R>],

@@ -73,9 +73,14 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
                     let (one_moves, other_moves) = (moves(one), moves(other));
                     let ends = |moves: Option<Estimate>| moves.and_then(|moves| moves.interval);
                     Judgement::new(
-                        "“in idealized conditions, Brick&Mortar significantly outperforms Ants in … exploration time”",
+                        "“in idealized conditions, Brick&Mortar significantly outperforms Ants in terms of \
+                         exploration time”",
                         format!("{}, {}", counted(one.agents, "agent"), ants.name()),
-                        format!("{} team moves against {}", Estimate::text_or_dash(one_moves, 0), Estimate::text_or_dash(other_moves, 0)),
+                        format!(
+                            "{} team moves against {}",
+                            Estimate::text_or_dash(one_moves, 0),
+                            Estimate::text_or_dash(other_moves, 0)
+                        ),
                         below(ends(one_moves), ends(other_moves)),
                     )
                 })
