@@ -429,7 +429,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
             text.push_str(&components(report, words));
         }
     }
-    text + &violations(report) + &excuse(run.setup(), report)
+    text + &violations(run.setup().scheme, report) + &excuse(run.setup(), report)
 }
 
 /// How far the team comes, if there is more than that.
@@ -512,7 +512,7 @@ fn components(report: &Report, words: impl Fn(&Component) -> String) -> String {
 /// Violations that are listed, the first of each clause among them; the others are counted.
 const LISTED: usize = 10;
 
-fn violations(report: &Report) -> String {
+fn violations(scheme: Scheme, report: &Report) -> String {
     let mut text = String::new();
     let mut known = BTreeSet::new();
     let (mut listed, again): (Vec<_>, Vec<_>) =
@@ -527,7 +527,9 @@ fn violations(report: &Report) -> String {
         };
     }
     match report.violations.len() {
-        0 => text.push_str("no clause is broken\n"),
+        0 => {
+            let _ = writeln!(text, "{}", scheme.unbroken());
+        }
         1..=LISTED => {}
         more => {
             let _ = writeln!(text, "and {} more", more - LISTED);

@@ -214,7 +214,8 @@ fn needless(option: &str, why: &str) -> Diagnostic {
 /// The choice about files that stand where others are to be stored.
 #[derive(Clone, Copy, Debug, Args)]
 struct ForceArgs {
-    /// Also replace files that tautline did not write. A file that the command reads is never replaced.
+    /// Also replace files that tautline did not write, and those that keep work. A file that the command reads is
+    /// never replaced.
     #[arg(long)]
     force: bool,
 }

@@ -363,7 +363,11 @@ impl DecisionArgs {
                 let last = last_line(rows) + &unfinished;
                 out.text(findings::github(&findings(rows, memory)?, &last))?;
             }
-            (Format::Junit, _) => out.text(findings::junit("prove", &findings(rows, memory)?))?,
+            (Format::Junit, _) => {
+                let is_ours = |row: &Row| ledger::clauses().any(|clause| clause.id == row.clause.id);
+                let command = if rows.iter().all(is_ours) { "prove" } else { "library" };
+                out.text(findings::junit(command, &findings(rows, memory)?))?;
+            }
         }
         Ok(match (unfinished.is_empty(), as_registered) {
             (false, _) => Exit::Unfinished,

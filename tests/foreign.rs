@@ -82,7 +82,7 @@ fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
     pair (eager), 2 robots, start 0,0: run.jsonl
     2 team moves: the team can explore nothing more
     2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
-    no clause is broken
+    no clause was checked
     this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
 
     1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; x stands where a robot met a wall.

@@ -332,7 +332,8 @@ pub fn kept_hunt(bytes: &[u8]) {
 
 /// The file that keeps the hunt.
 fn kept_at<'a>(path: &'a Path, bounds: &Bounds) -> Checkpoint<'a, HuntTask> {
-    Checkpoint::new(Some(path), HuntTask::new(&HuntRequest::new(&CHAIN, RuleId::PUBLISHED), bounds))
+    let task = HuntTask::new(&HuntRequest::new(&CHAIN, RuleId::PUBLISHED), bounds).expect("of no program");
+    Checkpoint::new(Some(path), task)
 }
 
 /// The findings of a hunt that goes on from a file with these bytes.

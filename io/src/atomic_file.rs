@@ -28,6 +28,9 @@ const OURS: [&[u8]; 10] = [
     ROS_HEADS[1].as_bytes(),
 ];
 
+/// How the files among them begin that keep work for later.
+const KEPT_WORK: [&[u8]; 2] = [b"{\"format\":\"tautline hunt\"", b"{\"format\":\"tautline shard\""];
+
 /// The beginning of a picture.
 pub const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
 
@@ -59,14 +62,15 @@ pub const ROS_HEADS: [&str; 2] = ["# Written by tautline.\n", "P5\n# tautline\n"
 /// The beginning of a manual page: a comment.
 pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";
 
-/// Which files a command may replace: empty ones and those that this program wrote, but none that the command reads.
+/// Which files a command may replace: empty ones and those that this program wrote, but none that keeps work for later
+/// or that the command reads.
 #[derive(Clone, Debug, Default)]
 pub struct Replaceable {
     foreign: Foreign,
     inputs: Vec<PathBuf>,
 }
 
-/// The fate of a file that this program did not write.
+/// The fate of a file that this program did not write, or that keeps work.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Foreign {
     /// It stays.
@@ -97,20 +101,25 @@ impl Replaceable {
             let what = "this command reads this file, and does not overwrite it";
             return Err(Diagnostic::in_file(path, what, "store it elsewhere"));
         }
-        if self.foreign == Foreign::Keep && !is_ours(target) {
-            let what = "tautline did not write this file, and does not overwrite it";
+        if self.foreign == Foreign::Keep
+            && let Some(what) = worth(target)
+        {
             return Err(Diagnostic::in_file(path, what, "store it elsewhere, or replace it with `force`"));
         }
         Ok(())
     }
 }
 
-/// Whether the file is empty or begins as the files of this program do.
-fn is_ours(file: &Path) -> bool {
-    let longest = OURS.iter().map(|head| head.len()).max().unwrap_or(0);
+/// Why the file is not replaced, unless it is empty or begins as the files of this program do that can be made again.
+fn worth(file: &Path) -> Option<&'static str> {
+    let longest = OURS.iter().chain(&KEPT_WORK).map(|head| head.len()).max().unwrap_or(0);
     let mut bytes = Vec::new();
     let read = File::open(file).and_then(|file| file.take(longest as u64).read_to_end(&mut bytes));
-    read.is_ok() && (bytes.is_empty() || OURS.iter().any(|head| bytes.starts_with(head)))
+    let begins = |heads: &[&[u8]]| heads.iter().any(|head| bytes.starts_with(head));
+    if read.is_err() || !bytes.is_empty() && !begins(&OURS) {
+        return Some("tautline did not write this file, and does not overwrite it");
+    }
+    begins(&KEPT_WORK).then_some("work is kept in this file, and is not overwritten")
 }
 
 /// Whether two paths lead to the same file, by whatever names.

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use serde_json::value::{RawValue, to_raw_value};
 
-use crate::atomic_file::{AtomicFile, Occupant, Replaceable, lock};
+use crate::atomic_file::{AtomicFile, Foreign, Occupant, Replaceable, lock};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::json_lines::{self, MAX_FILE_BYTES, Magic, key_of, line_of, value_of};
 
@@ -98,6 +98,8 @@ pub trait Task: Serialize + DeserializeOwned {
     const OTHER_FORMAT: &'static str = Self::AGAIN;
     /// The remedy for a file of another task.
     const ELSEWHERE: &'static str;
+    /// The remedy for a file that another build has made, where that is one of the fields: `program`.
+    const OTHER_BUILD: &'static str = Self::ELSEWHERE;
 
     /// The field of `kept` that names what this task does not know, and what is wrong with the name.
     fn unknown(&self, _kept: &Self) -> Option<(&'static str, String)> {
@@ -191,8 +193,17 @@ impl<T: Task> Lines<T> {
     pub(crate) fn check(&self, asked: &T) -> Result<(), Diagnostic> {
         let (kept, asked) = (json!(self.task), json!(asked));
         let Some(key) = T::FIELDS.iter().find(|&&key| kept[key] != asked[key]) else { return Ok(()) };
+        if *key == "program" {
+            return Err(self.of_another_build());
+        }
         let what = format!("{}: {key} {}, asked for is {}", T::OTHER, kept[key], asked[key]);
         Err(self.in_header(key, what, T::ELSEWHERE))
+    }
+
+    /// The fault of a file that another build has made.
+    pub(crate) fn of_another_build(&self) -> Diagnostic {
+        let noun = T::NOUN.trim_start_matches("a ");
+        self.in_header("program", format!("another build of tautline made this {noun}"), T::OTHER_BUILD)
     }
 }
 
@@ -274,7 +285,9 @@ impl<'a, T: Task> Checkpoint<'a, T> {
     pub fn keep(&mut self, part: &(impl Part + ?Sized)) -> Result<(), Diagnostic> {
         let Some(path) = self.path else { return Ok(()) };
         self.tried = Instant::now();
-        let mut file = AtomicFile::new(path, &Replaceable::default())?;
+        let is_own = self.standing == Occupant::Held;
+        let foreign = if is_own { Foreign::Replace } else { Foreign::Keep };
+        let mut file = AtomicFile::new(path, &Replaceable::new(foreign, []))?;
         self.task.set_done(part.is_done());
         file.append(text(&self.task, &part.far()?));
         if cfg!(not(unix)) {

@@ -62,6 +62,7 @@ impl Task for PlanTask {
     const FIELDS: &'static [&'static str] = &["of", "shards", "program"];
     const AGAIN: &'static str = "name a plan, as a hunt or a table with `shards` writes it";
     const ELSEWHERE: &'static str = "plan anew";
+    const OTHER_BUILD: &'static str = "run all shards and the merge with that build, or plan anew";
 }
 
 /// The first line of a shard's file.
@@ -209,9 +210,7 @@ impl Plan {
             return Err(lines.in_header("shards", what, PlanTask::AGAIN));
         }
         if planned != program()? {
-            let what = "another build of tautline made this plan".to_owned();
-            let remedy = "run all shards and the merge with that build, or plan anew";
-            return Err(lines.in_header("program", what, remedy));
+            return Err(lines.of_another_build());
         }
         let digest = hex(&Sha256::digest(lines.text()));
         Ok(Self { path: path.to_owned(), of, shards, deal: lines.far()?, digest })
@@ -284,11 +283,17 @@ impl Plan {
 }
 
 /// The SHA-256 of this program.
-fn program() -> Result<String, Diagnostic> {
+///
+/// # Errors
+/// A [`Diagnostic`] if it cannot be read.
+pub fn program() -> Result<String, Diagnostic> {
     let read = || Ok(hex(&Sha256::digest(fs::read(env::current_exe()?)?)));
     read().map_err(|error: io::Error| {
         let what = format_args!("the file of this program cannot be read: {error}");
-        Diagnostic::usage(what, "run it from a file that it may read: a plan says which program made it")
+        Diagnostic::usage(
+            what,
+            "run it from a file that it may read: a file that work goes on from says which program made it",
+        )
     })
 }
 

@@ -14,13 +14,6 @@ fn planned(folder: &Path, work: &[&str], shards: &str) {
     printed(folder, &[work, &["--plan", "plan.json", "--shards", shards]].concat(), 0);
 }
 
-/// The first two lines of a file, with the checksum that belongs to them.
-fn sealed(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().take(2).collect();
-    let lines = lines.join("\n") + "\n";
-    format!("{lines}{{\"crc32\":{}}}\n", crc32fast::hash(lines.as_bytes()))
-}
-
 #[test]
 fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
     let (one, many) = (folder(), folder());
@@ -58,6 +51,8 @@ fn a_plan_of_which_a_shard_is_kept_is_not_replaced_by_another() {
     let kept = read(folder, "plan.json");
     let said = refused(folder, &[&other[..], &["--plan", "plan.json", "--shards", "2"]].concat());
     assert!(said.contains("plan.json: this is another plan, and plan-2.json is a shard of it"), "{said}");
+    let said = refused(folder, &[&other[..], &["--plan", "plan-2.json", "--shards", "2"]].concat());
+    assert!(said.contains("plan-2.json: work is kept in this file, and is not overwritten"), "{said}");
     assert_eq!(read(folder, "plan.json"), kept);
     fs::remove_file(folder.join("plan-2.json")).expect("a shard");
     planned(folder, &other, "2");
@@ -284,9 +279,7 @@ fn wrong_plans_and_shards() {
     hunt_shard(folder, "other.json", 2);
     let plan = read(folder, "plan.json");
     // What is not the same in every build is not shown.
-    let (head, rest) = plan.split_once("\"program\":\"").expect("a program");
-    let foreign = format!("{head}\"program\":\"{}{}", "0".repeat(64), &rest[64..]);
-    fs::write(folder.join("foreign.json"), sealed(&foreign)).expect("a file");
+    fs::write(folder.join("foreign.json"), of_another_build(&plan)).expect("a file");
     let old = plan.replace("\"version\":1", "\"version\":0");
     fs::write(folder.join("old.json"), sealed(&old)).expect("a file");
     fs::write(folder.join("damaged.json"), plan.replace("\"answers\":[0", "\"answers\":[1")).expect("a file");

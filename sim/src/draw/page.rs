@@ -165,7 +165,7 @@ impl<'a> Page<'a> {
         let ends = self.ends();
         Film {
             title: self.run.setup().title(),
-            outcome: outcome(report),
+            outcome: outcome(scheme, report),
             unit: "team move",
             robot: scheme.look.robot(),
             robots: start.len(),

@@ -127,6 +127,11 @@ impl Scheme {
         self.among.scheme(self.name).is_some()
     }
 
+    /// The words for a run without a broken clause. Those of a scheme that is not known are not known either.
+    pub fn unbroken(self) -> &'static str {
+        if self.is_known() { "no clause is broken" } else { "no clause was checked" }
+    }
+
     /// The rule with this name.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_proofs::plural::counted;
 
 use super::place_of;
-use crate::explore::{Joins, Kind, Layer, Milestone, Report, Setup, Shape, Starts, Value, Zone};
+use crate::explore::{Joins, Kind, Layer, Milestone, Report, Scheme, Setup, Shape, Starts, Value, Zone};
 use crate::options::{Extra, Takes};
 use tautline_grids::layout::Layout;
 
@@ -264,20 +264,20 @@ pub fn json(value: &impl Serialize) -> String {
 const MOST_PRINTED: usize = 64 * 64;
 
 /// The outcome of a run, in a sentence.
-pub(super) fn outcome(report: &Report) -> String {
+pub(super) fn outcome(scheme: Scheme, report: &Report) -> String {
     format!(
         "{}: {}. {} of {} explored; {}.",
         counted(report.steps, "team move"),
         report.stopped.words(),
         report.explored,
         counted(report.cells, "cell"),
-        broken(report)
+        broken(scheme, report)
     )
 }
 
-fn broken(report: &Report) -> String {
+fn broken(scheme: Scheme, report: &Report) -> String {
     match report.violations.as_slice() {
-        [] => "no clause is broken".to_owned(),
+        [] => scheme.unbroken().to_owned(),
         [first, ..] => format!("{} is broken in team move {}", first.clause, first.step),
     }
 }

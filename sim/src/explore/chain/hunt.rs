@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_io::checkpoint::{self, Checkpoint, Part, Task, decode, encode};
 use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::shards;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::search::{Bounds, Deal as Walk, Findings, Position, Search, Unsearchable};
@@ -208,7 +209,7 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
 }
 
 fn search(asked: &HuntRequest<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Findings, Diagnostic> {
-    let mut kept = Checkpoint::new(asked.resume, HuntTask::new(asked, bounds));
+    let mut kept = Checkpoint::new(asked.resume, HuntTask::new(asked, bounds)?);
     let mut search = Waves(resume(&mut kept, bounds)?);
     // What cannot be kept is refused before it has cost anything.
     kept.keep(&search)?;
@@ -315,6 +316,9 @@ pub struct HuntTask {
     /// North-west and south-east corner of the area.
     area: [Cell; 2],
     base: Cell,
+    /// The SHA-256 of the program, whose rules these are.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    program: String,
     /// The schemes that are known to whoever asks.
     #[serde(skip)]
     known: Option<Catalogue>,
@@ -324,9 +328,11 @@ impl Task for HuntTask {
     const FORMAT: &'static str = "tautline hunt";
     const NOUN: &'static str = "a kept hunt";
     const OTHER: &'static str = "this is another hunt";
-    const FIELDS: &'static [&'static str] = &["scheme", "rule", "robots", "area", "base"];
+    const FIELDS: &'static [&'static str] = &["scheme", "rule", "robots", "area", "base", "program"];
     const AGAIN: &'static str = AGAIN;
     const ELSEWHERE: &'static str = "ask for the same, or give another `resume` file";
+    const OTHER_BUILD: &'static str =
+        "go on with that build, or hunt from the start with another `resume` file";
 
     fn unknown(&self, kept: &Self) -> Option<(&'static str, String)> {
         let known = self.known?;
@@ -336,10 +342,13 @@ impl Task for HuntTask {
 }
 
 impl HuntTask {
-    /// The hunt that is `asked`, within `bounds`.
-    pub fn new(asked: &HuntRequest<'_>, bounds: &Bounds) -> Self {
+    /// The hunt that is `asked`, within `bounds`; a kept one is this program's.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if it is kept, and this program cannot be read.
+    pub fn new(asked: &HuntRequest<'_>, bounds: &Bounds) -> Result<Self, Diagnostic> {
         let area = bounds.reach().unwrap_or(bounds.area);
-        Self {
+        Ok(Self {
             format: Self::FORMAT.to_owned(),
             version: checkpoint::VERSION,
             scheme: asked.scheme.name.to_owned(),
@@ -347,7 +356,8 @@ impl HuntTask {
             robots: bounds.robots,
             area: [area.first(), area.last()],
             base: bounds.base,
+            program: asked.resume.map_or_else(|| Ok(String::new()), |_| shards::program())?,
             known: Some(asked.scheme.among),
-        }
+        })
     }
 }
