@@ -1050,9 +1050,9 @@ fn rescues_are_counted_and_judged() {
     assert_snapshot!("rescues_under_shadows", printed(folder, &[&RESCUE[..], &shadows].concat(), 0));
     let counted = json(folder, &published, 1);
     assert_snapshot!(counted["assignments"],
-        @r#"{"cut_off":0,"events":60,"never":13,"served_more_often":0,"served_once":47,"still_to_come":0,"unheard":0,"wfrs":60}"#);
+        @r#"{"cut_off":0,"events":60,"never":12,"served_more_often":0,"served_once":48,"still_to_come":0,"unheard":0,"wfrs":60}"#);
     assert_snapshot!(counted["violations"],
-        @r#"[{"at_s":0.094795064,"clause":"MRC-1","event":1,"rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","event":1,"rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","event":1,"rescues":12,"seed":0,"wfr":2}]"#);
+        @r#"[{"at_s":0.291420312,"clause":"MRC-1","event":1,"rescues":1,"seed":1,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","event":1,"rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","event":1,"rescues":12,"seed":0,"wfr":2}]"#);
     assert_eq!(counted.get("events"), None);
     let thrice = [&RESCUE[..], &["--seeds", "0..9", "--events", "3"]].concat();
     assert_eq!(json(folder, &thrice, 0)["assignments"]["served_once"], 90);

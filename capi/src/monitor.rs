@@ -98,16 +98,7 @@ pub struct TautlineMonitor {
 impl TautlineDemand {
     const fn demand(&self) -> Option<AnyDemand> {
         let &Self { kind, length_mm, tolerance_mm, most, .. } = self;
-        // With such a tolerance nothing could break it.
-        let is_blind = match kind {
-            TAUTLINE_DEMAND_APART => tolerance_mm >= length_mm,
-            TAUTLINE_DEMAND_CELLS => tolerance_mm >= length_mm.div_ceil(2),
-            _ => false,
-        };
-        if is_blind {
-            return None;
-        }
-        Some(match kind {
+        let demand = match kind {
             TAUTLINE_DEMAND_NEIGHBOURS => {
                 AnyDemand::Neighbours(Neighbours { range_mm: length_mm, tolerance_mm })
             }
@@ -120,7 +111,8 @@ impl TautlineDemand {
                 AnyDemand::Cells(Cells { cell_mm: length_mm, most, base, tolerance_mm })
             }
             _ => return None,
-        })
+        };
+        if demand.is_blind() { None } else { Some(demand) }
     }
 }
 

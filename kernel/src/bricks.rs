@@ -1,6 +1,6 @@
 //! Brick&Mortar [Ferranti 2009, II.A]: agents thicken the walls by marking cells as visited, which nobody goes through
 //! again, and keep the cells that are left connected; an agent that can go nowhere knows that all is explored. The
-//! marking and the way to unexplored cells are the paper's. Loop closure, which the paper leaves out, and what makes
+//! marking is the paper's. The way to the next cell and loop closure, which the paper leaves out, and what makes
 //! agents robust against missed sensors are ours. Clauses: BRICKS-1 … BRICKS-15.
 
 mod agent;

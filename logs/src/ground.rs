@@ -11,14 +11,14 @@ pub struct Grid {
     /// The corner from which columns and rows are counted, in millimetres.
     pub origin_mm: [f64; 2],
     /// The width of a cell in millimetres; above 0.
-    pub cell_mm: u32,
+    pub cell_mm: f64,
 }
 
 impl Grid {
     /// The columns and rows of the square around a place whose half side is the tolerance: the lowest and the highest.
     fn around(self, place: [f64; 2], tolerance_mm: f64) -> [[i32; 2]; 2] {
         let along = |axis: usize, off: f64| {
-            ((place[axis] + off - self.origin_mm[axis]) / f64::from(self.cell_mm)).floor() as i32
+            ((place[axis] + off - self.origin_mm[axis]) / self.cell_mm).floor() as i32
         };
         [[along(0, -tolerance_mm), along(1, -tolerance_mm)], [along(0, tolerance_mm), along(1, tolerance_mm)]]
     }
@@ -31,9 +31,8 @@ impl Grid {
 
     /// The corners of a cell that is larger by so much on each side.
     fn bounds(self, cell: [i32; 2], by_mm: f64) -> [[f64; 2]; 2] {
-        let corner = |axis: usize, cells: f64| {
-            self.origin_mm[axis] + f64::from(self.cell_mm) * (f64::from(cell[axis]) + cells)
-        };
+        let corner =
+            |axis: usize, cells: f64| self.origin_mm[axis] + self.cell_mm * (f64::from(cell[axis]) + cells);
         [[corner(0, 0.0) - by_mm, corner(1, 0.0) - by_mm], [corner(0, 1.0) + by_mm, corner(1, 1.0) + by_mm]]
     }
 }

@@ -106,6 +106,13 @@ pub enum Doubt {
     Cut,
     /// More than half of the positions are not on the map: it is another one, or has other units.
     OtherMap,
+    /// No robot is first in a free cell of the map: the clause asks for nothing.
+    Nowhere,
+    /// More than half of the positions were not taken.
+    Refused,
+    /// At this stamp these robots would break the clause if one of them stood still before its first position or behind
+    /// its last one.
+    Ending(i64, Vec<u32>),
 }
 
 /// More comparisons of robots than a judge makes.
@@ -148,11 +155,17 @@ struct Moment<'a> {
     at_us: i64,
     fresh: &'a [(i64, u32, u32)],
     tracks: &'a Tracks,
+    /// Whether robots stand still before their first positions and behind their last ones.
+    is_held: bool,
 }
 
 impl Moment<'_> {
     fn at(&self, robot: u32) -> Option<[f64; 2]> {
-        self.tracks.at(robot as usize, self.at_us)
+        if self.is_held {
+            self.tracks.held(robot as usize, self.at_us)
+        } else {
+            self.tracks.at(robot as usize, self.at_us)
+        }
     }
 
     fn robots(&self) -> impl Iterator<Item = u32> + use<> {
@@ -193,12 +206,12 @@ fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Finding>> {
     }))
 }
 
-/// The stamp from which on each robot has left its start.
-fn leaving(tracks: &Tracks, beyond_mm: f64) -> Vec<Option<i64>> {
+/// The stamp from which on each robot has been so far from its start that it `is_off` it.
+fn leaving(tracks: &Tracks, is_off: impl Fn(f64) -> bool) -> Vec<Option<i64>> {
     let place = |sample: &super::Sample| [sample.x_mm, sample.y_mm].map(f64::from);
     let left = |track: &Vec<super::Sample>| {
         let start = place(track.first()?);
-        track.iter().find(|sample| apart(start, place(sample)) > beyond_mm).map(|sample| sample.at_us)
+        track.iter().find(|sample| is_off(apart(start, place(sample)))).map(|sample| sample.at_us)
     };
     tracks.robots.iter().map(left).collect()
 }
@@ -243,19 +256,52 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         return Err(TooMuch { comparisons });
     }
     let silent = tracks.silences().next().map(|silence| Doubt::Silent(silence, tracks.silences().count()));
+    let doubt = silent.or_else(|| tracks.are_mostly_refused().then_some(Doubt::Refused));
     if let Demand::Visited { grid, cells, is_whole } = demand {
-        return visited(tracks, limits, *grid, cells, *is_whole, silent);
+        return visited(tracks, limits, *grid, cells, *is_whole, doubt);
     }
     if tracks.count() < 2 {
         return Ok(Verdict::Unknown(Doubt::Alone));
     }
+    let Seen { first, parted, in_doubt } = look((tracks, &stamps), limits, demand, false);
+    if let Some(at_us) = parted {
+        return Ok(Verdict::Unknown(Doubt::Parted(at_us)));
+    }
+    if let Some(breach) = first {
+        return Ok(Verdict::Broken(breach));
+    }
+    let ending = || {
+        let Breach { at_us, robots, .. } = look((tracks, &stamps), limits, demand, true).first?;
+        Some(Doubt::Ending(at_us, robots))
+    };
+    Ok(in_doubt.or(doubt).or_else(ending).map_or(Verdict::Kept, Verdict::Unknown))
+}
+
+/// The findings in a log.
+struct Seen {
+    first: Option<Breach>,
+    parted: Option<i64>,
+    in_doubt: Option<Doubt>,
+}
+
+/// Looks at each of the `stamps`; robots may be taken to stand still before their first positions and behind their last
+/// ones.
+fn look(
+    (tracks, stamps): (&Tracks, &[(i64, u32, u32)]),
+    limits: &Limits,
+    demand: &Demand,
+    is_held: bool,
+) -> Seen {
     let tolerance = f64::from(limits.tolerance_mm);
     let mut is_started = false;
     let (mut parted, mut in_doubt) = (None, None);
     let starts: Vec<_> = tracks.starts().collect();
     // When each robot has left its start, and when it was first off it.
     let [left, off] = if let Demand::Apart { least_mm } = demand {
-        [f64::from(*least_mm) - tolerance, tolerance].map(|far| leaving(tracks, far))
+        [
+            leaving(tracks, |far| far >= f64::from(*least_mm) - tolerance),
+            leaving(tracks, |far| far > tolerance),
+        ]
     } else {
         [Vec::new(), Vec::new()]
     };
@@ -304,21 +350,15 @@ pub fn judge(tracks: &Tracks, limits: &Limits, demand: &Demand) -> Result<Verdic
         Demand::Visited { .. } => None,
     };
     let mut first: Option<Breach> = None;
-    for fresh in moments() {
-        let moment = Moment { at_us: fresh[0].0, fresh, tracks };
+    for fresh in stamps.chunk_by(|one, other| one.0 == other.0) {
+        let moment = Moment { at_us: fresh[0].0, fresh, tracks, is_held };
         let Some(Finding { robots, measured, cell }) = found(&moment) else { continue };
         let place = fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
         let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
         let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
         first.get_or_insert(Breach { at_us, robots, measured, allowed, cell, place, moments }).moments += 1;
     }
-    if let Some(at_us) = parted {
-        return Ok(Verdict::Unknown(Doubt::Parted(at_us)));
-    }
-    if let Some(breach) = first {
-        return Ok(Verdict::Broken(breach));
-    }
-    Ok(in_doubt.or(silent).map_or(Verdict::Kept, Verdict::Unknown))
+    Seen { first, parted, in_doubt }
 }
 
 /// The number that a demand allows.
@@ -338,12 +378,15 @@ fn visited(
     grid: Grid,
     cells: &[[i32; 2]],
     is_whole: bool,
-    silent: Option<Doubt>,
+    doubt: Option<Doubt>,
 ) -> Result<Verdict, TooMuch> {
+    if cells.is_empty() {
+        return Ok(Verdict::Unknown(Doubt::Nowhere));
+    }
     let [surely, maybe] = visits(tracks, limits, grid, &cells.iter().copied().collect::<BTreeSet<_>>())?;
     let left: Vec<_> = cells.iter().copied().filter(|cell| !surely.contains(cell)).collect();
     let Some(&first) = left.first() else { return Ok(Verdict::Kept) };
-    if let Some(doubt) = silent {
+    if let Some(doubt) = doubt {
         return Ok(Verdict::Unknown(doubt));
     }
     if !is_whole {

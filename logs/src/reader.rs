@@ -183,6 +183,9 @@ impl Reading {
     }
 }
 
+/// The farthest stamp from 0, in microseconds.
+const MOST_US: f64 = 9e18;
+
 /// Microseconds of seconds and nanoseconds, or nothing if there is no such moment.
 fn micros(seconds: i64, nanos: i64) -> Option<i64> {
     seconds.checked_mul(1_000_000)?.checked_add(nanos / 1_000)

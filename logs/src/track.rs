@@ -149,6 +149,28 @@ impl Tracks {
         Some([between(before.x_mm, x), between(before.y_mm, y)])
     }
 
+    /// The place of a robot, in millimetres, if it stood still before its first position and behind its last one, for as
+    /// long as the gap.
+    pub(crate) fn held(&self, robot: usize, at_us: i64) -> Option<[f64; 2]> {
+        let held = || {
+            let track = self.robots.get(robot)?;
+            let (first, last) = (track.first()?, track.last()?);
+            let end = if at_us < first.at_us { first } else { last };
+            let is_inside = first.at_us <= at_us && at_us <= last.at_us;
+            let is_near = !is_inside && end.at_us.abs_diff(at_us) <= self.gap_us;
+            is_near.then(|| [end.x_mm, end.y_mm].map(f64::from))
+        };
+        self.at(robot, at_us).or_else(held)
+    }
+
+    /// Whether more positions of robots were not taken than were.
+    pub fn are_mostly_refused(&self) -> bool {
+        let Refusals { late, astray, replaced, nobody: _ } = self.refused;
+        let refused =
+            [late, astray, replaced].into_iter().flatten().map(|(count, _)| count as usize).sum::<usize>();
+        refused > self.samples().count()
+    }
+
     /// The times in which a robot was silent for longer than the gap, by robot and time.
     pub fn silences(&self) -> impl Iterator<Item = Silence> + '_ {
         let [first, last] = self.span_us;

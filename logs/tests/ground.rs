@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_logs::{Grid, Ground, Limits, Numbers, Strays, Tracks, misplaced, read};
 
 const LIMITS: Limits = Limits { tolerance_mm: 100, gap_us: 1_000_000, jump_us: 60_000_000 };
-const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000 };
+const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000.0 };
 
 /// Three columns and two rows; the cell (2,0) is blocked, and a wall is between (0,0) and (1,0).
 struct Floor;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_logs::{Breach, Demand, Doubt, Grid, Group, Limits, Numbers, Tracks, Verdict, judge, read};
 
 const LIMITS: Limits = Limits { tolerance_mm: 100, gap_us: 1_000_000, jump_us: 60_000_000 };
-const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000 };
+const GRID: Grid = Grid { origin_mm: [0.0, 0.0], cell_mm: 1_000.0 };
 const RANGE: Demand = Demand::Neighbours { range_mm: 2_549 };
 const JOINED: Demand = Demand::Joined { range_mm: 2_549, of: Group::JoinedAtStart };
 const APART: Demand = Demand::Apart { least_mm: 3_000 };

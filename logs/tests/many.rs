@@ -139,7 +139,7 @@ impl Run {
     }
 
     fn demand(&self, sort: &Sort, id: &str) -> Demand {
-        let grid = Grid { origin_mm: [0.0, 0.0], cell_mm: sort.cell_mm as u32 };
+        let grid = Grid { origin_mm: [0.0, 0.0], cell_mm: f64::from(sort.cell_mm) };
         match id {
             "CHAIN-2" => Demand::Crowd { grid, most: 2, base: Some(self.grid_cell(self.cells[0][0])) },
             "CHAIN-3" => Demand::Neighbours { range_mm: 2_549 },

@@ -74,7 +74,7 @@ impl Demand for Connectivity {
 pub struct Apart {
     /// The least distance.
     pub least_mm: u32,
-    /// How far off the distance may be.
+    /// How far off the distance may be: less than the least one, or [nothing breaks it](AnyDemand::is_blind).
     pub tolerance_mm: u32,
 }
 
@@ -100,7 +100,7 @@ pub struct Cells {
     pub most: u32,
     /// The column and the row of a cell in which any number may be.
     pub base: Option<[i32; 2]>,
-    /// How far off a position may be.
+    /// How far off a position may be: less than half a cell, or [nothing breaks it](AnyDemand::is_blind).
     pub tolerance_mm: u32,
 }
 
@@ -142,6 +142,17 @@ pub enum AnyDemand {
     Apart(Apart),
     /// CHAIN-2, FRONTIER-2, PACK-2.
     Cells(Cells),
+}
+
+impl AnyDemand {
+    /// Whether its tolerance is so large that nothing breaks it.
+    pub const fn is_blind(&self) -> bool {
+        match self {
+            Self::Neighbours(_) | Self::Connectivity(_) => false,
+            Self::Apart(Apart { least_mm, tolerance_mm }) => *tolerance_mm >= *least_mm,
+            Self::Cells(Cells { cell_mm, tolerance_mm, .. }) => *tolerance_mm >= cell_mm.div_ceil(2),
+        }
+    }
 }
 
 impl Demand for AnyDemand {

@@ -180,9 +180,9 @@ impl<R: AsRef<[Robot]>> Track<R> {
         Some(self.robot(robot)?.place)
     }
 
-    /// Whether `robot` was ever heard farther than so many millimetres from where it was heard first.
+    /// Whether `robot` was ever heard so many millimetres, or farther, from where it was heard first.
     pub fn has_strayed(&self, robot: usize, mm: u32) -> bool {
-        self.robots.as_ref().get(robot).is_some_and(|robot| robot.strayed > square(mm))
+        self.robots.as_ref().get(robot).is_some_and(|robot| robot.strayed >= square(mm))
     }
 
     /// The robots that were heard within the gap.

@@ -112,11 +112,11 @@ fn judged(clause: Clause, log: &[Sample]) -> Vec<Option<bool>> {
                     .map(|one| one.3)
             })
             .collect();
-        // Whether it was ever farther from its start than the demand and its tolerance.
+        // Whether it was ever as far from its start as the demand, within its tolerance.
         let has_left = |robot: usize| {
             let mut places = taken.iter().filter(|one| one.1 == robot).map(|one| one.3);
             let start = places.next().expect("it was heard");
-            places.any(|place| far(start, place) > 1_000.0 - tolerance)
+            places.any(|place| far(start, place) >= 1_000.0 - tolerance)
         };
         let pairs = || {
             let all = (0..ROBOTS).flat_map(|one| (one + 1..ROBOTS).map(move |other| (one, other)));

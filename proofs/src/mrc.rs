@@ -22,6 +22,8 @@ pub enum Misreading {
     Askers,
     /// A robot on its way takes another WFR's choice for that of the one to which it goes.
     Offers,
+    /// A robot whose records are full takes a new WFR's call for the end of its way.
+    Ends,
 }
 
 /// Whose service the SBit of a call stands for.

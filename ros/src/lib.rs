@@ -8,10 +8,11 @@ pub mod node;
 mod report;
 pub mod watch;
 
-/// Prints a line for a person to stderr.
+/// Prints a line for a person to stderr, where there may be nobody any more to read it.
+#[macro_export]
 macro_rules! tell {
-    ($($part:tt)*) => {
-        eprintln!("tautline-ros: {}", format_args!($($part)*))
-    };
+    ($($part:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), "tautline-ros: {}", format_args!($($part)*));
+    }};
 }
-pub(crate) use tell;

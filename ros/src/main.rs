@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use tautline_ros::config::{Config, Id};
 use tautline_ros::node::{self, LAST_DOMAIN};
+use tautline_ros::tell;
 
 /// Watches robots of ROS 2 by the clauses of Tautline: hears poses, publishes /diagnostics and /tautline/markers.
 ///
@@ -94,7 +95,7 @@ impl Log for Errors {
 
     fn log(&self, record: &Record<'_>) {
         if self.enabled(record.metadata()) {
-            eprintln!("tautline-ros: the DDS library: {}", record.args());
+            tell!("the DDS library: {}", record.args());
         }
     }
 
@@ -109,8 +110,8 @@ fn run() -> Result<(), String> {
         signal_hook::flag::register(signal, Arc::clone(&stop)).map_err(|error| error.to_string())?;
     }
     let network = node::join("tautline", arguments.domain).map_err(|error| error.to_string())?;
-    eprintln!(
-        "tautline-ros: {} robots and {} clauses are watched in domain {}",
+    tell!(
+        "{} robots and {} clauses are watched in domain {}",
         config.robots.len(),
         config.clauses.len(),
         arguments.domain
@@ -121,7 +122,7 @@ fn run() -> Result<(), String> {
 fn main() -> ExitCode {
     // A thread of the DDS library that is gone would leave a node that hears nobody.
     std::panic::set_hook(Box::new(|panic| {
-        eprintln!("tautline-ros: this is a bug, please report it: {panic}");
+        tell!("this is a bug, please report it: {panic}");
         exit(70);
     }));
     if log::set_logger(&Errors).is_ok() {
@@ -129,11 +130,11 @@ fn main() -> ExitCode {
     }
     match run() {
         Ok(()) => {
-            eprintln!("tautline-ros: ended");
+            tell!("ended");
             ExitCode::SUCCESS
         }
         Err(why) => {
-            eprintln!("tautline-ros: {why}");
+            tell!("{why}");
             ExitCode::from(2)
         }
     }

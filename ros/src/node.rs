@@ -199,17 +199,16 @@ impl Voice<'_> {
         let trouble = |robot: &Robot| trouble(robot, published.get_or_init(|| published_types(self.context)));
         let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let diagnostics = watch.diagnostics(Time::from_micros(since.as_micros() as u64), trouble);
-        for (status, is_news) in diagnostics.status.iter().zip(watch.mark_told()) {
-            if is_news {
-                tell!("{}: {}", status.name, status.message);
-            }
-        }
+        let told = diagnostics.status.iter().zip(watch.mark_told()).filter(|(_, is_news)| *is_news);
+        let news: Vec<_> = told.map(|(status, _)| format!("{}: {}", status.name, status.message)).collect();
+        // Robots come first: whoever reads stderr may be slow.
         if let Err(error) = self.diagnostics.publish(diagnostics) {
             tell!("diagnostics are not published: {}", error.forget_data());
         }
         if let Err(error) = self.markers.publish(watch.markers()) {
             tell!("markers are not published: {}", error.forget_data());
         }
+        news.iter().for_each(|line| tell!("{line}"));
     }
 }
 

@@ -11,7 +11,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
 
 use super::super::{CellArg, needless, number};
-use super::{MOST, above_0, milli};
+use super::{MOST, above_0};
 use tautline_grids::layout::ros::{self, Frame};
 use tautline_grids::layout::{self, Coarse, Generator, Layout};
 
@@ -130,7 +130,7 @@ impl MapArgs {
             layout.check_base(base)?;
         }
         let base = base.or_else(|| layout.as_ref()?.base());
-        let grid = Grid { origin_mm: corner.map(|along| along * 1e3), cell_mm: milli(cell_m).max(1) };
+        let grid = Grid { origin_mm: corner.map(|along| along * 1e3), cell_mm: cell_m * 1e3 };
         Ok(LogMap { layout, grid, base })
     }
 }
@@ -141,7 +141,7 @@ impl LogMap {
     }
 
     pub(super) fn cell_m(&self) -> f64 {
-        f64::from(self.grid.cell_mm) / 1e3
+        self.grid.cell_mm / 1e3
     }
 
     pub(super) const fn layout(&self) -> Option<&Layout> {
@@ -154,7 +154,7 @@ impl LogMap {
 
     /// Refuses cells in which no robot is without doubt.
     pub(super) fn check_cells(&self, id: &str, limits: &Limits) -> Result<(), Diagnostic> {
-        if limits.tolerance_mm * 2 < self.grid.cell_mm {
+        if f64::from(limits.tolerance_mm) * 2.0 < self.grid.cell_mm {
             return Ok(());
         }
         let what = format!(

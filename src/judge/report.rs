@@ -37,7 +37,7 @@ pub(crate) struct JudgeJson<'a> {
     span_us: [i64; 2],
     tolerance_mm: u32,
     gap_us: u64,
-    cell_mm: u32,
+    cell_mm: f64,
     /// Remarks on what was not taken, and on what the log does not have.
     remarks: Vec<String>,
     clauses: Vec<ClauseJson>,
@@ -275,6 +275,19 @@ impl LogReport<'_> {
                     self.cell(*cell)
                 )
             }
+            Doubt::Nowhere => {
+                "no robot is first in a free cell of the map, and the clause asks for nothing".to_owned()
+            }
+            Doubt::Refused => "more than half of the positions were not taken".to_owned(),
+            Doubt::Ending(at_us, robots) => {
+                let who: Vec<_> = robots.iter().map(|&robot| self.robot(robot)).collect();
+                format!(
+                    "at {} s robots {} would break it if one of them stood still before its first position, or behind \
+                     its last one",
+                    seconds(*at_us),
+                    who.join(" and ")
+                )
+            }
             Doubt::Cut => "the log is cut, and the run may have gone on".to_owned(),
             Doubt::OtherMap => {
                 "more than half of the positions are not on the map: it is another one, or has other \
@@ -343,8 +356,8 @@ impl LogReport<'_> {
         let places = self.places(at_us, broken);
         let grid = self.given.grid();
         let (layout, [left, bottom], side) = match self.given.layout() {
-            Some(layout) => (layout.clone(), grid.origin_mm, f64::from(grid.cell_mm)),
-            None => around(&places, f64::from(grid.cell_mm))?,
+            Some(layout) => (layout.clone(), grid.origin_mm, grid.cell_mm),
+            None => around(&places, grid.cell_mm)?,
         };
         let area = layout.size().area();
         svg::check_size(area)?;

@@ -38,8 +38,29 @@ pub(super) struct Letters {
     written: u32,
     /// Those that are not acknowledged, and how often each will still be repeated.
     open: Vec<(Letter, u8)>,
-    /// The latest from each sender.
-    heard: Vec<(Hop, u32)>,
+    heard: Vec<(Hop, Window)>,
+}
+
+/// Which frames of a sender have come: the newest, and those of the 64 up to it. A letter is given up long before its
+/// sender has written 64 more.
+#[derive(Debug, Default)]
+struct Window {
+    newest: u32,
+    /// The bit of each frame, the newest one's being the lowest.
+    came: u64,
+}
+
+impl Window {
+    /// Takes in that `frame` has come; whether it had not come before.
+    fn takes(&mut self, frame: u32) -> bool {
+        let ahead = frame.saturating_sub(self.newest);
+        self.came = self.came.checked_shl(ahead).unwrap_or(0);
+        self.newest += ahead;
+        let bit = 1_u64.checked_shl(self.newest - frame).unwrap_or(0);
+        let is_new = self.came & bit == 0;
+        self.came |= bit;
+        is_new
+    }
 }
 
 impl Letters {
@@ -70,12 +91,12 @@ impl Letters {
 
     /// Whether a letter that arrives has not arrived before.
     pub(super) fn is_news(&mut self, letter: &Letter) -> bool {
-        match self.heard.iter_mut().find(|(from, _)| *from == letter.from) {
-            None => self.heard.push((letter.from, letter.frame)),
-            Some((_, frame)) if *frame < letter.frame => *frame = letter.frame,
-            Some(_) => return false,
-        }
-        true
+        let place = self.heard.iter().position(|(from, _)| *from == letter.from);
+        let place = place.unwrap_or_else(|| {
+            self.heard.push((letter.from, Window::default()));
+            self.heard.len() - 1
+        });
+        self.heard[place].1.takes(letter.frame)
     }
 }
 
@@ -109,5 +130,14 @@ mod tests {
         assert_eq!([one, one, other, one].map(|letter| reader.is_news(&letter)), [true, false, true, false]);
         let elsewhere = Letter { from: Hop::Node(NodeId(2)), ..one };
         assert!(reader.is_news(&elsewhere));
+    }
+
+    #[test]
+    fn a_letter_that_a_later_one_has_overtaken_is_news_once() {
+        let mut letters = Letters::default();
+        let written: Vec<Letter> = (0..64).map(|_| letter(&mut letters)).collect();
+        let mut reader = Letters::default();
+        let are_news = [1, 0, 0, 1, 63, 3, 3, 1].map(|place: usize| reader.is_news(&written[place]));
+        assert_eq!(are_news, [true, true, false, false, true, true, false, false]);
     }
 }

@@ -181,9 +181,8 @@ impl Judge {
             Phase::Leased { choice } => Some(choice.robot),
             Phase::Idle | Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Rescued { .. } => None,
         };
-        let lives = |robot: RobotId| robots.get(usize::from(robot.0)).is_some_and(|seen| !seen.has_failed);
         for (wfr, machine) in wfrs.iter().enumerate() {
-            if let Some(robot) = counts_on(machine).filter(|&robot| lives(robot))
+            if let Some(robot) = counts_on(machine)
                 && wfrs[..wfr].iter().any(|other| counts_on(other) == Some(robot))
             {
                 self.tell(Demand::OneCallForARobot, wfr, at_ns);
@@ -311,8 +310,8 @@ mod tests {
     }
 
     #[test]
-    fn two_that_count_on_one_robot_are_told_while_it_lives() {
-        assert_eq!(told(false), [Violation { demand: Demand::OneCallForARobot, at_ns: 5, wfr: 1, event: 0 }]);
-        assert_eq!(told(true), []);
+    fn two_that_count_on_one_robot_are_told_whether_it_lives_or_has_failed() {
+        let violation = Violation { demand: Demand::OneCallForARobot, at_ns: 5, wfr: 1, event: 0 };
+        assert_eq!([false, true].map(told), [[violation], [violation]]);
     }
 }

@@ -35,7 +35,8 @@ pub struct Pair {
 pub struct Scratch<'a> {
     /// That of searches.
     pub search: Search<'a>,
-    /// As many as the square of the robots; with fewer, fewer of the nearest cells are compared.
+    /// As many as the square of the robots; with fewer, fewer of the nearest cells are compared. With fewer than robots
+    /// no cell is, and a robot takes itself for done.
     pub pairs: &'a mut [Option<Pair>],
 }
 

@@ -12,7 +12,7 @@ use super::{Layout, Point, Range, Refusal};
 /// so that (7) divides by 0, or if (8) does.
 pub fn closed_form(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
-    if Layout::of(ranges).is_line() {
+    if Layout::of(ranges).is_line(ranges.len()) {
         return Err(Refusal::Collinear);
     }
     let &[a, b, c] = ranges else { return Err(Refusal::Anchors(ranges.len())) };

@@ -22,8 +22,11 @@ impl Layout {
     pub fn of(ranges: &[Range]) -> Self {
         let count = count(ranges);
         let places = || ranges.iter().map(|range| range.anchor);
-        let (x, y) = places().fold((0.0, 0.0), |(x, y), place| (x + place.x_m, y + place.y_m));
-        let centre = Point::new(x / count, y / count);
+        // Far from the origin sums of whole coordinates would be off by more than anchors are from their line.
+        let first = places().next().unwrap_or(Point::new(0.0, 0.0));
+        let (x, y) = places()
+            .fold((0.0, 0.0), |(x, y), place| (x + (place.x_m - first.x_m), y + (place.y_m - first.y_m)));
+        let centre = Point::new(first.x_m + x / count, first.y_m + y / count);
         let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
         for place in places() {
             let (x, y) = (place.x_m - centre.x_m, place.y_m - centre.y_m);
@@ -57,10 +60,10 @@ impl Layout {
         }
     }
 
-    /// Whether the anchors are on one line, to the precision of their coordinates.
-    pub(super) fn is_line(&self) -> bool {
+    /// Whether so many anchors are on one line, to the precision of their coordinates.
+    pub(super) fn is_line(&self, anchors: usize) -> bool {
         let scale_m = self.spread_m[0] + self.centre.x_m.abs() + self.centre.y_m.abs();
-        self.spread_m[1] <= 4.0 * f64::EPSILON * scale_m
+        self.spread_m[1] <= 4.0 * f64::EPSILON * libm::sqrt(anchors as f64) * scale_m
     }
 
     /// How far along and across the line the linear equations say that the robot is. Across it, that is no number or
@@ -102,7 +105,7 @@ fn rotation(xx: f64, xy: f64, yy: f64) -> (f64, f64) {
 pub fn linear(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
     let layout = Layout::of(ranges);
-    if layout.is_line() {
+    if layout.is_line(ranges.len()) {
         return Err(Refusal::Collinear);
     }
     let (along_m, across_m) = layout.solve(ranges);

@@ -4,21 +4,33 @@
 use serde_json::{Map, Value};
 
 use super::columns::{Part, part};
-use super::{Fault, FaultPlace, Form, Log, Pose, Reading, micros};
+use super::{Fault, FaultPlace, Form, Log, MOST_US, Pose, Reading, micros};
 
 const REMEDY: &str = "write lines as {\"time\": 12.5, \"robot\": \"a\", \"x\": 1.0, \"y\": 2.0}, or as the \
                       messages of ROS, with header.stamp and pose";
 
 /// The position that an object has, without its robot; `at_us` is the time of an object that has none.
 pub(super) fn pose(object: &Map<String, Value>, at_us: Option<i64>) -> Result<(i64, [f64; 2]), &'static str> {
-    let (mut time, mut along) = (stamp(object).or(at_us), [None; 2]);
+    let (mut named, mut along) = (None, [None; 2]);
     for (name, value) in object {
-        match (part(name), value.as_f64()) {
-            (Some((Part::Time, scale)), Some(number)) => time = Some((number * scale).round() as i64),
-            (Some((Part::Along(axis), scale)), Some(number)) => along[axis] = Some(number * scale),
-            (Some((Part::Time | Part::Along(_) | Part::Robot, _)) | None, _) => {}
+        let (before, twice, scale) = match part(name) {
+            Some((Part::Time, scale)) => (&mut named, "two times", scale),
+            Some((Part::Along(axis), scale)) => (&mut along[axis], ["two x", "two y"][axis], scale),
+            Some((Part::Robot, _)) | None => continue,
+        };
+        let Some(number) = value.as_f64() else { continue };
+        if before.replace(number * scale).is_some() {
+            return Err(twice);
         }
     }
+    let time = match named {
+        Some(us) if us.abs() > MOST_US => {
+            return Err("no such time; write seconds as 12.5, or a unit as in time_ns");
+        }
+        Some(us) => Some(us.round() as i64),
+        // A stamp of 0 is one that nobody has set.
+        None => stamp(object).filter(|&us| us != 0 || at_us.is_none()).or(at_us),
+    };
     let position = position(object);
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         // A number that JSON has no word for is null.
@@ -54,16 +66,16 @@ fn position(object: &Map<String, Value>) -> Option<&Map<String, Value>> {
 }
 
 /// The robot that an object names.
-fn robot(object: &Map<String, Value>) -> Option<String> {
-    let named = object.iter().find(|(name, _)| matches!(part(name), Some((Part::Robot, _))));
-    let value = named
-        .map(|(_, value)| value)
-        .or_else(|| object.get("child_frame_id"))
-        .or_else(|| object.get("topic"))?;
-    match value {
-        Value::String(name) => Some(name.clone()),
-        Value::Number(number) => Some(number.to_string()),
-        Value::Null | Value::Bool(_) | Value::Array(_) | Value::Object(_) => None,
+fn robot(object: &Map<String, Value>) -> Result<String, &'static str> {
+    let mut named = object.iter().filter(|(name, _)| matches!(part(name), Some((Part::Robot, _))));
+    let value = named.next().map(|(_, value)| value);
+    if named.next().is_some() {
+        return Err("two robots");
+    }
+    match value.or_else(|| object.get("child_frame_id")).or_else(|| object.get("topic")) {
+        Some(Value::String(name)) => Ok(name.clone()),
+        Some(Value::Number(number)) => Ok(number.to_string()),
+        Some(Value::Null | Value::Bool(_) | Value::Array(_) | Value::Object(_)) | None => Err("no robot"),
     }
 }
 
@@ -93,9 +105,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
                 ));
             }
         };
-        let (at_us, mm) =
-            pose(&object, None).map_err(|missing| fault(0, format!("this line has {missing}")))?;
-        let robot = robot(&object).ok_or_else(|| fault(0, "this line has no robot".to_owned()))?;
+        let wrong = |what| fault(0, format!("this line has {what}"));
+        let (at_us, mm) = pose(&object, None).map_err(wrong)?;
+        let robot = robot(&object).map_err(wrong)?;
         if let Some(frame) = object.get("header").and_then(|header| header.get("frame_id")?.as_str()) {
             reading.frame(frame);
         }

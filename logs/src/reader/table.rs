@@ -3,7 +3,7 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::columns::{Part, part};
-use super::{Fault, FaultPlace, Form, Log, Pose, Reading};
+use super::{Fault, FaultPlace, Form, Log, MOST_US, Pose, Reading};
 
 /// The columns of the parts, each with its unit.
 struct Columns {
@@ -128,7 +128,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
             continue;
         }
         let at_us = number(*time)?;
-        if at_us.is_nan() || at_us.abs() > 9e18 {
+        if at_us.is_nan() || at_us.abs() > MOST_US {
             let what = "there is no such time".to_owned();
             return Err(fault(line, &record, &between, Some(time.0), what, "write seconds as 12.5"));
         }

@@ -1,6 +1,6 @@
 //! Where an ant goes (ANTS-2): whatever the sensors beside it count.
 
-use tautline_kernel::ants::{Rule, least_crossed};
+use tautline_kernel::ants::{Rule, decide};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{COMPASS, Ring, Scan};
 use tautline_kernel::ground::Side;
@@ -34,7 +34,7 @@ pub(super) fn ties(subject: &Subject<Rule>, oracle: &mut dyn Oracle) -> Outcome 
             }
         }
     }
-    let goes = least_crossed(&scan, scan.beside);
+    let goes = decide(subject.scheme, &scan).map(|(side, _)| side);
     require(goes == due.map(|(_, side)| side), "it goes to the first of the least crossed neighbours")?;
     Ok(if goes.is_some() { "a side" } else { "no side" })
 }

@@ -88,7 +88,6 @@ const KNOWS_ALONE: &[Reading<Subject<Rule>>] = &holding([READINGS[0]], [0]);
 /// Alone, an agent beside a cell in the dark never takes itself for done.
 const BEFORE_THE_END: &[Reading<Subject<Rule>>] = &holding(READINGS, [6, 8, 10]);
 
-const NO_CORNERS: Rule = Rule::REPAIRED.without(Corners);
 const NOT_ALONE: NamedRule<Subject<Rule>> =
     named("marks cells in which others are", Rule::REPAIRED.without(Alone));
 
@@ -120,11 +119,23 @@ const DOUBTING_RULE: TreeRule = TreeRule::DOUBTING.reading(1);
 /// Agents whose trees all have the same label.
 const WRAPPING: NamedRule<Subject<TreeRule>> =
     named("labels that come again", TreeRule { label_bits: 0, ..TreeRule::TREE });
-const NO_EXITS: NamedRule<Subject<TreeRule>> =
-    named("cells marked without the side left through", TreeRule::TREE.without(Exit));
-const PARENTS_MARKED: NamedRule<Subject<TreeRule>> =
-    named("cells marked that have children", TreeRule::TREE.without(Childless));
-const BELIEVING: NamedRule<Subject<TreeRule>> = named("what is seen is believed", TreeRule::TREE);
+
+/// Rules that differ in more than one thing from those whose mutants they are: for neither is one known that differs in
+/// one and that these bounds find.
+const BELIEVING: NamedRule<Subject<TreeRule>> =
+    named("brick-tree, which believes what it sees", TreeRule::TREE);
+const BRICKS_MARKED: NamedRule<Subject<TreeRule>> =
+    named("brick-tree, cells marked that have children", TreeRule::TREE.without(Childless));
+
+/// A rule that marks cells without [`Exit`].
+const fn no_exits(rule: TreeRule) -> NamedRule<Subject<TreeRule>> {
+    named("cells marked without the side left through", rule.without(Exit))
+}
+
+/// A rule that marks cells without [`Childless`].
+const fn parents_marked(rule: TreeRule) -> NamedRule<Subject<TreeRule>> {
+    named("cells marked that have children", rule.without(Childless))
+}
 
 /// Helpers that go where `to` says.
 const fn going(name: &'static str, to: To) -> NamedRule<Subject<TravelRule>> {
@@ -167,11 +178,11 @@ const fn refuted<S: Demands>(
 step_checks! { Rule;
     neighbourhood: marking::neighbourhood, NamedRule::new("published", Rule::PUBLISHED), marking::neighbourhoods,
         covers ["explored", "visited"], unwind 17, mutants {
-            without_corners: "without corners" => NO_CORNERS,
+            without_corners: "without corners" => Rule::PUBLISHED.without(Corners),
         };
     walled: marking::walled, NamedRule::new("repaired", Rule::REPAIRED), marking::walled_neighbourhoods,
         covers ["explored", "visited"], unwind 17, mutants {
-            without_corners: "without corners" => NO_CORNERS,
+            without_corners: "without corners" => Rule::REPAIRED.without(Corners),
         };
     half_seen: marking::half_seen, NamedRule::new("robust", Rule::ROBUST), marking::readings,
         covers ["explored", "visited"], unwind 17, mutants {
@@ -205,12 +216,16 @@ pub const CLAUSES: [Clause; 15] = [
         id: "BRICKS-2",
         sentence: "The accessible cells MUST stay connected.",
         checks: &[
-            &holds(PUBLISHED, &Floors::new(&ALONE, Connected), &[named("without corners", NO_CORNERS)]),
+            &holds(
+                PUBLISHED,
+                &Floors::new(&ALONE, Connected),
+                &[named("without corners", Rule::PUBLISHED.without(Corners))],
+            ),
             &holds(
                 REPAIRED,
                 &Floors::shared(&TOGETHER, Connected),
                 &[
-                    named("without corners", NO_CORNERS),
+                    named("without corners", Rule::REPAIRED.without(Corners)),
                     named("no lap gives way to another", laps(Precedence::Nobody)),
                 ],
             ),
@@ -223,8 +238,8 @@ pub const CLAUSES: [Clause; 15] = [
                 )],
             ),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Connected), &[TRUSTING, ONCE_OVER]),
-            &holds(TREE, &Floors::shared(&TREES, Connected), &[PARENTS_MARKED, WRAPPING]),
-            &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[PARENTS_MARKED]),
+            &holds(TREE, &Floors::shared(&TREES, Connected), &[parents_marked(TreeRule::TREE), WRAPPING]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[parents_marked(TreeRule::HELPERS)]),
             &holds(
                 CAREFUL,
                 &Floors::shared(&TREES_HALF_BLIND, Connected),
@@ -258,8 +273,8 @@ pub const CLAUSES: [Clause; 15] = [
             &holds(REPAIRED, &Floors::shared(&TOGETHER, Knowing), &[NOT_ALONE]),
             &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Knowing)).under(BEFORE_THE_END).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Knowing), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
-            &holds(TREE, &Floors::shared(&TREES, Knowing), &[NO_EXITS]),
-            &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[NO_EXITS]),
+            &holds(TREE, &Floors::shared(&TREES, Knowing), &[no_exits(TreeRule::TREE)]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Knowing), &[no_exits(TreeRule::HELPERS)]),
             &refuted(MDFS, &Floors::broken_on(PAIR, &TREES, Knowing)).because("a rival"),
             &refuted(TREE, &Floors::broken_on(HALF_BLIND_PAIR, &TREES_HALF_BLIND, Knowing))
                 .because("with missed sensors; the rule careful is for those"),
@@ -310,8 +325,8 @@ pub const CLAUSES: [Clause; 15] = [
             ),
             &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Ends)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Ends), &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
-            &holds(TREE, &Floors::shared(&TREES, Ends), &[PARENTS_MARKED]),
-            &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[PARENTS_MARKED]),
+            &holds(TREE, &Floors::shared(&TREES, Ends), &[parents_marked(TreeRule::TREE)]),
+            &holds(HELPERS, &Floors::shared(&HELPING, Ends), &[BRICKS_MARKED]),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Ends), &[BELIEVING]),
             &holds(
                 CAREFUL,
@@ -351,7 +366,7 @@ pub const CLAUSES: [Clause; 15] = [
     Clause {
         id: "BRICKS-9",
         sentence: "Labels MUST never fall from a cell of a tree to its parent.",
-        checks: &[&holds(TREE, &Floors::shared(&TREES, own(Own::Rising)), &[PARENTS_MARKED])],
+        checks: &[&holds(TREE, &Floors::shared(&TREES, own(Own::Rising)), &[parents_marked(TreeRule::TREE)])],
     },
     Clause {
         id: "BRICKS-10",
@@ -374,7 +389,7 @@ pub const CLAUSES: [Clause; 15] = [
         checks: &[
             &refuted(REPAIRED, &Floors::broken_on(IN_ONE_CELL, &FAILING, Ends))
                 .because("laps need every agent; trees do not"),
-            &holds(TREE, &Floors::new(&TREES_FAILING, Ends), &[NO_EXITS]),
+            &holds(TREE, &Floors::new(&TREES_FAILING, Ends), &[no_exits(TreeRule::TREE)]),
         ],
     },
     Clause {

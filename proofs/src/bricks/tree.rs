@@ -74,6 +74,10 @@ impl<T: TreeRule> Scheme for T {
         carry_out(self.writes(), floor, cell, act)
     }
 
+    fn is_left(&self, mark: Mark) -> bool {
+        mark != Mark::Visited
+    }
+
     fn step(act: &Act) -> Option<Step> {
         (act.next != Next::Done).then(|| act.next.side().map_or(Step::Stay, Step::Cross))
     }

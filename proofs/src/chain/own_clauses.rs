@@ -36,6 +36,7 @@ step_checks! { Subject;
 /// The bounds of the clause that is looked at by a slow procedure.
 const FOUR_TWO_WALLS: (usize, u32) = (4, 2);
 const THREE_FOUR_WALLS: (usize, u32) = (3, 4);
+const THREE_FIVE_WALLS: (usize, u32) = (3, 5);
 
 const NO_NEARER: NamedRule<Subject> = NamedRule::new(
     "an approach gets no nearer",
@@ -292,6 +293,8 @@ pub const CLAUSES: [Clause; 10] = [
             ),
             &Check::holds(REEL, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
             &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[AS_REPAIRED]),
+            &Check::refuted(REEL, &EveryLayout(Invariant::Short, THREE_FIVE_WALLS))
+                .because("N² is no result of an argument, and not enough for five walls"),
         ],
     },
     Clause {

@@ -108,6 +108,11 @@ pub trait Scheme: Copy + PartialEq + fmt::Debug + Send + Sync + 'static {
         mark != Mark::Sealed
     }
 
+    /// Whether agents may still have to go through a cell with this mark.
+    fn is_left(&self, mark: Mark) -> bool {
+        self.passes(mark)
+    }
+
     /// Whether agents may go on for ever although nothing is left to explore, since sensors are missed by chance.
     fn may_roam(&self, _: Sight) -> bool {
         false

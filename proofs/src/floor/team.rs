@@ -88,11 +88,6 @@ pub(crate) trait Demands: Scheme {
         self
     }
 
-    /// Whether agents may still have to go through a cell with this mark.
-    fn is_left(&self, mark: Mark) -> bool {
-        self.passes(mark)
-    }
-
     /// Makes an agent one that acts no more.
     fn fail(body: &mut BodyOf<Self>) {
         body.has_failed = true;

@@ -367,7 +367,8 @@ pub const CLAUSES: [Clause; 12] = [
     Clause {
         id: "FRONTIER-11",
         sentence: "A robot MUST stand where four standard deviations of its belief would not be inside the next cell, \
-                   and fixes MUST make one that knows its heading sure after finitely many.",
+                   and fixes MUST make one that knows its heading, and whose drives err by less than an eighth of a \
+                   cell, sure after finitely many.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", StandingRobot::REPAIRED),
             &EveryAnswer {

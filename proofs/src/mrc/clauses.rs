@@ -58,7 +58,10 @@ const FILLED: Check<Subject> = Check::holds(
         range: records::fillings,
         covers: &["nobody gives way", "one gives way", "room for all"],
     },
-    &[lacking("whoever is chosen goes", StillAsks)],
+    &[
+        NamedRule::new("it gives its way up for a new WFR", Subject::misreading(Misreading::Ends)),
+        lacking("whoever is chosen goes", StillAsks),
+    ],
 );
 
 /// The repaired rule without this.

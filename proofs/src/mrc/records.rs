@@ -272,6 +272,10 @@ pub(super) fn filled(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
         let call = Call { wfr: NodeId(wfr), epoch: Epoch::FIRST };
         let known = table.iter().position(|&(known, _)| known == wfr);
         let event = oracle.pick(4);
+        let is_full = table.len() == PLACES && known.is_none();
+        if observed.misread == Some(Misreading::Ends) && event == 0 && is_full {
+            robot = robot.arrive().0;
+        }
         robot = match event {
             0 => robot.receive(Downward::Notice(Notice { call, hops: 0, sender: SENDERS[0] })).0,
             1 | 2 => {
@@ -322,6 +326,6 @@ fn read(observed: &Subject, message: Upward) -> Upward {
     match observed.misread {
         Some(Misreading::OneRobot) => Upward { robot: ROBOT, ..message },
         Some(Misreading::OneCall) => Upward { call: Call { epoch: Epoch::FIRST, ..message.call }, ..message },
-        Some(Misreading::Askers | Misreading::Offers) | None => message,
+        Some(Misreading::Askers | Misreading::Offers | Misreading::Ends) | None => message,
     }
 }

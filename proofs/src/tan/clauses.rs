@@ -42,6 +42,7 @@ const WHOLE_WAY: Check<Patience> = Check::holds(
         NamedRule::new("asks three times", Patience { tries: 3, ..TRUE }),
         NamedRule::new("goes nearer twice", Patience { times: 2, ..TRUE }),
         NamedRule::new("walks past", Patience { walks_past: true, ..TRUE }),
+        NamedRule::new("goes on while as strong as in the scan", Patience { recalls_scan: true, ..TRUE }),
     ],
 );
 

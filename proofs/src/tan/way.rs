@@ -26,6 +26,8 @@ pub(super) struct Patience {
     pub(super) times: u8,
     /// Whether it takes a signal that is as strong as at its node for none while it walks.
     pub(super) walks_past: bool,
+    /// Whether it compares a signal with that of its scan, not with that of its last step.
+    pub(super) recalls_scan: bool,
 }
 
 /// The knowledge that a robot should have.
@@ -62,7 +64,7 @@ impl Way {
 }
 
 /// The rule's patience.
-pub(super) const TRUE: Patience = Patience { tries: 2, times: 1, walks_past: false };
+pub(super) const TRUE: Patience = Patience { tries: 2, times: 1, walks_past: false, recalls_scan: false };
 
 /// The bound of [`whole_way`].
 pub(super) fn events() -> String {
@@ -86,7 +88,7 @@ pub(super) fn whole_way(patience: &Patience, oracle: &mut dyn Oracle) -> Outcome
         } else {
             let parent = NodeId(way.asked.saturating_sub(1).into());
             robot = robot.hear(Nav { wfr: WFR, node, hops: way.asked, parent });
-            let Some(comes) = walks(&mut robot, &way, (number, patience.walks_past), oracle)? else {
+            let Some(comes) = walks(&mut robot, &way, (number, patience), oracle)? else {
                 return Ok("on its way");
             };
             require(
@@ -111,14 +113,15 @@ pub(super) fn whole_way(patience: &Patience, oracle: &mut dyn Oracle) -> Outcome
 }
 
 /// A scan, and a walk; whether the robot has come to the node or lost its signal, unless it goes on. In scan `number`
-/// two directions are as good.
+/// two directions are as good; every second one hears a signal that can get stronger before the node is reached.
 fn walks(
     robot: &mut Homing,
     way: &Way,
-    (number, walks_past): (u8, bool),
+    (number, patience): (u8, &Patience),
     oracle: &mut dyn Oracle,
 ) -> Result<Option<bool>, Stop> {
-    let strongest = one_of(oracle, &[None, Some(way.due() - 1), Some(way.due())]);
+    let far = way.due() - 1 - i32::from(number % 2);
+    let strongest = one_of(oracle, &[None, Some(far), Some(way.due())]);
     let best = [5 + number % 2, 9].map(|steps| Heading::FIRST.turned(steps));
     for heading in Heading::all() {
         require(robot.order() == Order::Point(heading), "it turns its antenna once round")?;
@@ -133,8 +136,18 @@ fn walks(
     require(robot.order() == ahead, "it walks in the first of the strongest directions")?;
     let heard = match oracle.pick(5) {
         0 => {
-            *robot = robot.measure(Some(Strength(strongest)));
-            require(robot.order() == ahead, "it goes on while the signal is not weaker")?;
+            for heard in strongest..way.due() {
+                *robot = robot.measure(Some(Strength(heard)));
+                require(robot.order() == ahead, "it goes on while the signal is not weaker")?;
+            }
+            if strongest < way.due() - 1 {
+                let weaker = if patience.recalls_scan { way.due() - 1 } else { strongest };
+                *robot = robot.measure(Some(Strength(weaker)));
+                require(
+                    robot.order() == Order::Point(Heading::FIRST),
+                    "it scans again where it gets weaker",
+                )?;
+            }
             return Ok(None);
         }
         1 => None,
@@ -148,7 +161,7 @@ fn walks(
             return Ok(Some(false));
         }
     };
-    *robot = robot.measure(heard.filter(|_| !walks_past).map(Strength));
+    *robot = robot.measure(heard.filter(|_| !patience.walks_past).map(Strength));
     Ok(Some(heard.is_some()))
 }
 

@@ -100,7 +100,7 @@ pub struct Agents<S: Scheme> {
     cells: Vec<Cell>,
     /// The step of each agent in the last team move.
     steps: Vec<Step>,
-    /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
+    /// Whether in the last team move an agent was done although another cell was unexplored or left to go through.
     is_premature: bool,
     /// How long each agent has scanned and gone.
     milliseconds: Vec<u64>,
@@ -143,7 +143,7 @@ impl<S: Scheme> Agents<S> {
         self.sum(|component| component.active.into())
     }
 
-    /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
+    /// Whether in the last team move an agent was done although another cell was unexplored or left to go through.
     pub const fn is_premature(&self) -> bool {
         self.is_premature
     }
@@ -211,7 +211,7 @@ impl<S: Scheme> Agents<S> {
         let step = body.carry_out(&self.scheme, &mut self.floor, &act);
         self.cells[number] = body.cell;
         if body.is_done {
-            self.is_premature |= self.floor.retire(cell);
+            self.is_premature |= self.floor.retire(cell, |mark| self.scheme.is_left(mark));
         }
         self.milliseconds[number] += milliseconds(S::Sensor::scan(&view), step);
         step

@@ -73,7 +73,7 @@ fn premature(setup: &Setup, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> 
     let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
     let left = unvisited(&setup.layout, &setup.starts(), chart).into_iter().filter(is_left).count();
     vec![match left {
-        0 => "So an agent is done before others explore the last cells in this team move.".to_owned(),
+        0 => "So an agent is done before all other cells are explored and gone through.".to_owned(),
         left => format!("So an agent is done, with {} unexplored.", counted(left, "cell")),
     }]
 }

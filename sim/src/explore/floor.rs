@@ -187,13 +187,17 @@ impl<D: SensorData> SensorFloor<D> {
         self.place(cell).and_then(|place| usize::from(place.component).checked_sub(1))
     }
 
-    /// The agent in `cell` is done; whether it is too early for that: a cell of its component is unexplored.
-    pub(super) fn retire(&mut self, cell: Cell) -> bool {
-        let component = self.component(cell).and_then(|place| self.components.get_mut(place));
-        component.is_some_and(|component| {
-            component.active -= 1;
-            component.explored < component.cells
-        })
+    /// The agent in `cell` is done; whether it is too early for that: a cell of its component is unexplored, or another
+    /// one has a mark by which it `is_left` to go through.
+    pub(super) fn retire(&mut self, cell: Cell, is_left: impl Fn(Mark) -> bool) -> bool {
+        let Some(number) = self.component(cell) else { return false };
+        let here = self.index(cell);
+        let component = &mut self.components[number];
+        component.active -= 1;
+        let is_other_left = |(index, place): (usize, &Place<D>)| {
+            index != here && usize::from(place.component) == number + 1 && is_left(place.sensor.mark())
+        };
+        component.explored < component.cells || self.places.iter().enumerate().any(is_other_left)
     }
 
     /// Marks and shut sides that have changed since the start.

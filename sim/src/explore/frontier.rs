@@ -107,7 +107,7 @@ pub static FRONTIER: Profile = Profile {
         RandomPart { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
         RandomPart { what: "where a robot wanders", by: By::Rule(WANDERS) },
     ],
-    look: Look::Apart,
+    look: Look::Robots,
     clauses: &[
         Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
         Clause::new(ALONE.as_str()),

@@ -1,7 +1,7 @@
 //! The demands on agents that search in trees alone (BRICKS-8 to BRICKS-13), in plain arithmetic.
 
 use tautline_kernel::bricks::tree::{Act, Agent, Label, Next, Note, Rule, State, View};
-use tautline_kernel::floor::{COMPASS, Mark};
+use tautline_kernel::floor::COMPASS;
 use tautline_kernel::ground::Side;
 
 use super::TreeRule;
@@ -29,10 +29,6 @@ pub(crate) enum Own {
 
 impl<T: TreeRule> Demands for T {
     type Own = Own;
-
-    fn is_left(&self, mark: Mark) -> bool {
-        mark != Mark::Visited
-    }
 
     fn of_all() -> &'static [Own] {
         &[Own::Whole, Own::Rising]
