@@ -3,7 +3,6 @@
 mod html;
 mod screen;
 
-use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
@@ -356,11 +355,11 @@ impl DecisionArgs {
                     // Nobody may be there any more to read it.
                     let _ = writeln!(io::stderr(), "{}", screen::slowest(rows));
                 }
-                out.text(last_line(rows))?;
+                out.text(screen::last_line(rows))?;
                 out.text(&unfinished)?;
             }
             (Format::Github, _) => {
-                let last = last_line(rows) + &unfinished;
+                let last = screen::last_line(rows) + &unfinished;
                 out.text(findings::github(&findings(rows, memory)?, &last))?;
             }
             (Format::Junit, _) => {
@@ -530,25 +529,4 @@ fn readings(row: &Row) -> Vec<ReadingLine> {
         registered: registered.word(),
     };
     registered.zip(&row.decision.readings).map(line).collect()
-}
-
-fn last_line(rows: &[Row]) -> String {
-    let mut text = String::from("\n");
-    for row in rows.iter().filter(|row| !row.is_as_registered()) {
-        let (verdict, expected) = (row.decision.verdict.word(), row.check.expected().word());
-        let _ =
-            writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, row.check.rule());
-        if let Some(undecided) = row.undecided {
-            let _ = writeln!(text, "{}: {undecided}", row.clause.id);
-        }
-        for words in of_variants(row) {
-            let _ = writeln!(text, "{}: {words}", row.clause.id);
-        }
-    }
-    let differ = rows.iter().filter(|row| !row.is_as_registered()).count();
-    let _ = match differ {
-        0 => writeln!(text, "All {} verdicts are the registered ones.", rows.len()),
-        _ => writeln!(text, "{differ} of {} verdicts are not the registered ones.", rows.len()),
-    };
-    text
 }

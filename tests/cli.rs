@@ -827,6 +827,11 @@ fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
     assert_snapshot!(ants["components"],
         @r#"[{"cells":8,"explored":8,"robots":2},{"cells":3,"explored":3,"robots":1}]"#);
     assert_eq!((ants.get("visited"), ants.get("terminated")), (None, None), "ants never know");
+    // All is explored, and one is done while others have cells to go through.
+    let starts = ["--robots", "3", "--start", "1,0", "--start", "2,0", "--start", "0,0"];
+    let left = [&["explore", "open:4x1", "--scheme", "mdfs", "--rule", "published"], &starts[..]].concat();
+    let told = printed(folder, &left, 1);
+    assert!(told.contains("BRICKS-4 is broken in team move 1"), "{told}");
     let one_part = json(folder, &["explore", "ring", "--scheme", "bricks", "--start", "3,0"], 0);
     assert_eq!((&one_part["cells"], one_part.get("components")), (&3.into(), None));
 }

@@ -108,6 +108,19 @@ fn circles_that_do_not_meet_are_told_unless_the_noise_explains_it() {
 }
 
 #[test]
+fn anchors_on_a_line_are_known_far_from_the_origin_and_in_any_number() {
+    for count in [3, 16, 32, 100, 1_000_u32] {
+        for line in 0..100_u32 {
+            let (across, up) = (6.76 + f64::from(line), 2.11 + f64::from(line % 7));
+            let anchor = |along: f64| Point::new(667_500.0 + along * across, 3_177_040.0 + along * up);
+            let anchors: Vec<Point> = (0..count).map(|number| anchor(f64::from(number))).collect();
+            let told = linear(&ranges(&anchors, Point::new(667_549.77, 3_177_066.186)));
+            assert_eq!(told, Err(Refusal::Collinear), "{count} anchors, line {line}");
+        }
+    }
+}
+
+#[test]
 fn anchors_on_a_line_leave_two_positions_and_the_closed_form_none() {
     let anchors = [0.0, 7.0, 20.0].map(|along| Point::new(along, 2.0 * along + 1.0));
     let at = Point::new(3.0, 15.0);

@@ -149,8 +149,8 @@ impl Tracks {
         Some([between(before.x_mm, x), between(before.y_mm, y)])
     }
 
-    /// The place of a robot, in millimetres, if it stood still before its first position and behind its last one, for as
-    /// long as the gap.
+    /// The place of a robot, in millimetres, if it stood still before its first position and behind its last one, for
+    /// as long as the gap.
     pub(crate) fn held(&self, robot: usize, at_us: i64) -> Option<[f64; 2]> {
         let held = || {
             let track = self.robots.get(robot)?;

@@ -77,7 +77,7 @@ fn a_log_that_is_cut_anywhere_is_read_up_to_there() {
 
 #[test]
 fn damaged_logs_are_refused_with_the_place() {
-    let faults: [(&[u8], Option<usize>, &str); 12] = [
+    let faults: [(&[u8], Option<usize>, &str); 15] = [
         (b"", None, "the log is empty"),
         (b"t,robot,x,y\n", None, "no position"),
         (b"t,robot,x\n0,a,0\n", Some(1), "no column for y"),
@@ -88,6 +88,9 @@ fn damaged_logs_are_refused_with_the_place() {
         (b"t,robot,x,y\n0,\xff,0,0\n", Some(2), "no text"),
         (b"{\"t\":0,\"robot\":\"a\",\"x\":0}\n", Some(1), "no y"),
         (b"{\"t\":0,\"x\":0,\"y\":0}\n", Some(1), "no robot"),
+        (b"{\"t\":0,\"robot\":\"a\",\"id\":1,\"x\":0,\"y\":0}\n", Some(1), "two robots"),
+        (b"{\"t\":0,\"robot\":\"a\",\"x\":0,\"x_mm\":0,\"y\":0}\n", Some(1), "two x"),
+        (b"{\"t\":1.7e18,\"robot\":\"a\",\"x\":0,\"y\":0}\n", Some(1), "no such time"),
         (b"{\"t\":0,\"robot\":\"a\",\"x\":0,\"y\":0}\n[]\n", Some(2), "no object"),
         (b"\x89MCAP1\r\n", None, "no MCAP"),
     ];

@@ -8,6 +8,8 @@ use tautline_proofs::ambiguity::PUBLISHED;
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::ledger::{Row, indented, title};
 
+use super::of_variants;
+
 /// A heading, and whether a row is counted below it.
 type Count = (&'static str, fn(&Row) -> bool);
 
@@ -110,3 +112,25 @@ pub(super) fn slowest(rows: &[Row]) -> String {
 
 /// Checks that are named as the slowest.
 const SLOWEST: usize = 3;
+
+/// The line that ends the screen, and before it each verdict that is not the registered one.
+pub(super) fn last_line(rows: &[Row]) -> String {
+    let mut text = String::from("\n");
+    for row in rows.iter().filter(|row| !row.is_as_registered()) {
+        let (verdict, expected) = (row.decision.verdict.word(), row.check.expected().word());
+        let _ =
+            writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, row.check.rule());
+        if let Some(undecided) = row.undecided {
+            let _ = writeln!(text, "{}: {undecided}", row.clause.id);
+        }
+        for words in of_variants(row) {
+            let _ = writeln!(text, "{}: {words}", row.clause.id);
+        }
+    }
+    let differ = rows.iter().filter(|row| !row.is_as_registered()).count();
+    let _ = match differ {
+        0 => writeln!(text, "All {} verdicts are the registered ones.", rows.len()),
+        _ => writeln!(text, "{differ} of {} verdicts are not the registered ones.", rows.len()),
+    };
+    text
+}

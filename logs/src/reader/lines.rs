@@ -115,3 +115,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
     }
     Ok(reading.log)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stamp_of_0_is_none_where_the_time_of_recording_is_known() {
+        let object = |nanos: u32| {
+            let text = format!(r#"{{"header":{{"stamp":{{"sec":0,"nanosec":{nanos}}}}},"x":1,"y":2}}"#);
+            serde_json::from_str(&text).expect("an object")
+        };
+        let time = |nanos, at_us| pose(&object(nanos), at_us).map(|(time, _)| time);
+        assert_eq!([time(0, Some(5)), time(0, None), time(7_000, Some(5))], [Ok(5), Ok(0), Ok(7)]);
+    }
+}

@@ -286,7 +286,7 @@ pub struct Outcome {
     pub(super) exploration: Option<Moment>,
     pub(super) termination: Option<Moment>,
     pub(super) is_ended: bool,
-    /// Whether an agent was done although it could have got to an unexplored cell.
+    /// Whether an agent was done although another cell was unexplored or left to go through.
     pub(super) is_early: bool,
 }
 

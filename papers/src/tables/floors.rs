@@ -54,7 +54,7 @@ pub struct Line {
     pub explored: Option<Estimate>,
     /// Team moves until all agents are done, likewise.
     pub known: Option<Estimate>,
-    /// Runs in which an agent was done although it could have got to an unexplored cell.
+    /// Runs in which an agent was done although another cell was unexplored or left to go through.
     pub early: u32,
     /// Runs that were ended after too many steps.
     pub ended: u32,
@@ -134,8 +134,9 @@ impl Table for Floors {
              {} % of the sensors missed; means with\n\
              95 % intervals over the starts\n\n{}\n\
              until known: of the runs in which all agents were done. early: runs in \
-             which an agent was done although it could\n\
-             have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents.\n",
+             which an agent was done although another\n\
+             cell was unexplored or left to go through. ended: runs that were stopped after {max_steps} \
+             steps of all agents.\n",
             miss * 100.0,
             columns.text()
         ))

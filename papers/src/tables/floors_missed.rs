@@ -1,5 +1,6 @@
-//! The harm of missed sensors to agents that are to know that they are done: how often one is done although it
-//! could have got to an unexplored cell, and what it costs. Each run has a start, and a generated layout, of its own.
+//! The harm of missed sensors to agents that are to know that they are done: how often one is done although
+//! another cell was unexplored or left to go through, and what it costs. Each run has a start, and a generated layout,
+//! of its own.
 
 use tautline_kernel::bricks;
 use tautline_kernel::bricks::tree::Rule;
@@ -56,7 +57,7 @@ pub struct Line {
     pub explored: Option<Estimate>,
     /// Team moves until all agents are done, likewise.
     pub known: Option<Estimate>,
-    /// The share of the runs in which an agent was done although it could have got to an unexplored cell.
+    /// The share of the runs in which an agent was done although another cell was unexplored or left to go through.
     pub early: Option<Estimate>,
     /// The share of the runs that were ended after too many steps.
     pub ended: Option<Estimate>,
@@ -142,8 +143,8 @@ impl Table for FloorsMissed {
              {} % of the sensors missed; means with\n\
              95 % intervals over the runs\n\n{}\n\
              until known: of the runs in which all agents were done. early: runs in \
-             which an agent was done although it could\n\
-             have got to an unexplored cell. ended: runs that were stopped after {max_steps} \
+             which an agent was done although another\n\
+             cell was unexplored or left to go through. ended: runs that were stopped after {max_steps} \
              steps of all agents. Agents of bricks-ants\n\
              go on for as long as they may miss sensors: their runs are over when everything is explored.\n",
             miss * 100.0,
