@@ -1,6 +1,6 @@
 //! The closed form of Rajesh et al. 2024, equations (5) to (8), as it is printed.
 
-use super::range::check;
+use super::range::{check, count};
 use super::{Layout, Point, Range, Refusal};
 
 /// The position by equations (5) to (8), in the order in which they are printed: `ranges` are those of A, B and C.
@@ -12,7 +12,7 @@ use super::{Layout, Point, Range, Refusal};
 /// so that (7) divides by 0, or if (8) does.
 pub fn closed_form(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
-    if Layout::of(ranges).is_line(ranges.len()) {
+    if Layout::of(ranges).is_line(count(ranges)) {
         return Err(Refusal::Collinear);
     }
     let &[a, b, c] = ranges else { return Err(Refusal::Anchors(ranges.len())) };

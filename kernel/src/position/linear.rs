@@ -61,9 +61,9 @@ impl Layout {
     }
 
     /// Whether so many anchors are on one line, to the precision of their coordinates.
-    pub(super) fn is_line(&self, anchors: usize) -> bool {
+    pub(super) fn is_line(&self, anchors: f64) -> bool {
         let scale_m = self.spread_m[0] + self.centre.x_m.abs() + self.centre.y_m.abs();
-        self.spread_m[1] <= 4.0 * f64::EPSILON * libm::sqrt(anchors as f64) * scale_m
+        self.spread_m[1] <= 4.0 * f64::EPSILON * libm::sqrt(anchors) * scale_m
     }
 
     /// How far along and across the line the linear equations say that the robot is. Across it, that is no number or
@@ -105,7 +105,7 @@ fn rotation(xx: f64, xy: f64, yy: f64) -> (f64, f64) {
 pub fn linear(ranges: &[Range]) -> Result<Point, Refusal> {
     check(ranges)?;
     let layout = Layout::of(ranges);
-    if layout.is_line(ranges.len()) {
+    if layout.is_line(count(ranges)) {
         return Err(Refusal::Collinear);
     }
     let (along_m, across_m) = layout.solve(ranges);
