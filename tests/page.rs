@@ -260,7 +260,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
             "chain" => "The start: the base, with 4 robots in its cell",
             "full-search" => "The start: the base, with 2 robots in its cell",
             "ants" => "The start: 6 agents",
-            "kit" => "The start: 3 robots",
+            "kit" | "frontier" => "The start: 3 robots",
             _ => "The start: 3 agents",
         };
         assert!(browser.text(SAID).starts_with(start), "{scheme}");
