@@ -1071,7 +1071,7 @@ fn rescues_are_counted_and_judged() {
     });
     assert_snapshot!(schemes.join("\n"), @r"
     flooding 15 698.4
-    counter 15 198.0
+    counter 15 198.27
     distance 15 115.33
     sba 15 295.0
     ");

@@ -194,6 +194,6 @@ fn an_agent_that_is_done_too_early_is_not_said_to_leave_no_cell() {
     let early = found.iter().find(|one| one["clause"] == "BRICKS-4").expect("a finding");
     let opened =
         ask(&mut page, &json!({ "do": "open", "settings": early["settings"], "steps": 1000 })).to_string();
-    assert!(opened.contains("is done before others explore the last cells"), "{opened}");
+    assert!(opened.contains("is done before all other cells are explored and gone through"), "{opened}");
     assert!(!opened.contains("with 0 cells"), "{opened}");
 }
