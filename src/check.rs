@@ -21,7 +21,7 @@ Examples:
 
 Write certificates with: tautline prove KIT-2 --certificate certificates";
 
-/// The largest certificate that is read: of the states in it a checker keeps up to 20 times as many bytes.
+/// The largest certificate that is read: of the states in it a checker keeps up to 32 times as many bytes.
 const MOST_BYTES: u64 = 1 << 28;
 
 /// Check certificates that `prove --certificate` wrote: does each show that its clause holds?

@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64};
 
+use rayon::slice::ParallelSliceMut;
 use siphasher::sip128::SipHasher13;
 
 use crate::file::take;
@@ -105,6 +106,10 @@ impl DigestCell {
         };
         self.0.iter().zip([digest as u64, (digest >> 64) as u64]).all(is_half)
     }
+
+    fn halves(&self) -> [u64; 2] {
+        self.0.each_ref().map(|half| half.load(Relaxed))
+    }
 }
 
 /// The states of a rank between which steps are bound to be made.
@@ -195,8 +200,11 @@ impl<'a, M: Model> Checker<'a, M> {
     fn run(self, share: u32) -> Result<Counts, Refusal> {
         let starts = self.starts()?;
         rayon::scope(|scope| self.walk(scope, share, starts));
-        if let Some(refusal) = self.refusal.into_inner() {
-            return Err(refusal);
+        if let Some(refusal) = self.refusal.get() {
+            return Err(refusal.clone());
+        }
+        if let Some(place) = self.double() {
+            return Err(Refusal::Twice(place));
         }
         for (bit, classes) in bits(self.trees.owed).zip(&self.classes) {
             if let Some(rank) = classes.iter().position(Class::is_fair) {
@@ -205,6 +213,14 @@ impl<'a, M: Model> Checker<'a, M> {
         }
         let states = self.trees.at.len() as u64;
         Ok(Counts { states, steps: self.steps.into_inner(), ends: self.ends.into_inner() })
+    }
+
+    /// The last place of a state that stands in several.
+    fn double(&self) -> Option<u32> {
+        let mut digests: Vec<_> = self.known.iter().map(DigestCell::halves).collect();
+        digests.par_sort_unstable();
+        let double = digests.windows(2).find(|pair| pair[0] == pair[1])?[0];
+        self.known.iter().rposition(|known| known.halves() == double).map(|place| place as u32)
     }
 
     /// The starts that are roots.

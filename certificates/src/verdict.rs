@@ -39,6 +39,8 @@ pub enum Refusal {
     Breaks(u32, usize, String),
     /// A run that stays in this state breaks a demand.
     Ends(u32, String),
+    /// This state stands somewhere else, too, and would be counted twice.
+    Twice(u32),
     /// This state owes something for which the section has no ranks.
     Owes(u32),
     /// This step from this state leads to a state of a higher rank that owes the same.
@@ -69,6 +71,7 @@ impl fmt::Display for Refusal {
             }
             Self::Breaks(state, step, demand) => write!(f, "state {state}, step {step}: it breaks {demand}"),
             Self::Ends(state, demand) => write!(f, "state {state}: a run that stays there breaks {demand}"),
+            Self::Twice(state) => write!(f, "state {state} is one that was there before"),
             Self::Owes(state) => write!(f, "state {state}: there are no ranks for what it owes"),
             Self::Rises(state, step) => write!(f, "state {state}, step {step}: it leads to a higher rank"),
             Self::Endless(rank, bit) => {

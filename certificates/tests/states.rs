@@ -111,6 +111,13 @@ fn what_is_not_so_is_refused_where_it_is_not() {
 }
 
 #[test]
+fn a_state_that_is_counted_twice_is_refused() {
+    // The state 2 as a start, and once more where a step leads to it.
+    let numbers = [1, 3, 0, 0, 1, 1, 0, 0, 3, 2, 2, 0, 0, 1, 0, 0, 0, 0, 1, 2, 0];
+    assert_eq!(checked(WALK, &section(&numbers)), Err(Refusal::Twice(4)));
+}
+
+#[test]
 fn a_section_without_a_state_a_step_or_a_rank_is_refused() {
     let without = |from: usize, to: usize| {
         let numbers: Vec<u64> = [&SECTION[..from], &SECTION[to..]].concat();

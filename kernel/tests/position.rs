@@ -79,6 +79,10 @@ fn what_gives_no_position_is_refused_by_every_way() {
     }
     let swarm = Swarm::start(&good, at, Parameters::FALLING, &mut [], &mut Congruence(1));
     assert_eq!(swarm.err(), Some(Refusal::NoParticle));
+    let nowhere = Point::new(f64::NAN, 0.0);
+    let mut particles = [Particle::UNUSED; 3];
+    let swarm = Swarm::start(&good, nowhere, Parameters::FALLING, &mut particles, &mut Congruence(1));
+    assert_eq!(swarm.err(), Some(Refusal::NoPlace));
     let zero = with(1, |range| range.distance_m = 0.0);
     assert_eq!(locate(&zero, Residual::Decibels, &signal(1.0), None), Err(Refusal::Zero(1)));
     assert!(locate(&zero, Residual::Metres, &signal(1.0), None).is_ok());

@@ -146,7 +146,7 @@ impl<'a> Swarm<'a> {
     /// As many particles as `particles` has room for, about `around`: step 1 of the algorithm, 2a and 2b.
     ///
     /// # Errors
-    /// [`Refusal`] if the ranges cannot give a position, or if there is no particle.
+    /// [`Refusal`] if the ranges cannot give a position, if there is no particle, or if `around` is infinite or no number.
     pub fn start(
         ranges: &'a [Range],
         around: Point,
@@ -157,6 +157,9 @@ impl<'a> Swarm<'a> {
         check(ranges)?;
         if particles.is_empty() {
             return Err(Refusal::NoParticle);
+        }
+        if !around.is_finite() {
+            return Err(Refusal::NoPlace);
         }
         let mut swarm =
             Self { ranges, parameters, particles, best: around, best_cost: f64::INFINITY, iteration: 0 };
@@ -193,10 +196,7 @@ impl<'a> Swarm<'a> {
         for particle in &mut *self.particles {
             let mut pulls = || (own * draw(oracle), team * draw(oracle));
             let along_x = pulls();
-            let along_y = match draws {
-                Draws::Particle => along_x,
-                Draws::Axis => pulls(),
-            };
+            let along_y = if draws == Draws::Axis { pulls() } else { along_x };
             let faster = |(own, team): (f64, f64), velocity: f64, at: f64, mine: f64, best: f64| {
                 let velocity = inertia * velocity + own * (mine - at) + team * (best - at);
                 velocity.min(most_speed_m).max(-most_speed_m)

@@ -379,7 +379,8 @@ fn judged(settings: &Settings, lines: &[Line]) -> Vec<Judgement> {
             let of = |(robots, figure): (u16, Option<&Figure>)| {
                 format!("{} with {}", text(figure.and_then(part), digits), counted(robots, "robot"))
             };
-            teams.map(of).join(", ")
+            let shown = if fewest == most { &teams[1..] } else { &teams[..] };
+            shown.iter().copied().map(of).collect::<Vec<_>>().join(", ")
         };
         let (moves, off) = (|one: &Figure| one.moves, |one: &Figure| one.off);
         let [few, many] = ends(moves);

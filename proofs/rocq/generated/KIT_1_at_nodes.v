@@ -396,7 +396,7 @@ Definition rule_ : rule := {|
  Leaf 0x0%N;
  Leaf 0x0%N;
  Leaf 0x0%N;
- Leaf 0x802802000000000000%N]] |}.
+ Leaf 0x701f07f0ee1fc1f01c000000%N]] |}.
 
 Definition certificate_ : certificate := {| window := 5; kept :=
  Node [Node [Leaf 0x701f07f0fe1fc1f01c000000%N;

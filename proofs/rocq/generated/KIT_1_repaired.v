@@ -396,7 +396,7 @@ Definition rule_ : rule := {|
  Leaf 0x0%N;
  Leaf 0x0%N;
  Leaf 0x0%N;
- Leaf 0x2028080000000%N]] |}.
+ Leaf 0x1c1f1fcee7f1f07000%N]] |}.
 
 Definition certificate_ : certificate := {| window := 4; kept :=
  Node [Node [Leaf 0xe0f8fe3e0e00000%N;

@@ -5874,7 +5874,7 @@ Definition rule_ : rule := {|
  Leaf 0x181e1f8fc7e1e06000%N;
  Leaf 0x80e0f87c3e0e02000%N]];
  started :=
- Node [Node [Leaf 0x2028080000000%N]] |}.
+ Node [Node [Leaf 0x1c1f1fcee7f1f07000%N]] |}.
 
 Definition certificate_ : certificate := {| window := 4; kept :=
  Node [Node [Leaf 0x1c1f1fcfe7f1f07000%N;

@@ -145,6 +145,12 @@ impl<const ROBOTS: usize> World<ROBOTS> {
         &self.robots
     }
 
+    /// What `robot` has heard of the others, in the order of their turns after its own: the same of whichever of them
+    /// is the first.
+    fn told_in_turn(&self, robot: usize) -> impl Iterator<Item = Other> {
+        (1..ROBOTS).filter_map(move |later| self.told[robot][(robot + later) % ROBOTS])
+    }
+
     /// The cell that a robot is entering.
     fn entering(&self, robot: usize) -> Option<Cell> {
         match self.robots[robot].stance() {
@@ -245,7 +251,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// The next action of `robot`, if it stands.
     fn next(&self, world: &World<ROBOTS>, robot: usize, slot: Slot, oracle: &mut dyn Oracle) -> Next {
         let (mut others, mut told) = ([says(&world.robots[robot]); ROBOTS], 0);
-        for other in world.told[robot].into_iter().flatten() {
+        for other in world.told_in_turn(robot) {
             (others[told], told) = (other, told + 1);
         }
         let view = View { others: &others[..told], slot };
@@ -338,7 +344,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         oracle: &mut dyn Oracle,
     ) -> Successor<ROBOTS> {
         let mut after = *world;
-        let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
+        let others: Vec<Other> = world.told_in_turn(robot).collect();
         after.robots[robot].decided(&self.rule, &others);
         after.robots[robot].tries(side, aim);
         let missed = if self.rule.has(Condition::Claim) {

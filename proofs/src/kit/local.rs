@@ -56,9 +56,10 @@ fn admits(plans: &[Plan<Step, PairAct>], may_drive: impl Fn(Stance, Stance) -> b
         && is_admitted(&plans[1], &plans[0])
 }
 
-fn are_in_a_row<S: PartialEq>(robots: &[Robot<S>], stands: &S) -> bool {
-    let (columns, rows) = robots[0].at.apart(robots[1].at);
-    robots.iter().all(|robot| robot.state == *stands) && columns + rows == 1
+/// Whether two robots stand in different nodes and hear each other.
+fn start_in_contact<S: PartialEq>(robots: &[Robot<S>], stands: &S) -> bool {
+    let [one, other] = [robots[0].at, robots[1].at];
+    robots.iter().all(|robot| robot.state == *stands) && one != other && Reach::PAPER.joins(one, other)
 }
 
 /// A promise about two robots.
@@ -144,7 +145,7 @@ impl Local for Two {
 
     fn may_start(&self, robots: &[Robot<Step>]) -> bool {
         match self.promise {
-            Promise::Contact | Promise::AtNodes => are_in_a_row(robots, &Step::Stay),
+            Promise::Contact | Promise::AtNodes => start_in_contact(robots, &Step::Stay),
             // Of three robots two are not beside each other.
             Promise::Apart => {
                 robots[0].at != robots[1].at && robots.iter().all(|robot| robot.state == Step::Stay)
@@ -234,7 +235,7 @@ impl Local for AtEqualSpeeds {
     }
 
     fn may_start(&self, robots: &[Robot<TimedStep>]) -> bool {
-        are_in_a_row(robots, &(Step::Stay, 0))
+        start_in_contact(robots, &(Step::Stay, 0))
     }
 
     fn start(&self, robots: usize) -> Vec<Robot<TimedStep>> {
