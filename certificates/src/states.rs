@@ -106,10 +106,6 @@ impl DigestCell {
         };
         self.0.iter().zip([digest as u64, (digest >> 64) as u64]).all(is_half)
     }
-
-    fn halves(&self) -> [u64; 2] {
-        self.0.each_ref().map(|half| half.load(Relaxed))
-    }
 }
 
 /// The states of a rank between which steps are bound to be made.
@@ -200,12 +196,8 @@ impl<'a, M: Model> Checker<'a, M> {
     fn run(self, share: u32) -> Result<Counts, Refusal> {
         let starts = self.starts()?;
         rayon::scope(|scope| self.walk(scope, share, starts));
-        if let Some(refusal) = self.refusal.get() {
-            return Err(refusal.clone());
-        }
-        if let Some(place) = self.double() {
-            return Err(Refusal::Twice(place));
-        }
+        let twice = || self.double().map(Refusal::Twice);
+        self.refusal.get().cloned().or_else(twice).map_or(Ok(()), Err)?;
         for (bit, classes) in bits(self.trees.owed).zip(&self.classes) {
             if let Some(rank) = classes.iter().position(Class::is_fair) {
                 return Err(Refusal::Endless(rank as u32, bit));
@@ -215,12 +207,12 @@ impl<'a, M: Model> Checker<'a, M> {
         Ok(Counts { states, steps: self.steps.into_inner(), ends: self.ends.into_inner() })
     }
 
-    /// The last place of a state that stands in several.
+    /// A state that stands somewhere before, too.
     fn double(&self) -> Option<u32> {
-        let mut digests: Vec<_> = self.known.iter().map(DigestCell::halves).collect();
-        digests.par_sort_unstable();
-        let double = digests.windows(2).find(|pair| pair[0] == pair[1])?[0];
-        self.known.iter().rposition(|known| known.halves() == double).map(|place| place as u32)
+        let digest = |&place: &u32| self.known[place as usize].0.each_ref().map(|half| half.load(Relaxed));
+        let mut places: Vec<u32> = (0..self.known.len() as u32).collect();
+        places.par_sort_unstable_by_key(|place| (digest(place), *place));
+        places.windows(2).rfind(|pair| digest(&pair[0]) == digest(&pair[1])).map(|pair| pair[1])
     }
 
     /// The starts that are roots.

@@ -146,7 +146,8 @@ impl<'a> Swarm<'a> {
     /// As many particles as `particles` has room for, about `around`: step 1 of the algorithm, 2a and 2b.
     ///
     /// # Errors
-    /// [`Refusal`] if the ranges cannot give a position, if there is no particle, or if `around` is infinite or no number.
+    /// [`Refusal`] if the ranges cannot give a position, if there is no particle, or if `around` is infinite or no
+    /// number.
     pub fn start(
         ranges: &'a [Range],
         around: Point,

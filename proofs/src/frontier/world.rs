@@ -145,8 +145,8 @@ impl<const ROBOTS: usize> World<ROBOTS> {
         &self.robots
     }
 
-    /// What `robot` has heard of the others, in the order of their turns after its own: the same of whichever of them
-    /// is the first.
+    /// The news that `robot` has of the others, in the order of their turns after its own: the same order, whichever of
+    /// them is the first.
     fn told_in_turn(&self, robot: usize) -> impl Iterator<Item = Other> {
         (1..ROBOTS).filter_map(move |later| self.told[robot][(robot + later) % ROBOTS])
     }
