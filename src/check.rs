@@ -114,11 +114,17 @@ impl Check {
             })?;
             Ok(CertificateJson::of(file, examined))
         };
-        let certificates = self.files.iter().map(check).collect::<Result<Vec<_>, _>>()?;
+        let mut certificates = Vec::new();
+        for file in &self.files {
+            let certificate = check(file)?;
+            if self.format.format == Format::Text {
+                out.text(certificate.text())?;
+            }
+            certificates.push(certificate);
+        }
         let is_refused = certificates.iter().any(|one| one.refused.is_some());
-        match self.format.format {
-            Format::Text => certificates.iter().try_for_each(|one| out.text(one.text()))?,
-            Format::Json => out.json(&CheckJson { certificates })?,
+        if self.format.format == Format::Json {
+            out.json(&CheckJson { certificates })?;
         }
         Ok(if is_refused { Exit::Violation } else { Exit::Expected })
     }

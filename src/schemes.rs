@@ -94,7 +94,7 @@ fn described(scheme: Scheme) -> SchemeJson {
         name: scheme.name,
         about: scheme.about,
         robots: [*scheme.robots.start(), *scheme.robots.end()],
-        minimise: scheme.senses == Senses::Bumps,
+        minimise: !scheme.clauses.is_empty(),
         clauses: scheme.clauses.iter().map(|clause| clause.id.as_str()).collect(),
         options: miss
             .into_iter()

@@ -37,9 +37,14 @@ fn every_form_yields_the_positions_that_were_written() {
         assert_eq!(rows(&log), ROWS, "{:?}", log.form);
         assert_eq!((log.cut, log.unplaced), (None, None));
     }
-    let places: Vec<u32> =
-        read(&forms::csv(&ROWS)).expect("a log").samples.iter().map(|one| one.place).collect();
-    assert_eq!(places, [2, 3, 4, 5, 6, 7]);
+    let places = |bytes: &[u8]| -> Vec<u32> {
+        read(bytes).expect("a log").samples.iter().map(|one| one.place).collect()
+    };
+    let table = String::from_utf8(forms::csv(&ROWS)).expect("text");
+    for ends in ["\n", "\r\n"] {
+        assert_eq!(places(table.replace('\n', ends).as_bytes()), [2, 3, 4, 5, 6, 7]);
+        assert_eq!(places(table.replace('\n', &ends.repeat(2)).as_bytes()), [3, 5, 7, 9, 11, 13]);
+    }
 }
 
 /// `logs/sumo-fcd.csv`: floating car data as Eclipse SUMO 1.28.0 writes them (`sumo --fcd-output fcd.csv`), of three
@@ -77,7 +82,8 @@ fn a_log_that_is_cut_anywhere_is_read_up_to_there() {
 
 #[test]
 fn damaged_logs_are_refused_with_the_place() {
-    let faults: [(&[u8], Option<usize>, &str); 15] = [
+    let faults: [(&[u8], Option<usize>, &str); 16] = [
+        (b"t,robot,x,y\n,,,\n0,,0,0\n", Some(3), "no robot"),
         (b"", None, "the log is empty"),
         (b"t,robot,x,y\n", None, "no position"),
         (b"t,robot,x\n0,a,0\n", Some(1), "no column for y"),

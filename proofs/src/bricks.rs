@@ -4,6 +4,8 @@
 pub mod clauses;
 mod floors;
 mod marking;
+#[cfg(test)]
+mod next_cell;
 pub mod tree;
 
 use std::convert::Infallible;

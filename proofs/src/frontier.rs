@@ -11,9 +11,27 @@ mod place;
 mod readings;
 pub mod world;
 
+use std::collections::HashSet;
+
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Next, Robot, Rule, Scratch, Search, SearchCell, TinyMap, View};
-use tautline_kernel::ground::Cell;
+use tautline_kernel::frontier::{Map, Next, Robot, Rule, Scratch, Search, SearchCell, Status, TinyMap, View};
+use tautline_kernel::ground::{Cell, Side};
+
+/// Whether a robot in `cell` must think that it could go to an unexplored cell: one is beside the cells to which ways
+/// through explored ones lead, as far as `map` has it (FRONTIER-4).
+pub fn has_more(map: &impl Map, cell: Cell) -> bool {
+    let (mut reached, mut rim) = (HashSet::from([cell]), vec![cell]);
+    while let Some(cell) = rim.pop() {
+        for next in Side::ALL.map(|side| cell.beyond(side)) {
+            match map.status(next) {
+                Status::Unexplored => return true,
+                Status::Explored if reached.insert(next) => rim.push(next),
+                Status::Explored | Status::Obstacle => {}
+            }
+        }
+    }
+    false
+}
 
 /// The next action of `robot`, one of at most `ROBOTS`, whose search begins with empty memory.
 fn next<const ROBOTS: usize>(

@@ -273,8 +273,10 @@ impl EveryNumber {
             }
         }
         if let Some(wider) = Wider::of(rule, self.most_robots.max(self.most_starts)) {
-            let invariant = Invariant::found(&wider)?;
-            if invariant.holds() {
+            // Where there are too many places of one robot more, they are no help.
+            if let Ok(invariant) = Invariant::found(&wider)
+                && invariant.holds()
+            {
                 return Ok(of_teams(rule, invariant.answer()));
             }
         }

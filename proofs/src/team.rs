@@ -256,13 +256,19 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// alone, so a run goes on until it has broken all of them.
     ///
     /// # Errors
-    /// [`MethodError`] if there is not one start, or the limits are beyond what can be searched.
+    /// [`MethodError`] if the setting is not one for a [tree](Strategy::Tree), or the limits are beyond what can be
+    /// searched.
     pub fn search(
         &'a self,
         rule: &R,
         until: Until,
         wanted: &[Promise],
     ) -> Result<Tree<TeamWorld<'a, R>>, MethodError> {
+        if self.strategy() != Strategy::Tree {
+            let why = "a tree of runs is of one start in one layout, in which robots move together and lose nothing: \
+                       decide by `Keeps`, which searches the states of all else";
+            return Err(MethodError::new(why));
+        }
         let playing = self.playing(rule, wanted)?;
         let max_walls = self.ground.walls.most_met() + self.ground.obstacles.most_met();
         Tree::new(playing, &Limits { max_walls, budget_moves: None, until }).map_err(MethodError::new)

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::common::generated;
+use tautline_kernel::ground::Cell;
 use tautline_sim::explore::{Catalogue, ClauseId, Limits, RuleId, Setup, run};
 use tautline_sim::failures::{Failure, MoveOrder};
 
@@ -21,15 +22,17 @@ enum TeamSetting {
     Range(u16),
     /// They see two cells far besides.
     SightAndRange(u16),
+    /// And two of them start with a cell between them.
+    Apart(u16),
 }
 
-use TeamSetting::{Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRange};
+use TeamSetting::{Apart, Dies, Miss, Noise, Nothing, OneByOne, Range, SightAndRange};
 
 /// A clause, and whether the end of a run breaks it or a team move; the scheme, the rule, and the condition that it
 /// lacks, if it lacks one; the layout, the robots, the seed, and what else is told.
 type Case = (&'static str, bool, [&'static str; 3], (&'static str, u16, u64), TeamSetting);
 
-const CASES: [Case; 21] = [
+const CASES: [Case; 22] = [
     ("CHAIN-1", false, ["chain", "published", ""], ("cells:6x5:0.2", 6, 0), Nothing),
     ("CHAIN-2", false, ["chain", "published", "Distinct"], ("walls:7x5:0.2", 4, 3), Nothing),
     ("CHAIN-3", false, ["chain", "published", "SafeAhead"], ("walls:7x5:0.2", 3, 0), Nothing),
@@ -51,6 +54,7 @@ const CASES: [Case; 21] = [
     ("PACK-1", false, ["pack", "published", ""], ("cells:6x5:0.2", 2, 0), SightAndRange(3)),
     ("PACK-2", false, ["pack", "published", "Single"], ("cells:6x5:0.2", 3, 0), Nothing),
     ("PACK-3", true, ["pack", "published", ""], ("cells:6x5:0.2", 3, 1), SightAndRange(3)),
+    ("PACK-5", true, ["pack", "published", ""], ("cells:6x5:0.2", 2, 2), Apart(3)),
 ];
 
 /// The clauses that only the runs of searches break, which have tests of their own, and one that no team is known to
@@ -64,7 +68,9 @@ fn broken((_, _, [scheme, rule, lacks], (layout, robots, seed), told): Case) -> 
     let rule = scheme.rule(RuleId::new(rule)).expect("a rule");
     let mut layout = generated(layout, seed);
     let base = Setup::choose_base(&mut layout, None).expect("a free cell");
-    let starts = scheme.default_starts(rule.name, &layout, base, robots);
+    let apart = Some(vec![Cell::new(0, 0), Cell::new(2, 0)]);
+    let default = scheme.default_starts(rule.name, &layout, base, robots);
+    let starts = if matches!(told, Apart(_)) { apart } else { default };
     let mut setup = Setup { starts, seed, ..Setup::new(scheme, rule.name, robots, layout, base) };
     match told {
         Nothing => {}
@@ -75,7 +81,7 @@ fn broken((_, _, [scheme, rule, lacks], (layout, robots, seed), told): Case) -> 
         OneByOne => setup.options.going = MoveOrder::OneByOne,
         Noise => setup.options.noise_db = 2.0,
         Range(cells) => setup.options.range_cells = Some(cells),
-        SightAndRange(cells) => {
+        SightAndRange(cells) | Apart(cells) => {
             (setup.options.sight_cells, setup.options.range_cells) = (Some(2), Some(cells));
         }
     }

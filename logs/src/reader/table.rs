@@ -87,6 +87,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
         .has_headers(false)
         .from_reader(bytes);
     let (mut reading, mut record, mut columns) = (Reading::new(Form::Csv), StringRecord::new(), None);
+    let (mut line, mut counted) = (1, 0);
     let unread = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line) as usize;
         let place = FaultPlace::Line { line, text: String::new(), bytes: 0..0 };
@@ -97,7 +98,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
         }
     };
     while reader.read_record(&mut record).map_err(|error| unread(&error))? {
-        let line = record.position().map_or(1, csv::Position::line);
+        // The reader's own number is that of the line before where lines end with CR and LF.
+        let start = record.position().map_or(0, |start| start.byte() as usize);
+        let start = start + bytes[start..].iter().take_while(|byte| b"\r\n".contains(byte)).count();
+        line += bytes[counted..start].split(|&byte| byte == b'\n').count() as u64 - 1;
+        counted = start;
         let Some(columns) = &columns else {
             columns = Some(Columns::of(&record, &between)?);
             continue;
@@ -123,9 +128,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
                 .map(|number| number * scale)
                 .map_err(|_| fault(line, &record, &between, Some(column), what(), remedy))
         };
-        // SUMO writes a line for a moment without a vehicle.
         if field(*robot)?.is_empty() {
-            continue;
+            // SUMO writes a line for a moment without a vehicle.
+            if field(along[0].0)?.is_empty() && field(along[1].0)?.is_empty() {
+                continue;
+            }
+            let (what, remedy) = ("this line names no robot", "give each position the name of its robot");
+            return Err(fault(line, &record, &between, Some(*robot), what.to_owned(), remedy));
         }
         let at_us = number(*time)?;
         if at_us.is_nan() || at_us.abs() > MOST_US {

@@ -205,7 +205,7 @@ impl<D: SensorData> Floor<D> for Small<'_, D> {
 }
 
 /// Misses sensors a bounded number of times, and notes the questions that it answers yes.
-pub(crate) struct Misses<'a, W> {
+pub(crate) struct Misses<'a, W: ?Sized> {
     world: &'a mut W,
     count: &'a mut u8,
     most: u8,
@@ -215,14 +215,14 @@ pub(crate) struct Misses<'a, W> {
     pub(crate) missed: u32,
 }
 
-impl<'a, W> Misses<'a, W> {
+impl<'a, W: ?Sized> Misses<'a, W> {
     /// Nothing was asked of `world`; `count` of `most` sensors are missed.
     pub(crate) const fn new(world: &'a mut W, count: &'a mut u8, most: u8) -> Self {
         Self { world, count, most, asked: 0, missed: 0 }
     }
 }
 
-impl<W: Oracle> Oracle for Misses<'_, W> {
+impl<W: Oracle + ?Sized> Oracle for Misses<'_, W> {
     fn pick(&mut self, below: u32) -> u32 {
         self.world.pick(below)
     }

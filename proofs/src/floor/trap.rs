@@ -61,7 +61,7 @@ pub struct TrapReport {
     pub levels: u16,
     /// Whether the search came to its end: the smallest trap, or all there is within the bounds.
     pub is_complete: bool,
-    /// The smallest trap.
+    /// The smallest trap; if the search did not come to its end, one that need not be.
     pub trap: Option<Trap>,
 }
 
@@ -166,10 +166,10 @@ impl<S: Scheme> Cases for Bounds<S> {
 }
 
 impl TrapReport {
-    /// The outcome of a search that came to its end, or did not: then no trap is known to be the smallest.
+    /// The outcome of a search that came to its end, or did not.
     #[must_use]
     pub fn ended(self, is_complete: bool) -> Self {
-        Self { is_complete, trap: self.trap.filter(|_| is_complete), ..self }
+        Self { is_complete, ..self }
     }
 }
 

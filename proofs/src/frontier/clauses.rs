@@ -43,7 +43,7 @@ const REFUTED: [Reading<Rule>; 15] = holding(READINGS, []);
 /// Those as (11) is corrected: as it is printed, a robot alone never moves, so that nothing is shown.
 const MARKS: [Reading<Rule>; 7] =
     [REFUTED[0], REFUTED[1], REFUTED[2], REFUTED[7], REFUTED[8], REFUTED[9], REFUTED[10]];
-/// Robots that wander do not stop while a cell is left out, unless they go to no unexplored one.
+/// Robots that wander do not stop while a cell is left out, and know it then, unless they go to no unexplored one.
 const COVERS: [Reading<Rule>; 15] = holding(READINGS, [0, 2]);
 /// As (11) is printed, robots move only if they wander, and then to where others have started.
 const APART: [Reading<Rule>; 15] = holding(READINGS, [3, 5, 11, 13]);
@@ -260,7 +260,7 @@ pub const CLAUSES: [Clause; 12] = [
         id: "FRONTIER-4",
         sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
         checks: &[
-            &Check::refuted(PUBLISHED, &smallest::<1>(Demand::Knows)).under(&REFUTED).of(&PAPER),
+            &Check::refuted(PUBLISHED, &smallest::<1>(Demand::Knows)).under(&COVERS).of(&PAPER),
             &Check::holds(PLAIN, &one(Demand::Knows), &[plain(Route)]),
             &Check::holds(PLAIN, &two(Demand::Knows), &[plain(Route)]),
             &Check::holds(PLAIN, &three(Demand::Knows), &[plain(Route)]),

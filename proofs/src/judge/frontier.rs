@@ -149,14 +149,33 @@ impl Case for Run {
             }
             "FRONTIER-1" | "FRONTIER-4" => {
                 must(is_over, "the run goes on")?;
-                // Without repairs a robot that stops does not know that nothing is left, so that each end breaks
-                // FRONTIER-4.
+                if self.clause == "FRONTIER-4" {
+                    let is_ignorant = team.robots.iter().any(|robot| self.has_more(robot));
+                    return Ok(must(is_ignorant, "every robot knows that nothing is left")?);
+                }
                 let is_left =
                     self.floor.walkable(&self.starts).iter().any(|cell| !team.entered.contains(cell));
-                Ok(must(is_left || self.clause == "FRONTIER-4", "every cell is explored")?)
+                Ok(must(is_left, "every cell is explored")?)
             }
             _ => Err("the judge does not know this clause".into()),
         }
+    }
+}
+
+impl Run {
+    /// Whether a robot must think that it could go to an unexplored cell, by ways through explored ones.
+    fn has_more(&self, robot: &Robot) -> bool {
+        let (mut reached, mut rim) = (BTreeSet::from([robot.at]), vec![robot.at]);
+        while let Some(cell) = rim.pop() {
+            for next in (0..4).filter_map(|side| beside(cell, side)).filter(|&next| self.floor.has(next)) {
+                match robot.known.get(&next) {
+                    None => return true,
+                    Some(true) if reached.insert(next) => rim.push(next),
+                    Some(_) => {}
+                }
+            }
+        }
+        false
     }
 }
 

@@ -124,13 +124,28 @@ impl Talks {
         Letter { number: number as u8, message }
     }
 
-    /// The start: the first robot decides, the second one has asked.
+    /// The start: the second robot has asked. The first one decides; as published it has left the node where both
+    /// start, and the second one has entered that.
     pub(super) fn start(&self) -> State {
+        let mut first = Talk::first(self.rule, start(0));
+        if !self.rule.has(Condition::Turn) {
+            first.drives(Self::next(first), nothing);
+        }
         let (second, sent) = Talk::second(self.rule, start(1), Steps::NONE);
-        let robots = [Talk::first(self.rule, start(0)), second];
+        let robots = [first, second];
         let mut state = State { robots, letters: Vec::new(), lost: 0, doubled: 0, last: Event::Start };
         self.send(&mut state, 1, sent);
         state
+    }
+
+    /// The node to which a robot drives from where it stands.
+    fn next(talk: Talk) -> Cell {
+        Cell::new((talk.next().x + 1) % NODES, talk.next().y)
+    }
+
+    /// Whether a robot may stay: as published it takes any side if no other is free, and has come by one.
+    const fn may_stay(&self) -> bool {
+        self.rule.has(Condition::Stays) || self.rule.has(Condition::Turn)
     }
 
     /// `from` has acted and says so.
@@ -183,10 +198,12 @@ impl Talks {
                     let is_stale = told != state.robots[1 - robot].next();
                     let breaks = (is_stale && self.demand == Demand::Fresh).then_some(STALE);
                     let mut after = State { last: Event::Drives(robot), ..state.clone() };
-                    let to = Cell::new((talk.next().x + 1) % NODES, talk.next().y);
-                    let sent = after.robots[robot].drives(to, nothing);
+                    let sent = after.robots[robot].drives(Self::next(talk), nothing);
                     self.act(&mut after, robot, sent);
                     acts.push(Successor { breaks, ..Successor::by(bit, "a drive", after) });
+                    if !self.may_stay() {
+                        continue;
+                    }
                     let mut after = State { last: Event::Stays(robot), ..state.clone() };
                     let sent = after.robots[robot].stays(nothing);
                     self.act(&mut after, robot, sent);

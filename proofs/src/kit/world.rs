@@ -124,12 +124,15 @@ pub struct Setting<const ROBOTS: usize> {
     pub given: Option<TinyGrid>,
 }
 
+/// The mark of the paths that a robot has driven or drives.
+pub(super) const DRIVEN: EdgeMark = EdgeMark::Virtual;
+
 /// A team and what is decided of its lattice.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct World<const ROBOTS: usize> {
     /// The robots.
     pub team: Team<ROBOTS>,
-    /// Sides that are open, and walls that were met.
+    /// Sides that are open, [`DRIVEN`] paths, and walls that were met.
     pub truth: TinyGrid,
     pub(super) walls: u8,
     /// The robots that drive a path which was new when they left, a bit for each.
@@ -234,15 +237,13 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         })
     }
 
-    /// The paths driven, and the obstacles met.
+    /// The paths driven, whatever the robots' records say, and the obstacles met.
     fn found(&self, world: &World<ROBOTS>) -> TinyGrid {
         let mut map = world.truth;
         map.clear_edges(EdgeMark::Open);
-        for edge in self.area.edges() {
-            if world.team.records().iter().any(|record| record.edge_has(EdgeMark::Open, edge)) {
-                map.put_edge(EdgeMark::Open, edge);
-            }
-        }
+        map.clear_edges(DRIVEN);
+        let driven = self.area.edges().filter(|&edge| world.truth.edge_has(DRIVEN, edge));
+        driven.for_each(|edge| map.put_edge(EdgeMark::Open, edge));
         map
     }
 

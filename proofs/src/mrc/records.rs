@@ -239,7 +239,8 @@ pub(super) fn repeated(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
         if let Some(timer) = wfr.timer() {
             (wfr, sent) = wfr.expire(timer);
         }
-        let is_told = if told == 0 { matches!(sent, Mail::All(_)) } else { matches!(sent, Mail::One(_)) };
+        let resb = Resb { call, robot: ROBOT, chosen: Some(ROBOT) };
+        let is_told = sent == if told == 0 { Mail::All([Some(resb)]) } else { Mail::One(resb) };
         require(is_told && wfr.call() == call, demand)?;
     }
     if let Some(timer) = wfr.timer() {

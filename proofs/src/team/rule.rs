@@ -44,7 +44,7 @@ pub trait Rule: Clone + Send + Sync {
 pub struct Body<M, T> {
     pub(super) cell: Cell,
     pub(super) memory: M,
-    /// Whether something was in its way when it last went.
+    /// Whether something was in its way when it last acted.
     pub(super) is_blocked: bool,
     pub(super) is_dead: bool,
     /// The robot's next action, if looking and moving are steps of their own.
@@ -99,7 +99,7 @@ impl<M, T> TeamState<M, T> {
         &self.bodies[robot].memory
     }
 
-    /// Whether something was in the way of a robot when it last went.
+    /// Whether something was in the way of a robot when it last acted.
     pub fn was_blocked(&self, robot: usize) -> bool {
         self.bodies[robot].is_blocked
     }

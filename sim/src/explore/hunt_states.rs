@@ -139,10 +139,13 @@ impl<C: Crew> Each for Traps<C> {
             is_complete,
             done: CoveredBound::MissesDone(done),
             through: format!("{all_layouts} and {all_states}"),
-            outcome: match found[..] {
-                [] => format!("No agent is trapped {bound}."),
-                _ => "The fewest missed sensors and the smallest layout with which agents are trapped:"
-                    .to_owned(),
+            outcome: match (&found[..], is_complete) {
+                ([], _) => format!("No agent is trapped {bound}."),
+                (_, false) => "Found before the hunt was ended; it need not be the smallest:".to_owned(),
+                (_, true) => {
+                    "The fewest missed sensors and the smallest layout with which agents are trapped:"
+                        .to_owned()
+                }
             },
             found,
         })

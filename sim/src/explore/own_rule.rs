@@ -127,7 +127,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
             let answer = Keeps(self.setting, number).decide(&self.rule, Until::Exhausted, context);
             let answer = answer.map_err(|why| Diagnostic::usage(why, "change the setting of the rule"))?;
             cases = cases.max(answer.cases);
-            is_complete &= answer.verdict != Verdict::Open;
+            is_complete &= answer.verdict != Verdict::Open && !is_ended;
             if let Some(evidence) = &answer.counterexample
                 && let Depiction::Robots(run) = &evidence.seen
             {

@@ -7,7 +7,7 @@ mod layers;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Circle, Step};
+use tautline_kernel::ground::{Cell, Circle, Side, Step};
 use tautline_kernel::pack::{
     Chart, End as Over, MAX_ROBOTS, MoveKind, RangeError, Rule as Pack, Scratch, SetupError, Team as Robots,
 };
@@ -32,6 +32,9 @@ pub const SINGLE: ClauseId = ClauseId::new("PACK-2");
 
 /// The run ends, and a cell in reach is unexplored.
 pub const COVERS: ClauseId = ClauseId::new("PACK-3");
+
+/// As [`COVERS`], where robots do not start side by side.
+pub const COVERS_APART: ClauseId = ClauseId::new("PACK-5");
 
 /// The run goes on for ever.
 pub const ENDS: ClauseId = ClauseId::new("PACK-4");
@@ -59,12 +62,15 @@ pub static PACK: Profile = Profile {
         Clause::new(SINGLE.as_str()),
         Clause { missed: Some("Within reach and unexplored"), ..Clause::new(COVERS.as_str()) },
         Clause::new(ENDS.as_str()),
+        Clause { missed: Some("Within reach and unexplored"), ..Clause::new(COVERS_APART.as_str()) },
     ],
     ..Profile::named("pack")
 };
 
 struct PackTeam {
     robots: Robots,
+    /// The clause about cells that are left out.
+    covers: ClauseId,
     layout: Layout,
     chart: Chart<Vec<[u64; 2]>>,
     past: Moves,
@@ -100,8 +106,10 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
     let chart =
         Chart::new(area, words).unwrap_or_else(|| unreachable!("the words are as many as the map takes"));
     let cells = area.width() * area.height();
+    let covers = if are_side_by_side(&setup.starts()) { COVERS } else { COVERS_APART };
     let mut team = PackTeam {
         robots,
+        covers,
         layout: layout.clone(),
         chart,
         past: Moves::default(),
@@ -116,6 +124,19 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
     };
     team.look();
     Ok(Box::new(team))
+}
+
+/// Whether sides of these cells join all of them.
+fn are_side_by_side(cells: &[Cell]) -> bool {
+    let (mut joined, mut place) = (cells[..1].to_vec(), 0);
+    while let Some(&cell) = joined.get(place) {
+        let beside = Side::ALL.map(|side| cell.beyond(side));
+        let is_new = |other: &Cell| beside.contains(other) && !joined.contains(other);
+        let new: Vec<Cell> = cells.iter().copied().filter(is_new).collect();
+        joined.extend(new);
+        place += 1;
+    }
+    joined.len() == cells.len()
 }
 
 fn unfit(unfit: RangeError) -> Diagnostic {
@@ -217,7 +238,7 @@ impl Team for PackTeam {
             {
                 Vec::new()
             }
-            End::Explored | End::Exhausted | End::Silent | End::Refused => vec![COVERS],
+            End::Explored | End::Exhausted | End::Silent | End::Refused => vec![self.covers],
         }
     }
 

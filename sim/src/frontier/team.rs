@@ -7,6 +7,7 @@ use tautline_kernel::frontier::{
 };
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_kernel::position::{Belief, Point, Sighting};
+use tautline_proofs::frontier::has_more;
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
@@ -216,12 +217,11 @@ impl Explorers {
         }
         self.has_begun = true;
         let before: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
-        let (mut does_any, mut know_all) = (false, true);
+        let mut does_any = false;
         let mut entering: Vec<Option<(Cell, Pose)>> = vec![None; robots];
         let mut stands = vec![false; robots];
         for robot in 0..robots {
             let next = next(self, robot);
-            know_all &= next == Next::Done;
             does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
             let Next::Tries { side, aim } = next else { continue };
             let to = self.robots[robot].at().beyond(side);
@@ -254,6 +254,7 @@ impl Explorers {
             }
         }
         if !does_any {
+            let know_all = self.robots.iter().all(|robot| !has_more(&robot.map, robot.at()));
             return Err(if know_all { TeamEnd::Known } else { TeamEnd::Still });
         }
         for (robot, to) in entering.into_iter().enumerate() {

@@ -1,12 +1,13 @@
 //! The team as a world whose ways merge: what its states are made of, and what may happen next.
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Next, Other, Robot, Sight, TinyMap};
+use tautline_kernel::frontier::{Other, Robot, Sight, TinyMap};
 use tautline_kernel::ground::Cell;
 
 use super::{Demand, Event, Setting, Successor, World};
 use crate::engine::states::{self, Bits, Places, System};
 use crate::engine::world::{self, Turn};
+use crate::frontier::has_more;
 
 /// A part of a world.
 #[derive(Clone, PartialEq, Eq, Hash)]
@@ -56,7 +57,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
 
     fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
         let covers = !self.is_wanted(Demand::Covers) || !self.is_owed(state);
-        let all_know = || (0..ROBOTS).all(|robot| self.would(state, robot) == Next::Done);
+        let all_know = || state.robots.iter().all(|robot| !has_more(&robot.map, robot.at()));
         let knows = !self.is_wanted(Demand::Knows) || all_know();
         [(covers, Demand::Covers), (knows, Demand::Knows)]
             .into_iter()

@@ -3,7 +3,8 @@
 use super::super::change::plain;
 use super::super::{Case, Objection, must};
 
-/// A talk of two robots, the first of which decides while the second one has asked.
+/// A talk of two robots, of which the second one has asked. The first one decides, or, without turns, has left the node
+/// where both start.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Talk {
     /// The clause that it is said to break.
@@ -109,8 +110,10 @@ impl Case for Talk {
     }
 
     fn judge(&self) -> Result<(), Objection> {
-        let first = Robot { phase: Phase::Decides, node: 0, told: 0, has_turn: true, owes: false };
-        let second = Robot { phase: Phase::Asks, has_turn: false, ..first };
+        let decides = Robot { phase: Phase::Decides, node: 0, told: 0, has_turn: true, owes: false };
+        let second = Robot { phase: Phase::Asks, has_turn: false, ..decides };
+        let leaves = Robot { phase: Phase::Drives, node: 1, ..decides };
+        let first = if self.has_turns { decides } else { leaves };
         let mut court = Court { has_turns: self.has_turns, robots: [first, second], letters: Vec::new() };
         court.send(0, Word::Request);
         let is_fault = |act: &&Act| matches!(act.said, TalkEvent::Misses | TalkEvent::Doubled);
@@ -187,6 +190,10 @@ impl Court {
                 self.pay(robot);
             }
             _ => {
+                must(
+                    self.has_turns,
+                    "as published a robot takes the side by which it has come, if no other",
+                )?;
                 self.robots[robot].phase = Phase::Stays;
                 self.pay(robot);
                 self.ask_for_the_turn(robot);

@@ -1,10 +1,10 @@
 //! The next turns on a small lattice: whoever drives arrives, and whoever may decide decides.
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Next, Records, Sight, Stance, touch};
 
-use super::{Answers, Demand, Event, Setting, Speeds, Successor, World};
+use super::{Answers, DRIVEN, Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::outcomes;
 
 /// Looks after which a decision is taken for one that never ends: each side once for each reason that there is to look.
@@ -95,7 +95,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             if never_ends {
                 break;
             }
-            is_old = world.team.known(EdgeMark::Open, from).has(Step::Cross(side));
+            is_old = world.truth.edge_has(DRIVEN, Edge::new(from, side));
             let sight = self.see(&mut after, (robot, from, side), oracle);
             looks.push((side, sight));
             next = after.team.looked(robot, sight, oracle).ok()?;
@@ -106,6 +106,12 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             Next::Stays | Next::Looks(_) => "a stay",
             Next::Done => "done",
         };
+        let seen = World { team: world.team, ..after };
+        if let Next::Drives(to) = next
+            && let Some(side) = Side::ALL.into_iter().find(|&side| from.beyond(side) == to)
+        {
+            after.truth.put_edge(DRIVEN, Edge::new(from, side));
+        }
         let mut breaks = self.broken_by_marks(&after);
         if never_ends && self.is_wanted(Demand::Ends) {
             breaks.push(Demand::Ends);
@@ -116,7 +122,6 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             }
             let others_drive = world.team.stances().any(|stance| !stance.stands());
             after.first = if others_drive { world.first } else { robot as u8 };
-            let seen = World { team: world.team, ..after };
             breaks.extend(self.broken_by_drive(&seen, robot, Stance::Drives { from, to }, is_old));
         }
         let events = vec![Event::Decides(robot, looks, next)];

@@ -161,3 +161,28 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         breaks
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::kit::Rule;
+
+    use super::super::DRIVEN;
+    use super::*;
+
+    #[test]
+    fn a_record_of_a_path_that_nobody_has_driven_and_one_that_lacks_a_path_are_found() {
+        let setting = Setting::<2>::new(Rule::REPAIRED, (3, 1)).expect("a lattice");
+        let start = setting.start([Cell::new(0, 0), Cell::new(1, 0)]).expect("a start");
+        let path = Edge::new(Cell::new(1, 0), Side::East);
+        let records = start.team.records();
+        let mut recorded = records[0];
+        recorded.put_edge(EdgeMark::Open, path);
+        let team = start.team.with_records(|robot| if robot == 0 { recorded } else { records[robot] });
+        let mut truth = start.truth;
+        truth.put_edge(DRIVEN, path);
+        assert!(setting.broken_by_marks(&start).is_empty());
+        assert!(setting.broken_by_marks(&World { team, truth, ..start }).is_empty());
+        assert_eq!(setting.broken_by_marks(&World { team, ..start }), [Demand::Marks]);
+        assert_eq!(setting.broken_by_marks(&World { truth, ..start }), [Demand::Marks]);
+    }
+}

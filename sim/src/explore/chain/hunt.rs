@@ -39,14 +39,16 @@ impl Hunt for Walls {
     }
 
     fn refusal(&self, bound: Bound) -> (String, String) {
-        let what = match bound {
-            Bound::Losses | Bound::Error => "a hunt of chains loses no messages and has no wrong fixes",
-            Bound::Range => "the robots of a chain hear each other as far as their rule says",
+        let (what, others) = match bound {
+            Bound::Losses | Bound::Error => {
+                ("a hunt of chains loses no messages and has no wrong fixes", "frontier")
+            }
+            Bound::Range => ("the robots of a chain hear each other as far as their rule says", "kit"),
             Bound::Walls | Bound::Cells | Bound::Misses | Bound::Resume => {
-                "the robots of a chain have no floor sensors to miss"
+                ("the robots of a chain have no floor sensors to miss", "bricks")
             }
         };
-        (what.to_owned(), "give `max-walls`, or a `scheme` of agents on a floor, as bricks".to_owned())
+        (what.to_owned(), format!("give `max-walls`, or a `scheme` that takes it, as {others}"))
     }
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {

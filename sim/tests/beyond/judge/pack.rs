@@ -38,7 +38,23 @@ impl<'a> Pack<'a> {
     pub(crate) fn end(&self, by_itself: bool) -> Result<(), BrokenClause> {
         broken(!by_itself, "PACK-4", || "the run goes on".to_owned())?;
         let left = self.floor.walkable(&self.starts).into_iter().find(|cell| !self.seen.contains(cell));
-        broken(left.is_some(), "PACK-3", || format!("{left:?} is left out"))
+        let clause = if self.are_side_by_side() { "PACK-3" } else { "PACK-5" };
+        broken(left.is_some(), clause, || format!("{left:?} is left out"))
+    }
+
+    /// Whether the robots start side by side, all of them together.
+    fn are_side_by_side(&self) -> bool {
+        let (mut joined, mut rest) = (vec![self.starts[0]], self.starts[1..].to_vec());
+        let mut place = 0;
+        while place < joined.len() {
+            let (x, y) = joined[place];
+            let (near, far): (Vec<Place>, Vec<Place>) =
+                rest.into_iter().partition(|other| (other.0 - x).abs() + (other.1 - y).abs() == 1);
+            joined.extend(near);
+            rest = far;
+            place += 1;
+        }
+        rest.is_empty()
     }
 
     /// Whether links join all: the whole cell of one robot is within range of the midpoint of the other's.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::cases::{self, Cases};
+use tautline_proofs::protocol::arrangements;
 
 use super::super::ENDS;
 use super::{SMALL, areas, bounds, report, title};
@@ -178,9 +179,9 @@ impl BlockedArea {
         wanted.map(|(_, cell)| cell).collect()
     }
 
-    /// Every choice of cells where so many robots can start.
+    /// Every way in which so many robots can start: who has the lower number matters.
     fn starts(&self, robots: usize) -> Vec<Vec<Cell>> {
-        choose(&self.cells(false), robots)
+        arrangements(&self.cells(false), robots)
     }
 }
 
@@ -191,21 +192,6 @@ impl Layouts {
         let setup = HuntRequest::new(self.scheme, self.rule).setup(layout, starts.to_vec(), None)?;
         Ok(Setup { limits: Limits::default(), ..setup })
     }
-}
-
-/// Every choice of so many of the cells, in their order.
-fn choose(cells: &[Cell], count: usize) -> Vec<Vec<Cell>> {
-    if count == 0 {
-        return vec![Vec::new()];
-    }
-    let mut chosen = Vec::new();
-    for (place, &first) in cells.iter().enumerate() {
-        for mut rest in choose(&cells[place + 1..], count - 1) {
-            rest.insert(0, first);
-            chosen.push(rest);
-        }
-    }
-    chosen
 }
 
 /// The start of a run without end.
