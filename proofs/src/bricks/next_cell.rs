@@ -34,7 +34,7 @@ struct State {
 }
 
 impl State {
-    /// What no agent reads is left out.
+    /// The state without what no agent reads.
     fn settled(mut self) -> Self {
         self.sensors.count_to(0);
         self.sensors.forget_serials();
