@@ -11,8 +11,6 @@ mod place;
 mod readings;
 pub mod world;
 
-use std::collections::HashSet;
-
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Map, Next, Robot, Rule, Scratch, Search, SearchCell, Status, TinyMap, View};
 use tautline_kernel::ground::{Cell, Side};
@@ -20,13 +18,18 @@ use tautline_kernel::ground::{Cell, Side};
 /// Whether a robot in `cell` must think that it could go to an unexplored cell: one is beside the cells to which ways
 /// through explored ones lead, as far as `map` has it (FRONTIER-4).
 pub fn has_more(map: &impl Map, cell: Cell) -> bool {
-    let (mut reached, mut rim) = (HashSet::from([cell]), vec![cell]);
+    let area = map.area();
+    let mut reached = vec![false; area.width() * area.height()];
+    let mut rim = vec![cell];
     while let Some(cell) = rim.pop() {
         for next in Side::ALL.map(|side| cell.beyond(side)) {
-            match map.status(next) {
-                Status::Unexplored => return true,
-                Status::Explored if reached.insert(next) => rim.push(next),
-                Status::Explored | Status::Obstacle => {}
+            match (map.status(next), area.locate(next)) {
+                (Status::Unexplored, _) => return true,
+                (Status::Explored, Some((column, row))) if !reached[row * area.width() + column] => {
+                    reached[row * area.width() + column] = true;
+                    rim.push(next);
+                }
+                (Status::Explored | Status::Obstacle, _) => {}
             }
         }
     }
