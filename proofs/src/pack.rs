@@ -9,4 +9,5 @@ mod rays;
 mod readings;
 mod run;
 
+pub use floors::are_side_by_side;
 pub use run::Moves;

@@ -104,7 +104,7 @@ impl Bounds {
             .map(|(_, cell)| cell)
             .collect();
         let mut starts = arrangements(&free, self.robots);
-        starts.retain(|starts| self.starts == Starts::Linked || is_one(starts));
+        starts.retain(|starts| self.starts == Starts::Linked || are_side_by_side(starts));
         starts
     }
 
@@ -153,7 +153,7 @@ fn obstacles_of(drawing: Drawing) -> u64 {
 }
 
 /// Whether the cells share sides and are one set.
-fn is_one(cells: &[Cell]) -> bool {
+pub fn are_side_by_side(cells: &[Cell]) -> bool {
     let mut left = cells.to_vec();
     let mut joined: Vec<Cell> = left.pop().into_iter().collect();
     while let Some(cell) = joined.pop() {

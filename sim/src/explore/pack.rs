@@ -7,11 +7,11 @@ mod layers;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Circle, Side, Step};
+use tautline_kernel::ground::{Cell, Circle, Step};
 use tautline_kernel::pack::{
     Chart, End as Over, MAX_ROBOTS, MoveKind, RangeError, Rule as Pack, Scratch, SetupError, Team as Robots,
 };
-use tautline_proofs::pack::Moves;
+use tautline_proofs::pack::{Moves, are_side_by_side};
 use tautline_proofs::run::Frame;
 
 use super::catalogue::{Profile, Starts};
@@ -124,19 +124,6 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
     };
     team.look();
     Ok(Box::new(team))
-}
-
-/// Whether sides of these cells join all of them.
-fn are_side_by_side(cells: &[Cell]) -> bool {
-    let (mut joined, mut place) = (cells[..1].to_vec(), 0);
-    while let Some(&cell) = joined.get(place) {
-        let beside = Side::ALL.map(|side| cell.beyond(side));
-        let is_new = |other: &Cell| beside.contains(other) && !joined.contains(other);
-        let new: Vec<Cell> = cells.iter().copied().filter(is_new).collect();
-        joined.extend(new);
-        place += 1;
-    }
-    joined.len() == cells.len()
 }
 
 fn unfit(unfit: RangeError) -> Diagnostic {
