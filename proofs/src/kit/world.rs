@@ -132,7 +132,7 @@ pub(super) const DRIVEN: EdgeMark = EdgeMark::Virtual;
 pub struct World<const ROBOTS: usize> {
     /// The robots.
     pub team: Team<ROBOTS>,
-    /// Sides that are open, [`DRIVEN`] paths, and walls that were met.
+    /// Sides that are open, paths that were driven (marked as virtual), and walls that were met.
     pub truth: TinyGrid,
     pub(super) walls: u8,
     /// The robots that drive a path which was new when they left, a bit for each.
