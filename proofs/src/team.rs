@@ -117,7 +117,7 @@ pub struct Setting<'a, R: Rule> {
     pub losses: u32,
     /// Most robots that die in one run.
     pub deaths: u32,
-    /// Steps after which a run is given up, which leaves the question open.
+    /// Steps after which a run of a tree is given up, which leaves the question open.
     pub longest_run: u32,
     /// The demands on the team.
     pub demands: &'a [Demand<'a, R>],
@@ -277,7 +277,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// A team that follows `rule` in it; of its demands those are looked at that are `wanted`, or all if none is.
     ///
     /// # Errors
-    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand.
+    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand, or if states would be searched
+    /// for several demands on endless runs.
     pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
         let starts = self.starts(rule)?;
         let start =
@@ -299,6 +300,11 @@ impl<'a, R: Rule> Setting<'a, R> {
             )));
         }
         let wanted = if wanted.is_empty() { (0..demands).map(Promise).collect() } else { wanted.to_vec() };
+        let is_endless = |promise: &&Promise| self.demands[promise.0].is_broken_by_endless_runs();
+        if self.strategy() == Strategy::States && wanted.iter().filter(is_endless).count() > 1 {
+            let why = "states are searched for one demand on endless runs at a time: name it";
+            return Err(MethodError::new(why));
+        }
         Ok(TeamWorld { setting: self, rule: rule.clone(), wanted, start })
     }
 

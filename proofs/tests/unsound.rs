@@ -1,13 +1,15 @@
 //! Checks of which no verdict may be believed: systems that leave something of a state out, and questions about
 //! nothing.
 
+use std::ops::ControlFlow;
+
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::decide::{
     Cache, Context, EveryAnswer, EveryState, Method, MethodResult, RandomAnswers, Verdict,
 };
 use tautline_proofs::engine::states::{MemoryLimit, System, Unsound, repeats};
-use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::engine::tree::{Progress, unwatched};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::engine::{Outcome, Stop, Until};
 use tautline_proofs::team::{
@@ -32,6 +34,7 @@ enum Slip {
     PutsNothing,
     WritesTooLittle,
     TakesAllForOne,
+    TakesSevenForSix,
     NeverCanonical,
 }
 
@@ -97,6 +100,8 @@ impl System for Counters {
     fn make_canonical(&self, state: &mut (u8, u8)) {
         match self.0 {
             Slip::TakesAllForOne => state.1 = 0,
+            // As many steps are made from both, and neither breaks anything.
+            Slip::TakesSevenForSix if state.0 == 7 => state.0 = 6,
             Slip::NeverCanonical => state.1 = (state.1 + 1) % 3,
             _ => {}
         }
@@ -120,7 +125,7 @@ fn a_system_that_leaves_something_of_a_state_out_is_refused() {
         let refusal = refusal(&COUNTED, &slip);
         assert!(refusal.starts_with("a state that is taken apart and put together again"), "{refusal}");
     }
-    for slip in [Slip::TakesAllForOne, Slip::NeverCanonical] {
+    for slip in [Slip::TakesAllForOne, Slip::TakesSevenForSix, Slip::NeverCanonical] {
         let refusal = refusal(&COUNTED, &slip);
         assert!(refusal.starts_with("a state and the one that `make_canonical` makes"), "{refusal}");
     }
@@ -225,6 +230,27 @@ fn a_demand_that_there_is_not_is_refused() {
         assert_eq!(refusal(&Keeps(of, 5), &Goes), "there is no demand 5: the setting has 1");
         assert!(Keeps(of, 5).systems(&Goes).is_err());
     }
+}
+
+/// Two of them among states would be looked for as if one stood for both.
+#[test]
+fn several_demands_on_endless_runs_at_once_are_refused() {
+    const ENDS: Demand<'static, Goes> = Demand::never_endless("GO-2", "it ends");
+    static STATES: Setting<'static, Goes> =
+        Setting { demands: &[ENDS, ENDS], ..setting(GROUND, Places::Any) };
+    assert_eq!(decide(&Keeps(&STATES, 1), &Goes).expect("one is wanted").verdict, Verdict::Refuted);
+    let refused = STATES.playing(&Goes, &[]).err().expect("both are wanted").to_string();
+    assert_eq!(refused, "states are searched for one demand on endless runs at a time: name it");
+}
+
+#[test]
+fn a_search_over_states_that_is_ended_leaves_the_question_open() {
+    static MANY: Setting<'static, Goes> = Setting { robots: 4, ..setting(Ground::open(8, 1), Places::Any) };
+    let mut ends = |_: &Progress<'_>| ControlFlow::Break(());
+    let mut context = Context { cache: &mut Cache::default(), watch: &mut ends, memory: MemoryLimit::any() };
+    let answer = Keeps(&MANY, 0).decide(&Goes, Until::Exhausted, &mut context).expect("it begins");
+    assert_eq!(answer.verdict, Verdict::Open);
+    assert_eq!(decide(&Keeps(&MANY, 0), &Goes).expect("it ends").verdict, Verdict::Holds);
 }
 
 #[test]

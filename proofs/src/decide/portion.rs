@@ -31,7 +31,7 @@ impl Answer {
                 .map(|choices| (choices.once.len() + choices.again.len(), choices.once.first().copied()));
             let rank = match answer.verdict {
                 Verdict::Refuted => 0,
-                Verdict::Open if answer.cases > 0 => 1,
+                Verdict::Open if answer.cases + answer.given_up > 0 => 1,
                 Verdict::Holds | Verdict::Unrefuted => 2,
                 Verdict::Open => 3,
             };

@@ -274,7 +274,7 @@ pub(crate) fn first_states<S: System>(
 }
 
 /// Makes the steps from the first few states again, also once they are put together in the place of another state, and
-/// from those that stand for them, and compares them.
+/// compares them; and those from the states that stand for them, in whatever order these are made.
 ///
 /// # Errors
 /// [`Unsound`] if they differ, or too many situations must occur.
@@ -289,19 +289,23 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
     if system.covers().len() > MOST_COVERS {
         return Err(Unsound::TooManyCovers);
     }
+    let of_class = |state: &S::State| {
+        let mut times: FxHashMap<_, u32> = FxHashMap::default();
+        for Step { state, is_bound, breaks, .. } in steps(system, state) {
+            *times.entry((walk::kept(system, &canonical(&state)), is_bound, breaks.len())).or_default() += 1;
+        }
+        times
+    };
     let mut before: Option<S::State> = None;
     for state in first_states(system, starts) {
         let (own, first) = (canonical(&state), outlook(&state));
         if first != outlook(&state) {
             return Err(Unsound::Unrepeatable);
         }
-        let of_own = outlook(&own);
-        let breaks =
-            |outlook: &[(_, _, Vec<_>)]| outlook.iter().map(|(_, _, breaks)| breaks.len()).sum::<usize>();
-        let are_alike = first.len() == of_own.len() && breaks(&first) == breaks(&of_own);
-        if !are_alike || !is_same(system, &own, &canonical(&own)) {
+        if of_class(&state) != of_class(&own) || !is_same(system, &own, &canonical(&own)) {
             return Err(Unsound::Unlike);
         }
+        let of_own = outlook(&own);
         if let Some(mut other) = before.replace(own) {
             let (parts, bytes) = before.as_ref().map(|own| walk::kept(system, own)).unwrap_or_default();
             system.read(&mut other, &bytes);

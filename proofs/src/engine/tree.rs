@@ -139,9 +139,9 @@ pub struct Counterexample<D, F> {
 /// How far a search is.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
-    /// Leaves so far.
+    /// Leaves so far; none of a search over states.
     pub runs: u64,
-    /// Team moves so far.
+    /// Team moves so far, or states that were looked at.
     pub moves: u64,
     /// The numbers of walls that are done.
     pub levels: &'a [Level],
@@ -154,6 +154,11 @@ pub struct Progress<'a> {
 }
 
 impl Progress<'_> {
+    /// That of a search over states, so many of which were looked at.
+    pub(crate) const fn of_states(looked_at: u64) -> Self {
+        Self { runs: 0, moves: looked_at, levels: &[], max_walls: 0, edges: 0, wave: &[] }
+    }
+
     /// How long the last wave takes so many workers, in team moves: who is done with a share takes the next one.
     pub fn span(&self, workers: usize) -> u64 {
         let mut busy_until: BinaryHeap<Reverse<u64>> = (0..workers).map(|_| Reverse(0)).collect();
@@ -175,7 +180,7 @@ impl Progress<'_> {
     }
 }
 
-/// Hears between two waves how far a search is, and may end it there.
+/// Hears between two waves, or every thousand states, how far a search is, and may end it there.
 pub type Watch<'a> = &'a mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 
 /// A watch that lets every search go on.

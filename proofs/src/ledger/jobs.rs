@@ -36,6 +36,8 @@ pub enum News<'a> {
         /// How many there are.
         of: usize,
     },
+    /// Another second has gone by. Whoever answers that with a break wants the rows that there are, and no others.
+    Second,
     /// A step of a job has not ended for too long. Other jobs go on where a thread is left.
     Unended {
         /// The clause that the job is about.
@@ -43,7 +45,7 @@ pub enum News<'a> {
     },
 }
 
-/// Hears how far the deciding is, from any thread, and may end a search: its check is left open then.
+/// Hears how far the deciding is, from any thread, and may end a search, whose check is left open then, or all.
 pub type Hear = Arc<dyn Fn(News<'_>) -> ControlFlow<()> + Send + Sync>;
 
 /// The limits of deciding.
@@ -77,6 +79,8 @@ pub enum Indecision {
     },
     /// A step of another check did not end, and no thread was left to go on.
     Behind,
+    /// The work was ended before.
+    Ended,
 }
 
 impl fmt::Display for Indecision {
@@ -93,6 +97,7 @@ impl fmt::Display for Indecision {
                 write!(f, "a step of the {what} {:?} did not end within {seconds} s", variant.name())
             }
             Self::Behind => f.write_str("not decided, since a step of another check did not end"),
+            Self::Ended => f.write_str("not decided, since the work was ended before"),
         }
     }
 }
@@ -108,7 +113,7 @@ pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, MethodError> 
 /// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one
 /// thread, which forgets it after the last of them. Where a step does not end, its check is left open; others are
 /// decided as long as a thread is left for them, and open if none is. A thread that makes such a step is left behind:
-/// it ends with the process.
+/// it ends with the process. So are all of them, where `hear` ends the work.
 ///
 /// # Errors
 /// [`MethodError`] if a method cannot begin.
@@ -135,8 +140,7 @@ pub fn decide(
     shared.is_over.store(true, Ordering::Relaxed);
     // As long as this one could tell something, nobody is without news.
     drop(tell);
-    let (done, unended) = came?;
-    Ok(waiting.rows(done, &unended))
+    Ok(waiting.rows(came?))
 }
 
 /// The data that the deciding threads share.
@@ -197,6 +201,15 @@ impl SharedState {
     }
 }
 
+/// The answers that there are.
+struct Collection {
+    done: Vec<Completion>,
+    /// The numbers of the jobs that have a step which did not end.
+    unended: Vec<usize>,
+    /// Why nothing came of the other questions.
+    rest: Indecision,
+}
+
 /// Whoever waits for the answers.
 struct Collector<'a> {
     jobs: &'a [Job],
@@ -205,9 +218,9 @@ struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    /// All answers; or those that there are when a step does not end and no other job goes on, and the numbers of the
-    /// jobs that have such a step.
-    fn wait(&self, told: &Receiver<ThreadNews>) -> Result<(Vec<Completion>, Vec<usize>), MethodError> {
+    /// All answers; or those that there are when a step does not end and no other job goes on, or when the work is
+    /// ended.
+    fn wait(&self, told: &Receiver<ThreadNews>) -> Result<Collection, MethodError> {
         let (patience_s, mut watchdog) = (self.shared.limits.patience_s, Watchdog::new(self.tasks));
         let (mut done, mut unended, mut left) = (Vec::new(), Vec::new(), self.jobs.len());
         let mut next_look = Instant::now() + BETWEEN_LOOKS;
@@ -221,6 +234,9 @@ impl Collector<'_> {
             }
             if Instant::now() < next_look {
                 continue;
+            }
+            if (self.shared.hear)(News::Second).is_break() {
+                return Ok(Collection { done, unended, rest: Indecision::Ended });
             }
             watchdog.look();
             next_look = Instant::now() + BETWEEN_LOOKS;
@@ -236,11 +252,11 @@ impl Collector<'_> {
                 break;
             }
         }
-        Ok((done, unended))
+        Ok(Collection { done, unended, rest: Indecision::Behind })
     }
 
     /// The stand-ins for the questions without an answer.
-    fn missing(&self, done: &[Completion], unended: &[usize]) -> Vec<Completion> {
+    fn missing(&self, Collection { done, unended, rest }: &Collection) -> Vec<Completion> {
         let mut missing = Vec::new();
         for (number, job) in self.jobs.iter().enumerate() {
             let is_answered = |question: &Question| done.iter().any(|done| done.question == *question);
@@ -251,7 +267,7 @@ impl Collector<'_> {
                 let undecided = if is_unended {
                     Indecision::Unended { variant, seconds: self.shared.limits.patience_s }
                 } else {
-                    Indecision::Behind
+                    *rest
                 };
                 is_unended = false;
                 let (answer, undecided) = (Answer::open(), Some(undecided));
@@ -262,8 +278,10 @@ impl Collector<'_> {
     }
 
     /// The row of each check.
-    fn rows(&self, mut done: Vec<Completion>, unended: &[usize]) -> Vec<Row> {
-        done.extend(self.missing(&done, unended));
+    fn rows(&self, collection: Collection) -> Vec<Row> {
+        let missing = self.missing(&collection);
+        let mut done = collection.done;
+        done.extend(missing);
         done.sort_by_key(|done| done.question);
         let mut rows: Vec<Row> = Vec::new();
         for Completion { question: Question { place, .. }, variant, seconds, answer, undecided } in done {

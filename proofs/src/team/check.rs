@@ -1,5 +1,7 @@
 //! A check that a team keeps a demand in its setting.
 
+use std::ops::ControlFlow;
+
 use tautline_kernel::ground::{Area, Cell};
 
 use super::ground::{Map, words};
@@ -10,7 +12,7 @@ use crate::decide::{
 };
 use crate::engine::model::StatesModel;
 use crate::engine::states;
-use crate::engine::tree::{self, AllRuns, Waves};
+use crate::engine::tree::{self, AllRuns, Progress, Waves};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::plural::counted;
 use crate::run::{Ending, Frame, Run};
@@ -22,6 +24,9 @@ pub struct Keeps<'a, R: Rule>(
     /// The number of the demand.
     pub usize,
 );
+
+/// States between two words to the watch.
+const BETWEEN: u64 = 1 << 10;
 
 /// The findings of a tree: the frames, and the layout as far as it was known in each.
 type Findings = tree::Findings<Promise, (Frame, Option<Map>)>;
@@ -133,7 +138,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
-    fn in_states(&self, rule: &R, context: &Context<'_, '_>) -> MethodResult {
+    fn in_states(&self, rule: &R, context: &mut Context<'_, '_>) -> MethodResult {
         let starts = self.0.starts(rule)?;
         let Some(start) = starts.first().cloned() else {
             return Ok(Answer::new(None, false, Verdict::Holds, 0));
@@ -141,7 +146,11 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         let playing = self.0.playing_from(rule, &[Promise(self.1)], start)?;
         states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
         let limits = states::Limits { memory: context.memory, ..states::Limits::NONE };
-        let found = states::search(&playing, starts.iter().cloned(), limits);
+        let mut hears = |looked_at| match looked_at % BETWEEN {
+            0 => (context.watch)(&Progress::of_states(looked_at)),
+            _ => ControlFlow::Continue(()),
+        };
+        let found = states::watched(&playing, starts.iter().cloned(), limits, &mut hears);
         let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
         let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
         Ok(Answer::new(evidence, found.is_whole && is_covered, Verdict::Holds, found.states))
@@ -174,7 +183,8 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
             (*moves != Moves::Together).then(|| moves.to_string()),
             most(*losses, "lost message"),
             most(*deaths, "death"),
-            (*longest_run != u32::MAX).then(|| format!("runs of at most {longest_run} team moves")),
+            (*longest_run != u32::MAX && self.0.strategy() == Strategy::Tree)
+                .then(|| format!("runs of at most {longest_run} team moves")),
         ];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }

@@ -29,7 +29,8 @@ pub struct Own<'a, R: Rule> {
     been: HashSet<[u64; 2]>,
 }
 
-/// A digest that tells a scene from all others: its hashes behind two different first bytes.
+/// A digest that stands for a scene: its hashes behind two different first bytes. Two scenes with the same 128 bits
+/// would be taken for one, and the run for endless; by chance that is not to be expected.
 fn digest(scene: &impl Hash) -> [u64; 2] {
     [0_u8, 1].map(|first| {
         let mut hasher = DefaultHasher::new();

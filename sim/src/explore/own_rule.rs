@@ -120,7 +120,11 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
             let mut is_ended = hunter.hears(far).is_break();
             let mut watch = |progress: &tautline_proofs::engine::tree::Progress<'_>| {
                 is_ended |= asked.budget.is_some_and(|budget| progress.moves > budget);
-                is_ended |= hunter.hears(Far::Tree(progress)).is_break();
+                let far = match self.setting.strategy() {
+                    Strategy::Tree => Far::Tree(progress),
+                    Strategy::States => Far::Words(format!("{}, states {}", demand.id, progress.moves)),
+                };
+                is_ended |= hunter.hears(far).is_break();
                 if is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
             let context = &mut Context { cache: &mut cache, watch: &mut watch, memory: MemoryLimit::any() };

@@ -13,7 +13,6 @@ use tautline_web::own::OwnPage;
 static SETTING: Setting<'_, East> = Setting {
     senses: Senses::TEAM,
     moves: Moves::OneAtATime,
-    longest_run: 20,
     demands: &[Demand::always("EAST-1", "the robots are in different cells", &|moved| {
         moved.after.cells_differ()
     })],

@@ -50,6 +50,7 @@ pub(super) fn minimise(
     sizes.sort_by_key(|&(columns, rows)| (columns * rows, rows));
     let max_walls = hunt.takes().contains(&Bound::Walls).then_some((before.walls + before.blocked) as u32);
     let mut watcher = Watcher { watch, progress: Progress { runs: 0, smallest: before }, ended: None };
+    let mut refused = None;
     let least = *setup.scheme.robots.start() as u16;
     for robots in least..=setup.robots {
         for &(columns, rows) in &sizes {
@@ -60,8 +61,14 @@ pub(super) fn minimise(
                 max_walls,
                 ..HuntRequest::new(setup.scheme, setup.rule)
             };
-            // A size without room for the robots is none to search.
-            let Ok(hunted) = hunt.hunt(&hunt.again(setup, asked), &mut watcher) else { continue };
+            let hunted = match hunt.hunt(&hunt.again(setup, asked), &mut watcher) {
+                Ok(hunted) => hunted,
+                // A size without room for the robots is none to search.
+                Err(diagnostic) => {
+                    refused = Some(diagnostic);
+                    continue;
+                }
+            };
             if let Some(halt) = watcher.ended {
                 return Err(halt.into());
             }
@@ -77,5 +84,8 @@ pub(super) fn minimise(
             return Ok(Minimal { setup: found.setup, clause: violation.clause, before, after, runs });
         }
     }
-    Err(Refusal::Chosen.into())
+    match refused {
+        Some(diagnostic) if watcher.progress.runs == 0 => Err(Halt::from(diagnostic).into()),
+        _ => Err(Refusal::Chosen.into()),
+    }
 }
