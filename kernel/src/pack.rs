@@ -1,7 +1,7 @@
 //! Pack exploration (Jasmine Xavier and Shantha Selva Kumari 2013, II.A and II.B): robots that see as far as R_s
 //! explore an area of square cells together, and stay connected within R_c, without a base. The paper has the
 //! definitions: the visibility gain, the metric gain, and the connection graph. How robots choose and go is ours.
-//! Clauses: PACK-1 … PACK-8.
+//! Clauses: PACK-1 … PACK-9.
 //!
 //! A [`Team`] is a plain value with one call: [`Team::advance`] makes a team move. After it, each robot looks round:
 //! [`Chart::look`] takes what it sees into the map that all robots share. A robot sees all four cells beside its own,

@@ -1,4 +1,4 @@
-//! Pack exploration (Jasmine Xavier and Shantha Selva Kumari 2013, II): the clauses PACK-1 to PACK-8 and what decides
+//! Pack exploration (Jasmine Xavier and Shantha Selva Kumari 2013, II): the clauses PACK-1 to PACK-9 and what decides
 //! them.
 
 pub mod clauses;

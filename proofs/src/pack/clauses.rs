@@ -120,7 +120,7 @@ const fn far(demand: Demand) -> Floors {
 }
 
 /// The clauses of pack exploration.
-pub const CLAUSES: [Clause; 8] = [
+pub const CLAUSES: [Clause; 9] = [
     Clause {
         id: "PACK-1",
         sentence: "After every team move, links MUST join all robots of a pack: robots are linked if the whole cell of \
@@ -226,6 +226,16 @@ pub const CLAUSES: [Clause; 8] = [
                 &[NO_CORNERS, HEEDS_NO_WAY],
             ),
         ],
+    },
+    Clause {
+        id: "PACK-9",
+        sentence: "After every team move of a pack, links between midpoints that are at most R_c apart MUST join all \
+                   robots.",
+        checks: &[&Check::holds(
+            PUBLISHED,
+            &demand(OF_FEW, Demand::Near),
+            &[NamedRule::new(NO_CONNECT.name, Subject::of(Rule::PUBLISHED.without(Connect)))],
+        )],
     },
 ];
 

@@ -24,6 +24,8 @@ pub(super) const SITUATIONS: [&str; 4] =
 pub(super) enum Demand {
     /// Links by four corners join all robots after every team move.
     Connected,
+    /// Links by midpoints do.
+    Near,
     /// No two robots are in one cell.
     Single,
     /// All cells that can be reached are explored in the end.
@@ -37,12 +39,13 @@ pub(super) enum Demand {
 }
 
 impl Demand {
-    pub(super) const ALL: [Self; 6] =
-        [Self::Connected, Self::Single, Self::Covers, Self::Ends, Self::Free, Self::Best];
+    pub(super) const ALL: [Self; 7] =
+        [Self::Connected, Self::Near, Self::Single, Self::Covers, Self::Ends, Self::Free, Self::Best];
 
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Connected => "the pack is not connected",
+            Self::Near => "the pack is not connected by midpoints",
             Self::Single => "two robots are in one cell",
             Self::Covers => "a cell within reach is unexplored",
             Self::Ends => "the run goes on",
@@ -149,7 +152,8 @@ impl RunOutcome {
         let are_steps = before.iter().zip(&now).all(is_step);
         let is_double = now.iter().enumerate().any(|(robot, cell)| now[..robot].contains(cell));
         self.judge(Demand::Free, !are_steps);
-        self.judge(Demand::Connected, !is_joined(&now, rule.range_cells()));
+        self.judge(Demand::Connected, !is_connected(&now, rule.range_cells()));
+        self.judge(Demand::Near, !is_near(&now, rule.range_cells()));
         self.judge(Demand::Single, is_double);
         self.moves.push((made, now));
         if self.moves.len() < MOST_MOVES {
@@ -167,21 +171,33 @@ impl RunOutcome {
 
     /// Where the robots were after each team move, up to the one that breaks a demand of each of them.
     pub(super) fn until(&self, demand: Demand, range_cells: u16) -> impl Iterator<Item = &Vec<Cell>> {
-        let breaks = move |cells: &Vec<Cell>| demand == Demand::Connected && !is_joined(cells, range_cells);
+        let breaks =
+            move |cells: &Vec<Cell>| demand == Demand::Connected && !is_connected(cells, range_cells);
         let first = self.moves.iter().position(|(_, cells)| breaks(cells)).unwrap_or(self.moves.len());
         self.moves.iter().map(|(_, cells)| cells).take(first + 1)
     }
 }
 
 /// Whether links of R_c by four corners join all robots.
-fn is_joined(cells: &[Cell], range_cells: u16) -> bool {
+fn is_connected(cells: &[Cell], range_cells: u16) -> bool {
     let circle = Circle::new(4 * u64::from(range_cells).pow(2));
+    are_joined(cells, |one, other| circle.covers(one, other))
+}
+
+/// Whether links of R_c by midpoints join all robots.
+fn is_near(cells: &[Cell], range_cells: u16) -> bool {
+    let squared = |one: i16, other: i16| u64::from(one.abs_diff(other)).pow(2);
+    let most = u64::from(range_cells).pow(2);
+    are_joined(cells, |one, other| squared(one.x, other.x) + squared(one.y, other.y) <= most)
+}
+
+fn are_joined(cells: &[Cell], has_link: impl Fn(Cell, Cell) -> bool) -> bool {
     let mut joined = vec![false; cells.len()];
     joined[0] = true;
     for _ in cells {
         for robot in 0..cells.len() {
             joined[robot] |=
-                (0..cells.len()).any(|other| joined[other] && circle.covers(cells[other], cells[robot]));
+                (0..cells.len()).any(|other| joined[other] && has_link(cells[other], cells[robot]));
         }
     }
     joined.into_iter().all(|is_joined| is_joined)
