@@ -1,5 +1,6 @@
-//! All small floors: every set of obstacles and all starts (PACK-1 to PACK-6, PACK-8, PACK-9). A rule of a pack leaves nothing
-//! to chance, so there is one run for each. A counterexample has the fewest cells, and of these the fewest obstacles.
+//! All small floors: every set of obstacles and all starts (PACK-1 to PACK-6, PACK-8, PACK-9). A rule of a pack leaves
+//! nothing to chance, so there is one run for each. A counterexample has the fewest cells, and of these the fewest
+//! obstacles.
 
 use tautline_kernel::ground::{Area, Cell, neighbours};
 

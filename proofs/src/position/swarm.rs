@@ -5,6 +5,7 @@ use tautline_kernel::position::{Order, Parameters, Particle, Point, Range, Swarm
 
 use super::minima::cost;
 use crate::engine::{Outcome, Stop, require};
+use crate::plural::counted;
 
 /// How a swarm is moved, and what of it counts as its best position.
 #[derive(Clone, Copy, Debug)]
@@ -61,16 +62,18 @@ impl Oracle for Coarse<'_> {
     }
 }
 
-/// Iterations and particles that are looked at in every way.
-const FEW: (u32, usize) = (2, 1);
+/// Iterations and particles that are looked at in every way: the fewest that go on, and the fewest that differ.
+const FEW: [(u32, usize); 2] = [(2, 1), (1, 2)];
 
 /// Iterations and particles of swarms that are drawn at random.
 const MANY: (u32, usize) = (20, 5);
 
 /// The bound of [`never_worsens`], in words.
 pub(super) fn coarse_draws() -> String {
-    let (iterations, particles) = FEW;
-    format!("{iterations} iterations of {particles} particle, each draw one of {COARSE} numbers")
+    let swarm = |(iterations, particles): (u32, usize)| {
+        format!("{} of {}", counted(iterations, "iteration"), counted(particles, "particle"))
+    };
+    format!("{}, each draw one of {COARSE} numbers", FEW.map(swarm).join(" or "))
 }
 
 /// The swarms that [`never_worsens_at_random`] draws, in words.
@@ -85,7 +88,8 @@ pub(super) fn random_swarms() -> String {
 /// [`Stop`] if the clause is broken.
 pub(super) fn never_worsens(conduct: &Conduct, oracle: &mut dyn Oracle) -> Outcome {
     let distances_m = [2.0, 3.0, 2.5];
-    flies(*conduct, distances_m, FEW, &mut Coarse(oracle))
+    let few = FEW[oracle.pick(FEW.len() as u32) as usize];
+    flies(*conduct, distances_m, few, &mut Coarse(oracle))
 }
 
 /// POSITION-5: at random.
