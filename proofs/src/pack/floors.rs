@@ -328,7 +328,7 @@ impl Method<Subject> for Floors {
             (Demand::Connected, _) => "PACK-1",
             (Demand::Covers, Starts::Beside) => "PACK-3",
             (Demand::Covers, Starts::Linked) => "PACK-5",
-            (Demand::Single | Demand::Ends | Demand::Free | Demand::Best, _) => return None,
+            (Demand::Near | Demand::Single | Demand::Ends | Demand::Free | Demand::Best, _) => return None,
         };
         let subject = self.bounds.subject(subject).ok()?;
         let moves = played.until(self.demand, self.bounds.range_cells);
