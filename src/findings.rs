@@ -55,6 +55,14 @@ pub(super) struct Case {
     pub(super) seconds: Option<f64>,
 }
 
+impl Case {
+    /// The rest of a work that a signal has ended.
+    pub(super) fn left(why: String) -> Self {
+        let (class, name) = ("tautline".to_owned(), "the checks that are left".to_owned());
+        Self { class, name, outcome: Outcome::Unfinished(why), seconds: None }
+    }
+}
+
 /// The outcome of a decision.
 pub(super) enum Outcome {
     /// As expected.

@@ -373,9 +373,25 @@ fn picture(finding: &Finding) -> Result<String, Halt> {
     }
 }
 
-/// Makes the folder that --out names, if it is not there.
-pub(super) fn make_folder(out: &Path) -> Result<(), Diagnostic> {
-    in_folder(out, || Ok(()))
+/// Makes the folder that --out names, if it is not there. The folders that are new, the inmost first.
+pub(super) fn make_folder(out: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
+    check_name(out)?;
+    let is_new = |folder: &&Path| !folder.exists();
+    let new: Vec<PathBuf> = out.ancestors().take_while(is_new).map(Path::to_owned).collect();
+    if let Err(error) = fs::create_dir_all(out) {
+        clear(&new);
+        let what = format!("the folder cannot be made: {error}");
+        return Err(Diagnostic::in_file(out, what, "name a folder, or a place where one can be made"));
+    }
+    Ok(new)
+}
+
+/// Removes those of these folders that are empty.
+pub(super) fn clear(folders: &[PathBuf]) {
+    for folder in folders {
+        // What is not empty stays.
+        let _ = fs::remove_dir(folder);
+    }
 }
 
 /// The result of `work`, for which the folder that --out names is made. Of work that
@@ -384,12 +400,8 @@ pub(super) fn in_folder<T, E: From<Diagnostic>>(
     out: &Path,
     work: impl FnOnce() -> Result<T, E>,
 ) -> Result<T, E> {
-    let new: Vec<_> = out.ancestors().take_while(|folder| !folder.exists()).collect();
-    let made = fs::create_dir_all(out).map_err(|error| {
-        let what = format!("the folder cannot be made: {error}");
-        Diagnostic::in_file(out, what, "name a folder, or a place where one can be made").into()
-    });
-    made.and_then(|()| work()).inspect_err(|_| new.iter().for_each(|folder| drop(fs::remove_dir(folder))))
+    let new = make_folder(out)?;
+    work().inspect_err(|_| clear(&new))
 }
 
 /// Puts the file of a counterexample in its place; where it stands then.

@@ -391,7 +391,10 @@ fn command(cli: &Cli, name: &str) -> Exit {
             complain(&fault);
             Exit::Diagnostic
         }
-        Err(Halt::Interrupted) => Exit::Unfinished,
+        Err(Halt::Interrupted) => {
+            interrupt::tell_of_nothing();
+            Exit::Unfinished
+        }
     };
     tracing::info!("{name}: exit code {} after {:.3} s", exit.code(), start.elapsed().as_secs_f64());
     exit

@@ -509,7 +509,7 @@ impl Mcp {
         let served = runtime.block_on(async {
             tokio::select! {
                 served = serve => served,
-                () = interrupted => Err(Halt::Interrupted),
+                () = interrupted => Ok(Exit::Unfinished),
             }
         });
         // Calls that go on are dropped here, and killed thereby.

@@ -18,7 +18,7 @@ pub(super) fn bar(prefix: impl Into<String>, of: u64) -> ProgressBar {
     bar.with_prefix(prefix.into())
 }
 
-/// Does work of `of` parts under a bar.
+/// Does work of `of` parts under a bar. After a signal, no other part is begun.
 pub(super) fn during<T>(
     prefix: impl Into<String>,
     of: u64,
@@ -26,7 +26,9 @@ pub(super) fn during<T>(
 ) -> Result<T, Halt> {
     let (prefix, start) = (prefix.into(), Instant::now());
     let bar = bar(prefix.clone(), of);
+    interrupt::defer();
     let done = work(&|| {
+        interrupt::check()?;
         bar.inc(1);
         Ok(())
     });

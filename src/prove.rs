@@ -1,5 +1,7 @@
 //! `tautline prove`: the clauses of SPEC.md, decided.
 
+mod answers;
+mod decided;
 mod html;
 mod screen;
 
@@ -21,11 +23,12 @@ use tautline_proofs::decide::{Answer, Depiction, Verdict};
 use tautline_proofs::engine::states::{self, MemoryLimit};
 use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
+pub(super) use self::decided::Decided;
 use super::evidence::{self, EvidenceJson, shown};
-use super::findings::{self, Case, Format, FormatArgs, Outcome};
-use super::hunt::{keep, make_folder};
+use super::findings::{self, Format, FormatArgs};
+use super::hunt::{clear, keep, make_folder};
 use super::output::{Output, replay_line};
-use super::{Exit, ForceArgs, needless, positive, progress, spill};
+use super::{Exit, ForceArgs, interrupt, needless, positive, progress, spill};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
 
@@ -109,9 +112,15 @@ pub(super) struct DecisionArgs {
 }
 
 #[derive(JsonSchema, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a field of the JSON")]
 pub(super) struct Ledger {
     clauses: Vec<Line>,
+    /// Whether every verdict is the registered one, and none is missing.
     as_registered: bool,
+    /// Whether every check was decided: none is missing because a signal ended the work.
+    complete: bool,
+    /// Checks that are missing.
+    left: usize,
     /// Whether a search was cut off for want of memory.
     out_of_memory: bool,
     /// Whether a step of a check did not end.
@@ -272,8 +281,9 @@ impl DecisionArgs {
             }
             None => (memory, None),
         };
+        let mut new = Vec::new();
         for folder in self.out.iter().chain(&self.certificate) {
-            make_folder(folder)?;
+            new.extend(make_folder(folder)?);
         }
         let limits = Limits { memory: Arc::new(memory), patience_s: self.patience.get() };
         let memory = &*limits.memory;
@@ -295,22 +305,28 @@ impl DecisionArgs {
                 ControlFlow::Continue(())
             }
         });
-        let rows = ledger::decide(&checks, &limits, &hear).map_err(|refused| {
+        let rows = answers::decide(&checks, &limits, &hear).map_err(|refused| {
             Diagnostic::usage(refused, "this is a bug in the registry: please report it")
         })?;
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
-        self.tell((&rows, memory), (detail, page), &replaceable, out)
+        let made = Decided { rows: &rows, memory, left: checks.len() - rows.len() };
+        let told = self.tell(&made, (detail, page), &replaceable, out);
+        if told != Ok(Exit::Expected) {
+            clear(&new);
+        }
+        told
     }
 
-    /// Tells of what was decided in this memory, and stores what is to be stored.
+    /// Tells of what was decided, and stores what is to be stored.
     pub(super) fn tell(
         &self,
-        (rows, memory): (&[Row], &MemoryLimit),
+        made: &Decided<'_>,
         (detail, page): (Detail, Option<AtomicFile>),
         replaceable: &Replaceable,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
+        let &Decided { rows, memory, left } = made;
         let mut files = Vec::new();
         for row in rows {
             let (rule, engine) = (row.check.rule(), row.check.engine());
@@ -319,20 +335,23 @@ impl DecisionArgs {
                 Some(folder) => stored(row, folder, replaceable, out)?,
                 None => None,
             });
-            if let Some(folder) = self.certificate.as_ref().filter(|_| row.decision.verdict == Verdict::Holds)
-            {
+            let is_certified = row.decision.verdict == Verdict::Holds && !interrupt::is_requested();
+            if let Some(folder) = self.certificate.as_ref().filter(|_| is_certified) {
                 certify((row, memory), folder, replaceable, out);
             }
         }
         if let Some(fault) = memory.fault() {
             out.leave_out(&spill::diagnostic(&fault));
         }
-        let unfinished = unfinished(rows, memory);
-        let as_registered = rows.iter().all(Row::is_as_registered);
+        let mut unfinished = made.unfinished();
+        if self.certificate.is_some() && interrupt::is_requested() {
+            unfinished += "A signal ended the work: not every check that holds has its certificate.\n";
+        }
+        let as_registered = left == 0 && rows.iter().all(Row::is_as_registered);
         let ledger = || -> Result<Ledger, Halt> {
             let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
-            let (out_of_memory, unended) = (memory.was_too_small(), rows.iter().any(is_undecided));
-            Ok(Ledger { clauses, as_registered, out_of_memory, unended })
+            let (out_of_memory, unended) = (memory.was_too_small(), rows.iter().any(decided::is_undecided));
+            Ok(Ledger { clauses, as_registered, complete: left == 0, left, out_of_memory, unended })
         };
         if let Some(mut page) = page {
             page.draw(html::report(rows, &ledger()?))?;
@@ -360,12 +379,12 @@ impl DecisionArgs {
             }
             (Format::Github, _) => {
                 let last = screen::last_line(rows) + &unfinished;
-                out.text(findings::github(&findings(rows, memory)?, &last))?;
+                out.text(findings::github(&made.findings()?, &last))?;
             }
             (Format::Junit, _) => {
                 let is_ours = |row: &Row| ledger::clauses().any(|clause| clause.id == row.clause.id);
                 let command = if rows.iter().all(is_ours) { "prove" } else { "library" };
-                out.text(findings::junit(command, &findings(rows, memory)?))?;
+                out.text(findings::junit(command, &made.findings()?))?;
             }
         }
         Ok(match (unfinished.is_empty(), as_registered) {
@@ -374,62 +393,6 @@ impl DecisionArgs {
             (true, false) => Exit::Violation,
         })
     }
-}
-
-/// Why a search was cut off, if one was.
-fn cut_off(memory: &MemoryLimit) -> Option<String> {
-    if let Some(fault) = memory.fault() {
-        return Some(format!("A search over states could not go on in its folder: {fault}\n"));
-    }
-    let or_spill = if memory.has_folder() { "" } else { "; or give it a folder with --spill" };
-    memory.was_too_small().then(|| {
-        format!(
-            "A search over states would have taken more than {} KiB: its check \
-             is open, or its mutant was not rejected.\n\
-             Give more with --memory: one search gets three quarters of it{or_spill}.\n",
-            memory.most() >> 10
-        )
-    })
-}
-
-fn is_undecided(row: &Row) -> bool {
-    row.undecided.is_some()
-}
-
-/// Which rows were cut off, and what can be done about it; nothing if none were.
-fn unfinished(rows: &[Row], memory: &MemoryLimit) -> String {
-    let mut text = cut_off(memory).unwrap_or_default();
-    if rows.iter().any(is_undecided) {
-        text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, \
-                 or it needs more time: give more with --patience.\n";
-    }
-    text
-}
-
-/// The rows as a CI shows them.
-fn findings(rows: &[Row], memory: &MemoryLimit) -> Result<Vec<Case>, Halt> {
-    let cut_off = cut_off(memory);
-    let found = rows.iter().map(|row| {
-        let Row { clause, check, ref decision, seconds, .. } = *row;
-        let (verdict, registered) = (decision.verdict.word(), check.expected().word());
-        let variants = of_variants(row).into_iter().map(|words| words + "\n");
-        let outcome = match (row.is_as_registered(), row.undecided, &cut_off) {
-            (true, ..) => Outcome::Expected,
-            (false, Some(undecided), _) => Outcome::Unfinished(format!("{undecided}\n")),
-            (false, None, Some(why)) => Outcome::Unfinished(why.clone()),
-            (false, None, None) => Outcome::Broken(
-                format!("{verdict}, registered as {registered}"),
-                variants.collect::<String>() + story(row, None)?.trim_start(),
-            ),
-        };
-        Ok(Case {
-            class: clause.scheme().to_owned(),
-            name: format!("{} as {}, {}: {}", clause.id, check.rule(), check.engine(), check.bound()),
-            outcome,
-            seconds: Some(seconds),
-        })
-    });
-    found.collect()
 }
 
 fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {

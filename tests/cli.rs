@@ -34,6 +34,9 @@ mod locate;
 mod seeds;
 #[path = "cli/shards.rs"]
 mod shards;
+#[cfg(unix)]
+#[path = "cli/signals.rs"]
+mod signals;
 
 fn tautline(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));

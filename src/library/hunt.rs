@@ -14,10 +14,10 @@ use tautline_proofs::plural::counted;
 
 use crate::evidence::{EvidenceJson, shown};
 use crate::findings::{self, Case, Format, Outcome};
-use crate::hunt::make_folder;
+use crate::hunt::{clear, make_folder};
 use crate::output::{Output, replay_line};
 use crate::prove::{stored, story};
-use crate::{Exit, progress};
+use crate::{Exit, interrupt, progress};
 
 /// Moves of a run that is drawn as it is found.
 const DRAWN: usize = 24;
@@ -29,6 +29,8 @@ pub(crate) struct HuntedJson {
     seed: u64,
     max_moves: u32,
     checks: Vec<CheckJson>,
+    /// Whether runs were made for every check: a signal ended nothing.
+    complete: bool,
 }
 
 /// A check, and its first run that breaks the promise.
@@ -57,14 +59,14 @@ pub(super) fn hunt(
     format: Format,
     out: &mut Output,
 ) -> Result<Exit, Halt> {
-    folder.map(make_folder).transpose()?;
+    let new = folder.map(make_folder).transpose()?.unwrap_or_default();
     let spinner = progress::spinner("hunting");
-    let mut rows = Vec::new();
-    for (clause, number) in ledger::checks(clauses) {
-        let (check, start) = (clause.checks[number], Instant::now());
+    let (checks, mut rows) = (ledger::checks(clauses), Vec::new());
+    for &(clause, number) in &checks {
+        let (check, start, runs) = (clause.checks[number], Instant::now(), *runs);
         spinner.set_message(format!("{} as {}", clause.id, check.rule()));
-        let answer = check
-            .hunt(runs)
+        let Some(answer) = interrupt::unless_requested(move || check.hunt(&runs)) else { break };
+        let answer = answer
             .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
         let decision = Decision::of(answer.unwrap_or_else(Answer::open));
         rows.push(Row {
@@ -79,22 +81,31 @@ pub(super) fn hunt(
     spinner.finish_and_clear();
     let file = |row: &Row| folder.map_or(Ok(None), |folder| stored(row, folder, replaceable, &mut *out));
     let files = rows.iter().map(file).collect::<Result<Vec<_>, _>>()?;
+    let left = (rows.len() < checks.len()).then(|| {
+        clear(&new);
+        let (left, of) = (checks.len() - rows.len(), counted(checks.len(), "check"));
+        format!("A signal ended the work: {left} of {of} are left, and nothing is claimed of them.\n")
+    });
     let told = || rows.iter().zip(&files);
     match format {
         Format::Json => {
             let &RandomRuns { runs, seed, most_moves: max_moves } = runs;
             let checks = told().map(json).collect::<Result<_, _>>()?;
-            out.json(&HuntedJson { runs, seed, max_moves, checks })?;
+            out.json(&HuntedJson { runs, seed, max_moves, checks, complete: left.is_none() })?;
         }
         Format::Text => {
             let text = told().map(|(row, file)| words(row, runs, file.as_deref()));
-            out.text(text.collect::<Result<Vec<_>, Halt>>()?.join("\n"))?;
+            let text = text.chain(left.clone().map(Ok)).collect::<Result<Vec<_>, Halt>>()?;
+            out.text(text.join("\n"))?;
         }
-        Format::Github => out.text(findings::github(&cases(&rows, runs)?, &last(&rows)))?,
-        Format::Junit => out.text(findings::junit("library", &cases(&rows, runs)?))?,
+        Format::Github => {
+            let last = last(&rows) + "\n" + left.as_deref().unwrap_or_default();
+            out.text(findings::github(&cases(&rows, runs, left.as_ref())?, &last))?;
+        }
+        Format::Junit => out.text(findings::junit("library", &cases(&rows, runs, left.as_ref())?))?,
     }
     let is = |verdict| rows.iter().any(|row| row.decision.verdict == verdict);
-    Ok(match (is(Verdict::Open), is(Verdict::Refuted)) {
+    Ok(match (is(Verdict::Open) || left.is_some(), is(Verdict::Refuted)) {
         (true, _) => Exit::Unfinished,
         (false, true) => Exit::Violation,
         (false, false) => Exit::Expected,
@@ -142,7 +153,7 @@ fn words(row: &Row, runs: &RandomRuns, file: Option<&str>) -> Result<String, Hal
     Ok(head + &told + &shorter)
 }
 
-fn cases(rows: &[Row], runs: &RandomRuns) -> Result<Vec<Case>, Halt> {
+fn cases(rows: &[Row], runs: &RandomRuns, left: Option<&String>) -> Result<Vec<Case>, Halt> {
     let case = |row: &Row| {
         Ok(Case {
             class: row.clause.scheme().to_owned(),
@@ -155,7 +166,8 @@ fn cases(rows: &[Row], runs: &RandomRuns) -> Result<Vec<Case>, Halt> {
             seconds: Some(row.seconds),
         })
     };
-    rows.iter().map(case).collect()
+    let left = left.map(|why| Ok(Case::left(why.clone())));
+    rows.iter().map(case).chain(left).collect()
 }
 
 fn last(rows: &[Row]) -> String {

@@ -129,6 +129,8 @@ pub(super) fn last_line(rows: &[Row]) -> String {
     }
     let differ = rows.iter().filter(|row| !row.is_as_registered()).count();
     let _ = match differ {
+        // A signal came before any check was decided.
+        0 if rows.is_empty() => Ok(()),
         0 => writeln!(text, "All {} verdicts are the registered ones.", rows.len()),
         _ => writeln!(text, "{differ} of {} verdicts are not the registered ones.", rows.len()),
     };
