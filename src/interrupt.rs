@@ -2,6 +2,7 @@
 //! the process at once, unless the work in hand has results to keep; then it ends the work, and the second the process.
 //! No unfinished file stays.
 
+use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::panic::resume_unwind;
 use std::process;
@@ -35,6 +36,18 @@ fn heard() {
         tell_of_nothing();
     }
     process::exit(Exit::Unfinished.code().into());
+}
+
+/// Says that nothing has come of the work.
+pub(super) fn tell_of_nothing() {
+    // A bar may stand on the line; and who reads may have gone, which is what the signal may have told.
+    let line = if io::stderr().is_terminal() { "\n" } else { "" };
+    let _ = writeln!(io::stderr(), "{line}Interrupted before the end: nothing is claimed.");
+}
+
+/// The line below a result of the first runs of a campaign that a signal has ended.
+pub(super) fn part(made: u64, of: impl fmt::Display) -> String {
+    format!("\nA signal ended the work: this is what the first {made} of {of} give.\n")
 }
 
 /// From now on the first signal ends the work and not the process: what was found by then is to be kept.

@@ -20,7 +20,7 @@ use tautline_proofs::plural::counted;
 use tautline_sim::explore::RuleName;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, needless, number, progress};
+use super::{Exit, ForceArgs, Format, FormatArgs, interrupt, needless, number, progress};
 use crate::value_parser::chosen;
 
 const EXAMPLES: &str = "\
@@ -130,6 +130,8 @@ pub(super) struct TrialsJson<'a> {
     setting: &'a Setting,
     #[serde(flatten)]
     report: &'a Report,
+    /// Whether as many trials were made as were asked for: a signal ended nothing.
+    complete: bool,
 }
 
 /// The JSON of measurements.
@@ -197,7 +199,8 @@ impl Locate {
                 format!("--inside keeps to the rectangle that the anchors span, and {x_m},{y_m} is outside");
             return Err(Diagnostic::usage(what, "give --at a place within it, or leave --inside out").into());
         }
-        let report = progress::during("locating", setting.parts(), |watch| setting.run(watch))?;
+        let (setting, report) = progress::during("locating", setting.parts(), |watch| setting.run(watch))?;
+        let complete = setting.trials == trials;
         if let Some(mut picture) = picture {
             picture.append(draw::position::spots(
                 &title(&setting),
@@ -207,15 +210,18 @@ impl Locate {
             out.keep(picture);
         }
         match self.format.format {
-            Format::Json => out.json(&TrialsJson { setting: &setting, report: &report })?,
+            Format::Json => out.json(&TrialsJson { setting: &setting, report: &report, complete })?,
             Format::Text => {
                 out.text(text(&setting, &report))?;
                 if self.advice {
                     out.text(advice(&report.advice))?;
                 }
+                if !complete {
+                    out.text(interrupt::part(setting.trials.into(), counted(trials, "trial")))?;
+                }
             }
         }
-        Ok(Exit::Expected)
+        Ok(if complete { Exit::Expected } else { Exit::Unfinished })
     }
 
     fn measured(&self, file: &Path, signal: &Signal, out: &mut Output) -> Result<Exit, Halt> {

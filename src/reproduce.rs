@@ -1,5 +1,6 @@
 //! `tautline reproduce`: tables again. The catalogue of tables says what can be asked, and does the work.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -20,7 +21,7 @@ use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, progress, shards, whole};
+use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, interrupt, progress, shards, whole};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -114,8 +115,18 @@ impl Request {
             return self.deal(&*asked, path, *shards, out);
         }
         let files = Files::of(self.pictures.clone(), self.csv.clone(), (&self.force, []))?;
-        let made = Show::over(self.table.about().doing, |show| asked.run(show))?;
-        tell(&*made, files, self.format.format, out)
+        let Description { id, doing, .. } = self.table.about();
+        match Show::over(doing, |show| asked.run(show)) {
+            (Err(Halt::Interrupted), [done, parts]) => {
+                let left = InterruptedTable { id, complete: false, parts, parts_done: done };
+                match self.format.format {
+                    Format::Json => out.json(&left)?,
+                    Format::Text => out.text(left)?,
+                }
+                Ok(Exit::Unfinished)
+            }
+            (made, _) => tell(&*made?, files, self.format.format, out),
+        }
     }
 
     /// Deals the jobs of the table out among shards.
@@ -136,6 +147,29 @@ impl Request {
 #[derive(JsonSchema, Serialize)]
 pub(super) struct PlanFacts {
     jobs: usize,
+}
+
+/// A table that a signal has left: of some of its parts no figure is made.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct InterruptedTable {
+    id: &'static str,
+    /// False.
+    complete: bool,
+    parts: u64,
+    parts_done: u64,
+}
+
+impl fmt::Display for InterruptedTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { id, parts, parts_done, .. } = self;
+        writeln!(
+            f,
+            "A signal ended the work: {parts_done} of {} of {id} are done, and of a part no figure is claimed.\n\
+             To go on after a signal, deal the table out: tautline reproduce {id} --plan plan.json --shards 1,\n\
+             and then tautline reproduce --plan plan.json --shard 1 until it is done; tautline merge plan.json.",
+            counted(*parts, "part"),
+        )
+    }
 }
 
 /// The names of pictures, and where each is to be stored.
@@ -286,16 +320,20 @@ struct Show {
 }
 
 impl Show {
-    /// Does the work under a bar.
-    fn over<T>(doing: &'static str, work: impl FnOnce(&Self) -> Result<T, Halt>) -> Result<T, Halt> {
+    /// Does the work under a bar. How many parts are done comes out, too, and how many there are.
+    fn over<T>(
+        doing: &'static str,
+        work: impl FnOnce(&Self) -> Result<T, Halt>,
+    ) -> (Result<T, Halt>, [u64; 2]) {
+        interrupt::defer();
         let start = Instant::now();
         let (parts, done) = (AtomicU64::new(0), AtomicU64::new(0));
         let show = Self { doing, bar: progress::bar(doing, 1), parts, done };
         let result = work(&show);
         show.bar.finish_and_clear();
-        let [done, parts] = [&show.done, &show.parts].map(|count| count.load(Ordering::Relaxed));
+        let counts @ [done, parts] = [&show.done, &show.parts].map(|count| count.load(Ordering::Relaxed));
         tracing::info!("{doing}: {done} of {parts} in {:.3} s", start.elapsed().as_secs_f64());
-        result
+        (result, counts)
     }
 }
 
@@ -317,7 +355,7 @@ impl Observer for Show {
             self.bar.set_length(self.parts.load(Ordering::Relaxed));
             self.bar.set_position(before + parts);
         }
-        Ok(())
+        interrupt::check()
     }
 
     fn searched(&self, what: &str, progress: &Progress<'_>) -> Result<(), Halt> {

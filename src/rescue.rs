@@ -18,7 +18,7 @@ use tautline_proofs::mrc::Demand;
 use tautline_proofs::plural::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, viewers, whole};
+use super::{Exit, ForceArgs, Format, FormatArgs, interrupt, needless, progress, real, viewers, whole};
 use crate::value_parser::chosen;
 use tautline_field::draw::{self, field::picture};
 use tautline_field::radio::{ChannelName, FREE_SPACE, Lake};
@@ -200,6 +200,8 @@ pub(super) struct RescueJson<'a> {
     setting: &'a Setting,
     /// The first and the last.
     seeds: [u64; 2],
+    /// Whether these are all that were asked for: a signal ended nothing.
+    complete: bool,
     /// The clauses that were looked at.
     judged: [&'static str; Demand::ALL.len()],
     #[serde(flatten)]
@@ -236,8 +238,9 @@ impl Rescue {
             return Err(Diagnostic::usage("several rescues do not fit into one file", remedy).into());
         }
         let measure = |watch: &Watch<'_>| Summary::measure(&setting, seeds.clone(), watch);
-        let summary = progress::during("rescuing", count(seeds), measure)?;
-        print(out, self.format.format, &setting, seeds, (&summary, None))
+        let (summary, made) = progress::during("rescuing", count(seeds), measure)?;
+        let exit = print(out, self.format.format, (&setting, seeds, made), (&summary, None))?;
+        Ok(if made < count(seeds) { Exit::Unfinished } else { exit })
     }
 
     fn setting(&self) -> Setting {
@@ -333,18 +336,20 @@ const fn counted_as(setting: &Setting) -> &'static str {
     }
 }
 
-/// Prints what came of rescues, and what happened in the only one.
+/// Prints what came of rescues, of which the first ones were `made`, and what happened in the only one.
 fn print(
     out: &mut Output,
     format: Format,
-    setting: &Setting,
-    seeds: &RangeInclusive<u64>,
+    (setting, wanted, made): (&Setting, &RangeInclusive<u64>, u64),
     (summary, report): (&Summary, Option<&Report>),
 ) -> Result<Exit, Halt> {
+    let seeds = &(*wanted.start()..=wanted.start() + (made - 1));
+    let complete = seeds == wanted;
     match format {
         Format::Json => out.json(&RescueJson {
             setting,
             seeds: [*seeds.start(), *seeds.end()],
+            complete,
             judged: Demand::ALL.map(Demand::clause),
             summary,
             events: report.map(|report| &report.log[..]),
@@ -353,6 +358,9 @@ fn print(
             out.text(heading(setting, seeds) + &table(setting, summary))?;
             if let Some(report) = report {
                 out.text(story(&report.log))?;
+            }
+            if !complete {
+                out.text(interrupt::part(made, format_args!("{} rescues", count(wanted))))?;
             }
         }
     }

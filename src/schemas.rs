@@ -74,6 +74,10 @@ fn schemas() -> Vec<(String, Value)> {
         ("locate", printed::<Either<locate::TrialsJson<'_>, locate::FixesJson<'_>>>("tautline locate")),
         ("show", printed::<show::LayoutJson<'_>>("tautline show")),
         ("show-environments", printed::<show::EnvironmentsJson>("tautline show environments")),
+        (
+            "reproduce-interrupted",
+            printed::<reproduce::InterruptedTable>("tautline reproduce of a table that a signal has ended"),
+        ),
         ("reproduce", printed::<reproduce::List>("tautline reproduce")),
     ];
     let commands = commands.into_iter().map(|(name, schema)| (name.to_owned(), schema));

@@ -1211,7 +1211,7 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_rescues_and_nothing_is_claimed() {
+fn ctrl_c_ends_rescues() {
     let folder = folder();
     assert_eq!(interrupted(folder.path(), &["rescue", "--seeds", "0..999999"]), Some(3));
 }

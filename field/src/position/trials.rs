@@ -7,11 +7,12 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
     Area, Fix, Point, Range, Refusal, Residual, Signal, closed_form, linear, locate,
 };
-use tautline_proofs::engine::{SeededOracle, threads};
+use tautline_proofs::engine::SeededOracle;
 
 use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
 use super::solver::Solution;
+use crate::campaign;
 use crate::stats::{Estimate, decimals, quantile};
 use tautline_grids::chance::deviation;
 use tautline_sim::explore::RuleName;
@@ -231,21 +232,25 @@ impl Setting {
         self.trials.div_ceil(PART) as u64
     }
 
-    /// Tries. The report is the same on any number of threads.
+    /// Tries; the report, and the setting with as many trials as were made: all, or the first ones if `watch` ends the
+    /// work. The report is the same on any number of threads.
     ///
     /// # Errors
-    /// [`Halt`], as `watch` returned it, or if no trial has a position.
-    pub fn run(&self, watch: &Watch<'_>) -> Result<Report, Halt> {
+    /// [`Halt`], as `watch` returned it before the first trial, or if no trial has a position.
+    pub fn run(&self, watch: &Watch<'_>) -> Result<(Self, Report), Halt> {
         if self.solver == Solver::ClosedForm {
             closed_form(&self.exact()).map_err(super::refused)?;
         }
         let parts = (0..self.trials).step_by(PART as usize);
-        let tried = threads::try_each(parts, |first| {
+        let tried = campaign::first(parts, |first| {
+            watch()?;
             let numbers = first..self.trials.min(first + PART);
-            let trials: Vec<_> = numbers.map(|number| self.trial(number.into())).collect();
-            watch().map(|()| trials)
-        });
-        self.report(tried?.into_iter().flatten().collect())
+            Ok(numbers.map(|number| self.trial(number.into())).collect::<Vec<_>>())
+        })?;
+        let tried: Vec<_> = tried.into_iter().flatten().collect();
+        let made = Self { trials: tried.len() as u32, ..self.clone() };
+        let report = made.report(tried)?;
+        Ok((made, report))
     }
 
     fn report(&self, tried: Vec<(Option<f64>, Result<Trial, Refusal>)>) -> Result<Report, Halt> {

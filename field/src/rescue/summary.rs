@@ -7,10 +7,11 @@ use std::ops::RangeInclusive;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
-use tautline_proofs::engine::{SeededOracle, threads};
+use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::mrc::Demand;
 
 use super::{Event, Fate, LogEntry, Ordinal, Report, Setting, Violation, rescue};
+use crate::campaign;
 use crate::stats::{Estimate, rounded};
 
 /// The outcome of many rescues.
@@ -139,20 +140,25 @@ impl RescueSample {
 }
 
 impl Summary {
-    /// The rescues of `setting` with these seeds. `watch` is called after each. The result is the same on any number of
-    /// threads.
+    /// The rescues of `setting` with these seeds, and how many they are: all, or the first ones if `watch`, which is
+    /// called before each, ends the work. The result is the same on any number of threads.
     ///
     /// # Errors
-    /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
-    pub fn measure(setting: &Setting, seeds: RangeInclusive<u64>, watch: &Watch<'_>) -> Result<Self, Halt> {
+    /// [`Halt`], as `watch` returned it before the first rescue, or if the setting makes no rescue.
+    pub fn measure(
+        setting: &Setting,
+        seeds: RangeInclusive<u64>,
+        watch: &Watch<'_>,
+    ) -> Result<(Self, u64), Halt> {
         // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
         setting.lay_out(&mut SeededOracle::new(*seeds.start(), 0)).map_err(Diagnostic::from)?;
         let one = |seed: u64| {
-            let report = rescue(setting, seed).map_err(Diagnostic::from)?;
             watch()?;
-            Ok::<_, Halt>(RescueSample::of(seed, setting.nodes, &report))
+            let report = rescue(setting, seed).map_err(Diagnostic::from)?;
+            Ok(RescueSample::of(seed, setting.nodes, &report))
         };
-        Ok(Self::over(&threads::try_each(seeds, one)?))
+        let kept = campaign::first(seeds, one)?;
+        Ok((Self::over(&kept), kept.len() as u64))
     }
 
     /// That of one rescue alone.
