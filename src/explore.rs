@@ -217,6 +217,10 @@ impl Explore {
         })?;
         bar.finish_and_clear();
         tracing::info!("explored in {:.3} s", start.elapsed().as_secs_f64());
+        for (field, step) in setup.options.due_after(report.steps) {
+            let moves = counted(report.steps, "team move");
+            tracing::warn!("--{field} never happened: it is for team move {step}, and the run has {moves}");
+        }
         if let Some(writer) = writer {
             out.keep(writer.end(&report));
         }
@@ -269,6 +273,9 @@ impl Explore {
         let setup = asked.setup(layout)?;
         if self.layout.has_other_seed() && !setup.scheme.draws(&setup) {
             return Err(setup.scheme.needless_seed().into());
+        }
+        for (extra, _) in &self.told.words {
+            setup.check_effect(extra)?;
         }
         Ok(setup)
     }

@@ -168,6 +168,10 @@ impl Locate {
         if self.power_dbm.is_some() {
             return Err(needless("--power-dbm", "there is no file of levels").into());
         }
+        let is_drawn = signal.noise_db() > 0.0 || self.at.is_none() || self.solver == Solver::Pso;
+        if self.seed.is_some() && !is_drawn {
+            return Err(needless("--seed", "without noise, at one place, nothing is left to chance").into());
+        }
         if self.advice && self.at.is_some() {
             let what = "--advice is about a whole floor, and --at is one place of it";
             return Err(Diagnostic::usage(what, "leave --at or --advice out").into());

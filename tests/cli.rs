@@ -1362,7 +1362,7 @@ fn an_option_that_can_have_no_effect_is_refused() {
     let folder = folder();
     let folder = folder.path();
     fs::write(folder.join("ring"), RING).expect("a file");
-    let wrong: [&[&str]; 15] = [
+    let wrong: [&[&str]; 21] = [
         &["library", "--memory", "1GiB"],
         &["library", "--patience", "3"],
         &["explore", "ring", "--seed", "1"],
@@ -1378,12 +1378,26 @@ fn an_option_that_can_have_no_effect_is_refused() {
         &["show", "environments", "--image", "map.pgm"],
         &["rescue", "--scheme", "flooding", "--k", "1"],
         &["rescue", "--scheme", "distance", "--k", "2"],
+        &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--threshold", "0.4"],
+        &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--anchors", "5"],
+        &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--readings", "5"],
+        &["explore", "open:4x4", "--scheme", "frontier", "--robots", "2", "--readings", "0"],
+        &["locate", "--noise-db", "0", "--at", "3,3", "--seed", "1"],
+        &["judge", "log.csv", "--clauses", "CHAIN-2", "--map", "open:9x9", "--seed", "1"],
     ];
     let said = wrong
         .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
     assert_snapshot!("needless_options", said.join("\n"));
     // Where they matter they are taken.
-    let right: [&[&str]; 5] = [
+    fs::write(folder.join("log.csv"), "time,robot,x,y\n0,a,1.5,1.5\n0,b,3.5,1.5\n").expect("a file");
+    let frontier = ["explore", "open:4x4", "--scheme", "frontier", "--robots", "2"];
+    let wheels = [&frontier[..], &["--odometry", "0.001:0.1", "--readings", "0"]].concat();
+    let noise = [&frontier[..], &["--noise-db", "0.1", "--anchors", "5", "--readings", "50"]].concat();
+    let right: [&[&str]; 9] = [
+        &wheels,
+        &noise,
+        &["locate", "--noise-db", "0", "--at", "3,3", "--seed", "1", "--solver", "pso", "--runs", "10"],
+        &["judge", "log.csv", "--clauses", "CHAIN-2", "--map", "walls:9x9:0.1", "--seed", "1"],
         &["explore", "walls:3x3:0.1", "--seed", "0"],
         &["explore", "ring", "--scheme", "ants", "--miss", "0.1", "--seed", "3"],
         &["explore", "open:3x3", "--format", "json", "--draw", "moves", "--svg", "moves.svg"],

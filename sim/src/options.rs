@@ -116,6 +116,13 @@ impl Options {
         Some([of(self.noise_db)?, of(self.noise_db / f64::from(self.readings().max(1)).sqrt())?])
     }
 
+    /// The failures that are told for later than a run of so many team moves: each field, and its team move.
+    pub fn due_after(&self, steps: u32) -> impl Iterator<Item = (&'static str, u32)> {
+        let told = [("fail", self.fail.map(|fail| fail.step)), ("wall", self.wall.map(|wall| wall.step))];
+        let due = told.into_iter().filter_map(|(field, step)| Some((field, step?.get())));
+        due.filter(move |&(_, step)| step > steps)
+    }
+
     /// The threshold; ½ if it is none.
     pub fn threshold(&self) -> Threshold {
         Threshold::new(self.threshold).unwrap_or(Threshold::HALF)

@@ -122,8 +122,9 @@ impl MapArgs {
         if let Some(Metres(origin)) = self.origin {
             corner = origin;
         }
-        if self.seed.is_some() && self.map.as_deref().is_none_or(|map| map.parse::<Generator>().is_err()) {
-            return Err(needless("--seed", "the map is not generated"));
+        let is_random = |map: &str| map.parse::<Generator>().is_ok_and(|generator| generator.is_random());
+        if self.seed.is_some() && !self.map.as_deref().is_some_and(is_random) {
+            return Err(needless("--seed", "nothing of the map is left to chance"));
         }
         let base = self.base.map(|CellArg(cell)| cell);
         if let (Some(layout), Some(base)) = (&layout, base) {

@@ -134,7 +134,7 @@ fn one_option_of_a_stored_run_leaves_the_others_as_they_were() {
     let run = "explore cells:4x4:0.1 --scheme frontier --robots 2 --loss 0.1 --noise-db 0.5 --objects 2 \
                --outliers 0.01 --small 0.1 --trace run.jsonl";
     printed(folder, &run.split_whitespace().collect::<Vec<_>>(), 0);
-    for (option, word, field) in [("--threshold", "0.4", "threshold"), ("--loss", "0", "loss")] {
+    for (option, word, field) in [("--small", "0.2", "small"), ("--loss", "0", "loss")] {
         let mut expected = options(folder, "run.jsonl");
         expected[field] = word.parse::<f64>().expect("a number").into();
         printed(folder, &["explore", "run.jsonl", option, word, "--trace", "new.jsonl"], 0);

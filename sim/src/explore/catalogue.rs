@@ -238,6 +238,8 @@ pub struct Profile {
     pub senses: Senses,
     /// The options that a run of it can be told.
     pub extras: &'static [&'static Extra],
+    /// Why an option has no effect in a run, and what would be right, if it has none.
+    pub needless: fn(&Setup, &Extra) -> Option<(&'static str, &'static str)>,
     /// Whether a program that is told where robots are and what they bump into, or the open sides around them on a
     /// sensor floor, can plan as they do.
     pub told: Completeness,
@@ -436,6 +438,7 @@ impl Profile {
             starts: Starts::Anywhere,
             senses: Senses::Bumps,
             extras: &[],
+            needless: |_, _| None,
             told: Completeness::Part,
             drawn: &[],
             look: Look::Robots,

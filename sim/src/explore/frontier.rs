@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::{Condition, Rule as Frontier};
 use tautline_kernel::ground::Cell;
+use tautline_kernel::position::Odometry;
 use tautline_proofs::run::Frame;
 
 use self::hunt::{KernelHunt, RivalHunt};
@@ -98,6 +99,7 @@ pub static FRONTIER: Profile = Profile {
         Extra::SWARM,
         Extra::SMALL,
     ],
+    needless,
     drawn: &[
         RandomPart { what: "which messages are lost", by: By::Told(Extra::LOSS) },
         RandomPart { what: "how far off each position is", by: By::Told(Extra::NOISE) },
@@ -162,6 +164,23 @@ fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>
     }
     let robots = AssignedTeam::new(assignment, &setup.layout, &setup.starts());
     Ok(team(setup, Who::Assigned(Box::new(robots))))
+}
+
+/// Why an option has no effect in a run, and what would be right.
+fn needless(setup: &Setup, extra: &Extra) -> Option<(&'static str, &'static str)> {
+    let Setup { rule, options, .. } = setup;
+    let (is_exact, has_wheels) = (options.noise_db == 0.0, options.odometry() != Odometry::EXACT);
+    let exact = ("positions without noise are exact", "leave it out, or give `noise-db` as well");
+    match extra.field {
+        "threshold" if [RuleId::REPAIRED, PLAIN].contains(rule) => Some((
+            "by this rule robots go to the nearest unexplored cells, whatever their occupancy probability",
+            "leave it out, or take `rule` published",
+        )),
+        "anchors" if is_exact => Some(exact),
+        // Without readings a robot goes by its wheels alone, which may err.
+        "readings" if is_exact && (options.readings() > 0 || !has_wheels) => Some(exact),
+        _ => None,
+    }
 }
 
 fn team(setup: &Setup, who: Who) -> Box<dyn Team> {

@@ -328,6 +328,17 @@ impl Setup {
         Ok(rule)
     }
 
+    /// Refuses an option that is told and has no effect in this run.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] that says why it has none.
+    pub fn check_effect(&self, extra: &Extra) -> Result<(), Diagnostic> {
+        (self.scheme.needless)(self, extra).map_or(Ok(()), |(why, remedy)| {
+            let what = format!("`{}` has no effect: {why}", extra.field);
+            Err(Diagnostic::of_field(extra.field, what, remedy))
+        })
+    }
+
     /// Refuses missed sensors where there are none, and those that make no run.
     fn check_misses(&self) -> Result<(), Diagnostic> {
         let Self { scheme, missed, .. } = self;
