@@ -130,8 +130,9 @@ impl Args for SchemeOptions {
             let read = |text: &str| (extra.read)(text, &mut Options::default()).map(|()| text.to_owned());
             match extra.takes {
                 Takes::Nothing => arg,
-                Takes::Word(name) => arg.value_name(name).value_parser(read),
-                Takes::Real(name) => arg.value_name(name).value_parser(read).allow_hyphen_values(true),
+                Takes::Word(name) | Takes::Real(name) => {
+                    arg.value_name(name).value_parser(read).allow_hyphen_values(true)
+                }
             }
             .action(match (extra.takes, extra.twice) {
                 (Takes::Nothing, _) => ArgAction::SetTrue,

@@ -10,7 +10,7 @@ use clap::Args;
 use indicatif::ProgressBar;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_io::atomic_file::{AtomicFile, Replaceable};
+use tautline_io::atomic_file::{AtomicFile, Replaceable, check_name};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::Plan;
 use tautline_io::value_parser::real;
@@ -84,7 +84,7 @@ pub(super) struct Hunt {
     range: Option<u16>,
     /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of
     /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     size: Option<SizeArg>,
     /// End after so many team moves of this call; what is kept goes on with the next one.
     #[arg(long, value_name = "MOVES", value_parser = number::<u64>)]

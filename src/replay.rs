@@ -49,7 +49,7 @@ pub(super) struct Replay {
     file: PathBuf,
     /// The team moves to show, the first and the last. Without it the last 100 are shown, or as many as fit into 500
     /// lines.
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     moves: Option<Moves>,
     /// Show all team moves.
     #[arg(long, conflicts_with = "moves")]
@@ -80,13 +80,19 @@ struct RunFiles {
 struct Moves(RangeInclusive<u32>);
 
 impl FromStr for Moves {
-    type Err = &'static str;
+    type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parts = text.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
-        let (first, last) =
-            parts.ok_or("write the first and the last team move as A..B, for example 10..20")?;
-        if first <= last { Ok(Self(first..=last)) } else { Err("the first team move comes after the last") }
+        let parts: Option<(u32, u32)> =
+            text.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        match parts {
+            None => Err("write the first and the last team move as A..B, for example 10..20".to_owned()),
+            Some((0, last)) => Err(format!("team moves are counted from 1 on; write 1..{}", last.max(1))),
+            Some((first, last)) if last < first => {
+                Err(format!("the first team move comes after the last; write {last}..{first}"))
+            }
+            Some((first, last)) => Ok(Self(first..=last)),
+        }
     }
 }
 

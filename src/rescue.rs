@@ -102,7 +102,7 @@ pub(super) struct Rescue {
     #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
     rule: RuleName,
     /// The first and the last seed, or only one. Each is a rescue.
-    #[arg(long, value_name = "A..B", default_value = "0..99")]
+    #[arg(long, value_name = "A..B", default_value = "0..99", allow_hyphen_values = true)]
     seeds: Seeds,
     /// The channel between a sender and those who hear it.
     #[arg(long, value_parser = chosen::<ChannelName>(), default_value = "ideal")]

@@ -232,6 +232,19 @@ impl Merge {
             paths.filter(|path| path.exists()).collect()
         };
         let files: Vec<PathBuf> = if self.files.is_empty() { beside() } else { self.files.clone() };
+        let of = match plan.of {
+            Work::Hunt { .. } => Some("a hunt"),
+            Work::Library { .. } => Some("the library"),
+            Work::Table { .. } => None,
+        };
+        let tables = [("--picture", !self.pictures.is_empty()), ("--csv", self.csv.is_some())];
+        if let (Some(of), Some((option, _))) = (of, tables.into_iter().find(|(_, is_given)| *is_given)) {
+            let why = format!(
+                "{} is a plan of {of}, and only a table has pictures and values",
+                self.plan.display()
+            );
+            return Err(needless(option, &why).into());
+        }
         let shards = match plan.results(&files)? {
             Ok(shards) => shards,
             Err(gaps) => {
@@ -240,10 +253,6 @@ impl Merge {
             }
         };
         let inputs = files.into_iter().chain([self.plan.clone()]);
-        if !matches!(plan.of, Work::Table { .. }) && (self.csv.is_some() || !self.pictures.is_empty()) {
-            let what = "only a table has --picture and --csv";
-            return Err(Diagnostic::usage(what, "leave them out").into());
-        }
         if matches!(plan.of, Work::Table { .. }) && self.out.is_some() {
             return Err(needless("--out", "a table has no counterexamples").into());
         }

@@ -1,6 +1,9 @@
 //! Options whose values are words of the library.
 
+use std::ffi::OsStr;
+
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, Command, Error};
 use tautline_io::named_values::NamedValues;
 use tautline_sim::explore::{RuleId, Scheme};
 
@@ -16,9 +19,28 @@ pub(crate) fn scheme() -> impl TypedValueParser<Value = Scheme> {
     one_of(CATALOGUE.schemes().map(|scheme| (scheme, scheme.name, scheme.about)))
 }
 
-/// Reads the name of a rule that a scheme offers.
+/// Reads the name of a rule. Whether its scheme offers it is for the scheme to say, which knows what it offers.
 pub(crate) fn rule() -> impl TypedValueParser<Value = RuleId> {
-    one_of(CATALOGUE.rules().into_iter().map(|rule| (rule.name, rule.name.as_str(), rule.about)))
+    AnyRule
+}
+
+/// Any word; those of all schemes are what a shell completes.
+#[derive(Clone, Copy)]
+struct AnyRule;
+
+impl TypedValueParser for AnyRule {
+    type Value = RuleId;
+
+    fn parse_ref(&self, _: &Command, _: Option<&Arg>, word: &OsStr) -> Result<RuleId, Error> {
+        let word = word.to_string_lossy();
+        let known = CATALOGUE.rules().into_iter().map(|rule| rule.name).find(|name| name.as_str() == word);
+        Ok(known.unwrap_or_else(|| RuleId::new(word.into_owned().leak())))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let rules = CATALOGUE.rules().into_iter();
+        Some(Box::new(rules.map(|rule| PossibleValue::new(rule.name.as_str()).help(rule.about))))
+    }
 }
 
 /// Reads a word as the value that stands before it; what stands behind it is the help about it.

@@ -1410,6 +1410,74 @@ fn an_option_that_can_have_no_effect_is_refused() {
 }
 
 #[test]
+fn a_failure_that_never_happens_is_a_warning() {
+    let folder = folder();
+    for (option, word, is_late) in [
+        ("--fail", "3@500", true),
+        ("--wall", "2,2,E@500", true),
+        ("--fail", "3@5", false),
+        ("--wall", "2,2,E@5", false),
+    ] {
+        let output = ran(folder.path(), &["explore", "open:7x7", "--robots", "3", option, word]);
+        let errors = String::from_utf8(output.stderr).expect("text");
+        let warning = format!("{option} never happened: it is for team move 500");
+        assert_eq!((output.status.code(), errors.contains(&warning)), (Some(0), is_late), "{word}: {errors}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said_without_the_words_of_programs() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
+    for (name, text) in [("list.jsonl", "[]\n"), ("cut.jsonl", "{\"format\":\n")] {
+        fs::write(folder.join(name), text).expect("a file");
+    }
+    fs::write(folder.join("latin.csv"), b"time,robot,x,y\n0,caf\xe9,1,2\n").expect("a file");
+    fs::create_dir(folder.join("dir")).expect("a folder");
+    printed(folder, &["library", "rmf-lane", "--plan", "plan.json", "--shards", "1"], 0);
+    let wrong: [&[&str]; 20] = [
+        &["replay", "list.jsonl"],
+        &["replay", "cut.jsonl"],
+        &["check", "dir"],
+        &["judge", "dir", "--clauses", "CHAIN-3"],
+        &["locate", "dir"],
+        &["judge", "latin.csv", "--clauses", "CHAIN-3"],
+        &["merge", "plan.json", "--picture", "radii", "radii.svg"],
+        &["merge", "plan.json", "--csv", "values.csv"],
+        &["explore", "open:3x3", "--robots", "2", "--trace", "-"],
+        &["prove", "NOTICE-4", "--out", "-"],
+        &["replay", "run.jsonl", "--moves", "0..1"],
+        &["replay", "run.jsonl", "--moves", "-1..1"],
+        &["replay", "run.jsonl", "--moves", "3..2"],
+        &["rescue", "--seeds", "-1..3"],
+        &["hunt", "--size", "-1x3"],
+        &["hunt", "--robots", "-1"],
+        &["explore", "open:3x3", "--seed", "-1"],
+        &["explore", "open:3x3", "--fail", "-1@3"],
+        &["locate", "--runs", "-1"],
+        &["explore", "open:3x3", "--scheme", "kit", "--robots", "2", "--rule", "nearer"],
+    ];
+    let said = wrong
+        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
+    let said = said.join("\n");
+    for word in [
+        "os error",
+        "struct ",
+        "EOF",
+        "expected u",
+        "..=",
+        "digit found",
+        "unexpected argument",
+        "covered-shared",
+    ] {
+        assert!(!said.contains(word), "{word}: {said}");
+    }
+    assert_snapshot!("wrong_in_plain_words", said);
+    assert_eq!(names(folder), ["cut.jsonl", "dir", "latin.csv", "list.jsonl", "plan.json", "run.jsonl"]);
+}
+
+#[test]
 fn one_is_not_many() {
     let folder = folder();
     let folder = folder.path();

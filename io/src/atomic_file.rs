@@ -45,6 +45,7 @@ impl Replaceable {
 
     /// Checks that a file may stand at `target`, which the user calls `path`.
     fn check(&self, path: &Path, target: &Path) -> Result<(), Diagnostic> {
+        check_name(path)?;
         if target.is_dir() {
             return Err(Diagnostic::in_file(path, "this is a folder", "name a file in it"));
         }
@@ -65,6 +66,18 @@ impl Replaceable {
         }
         Ok(())
     }
+}
+
+/// Refuses `-`, which elsewhere stands for the standard output.
+///
+/// # Errors
+/// A [`Diagnostic`] that says how a file with that name is named.
+pub fn check_name(path: &Path) -> Result<(), Diagnostic> {
+    if path != Path::new("-") {
+        return Ok(());
+    }
+    let remedy = "name a file or a folder; one that is called so is ./-";
+    Err(Diagnostic::in_file(path, "files are not written to standard output", remedy))
 }
 
 /// Whether two paths lead to the same file, by whatever names.

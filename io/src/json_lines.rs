@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::{BOM, Diagnostic};
+use crate::diagnostic::{self, BOM, Diagnostic};
 
 /// Larger files are refused before they are read. The drawing of the largest layout is smaller.
 pub const MAX_FILE_BYTES: u64 = 128 << 20;
@@ -79,20 +79,17 @@ impl Lines {
     /// # Errors
     /// A [`Diagnostic`] if it cannot be opened.
     pub fn open(path: &Path, again: &'static str) -> Result<Self, Diagnostic> {
-        let unreadable = |what: String| {
+        let unopened = |what: String| {
             Diagnostic::in_file(path, what, "name a file that `trace` or `tautline hunt` wrote")
         };
         if path.is_dir() {
-            return Err(unreadable("this is a folder".to_owned()));
+            return Err(unopened("this is a folder".to_owned()));
         }
         if path.exists() && !path.is_file() {
             let what = "this is a pipe or a device, and a stored run is read more than once";
             return Err(Diagnostic::in_file(path, what, "store it in a file first"));
         }
-        let file = File::open(path).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => unreadable("there is no such file".to_owned()),
-            _ => unreadable(format!("the file cannot be read: {error}")),
-        })?;
+        let file = File::open(path).map_err(|error| unopened(diagnostic::unreadable(&error)))?;
         if let Ok(about) = file.metadata() {
             let bytes = about.len();
             tracing::info!("reading {}: {bytes} byte{}", path.display(), if bytes == 1 { "" } else { "s" });
@@ -273,8 +270,31 @@ pub fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, (usize, String)
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
-        (error.column().saturating_sub(1), message.to_owned())
+        (error.column().saturating_sub(1), in_words_of_json(message))
     })
+}
+
+/// A message of the parser in which types of programs are those of JSON.
+fn in_words_of_json(message: &str) -> String {
+    let message = match message.split_once("EOF while parsing ") {
+        Some((_, within)) => format!("the line ends within {within}"),
+        None => message.replace("invalid type: map", "invalid type: object"),
+    };
+    let message = message.replace("invalid type: sequence", "invalid type: list");
+    let Some((found, expected)) = message.split_once("expected ") else { return message };
+    let kind = match expected.split(' ').next().unwrap_or_default() {
+        "struct" | "map" | "enum" | "internally" | "adjacently" => "an object",
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0 on that is not too large",
+        "i8" | "i16" | "i32" | "i64" => "a whole number that is not too large",
+        "f32" | "f64" => "a number",
+        "tuple" => "a list",
+        _ => match expected {
+            "a map" => "an object",
+            "a sequence" => "a list",
+            _ => return message,
+        },
+    };
+    format!("{found}expected {kind}")
 }
 
 /// Where `key` stands in a line.
@@ -292,4 +312,21 @@ pub(crate) fn value_of(text: &str, key: &str) -> Range<usize> {
     let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
     let _ = values.next();
     start..start + values.byte_offset()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_line_is_said_in_words_of_json() {
+        let said = |text| parse::<Magic>(text).map(|_| ()).expect_err("no header").1;
+        assert_eq!(said("[]"), "invalid length 0, expected an object");
+        assert_eq!(said("7"), "invalid type: integer `7`, expected an object");
+        assert_eq!(said(r#"{"format":{}}"#), "invalid type: object, expected a string");
+        let version = said(r#"{"format":"","version":-1}"#);
+        let wanted = "a whole number from 0 on that is not too large";
+        assert_eq!(version, format!("invalid value: integer `-1`, expected {wanted}"));
+        assert_eq!(said("{"), "the line ends within an object");
+    }
 }

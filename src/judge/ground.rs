@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tautline_io::diagnostic::Diagnostic;
+use tautline_io::diagnostic::{Diagnostic, unreadable};
 use tautline_io::value_parser::{Metres, metres_within, real};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
@@ -224,11 +224,7 @@ impl Ground for LogMap {
 
 /// The bytes of a file, at most so many; `smaller` is what to do about one that has more.
 pub(crate) fn bytes(file: &Path, most: u64, smaller: &str) -> Result<Vec<u8>, Diagnostic> {
-    let unread = |error: std::io::Error| {
-        let is_there = error.kind() != std::io::ErrorKind::NotFound;
-        let what = if is_there { error.to_string() } else { "there is no such file".to_owned() };
-        Diagnostic::in_file(file, what, "name a file that can be read")
-    };
+    let unread = |error| Diagnostic::in_file(file, unreadable(&error), "name a file that can be read");
     let mut bytes = Vec::new();
     let opened = File::open(file).map_err(unread)?;
     opened.take(most + 1).read_to_end(&mut bytes).map_err(unread)?;

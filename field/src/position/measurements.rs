@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_io::diagnostic::{BOM, Diagnostic};
+use tautline_io::diagnostic::{BOM, Diagnostic, unreadable};
 use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal};
 use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::plural::counted;
@@ -107,15 +107,12 @@ impl Measurements {
         let mut text = String::new();
         let read = File::open(file).and_then(|opened| opened.take(MAX_BYTES + 1).read_to_string(&mut text));
         read.map_err(|error| match error.kind() {
-            ErrorKind::NotFound => {
-                Diagnostic::in_file(file, "there is no such file", "give the path of a file of measurements")
-            }
             ErrorKind::InvalidData => Diagnostic::in_file(
                 file,
                 "this is not UTF-8 text",
                 format_args!("begin with the line {}", COLUMNS.join(",")),
             ),
-            _ => Diagnostic::in_file(file, error, "give the path of a file of measurements"),
+            _ => Diagnostic::in_file(file, unreadable(&error), "give the path of a file of measurements"),
         })?;
         if text.len() as u64 > MAX_BYTES {
             let most = MAX_BYTES >> 20;

@@ -73,6 +73,17 @@ fn fault(
     Fault { place, what, remedy: remedy.to_owned() }
 }
 
+/// The fault of the first line that is no text.
+fn no_text(bytes: &[u8]) -> Fault {
+    let wrong = |(line, bytes)| Some((line, bytes, str::from_utf8(bytes).err()?.valid_up_to()));
+    let (line, bytes, start) =
+        (1..).zip(bytes.split(|&byte| byte == b'\n')).find_map(wrong).unwrap_or((1, bytes, 0));
+    let text = String::from_utf8_lossy(bytes).trim_end().to_owned();
+    let place = FaultPlace::Line { line, bytes: start..start + char::REPLACEMENT_CHARACTER.len_utf8(), text };
+    let what = "this is not UTF-8 text".to_owned();
+    Fault { place, what, remedy: "store the table in UTF-8".to_owned() }
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
     let first = bytes.split(|&byte| byte == b'\n').find(|line| !line.is_empty()).unwrap_or_default();
     let most = |delimiter: &u8| first.split(|byte| byte == delimiter).count();
@@ -88,16 +99,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
         .from_reader(bytes);
     let (mut reading, mut record, mut columns) = (Reading::new(Form::Csv), StringRecord::new(), None);
     let (mut line, mut counted) = (1, 0);
-    let unread = |error: &csv::Error| {
-        let line = error.position().map_or(1, csv::Position::line) as usize;
-        let place = FaultPlace::Line { line, text: String::new(), bytes: 0..0 };
-        Fault {
-            place,
-            what: "this line is no text".to_owned(),
-            remedy: "store the table in UTF-8".to_owned(),
-        }
-    };
-    while reader.read_record(&mut record).map_err(|error| unread(&error))? {
+    while reader.read_record(&mut record).map_err(|_| no_text(bytes))? {
         // The reader's own number is that of the line before where lines end with CR and LF.
         let start = record.position().map_or(0, |start| start.byte() as usize);
         let start = start + bytes[start..].iter().take_while(|byte| b"\r\n".contains(byte)).count();
