@@ -29,7 +29,17 @@ Examples:
 
 LOG is a table (CSV) with columns time, robot, x and y, lines of JSON with these fields or like messages of ROS, or a \
 recording of ROS 2 in MCAP. Names end with units that are not seconds and metres: t_ms, x_mm. docs/judge.md shows all \
-of it.";
+of it.
+
+Clauses, and what each demands of a log:
+  CHAIN-2     at most two robots are in a cell, the base left out
+  CHAIN-3     robots whose numbers follow each other are in range
+  KIT-1       two robots are in range of each other
+  KIT-3       robots that have left their starts keep the least distance
+  KIT-12      robots that hear each other at first, directly or over others, always do
+  FRONTIER-1  every cell that robots can reach was visited when the log ends; it takes --map
+  FRONTIER-2  at most one robot is in a cell
+  PACK-2      at most one robot is in a cell";
 
 /// The longest log that is read.
 const MOST_BYTES: u64 = 1 << 30;
@@ -42,7 +52,7 @@ const MOST_BYTES: u64 = 1 << 30;
 pub(super) struct Judge {
     /// The log.
     log: PathBuf,
-    /// The clauses, with commas between them.
+    /// The clauses, with commas between them; they are listed below.
     #[arg(long, value_name = "CLAUSE", required = true, value_delimiter = ',', value_parser = clause)]
     clauses: Vec<(&'static str, Kind)>,
     /// A file of lines NAME,NUMBER: which name of the log is which robot, from 1. Without it names are numbered in

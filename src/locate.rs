@@ -39,16 +39,19 @@ level_dbm, the strength with which the anchor is heard.
 
 What the JSON says: error_m is how far positions are from where the robot is, optimum_m how far they are from where \
 the distances miss least, each with median, p95 and rms and the 95 % interval of these; crlb_rms_m is the Cramér-Rao \
-bound, below which no unbiased way comes; spread_m are the singular values of the anchors' places; two, weak, outside \
-and unsettled count positions of which there were two, that the anchors tell badly, that the distances put outside the \
-rectangle, and of which the steps did not end; advice is what --advice prints.
+bound, the least root mean square error of an unbiased way; spread_m are the singular values of the anchors' places; \
+two, weak, outside and unsettled count positions of which there were two, that the anchors tell badly, that the \
+distances put outside the rectangle, and of which the steps did not end; advice is what --advice prints.
 
 Advice: a robot may believe each fix if its error is below a quarter of a cell, and correct its place within a cell \
 that it counts by moves if the error is below half a cell. It is about the 99th percentile of the errors.";
 
 /// Tell how exact positions are that the strength of anchors' signals tells, or find the positions of measurements.
 ///
-/// A robot anywhere in the rectangle that the anchors span hears them with noise, and takes levels for distances.
+/// Anchors are radios at known places. A robot hears each with a strength (the level, in dB) that falls with the
+/// distance and has noise, takes these levels for distances, and finds its position from three distances or more. This
+/// is done many times, at random places in the rectangle that the anchors span; what is printed is how far the
+/// positions are from where the robot is. docs/position.md explains the ways to find a position.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Locate {
@@ -64,7 +67,7 @@ pub(super) struct Locate {
     /// The standard deviation of the levels, in dB.
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value = "1", value_parser = noise)]
     noise_db: f64,
-    /// Power falls with the distance to the power of this, from 2 to 5.
+    /// The path loss exponent, from 2 in free space to 5: power falls with the distance to the power of this.
     #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value = "2", value_parser = propagation)]
     exponent: Propagation,
     /// For a FILE of levels: how strong an anchor is heard at one metre, in dBm.
@@ -73,7 +76,8 @@ pub(super) struct Locate {
     /// How a position is found.
     #[arg(long, value_parser = chosen::<Solver>(), default_value = "decibel")]
     solver: Solver,
-    /// For pso: equation (10) as it is printed, or with the updates in the order of the algorithm. Without it repaired.
+    /// For pso, in which order velocities and places of particles are updated: as the paper prints it in equation (10),
+    /// or as its algorithm does. Without it repaired, which is as the algorithm.
     #[arg(long, value_parser = chosen::<RuleName>())]
     rule: Option<RuleName>,
     /// For least-squares and decibel: the robot is known to be within the rectangle that the anchors span.
@@ -85,10 +89,11 @@ pub(super) struct Locate {
     /// The seed of whatever is left to chance. Without it 0.
     #[arg(long, value_parser = number::<u64>)]
     seed: Option<u64>,
-    /// Print how many cells across a floor can have.
+    /// Print how many cells across a floor can have, so that errors leave a robot in its cell.
     #[arg(long)]
     advice: bool,
-    /// Store a picture: anchors, positions found, their error ellipse and that of the bound.
+    /// Store a picture, in metres: anchors, positions found, the ellipse in which 95 % of them are, and the smallest
+    /// one that is possible (the Cramér-Rao bound).
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]

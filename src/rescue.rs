@@ -54,13 +54,16 @@ never served.
 
 The exit code is 1 if a clause is broken.";
 
-/// Let nodes call for help and robots come, over a radio field at random, and judge what they do.
+/// Let sensor nodes call for help and robots come, over a radio field at random, and judge what they do.
 ///
-/// Calls spread by a broadcast scheme, robots are chosen by MRC and find their way by TAN.
+/// A node that calls is a WFR, a node that waits for rescue. Nodes pass its call on by a broadcast scheme, robots that
+/// hear the call and the node agree by messages which robot comes (MRC, mobile robot coordination), and this robot
+/// walks from node to node by the strength of their signals (TAN, tree-assisted navigation). The rules are those of
+/// Jiang (2011); docs/rescue.md and docs/glossary.md explain them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Rescue {
-    /// Sensor nodes, at random places.
+    /// How many sensor nodes stand in the area, at random places.
     #[arg(long, value_name = "N", default_value = "700", value_parser = whole::<usize>)]
     nodes: usize,
     /// Width and height of the area, in metres.
@@ -73,19 +76,20 @@ pub(super) struct Rescue {
     /// if it is no rectangle: l, u, c, spiral, ring, or rows of # and . with / between them. May be given repeatedly.
     #[arg(long, value_name = "[SHAPE:]W,N,E,S", allow_hyphen_values = true)]
     obstacle: Vec<Lake>,
-    /// How calls are broadcast.
+    /// How nodes pass a call on: which node that hears it sends it again, and which is silent.
     #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "k-fnf")]
     scheme: SchemeName,
-    /// How many senders, the first not counted, make a node silent; for k-fnf and counter. Without it 1.
+    /// For k-fnf and counter: a node that has heard a call from so many senders besides the first does not send it
+    /// again. Without it 1.
     #[arg(long, value_parser = whole::<u8>)]
     k: Option<u8>,
     /// How many nodes call for help. Without it as many as --wfr-at names, or one.
     #[arg(long, value_name = "N", value_parser = whole::<usize>)]
     wfr: Option<usize>,
-    /// A node that calls. May be given repeatedly; the others are random ones.
+    /// The number of a node that calls, from 0 on. May be given repeatedly; the others are random ones.
     #[arg(long, value_name = "NODE", value_parser = whole::<u32>)]
     wfr_at: Vec<u32>,
-    /// Robots. Without it as many as --robot places, or one.
+    /// How many robots there are. Without it as many as --robot places, or one.
     #[arg(long, value_name = "N", value_parser = whole::<usize>)]
     robots: Option<usize>,
     /// Where a robot begins, in metres. May be given repeatedly; the others are at random places.
@@ -98,7 +102,7 @@ pub(super) struct Rescue {
     /// When nodes call for the first time.
     #[arg(long, value_parser = chosen::<CallTimes>(), default_value = "together")]
     calls: CallTimes,
-    /// MRC as published, or repaired.
+    /// The rule by which robots and the nodes that call agree on who comes (MRC).
     #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
     rule: RuleName,
     /// The first and the last seed, or only one. Each is a rescue.
@@ -110,15 +114,15 @@ pub(super) struct Rescue {
     /// How likely it is that a message is lost, on each link anew, from 0 to 1.
     #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     loss: f64,
-    /// The standard deviation of the shadow on each link, for ever the same, in dB: it changes how far off a sender
-    /// seems.
+    /// The standard deviation of the shadow on each link, in dB: a lasting difference of its strength from what the
+    /// distance says, as a tree between two nodes makes one. It changes how far off a sender seems.
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     shadowing_db: f64,
-    /// Power falls with the distance to the power of this, from 2 to 5: the larger, the less do shadows and noise
-    /// change.
+    /// The path loss exponent, from 2 in free space to 5: power falls with the distance to the power of this. The
+    /// larger, the less do shadows and noise change.
     #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value_t = FREE_SPACE, value_parser = real)]
     exponent: f64,
-    /// The standard deviation of the strength of signals, each time anew, in dB.
+    /// The standard deviation of the noise of each signal that is heard, each time anew, in dB.
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     noise_db: f64,
     /// How many robots fail, each at a random time of the first ten minutes.
@@ -312,7 +316,7 @@ pub(super) fn tell(
         viewers::record(&mut file, setting, seed, report)?;
         out.keep(file);
     }
-    print(out, format, setting, &(seed..=seed), (&summary, Some(report)))
+    print(out, format, (setting, &(seed..=seed), 1), (&summary, Some(report)))
 }
 
 fn title(setting: &Setting) -> String {

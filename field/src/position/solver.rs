@@ -27,14 +27,22 @@ pub enum Solver {
 
 impl NamedValues for Solver {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
-        (Self::ClosedForm, "closed-form", "The closed form of the paper, for three anchors"),
-        (Self::Pso, "pso", "Particle swarm optimisation about the closed form, as in the paper"),
+        (
+            Self::ClosedForm,
+            "closed-form",
+            "Where the circles about three anchors meet, in closed form, as in the paper",
+        ),
+        (Self::Pso, "pso", "Particle swarm optimisation, begun about the closed form, as in the paper"),
         (
             Self::LeastSquares,
             "least-squares",
-            "The least squares of what distances miss, by damped Gauss-Newton",
+            "Where the squares of the errors of distances have the least sum, by damped Gauss-Newton",
         ),
-        (Self::Decibel, "decibel", "The least squares of what levels miss: the most likely position"),
+        (
+            Self::Decibel,
+            "decibel",
+            "Where the squares of the errors of levels have the least sum: the most likely position",
+        ),
     ];
 }
 

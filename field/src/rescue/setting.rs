@@ -35,11 +35,19 @@ pub enum SchemeName {
 
 impl NamedValues for SchemeName {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
-        (Self::KFnf, "k-fnf", "k-farthest-node forwarding"),
-        (Self::Flooding, "flooding", "Everybody forwards"),
-        (Self::Counter, "counter", "Who has heard more than k senders, the first counted, is silent"),
-        (Self::Distance, "distance", "Who has heard a sender nearer than 0.8 of the range is silent"),
-        (Self::Sba, "sba", "Who has no neighbour left to reach is silent"),
+        (
+            Self::KFnf,
+            "k-fnf",
+            "k-farthest-node forwarding: as counter, and of the nodes that hear a sender the farthest goes first",
+        ),
+        (Self::Flooding, "flooding", "Every node forwards once"),
+        (
+            Self::Counter,
+            "counter",
+            "A node that has heard more than k senders, the first included, is silent",
+        ),
+        (Self::Distance, "distance", "A node that has heard a sender nearer than 0.8 of the range is silent"),
+        (Self::Sba, "sba", "A node whose neighbours all have the call already is silent"),
     ];
 }
 
