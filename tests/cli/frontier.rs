@@ -118,6 +118,9 @@ fn the_objects_that_robots_find_are_told_with_their_errors_and_drawn_on_the_map(
     }
     let picture = fs::read_to_string(folder.join("map.svg")).expect("a picture");
     assert_eq!(picture.matches("<circle class=\"found\"").count(), 2);
+    for meaning in ["a robot was here: free", "not known", "where an object is"] {
+        assert!(picture.contains(meaning), "{meaning}");
+    }
 }
 
 /// The options in the header of a stored run.

@@ -81,6 +81,7 @@ fn positions_of_measurements_are_found_and_drawn() {
         let drawn = fs::read_to_string(folder.join(name)).expect("a picture");
         assert_eq!(drawn.matches("<ellipse").count(), ellipses, "{name}");
         assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{name}");
+        assert!(drawn.contains(">0 m</text>") && drawn.contains(">5 m</text>"), "{name}");
     }
     // The columns may stand in any order, with others between them, and a byte order mark before them.
     let other = "\u{feff}range_m,time,y_m,x_m,fix\r\n5,1,0,0,a\r\n17.5,2,0,20,a\r\n16.5,3,20,0,a\r\n";

@@ -16,6 +16,9 @@ const LINE: i32 = 20;
 /// The margin round the ground, in proportion to its longer side, in which errors may be drawn.
 const RIM: f64 = 0.25;
 
+/// The most ticks along a side.
+const MOST_TICKS: f64 = 8.0;
+
 /// An anchor, round 0,0: a triangle.
 const ANCHOR: &str = "m0-8l7 12h-14z";
 /// A robot, round 0,0: a cross.
@@ -25,6 +28,7 @@ const STYLE: &str = "\
 .title{text-anchor:start;font-size:15px;font-weight:600}.start{text-anchor:start}.rim{fill:none;stroke:var(--faint)}\
 .anchor{fill:var(--ink)}.robot{fill:none;stroke:var(--ink);stroke-width:2}\
 .found{stroke:var(--series-0);stroke-opacity:.35;stroke-width:3;stroke-linecap:round;fill:none}\
+.tick{stroke:var(--ink)}\
 .errors{fill:none;stroke:var(--series-0);stroke-width:2}.bound{fill:none;stroke:var(--series-1);stroke-width:2;\
 stroke-dasharray:6 4}";
 
@@ -46,7 +50,10 @@ pub fn spots(title: &str, anchors: &[Point], spots: &[Spot]) -> String {
         (format!("<path class=\"robot\" d=\"M8 0{ROBOT}\"/>"), "robot"),
         ("<path class=\"found\" d=\"M4 0h0M9-3h0M12 2h0\"/>".to_owned(), "position found"),
         ("<ellipse class=\"errors\" cx=\"8\" rx=\"9\" ry=\"5\"/>".to_owned(), "95 % of them"),
-        ("<ellipse class=\"bound\" cx=\"8\" rx=\"9\" ry=\"5\"/>".to_owned(), "95 % at the Cramér–Rao bound"),
+        (
+            "<ellipse class=\"bound\" cx=\"8\" rx=\"9\" ry=\"5\"/>".to_owned(),
+            "95 % at the Cramér–Rao bound, the best possible",
+        ),
     ];
     ground.picture(title, &body, &key)
 }
@@ -99,6 +106,45 @@ impl Ground {
         ((place.x_m - self.least.x_m) * self.scale, (self.greatest.y_m - place.y_m) * self.scale)
     }
 
+    /// Ticks along the lower and the left rim, with metres.
+    fn ticks(&self) -> String {
+        let side_m = (self.greatest.x_m - self.least.x_m).max(self.greatest.y_m - self.least.y_m);
+        // 0.001, 0.002, 0.005, 0.01 and so on.
+        let mut factors = [2.0, 2.5, 2.0].into_iter().cycle();
+        let mut step_m = 0.001;
+        while side_m / step_m > MOST_TICKS {
+            step_m *= factors.next().unwrap_or(2.0);
+        }
+        let along = |from: f64, to: f64| {
+            let count = ((to - from) / step_m) as i32;
+            let first = (from / step_m).ceil();
+            (0..=count).map(move |tick| (first + f64::from(tick)) * step_m).filter(move |&at| at <= to)
+        };
+        let metres = |at: f64| {
+            // Zero has no sign.
+            let text = format!("{:.3}", at + 0.0);
+            format!("{} m", text.trim_end_matches('0').trim_end_matches('.'))
+        };
+        let (_, height) = self.size();
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        for x_m in along(self.least.x_m, self.greatest.x_m) {
+            let (x, label) = (self.pair(Point::new(x_m, 0.0)).0, metres(x_m));
+            let tick = format!("<path class=\"tick\" d=\"M{x:.1} {height}v-6\"/>");
+            let _ = writeln!(
+                text,
+                "{tick}<text class=\"small\" x=\"{x:.1}\" y=\"{}\">{label}</text>",
+                height - 14
+            );
+        }
+        for y_m in along(self.least.y_m, self.greatest.y_m) {
+            let (y, label) = (self.pair(Point::new(0.0, y_m)).1, metres(y_m));
+            let tick = format!("<path class=\"tick\" d=\"M0 {y:.1}h6\"/>");
+            let _ = writeln!(text, "{tick}<text class=\"small start\" x=\"9\" y=\"{y:.1}\">{label}</text>");
+        }
+        text
+    }
+
     /// In tenths.
     fn place(&self, place: Point) -> String {
         let (x, y) = self.pair(place);
@@ -146,9 +192,10 @@ impl Ground {
         let mut whole = format!(
             "<text class=\"title\" x=\"{MARGIN}\" y=\"{}\">{}</text>\n\
              <svg x=\"{MARGIN}\" y=\"{top}\" width=\"{width}\" height=\"{height}\">\n\
-             <rect class=\"rim\" width=\"{width}\" height=\"{height}\"/>\n{body}</svg>\n",
+             <rect class=\"rim\" width=\"{width}\" height=\"{height}\"/>\n{}{body}</svg>\n",
             MARGIN + LINE / 2,
-            escaped(title)
+            escaped(title),
+            self.ticks(),
         );
         let (mut x, y) = (MARGIN, top + height + LINE);
         for (mark, meaning) in key {

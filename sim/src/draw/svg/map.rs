@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use tautline_io::svg::Panel;
-use tautline_kernel::ground::{Cell, Side};
+use tautline_io::svg::{Panel, text_width};
+use tautline_kernel::ground::{Area, Cell, Side};
 
-use super::{CELL, Frame, lines, panel, stripes};
+use super::{CELL, Frame, lines, stripes};
 use crate::explore::{Play, Report, Setup};
 use crate::objects::{ObjectEstimate, ObjectReport};
 
@@ -55,7 +55,35 @@ pub fn map(run: &dyn Play, report: &Report) -> Panel {
             down * rest
         );
     }
-    panel(area, format!("{}: the map", setup.title()), body)
+    let (key, [width, height]) = key(area, !report.objects.is_empty());
+    Panel::new(format!("{}: the map", setup.title()), (width, height), body + &key)
+}
+
+/// The key below the map of an area, and the size of both.
+fn key(area: Area, has_objects: bool) -> (String, [i32; 2]) {
+    const LINE: i32 = 20;
+    let square = |class: &str| format!("<path class=\"{class}\" d=\"M0-6h12v12h-12z\"/>");
+    let mut key = vec![
+        (square("explored"), "a robot was here: free"),
+        (square("blocked"), "an obstacle beside such a cell"),
+        (square("lines"), "not known"),
+    ];
+    if has_objects {
+        let found =
+            "<path class=\"found\" d=\"M4 0h4M6-2v4\"/><ellipse class=\"found\" cx=\"6\" rx=\"6\" ry=\"4\"/>";
+        key.push(("<path class=\"way\" fill=\"none\" d=\"M4-2h4v4h-4z\"/>".to_owned(), "where an object is"));
+        key.push((found.to_owned(), "where robots take it to be, and with 95 % within the ellipse"));
+    }
+    let (mut width, mut y) = (area.width() as i32 * CELL, area.height() as i32 * CELL);
+    let mut text = String::new();
+    for (mark, meaning) in key {
+        y += LINE;
+        width = width.max(LINE + text_width(meaning));
+        let line = format!("{mark}<text class=\"caption\" x=\"{LINE}\">{meaning}</text>");
+        // Writing to a string cannot fail.
+        let _ = write!(text, "<g transform=\"translate(0,{y})\">{line}</g>");
+    }
+    (text, [width, y + LINE / 2])
 }
 
 /// The style of guesses.
