@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -380,7 +381,12 @@ pub(super) fn make_folder(out: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
     let new: Vec<PathBuf> = out.ancestors().take_while(is_new).map(Path::to_owned).collect();
     if let Err(error) = fs::create_dir_all(out) {
         clear(&new);
-        let what = format!("the folder cannot be made: {error}");
+        let what = match error.kind() {
+            ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
+                "a file is where the folder is to be".to_owned()
+            }
+            _ => format!("the folder cannot be made: {error}"),
+        };
         return Err(Diagnostic::in_file(out, what, "name a folder, or a place where one can be made"));
     }
     Ok(new)

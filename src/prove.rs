@@ -23,7 +23,7 @@ use tautline_proofs::decide::{Answer, Depiction, Verdict};
 use tautline_proofs::engine::states::{self, MemoryLimit};
 use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
 
-pub(super) use self::decided::Decided;
+pub(super) use self::decided::DecidedRows;
 use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Format, FormatArgs};
 use super::hunt::{clear, keep, make_folder};
@@ -310,7 +310,7 @@ impl DecisionArgs {
         })?;
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
-        let made = Decided { rows: &rows, memory, left: checks.len() - rows.len() };
+        let made = DecidedRows { rows: &rows, memory, left: checks.len() - rows.len() };
         let told = self.tell(&made, (detail, page), &replaceable, out);
         if told != Ok(Exit::Expected) {
             clear(&new);
@@ -321,12 +321,12 @@ impl DecisionArgs {
     /// Tells of what was decided, and stores what is to be stored.
     pub(super) fn tell(
         &self,
-        made: &Decided<'_>,
+        made: &DecidedRows<'_>,
         (detail, page): (Detail, Option<AtomicFile>),
         replaceable: &Replaceable,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
-        let &Decided { rows, memory, left } = made;
+        let &DecidedRows { rows, memory, left } = made;
         let mut files = Vec::new();
         for row in rows {
             let (rule, engine) = (row.check.rule(), row.check.engine());

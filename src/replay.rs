@@ -395,7 +395,7 @@ impl Replay {
     /// A [`Diagnostic`] if the run has none of those that are asked for.
     fn moves(&self, report: &Report) -> Result<RangeInclusive<u32>, Diagnostic> {
         match &self.moves {
-            Some(Moves(moves)) if *moves.end() == 0 || *moves.start() > report.steps => {
+            Some(Moves(moves)) if *moves.start() > report.steps => {
                 let what = format!("the run has {}, from 1 on", counted(report.steps, "team move"));
                 Err(Diagnostic::of_field(
                     "moves",

@@ -20,7 +20,7 @@ use super::findings::FormatArgs;
 use super::hunt::{self, make_folder, shown};
 use super::library;
 use super::output::Output;
-use super::prove::{Decided, DecisionArgs, Detail};
+use super::prove::{DecidedRows, DecisionArgs, Detail};
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
 use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, needless, progress, whole};
@@ -262,7 +262,7 @@ impl Merge {
                 let rows = library::rows(&plan, &shards)?;
                 self.out.as_deref().map(make_folder).transpose()?;
                 let replaceable = self.force.replaceable(inputs);
-                let made = Decided { rows: &rows, memory: &MemoryLimit::unbounded(), left: 0 };
+                let made = DecidedRows { rows: &rows, memory: &MemoryLimit::unbounded(), left: 0 };
                 how.tell(&made, (Detail::Rows, None), &replaceable, out)
             }
             Work::Hunt { .. } => {

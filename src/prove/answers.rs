@@ -22,7 +22,7 @@ use crate::interrupt;
 type Answers = Arc<Mutex<BTreeMap<(usize, Option<usize>), (Answer, f64)>>>;
 
 /// A check that keeps its answers.
-struct Keeping {
+struct RecordingCheck {
     check: &'static dyn AnyCheck,
     place: usize,
     answers: Answers,
@@ -37,7 +37,7 @@ macro_rules! as_the_check {
     };
 }
 
-impl AnyCheck for Keeping {
+impl AnyCheck for RecordingCheck {
     fn decide_rule(
         &self,
         variant: Option<usize>,
@@ -89,7 +89,7 @@ pub(super) fn decide(
 ) -> Result<Vec<Row>, MethodError> {
     let answers = Answers::default();
     let keeping = |(place, &(clause, number)): (usize, &(&'static Clause, usize))| {
-        let keeping = Keeping { check: clause.checks[number], place, answers: Arc::clone(&answers) };
+        let keeping = RecordingCheck { check: clause.checks[number], place, answers: Arc::clone(&answers) };
         // As long as the process: threads that a signal leaves behind go on with it.
         let check: &'static dyn AnyCheck = Box::leak(Box::new(keeping));
         let &Clause { id, sentence, .. } = clause;

@@ -30,14 +30,14 @@ pub(super) fn is_undecided(row: &Row) -> bool {
 }
 
 /// The checks that were decided, and in which memory.
-pub(crate) struct Decided<'a> {
+pub(crate) struct DecidedRows<'a> {
     pub(crate) rows: &'a [Row],
     pub(crate) memory: &'a MemoryLimit,
     /// Checks that were not, since a signal ended the work.
     pub(crate) left: usize,
 }
 
-impl Decided<'_> {
+impl DecidedRows<'_> {
     /// The checks that a signal has left; nothing if there are none.
     fn interrupted(&self) -> Option<String> {
         let of = counted(self.left + self.rows.len(), "check");

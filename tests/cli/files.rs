@@ -267,9 +267,9 @@ fn team_moves_that_a_run_does_not_have_are_refused_and_all_are_drawn_where_all_a
     let folder = folder.path();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let replay = ["replay", "run.jsonl", "--svg", "a.svg"];
-    for moves in ["9..12", "0..0"] {
+    for (moves, why) in [("9..12", "the run has 8 team moves"), ("0..0", "counted from 1 on; write 1..1")] {
         let said = refused(folder, &[&replay[..], &["--moves", moves]].concat());
-        assert!(said.contains("the run has 8 team moves"), "{said}");
+        assert!(said.contains(why), "{said}");
     }
     assert_eq!(names(folder), ["run.jsonl"]);
     let drawn = |moves: &[&str]| {

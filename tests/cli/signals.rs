@@ -51,7 +51,12 @@ fn checks_that_are_decided_are_told_and_the_others_counted() {
 fn no_folder_stays_that_was_made_for_nothing() {
     let folder = folder();
     ended(folder.path(), &["prove", "KIT-1", "--out", "found/deep", "--certificate", "proofs"], 2);
-    assert_eq!(names(folder.path()), [""; 0]);
+    // A counterexample may be found by then.
+    match names(folder.path())[..] {
+        [] => {}
+        [ref found] => assert!(found == "found" && !names(&folder.path().join("found/deep")).is_empty()),
+        ref others => panic!("{others:?}"),
+    }
 }
 
 #[test]
