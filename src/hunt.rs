@@ -202,14 +202,19 @@ impl Hunt {
         let start = Instant::now();
         let (bar, spinner) = (progress::bar("hunting", 1), progress::spinner("hunting"));
         let mut watcher = Watcher { bar, spinner, out: &mut *out };
-        let hunted = in_folder(&self.out, || hunt.hunt(&asked, &mut watcher))?;
+        let new = make_folder(&self.out)?;
+        let hunted = hunt.hunt(&asked, &mut watcher).inspect_err(|_| clear(&new))?;
         watcher.bar.finish_and_clear();
         watcher.spinner.finish_and_clear();
         tracing::info!("hunted through {} in {:.3} s", hunted.through, start.elapsed().as_secs_f64());
         let replaceable = self.force.replaceable(self.resume.clone());
         let is_kept = !out.has_left_out();
         let asked = HuntRequest { resume: asked.resume.filter(|_| is_kept), ..asked };
-        tell((&asked, &hunted), (&self.out, &replaceable), self.format.format, out)
+        let told = tell((&asked, &hunted), (&self.out, &replaceable), self.format.format, out);
+        if told == Ok(Exit::Unfinished) {
+            clear(&new);
+        }
+        told
     }
 
     fn rule(&self) -> RuleId {

@@ -226,7 +226,8 @@ fn a_hunt_that_ends_before_its_bound_claims_nothing() {
 #[test]
 fn ctrl_c_ends_a_hunt_without_a_claim() {
     let folder = folder();
-    assert_eq!(interrupted(folder.path(), &["hunt", "--robots", "6", "--max-walls", "6"]), Some(3));
+    let hunt = ["hunt", "--robots", "6", "--max-walls", "6", "--out", "found/deep"];
+    assert_eq!(interrupted(folder.path(), &hunt), Some(3));
     assert_eq!(names(folder.path()), [""; 0]);
 }
 
