@@ -64,21 +64,42 @@ const EXACT: EveryAnswer<Way> = EveryAnswer {
     covers: &["four anchors", "three anchors"],
 };
 
-const INEXACT: [NamedRule<Way>; 2] = [
-    NamedRule::new("each anchor takes the distance of the next", wrong_ways::exchanged),
-    NamedRule::new("the last distance is that of the first", wrong_ways::without_the_last),
-];
+/// Ways that are as this one but for one thing.
+macro_rules! wrong {
+    ($way:path: $($name:literal => $wrong:ident),+) => {
+        &[$(NamedRule::new($name, |ranges, area| wrong_ways::$wrong($way, ranges, area))),+]
+    };
+}
+
+macro_rules! inexact {
+    ($way:path) => {
+        wrong!($way:
+            "each anchor takes the distance of the next" => exchanged,
+            "the last distance is that of the first" => without_the_last)
+    };
+}
+
+macro_rules! unmoved {
+    ($way:path) => {
+        wrong!($way:
+            "places are told from the first anchor" => from_the_first,
+            "distances along y count twice" => stretched)
+    };
+}
+
+macro_rules! credulous {
+    ($way:path) => {
+        wrong!($way:
+            "a third anchor is made up" => made_up,
+            "a distance that is no number is 1 m" => lenient)
+    };
+}
 
 const REFUSES: EveryAnswer<Way> = EveryAnswer {
     body: refusals::is_refused_or_told,
     range: refusals::numbers,
     covers: &["refused for want of anchors or numbers", "told"],
 };
-
-const CREDULOUS: [NamedRule<Way>; 2] = [
-    NamedRule::new("nobody looks at what is divided by", wrong_ways::unchecked),
-    NamedRule::new("a distance that is no number is 0", wrong_ways::lenient),
-];
 
 const MIRRORED: EveryAnswer<Way> = EveryAnswer {
     body: minima::tells_the_mirror_image,
@@ -92,21 +113,19 @@ const FOLLOWS: EveryAnswer<Way> =
 const FOLLOWS_TWO: EveryAnswer<Way> =
     EveryAnswer { body: lattice::follows, range: lattice::moves, covers: &["one position", "two positions"] };
 
-const UNMOVED: [NamedRule<Way>; 2] = [
-    NamedRule::new("places are told from the first anchor", wrong_ways::from_the_first),
-    NamedRule::new("distances along y count twice", wrong_ways::stretched),
-];
-
 const COARSE: EveryAnswer<Conduct> = EveryAnswer {
     body: swarm::never_worsens,
     range: swarm::coarse_draws,
     covers: &["it does not improve", "it improves"],
 };
 
-const FORGETFUL: [NamedRule<Conduct>; 2] = [
-    NamedRule::new("the best of the present positions", Conduct { best: Best::Now, ..Conduct::REPAIRED }),
-    NamedRule::new("the position of the first particle", Conduct { best: Best::First, ..Conduct::REPAIRED }),
-];
+/// Swarms that do not keep their best position.
+const fn forgetful(conduct: Conduct) -> [NamedRule<Conduct>; 2] {
+    [
+        NamedRule::new("the best of the present positions", Conduct { best: Best::Now, ..conduct }),
+        NamedRule::new("the position of the first particle", Conduct { best: Best::First, ..conduct }),
+    ]
+}
 
 const INSIDE: EveryAnswer<Way> = EveryAnswer {
     body: lattice::keeps_inside,
@@ -143,9 +162,9 @@ pub const CLAUSES: [Clause; 7] = [
             .under(&holding(OF_FOUR, [2]))
             .of(&PAPER)
             .judged(lattice::exact_of_strongest),
-            &Check::holds(REPAIRED, &EXACT, &INEXACT),
-            &Check::holds(METRES, &EXACT, &INEXACT),
-            &Check::holds(DECIBELS, &EXACT, &INEXACT),
+            &Check::holds(REPAIRED, &EXACT, inexact!(way::repaired)),
+            &Check::holds(METRES, &EXACT, inexact!(way::metres)),
+            &Check::holds(DECIBELS, &EXACT, inexact!(way::decibels)),
         ],
     },
     Clause {
@@ -154,26 +173,27 @@ pub const CLAUSES: [Clause; 7] = [
                    or no numbers, MUST be refused; anchors on one line never give one position \
                    beside it, and every coordinate is a number.",
         checks: &[
-            &Check::holds(PUBLISHED, &REFUSES, &CREDULOUS),
-            &Check::holds(REPAIRED, &REFUSES, &CREDULOUS),
-            &Check::holds(METRES, &REFUSES, &CREDULOUS),
-            &Check::holds(DECIBELS, &REFUSES, &CREDULOUS),
+            &Check::holds(
+                PUBLISHED,
+                &REFUSES,
+                &[
+                    NamedRule::new("nobody looks at what is divided by", wrong_ways::unchecked),
+                    NamedRule::new("a distance that is no number is 1 m", |ranges, area| {
+                        wrong_ways::lenient(way::published, ranges, area)
+                    }),
+                ],
+            ),
+            &Check::holds(REPAIRED, &REFUSES, credulous!(way::repaired)),
+            &Check::holds(METRES, &REFUSES, credulous!(way::metres)),
+            &Check::holds(DECIBELS, &REFUSES, credulous!(way::decibels)),
         ],
     },
     Clause {
         id: "POSITION-3",
         sentence: "Two positions that fit alike MUST both be told.",
         checks: &[
-            &Check::holds(
-                METRES,
-                &MIRRORED,
-                &[NamedRule::new("the better one alone", wrong_ways::better_alone)],
-            ),
-            &Check::holds(
-                DECIBELS,
-                &MIRRORED,
-                &[NamedRule::new("the better one alone", wrong_ways::better_level_alone)],
-            ),
+            &Check::holds(METRES, &MIRRORED, wrong!(way::metres: "the better one alone" => better_alone)),
+            &Check::holds(DECIBELS, &MIRRORED, wrong!(way::decibels: "the better one alone" => better_alone)),
             &Check::refuted(
                 METRES,
                 &RandomAnswers {
@@ -196,17 +216,25 @@ pub const CLAUSES: [Clause; 7] = [
                 .under(&holding([("renamed", way::renamed as Way)], [0]))
                 .of(&PAPER)
                 .judged(lattice::turned),
-            &Check::holds(REPAIRED, &FOLLOWS, &UNMOVED),
-            &Check::holds(METRES, &FOLLOWS_TWO, &UNMOVED),
-            &Check::holds(DECIBELS, &FOLLOWS_TWO, &UNMOVED),
+            &Check::holds(REPAIRED, &FOLLOWS, unmoved!(way::repaired)),
+            &Check::holds(METRES, &FOLLOWS_TWO, unmoved!(way::metres)),
+            &Check::holds(DECIBELS, &FOLLOWS_TWO, unmoved!(way::decibels)),
         ],
     },
     Clause {
         id: "POSITION-5",
         sentence: "The best position of a swarm MUST never fit worse than the one before, nor than any particle does.",
         checks: &[
-            &Check::holds(NamedRule::new("published", Conduct::PUBLISHED), &COARSE, &FORGETFUL),
-            &Check::holds(NamedRule::new("repaired", Conduct::REPAIRED), &COARSE, &FORGETFUL),
+            &Check::holds(
+                NamedRule::new("published", Conduct::PUBLISHED),
+                &COARSE,
+                &forgetful(Conduct::PUBLISHED),
+            ),
+            &Check::holds(
+                NamedRule::new("repaired", Conduct::REPAIRED),
+                &COARSE,
+                &forgetful(Conduct::REPAIRED),
+            ),
             &Check::new(
                 NamedRule::new("repaired", Conduct::REPAIRED),
                 &RandomAnswers {
@@ -216,7 +244,7 @@ pub const CLAUSES: [Clause; 7] = [
                     covers: &["it improves"],
                 },
                 Verdict::Unrefuted,
-                &FORGETFUL,
+                &forgetful(Conduct::REPAIRED),
             ),
         ],
     },
@@ -225,16 +253,8 @@ pub const CLAUSES: [Clause; 7] = [
         sentence: "A position that is asked for within a rectangle MUST be in it, and the same as \
                    without the rectangle if that one is in it.",
         checks: &[
-            &Check::holds(
-                METRES,
-                &INSIDE,
-                &[NamedRule::new("the rectangle is forgotten", |ranges, _| way::metres(ranges, None))],
-            ),
-            &Check::holds(
-                DECIBELS,
-                &INSIDE,
-                &[NamedRule::new("the rectangle is forgotten", |ranges, _| way::decibels(ranges, None))],
-            ),
+            &Check::holds(METRES, &INSIDE, wrong!(way::metres: "the rectangle is forgotten" => anywhere)),
+            &Check::holds(DECIBELS, &INSIDE, wrong!(way::decibels: "the rectangle is forgotten" => anywhere)),
         ],
     },
     Clause {
