@@ -48,9 +48,9 @@ impl Subject {
     /// Repaired.
     pub const REPAIRED: Self = Self { conditions: Conditions::REPAIRED, ..Self::PUBLISHED };
 
-    /// Nodes that follow the repaired rule without one condition.
+    /// Nodes that follow the published rule without one condition.
     pub const fn hearing_without(condition: Condition) -> Self {
-        Self { conditions: Conditions::REPAIRED.without(condition), ..Self::REPAIRED }
+        Self { conditions: Conditions::PUBLISHED.without(condition), ..Self::PUBLISHED }
     }
 
     /// Nodes that broadcast by `scheme`.
@@ -58,9 +58,9 @@ impl Subject {
         Rule { conditions: self.conditions, ..Rule::new(scheme, spread::RANGE, 0) }
     }
 
-    /// Nodes that follow the repaired rule and take k for another one.
-    const fn miscounting(miscount: Miscount) -> Self {
-        Self { miscount: Some(miscount), ..Self::REPAIRED }
+    /// These nodes, which take k for another one.
+    const fn miscounting(self, miscount: Miscount) -> Self {
+        Self { miscount: Some(miscount), ..self }
     }
 
     /// k-FNF.

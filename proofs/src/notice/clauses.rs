@@ -50,7 +50,7 @@ const FORGETFUL: [NamedRule<Subject>; 1] =
     [NamedRule::new("who has forwarded an event forgets it", Subject::hearing_without(RememberEvent))];
 
 const FINITE: [NamedRule<Subject>; 1] =
-    [NamedRule::new("k = ∞ is taken for 1", Subject::miscounting(Miscount::EndlessForOne))];
+    [NamedRule::new("k = ∞ is taken for 1", Subject::PUBLISHED.miscounting(Miscount::EndlessForOne))];
 
 /// Random networks in which this is tried.
 const fn at_random(body: Body<Subject>) -> RandomAnswers<Subject> {
@@ -62,8 +62,8 @@ step_checks! { Subject;
         covers ["silent about the first", "through with the first", "unaware of the first", "waiting with the first"],
         unwind 12, mutants {
             published: "as published" => Subject::PUBLISHED,
-            one_fewer: "one fewer than k silence" => Subject::miscounting(Miscount::OneFewer),
-            one_more: "one more than k silence" => Subject::miscounting(Miscount::OneMore),
+            one_fewer: "one fewer than k silence" => Subject::REPAIRED.miscounting(Miscount::OneFewer),
+            one_more: "one more than k silence" => Subject::REPAIRED.miscounting(Miscount::OneMore),
         };
 }
 
