@@ -87,6 +87,9 @@ const EXPLORES: Floors<Infallible> = Floors::new(
 const EXPLORES_APART: Floors<Infallible> =
     Floors::new(&[Series::missing(Area::blocked(3, 3), 1, 2)], Demand::Explores);
 
+const CHOOSES: EveryAnswer<Subject<Rule>> =
+    EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] };
+
 const KEEPS: EveryAnswer<Rule> = EveryAnswer {
     body: replacement::keeps,
     range: replacement::pairs,
@@ -114,11 +117,10 @@ pub const CLAUSES: [Clause; 3] = [
     Clause {
         id: "ANTS-2",
         sentence: "An ant MUST go to the side neighbour that was entered least, the first in the order of the compass.",
-        checks: &[&Check::holds(
-            PUBLISHED,
-            &EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] },
-            &[uncounted(Rule::PUBLISHED)],
-        )],
+        checks: &[
+            &Check::holds(PUBLISHED, &CHOOSES, &[uncounted(Rule::PUBLISHED)]),
+            &Check::holds(REPAIRED, &CHOOSES, &[uncounted(Rule::Repaired)]),
+        ],
     },
     Clause {
         id: "ANTS-3",
