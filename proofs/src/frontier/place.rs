@@ -92,9 +92,13 @@ pub(super) fn counts(bears: &ErrorBudget, oracle: &mut dyn Oracle) -> Outcome {
     Ok(if at == 0 { "at the midpoint" } else { "beside the midpoint" })
 }
 
-/// Two places within a cell of the midpoint of 0,0, in parts.
+/// Two places within a cell of the midpoint of 0,0, in parts, those near to the midpoint first.
 fn two(oracle: &mut dyn Oracle) -> [(i32, i32); 2] {
-    [(); 2].map(|()| (within(oracle, PARTS / 2), within(oracle, PARTS / 2)))
+    let mut offset = || {
+        let number = oracle.pick(PARTS as u32 + 1) as i32;
+        if number % 2 == 0 { -number / 2 } else { number / 2 + 1 }
+    };
+    [(); 2].map(|()| (offset(), offset()))
 }
 
 /// The places that these choices of [`occupies`] make, written down for the judge.
