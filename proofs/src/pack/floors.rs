@@ -190,8 +190,8 @@ impl Floors {
                 let floor = Floor { area, obstacles, starts };
                 let Some(played) = play(&subject, &floor, bounds.gains) else { continue };
                 let is_broken = played.broken.contains(&self.demand);
-                let shortest =
-                    is_broken.then(|| (self.moves(&played), story(&subject.rule, &floor, &played)));
+                let shortest = is_broken
+                    .then(|| (self.moves(&played), story(&subject.rule, &floor, &played, self.demand)));
                 all.add(ClassFindings { cases: 1, is_whole: true, shortest });
                 if is_broken && until == Until::Violation {
                     return Ok(all);
@@ -223,7 +223,7 @@ impl Floors {
         Ok(self.run(subject, place)?.map(|(played, floor)| Evidence {
             choices,
             demand: self.demand.words(),
-            seen: Depiction::Story(story(&within.rule, &floor, &played)),
+            seen: Depiction::Story(story(&within.rule, &floor, &played, self.demand)),
         }))
     }
 }

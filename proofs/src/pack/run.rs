@@ -289,12 +289,13 @@ fn play_plainly(subject: &Subject, floor: &Floor) -> RunOutcome {
 /// Most team moves that are told.
 const MOST_TOLD: usize = 40;
 
-/// The run in lines.
-pub(super) fn story(rule: &Rule, floor: &Floor, played: &RunOutcome) -> String {
+/// The run in lines, up to the team move that breaks a demand of each of them.
+pub(super) fn story(rule: &Rule, floor: &Floor, played: &RunOutcome, demand: Demand) -> String {
     let (width, height) = (floor.area.width(), floor.area.height());
     let (sight, range) = (rule.sight().radius_cells(), rule.range_cells());
     let mut lines = format!("{width}×{height} cells, R_s {sight}, R_c {range}\n{}", floor.drawing());
-    for (made, cells) in played.moves.iter().take(MOST_TOLD) {
+    let moves = played.until(demand, rule.range_cells()).count();
+    for (made, cells) in played.moves.iter().take(moves.min(MOST_TOLD)) {
         let what = match made {
             MoveKind::Spread => "each goes its way".to_owned(),
             MoveKind::Led(robot) => format!("R{} leads", robot + 1),
@@ -305,10 +306,10 @@ pub(super) fn story(rule: &Rule, floor: &Floor, played: &RunOutcome) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(lines, "{what}: {}", cells.join(", "));
     }
-    if let Some(more) = played.moves.len().checked_sub(MOST_TOLD).filter(|&more| more > 0) {
+    if let Some(more) = moves.checked_sub(MOST_TOLD).filter(|&more| more > 0) {
         let _ = writeln!(lines, "and {} more", counted(more as u64, "team move"));
     }
-    if !played.left.is_empty() {
+    if demand == Demand::Covers && !played.left.is_empty() {
         let left: Vec<String> = played.left.iter().map(Cell::to_string).collect();
         let _ = writeln!(lines, "the run ends, and nobody has seen {}", left.join(" "));
     }
