@@ -24,6 +24,8 @@ pub enum Misreading {
     Offers,
     /// A robot whose records are full takes a new WFR's call for the end of its way.
     Ends,
+    /// A robot that asks and a WFR that has chosen take an answer for none.
+    Answers,
 }
 
 /// Whose service the SBit of a call stands for.

@@ -47,8 +47,15 @@ const WAYS_BACK: Check<Subject> = Check::holds(
 
 const REPEATED: Check<Subject> = Check::holds(
     REPAIRED,
-    &EveryAnswer { body: records::repeated, range: records::repeats, covers: &["a WFR", "a robot"] },
-    &[lacking("no repetition", Repetition)],
+    &EveryAnswer {
+        body: records::repeated,
+        range: records::repeats,
+        covers: &["a WFR", "a WFR that is answered", "a robot", "a robot that is answered"],
+    },
+    &[
+        lacking("no repetition", Repetition),
+        NamedRule::new("an answer is taken for none", Subject::misreading(Misreading::Answers)),
+    ],
 );
 
 const FILLED: Check<Subject> = Check::holds(

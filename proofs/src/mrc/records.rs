@@ -3,7 +3,7 @@
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::mrc::{
-    Downward, Hop, Mail, Relay, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word,
+    Downward, Hop, Mail, Relay, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, WfrTimer, Word,
 };
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
@@ -206,10 +206,10 @@ pub(super) fn ways_back(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome 
 
 /// The bound of [`repeated`].
 pub(super) fn repeats() -> String {
-    format!("a robot or a WFR that repeats 0 to {MESSAGES} times")
+    format!("a robot or a WFR that repeats 0 to {MESSAGES} times, answered or not")
 }
 
-/// MRC-13: how often a message is sent that nobody answers.
+/// MRC-13: how often a message is sent until somebody answers.
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
@@ -218,14 +218,27 @@ pub(super) fn repeated(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = Rule { repeats, ..observed.rule };
     let call = Call { wfr: NodeId(0), epoch: Epoch::FIRST };
     let demand = "what is not answered is sent as often as the rule repeats";
-    if oracle.flip() {
+    let over = "what is answered is sent no more";
+    let is_robot = oracle.flip();
+    // The number of repeats after which the answer comes, if it comes at all.
+    let answered = oracle.pick(u32::from(repeats) + 2) as u8;
+    let is_heard = observed.misread != Some(Misreading::Answers);
+    if is_robot {
         let notice = Notice { call, hops: 0, sender: SENDERS[0] };
         let (mut robot, mut sent) = Robot::<1>::new(rule, ROBOT).receive(Downward::Notice(notice));
-        for left in (0..=repeats).rev() {
+        for number in 0..=repeats {
             let is_move = |sent: Upward| sent.call == call && matches!(sent.word, Word::Move { .. });
-            let is_due = robot.timer().is_some_and(|timer| timer.repeats_left == left);
-            require(sent.is_some_and(is_move) && is_due, demand)?;
-            if let Some(timer) = robot.timer() {
+            let timer = robot.timer().filter(|timer| timer.repeats_left == repeats - number);
+            require(sent.is_some_and(is_move) && timer.is_some(), demand)?;
+            if number == answered {
+                let chosen = one_of(oracle, &[None, Some(ROBOT), Some(RobotId(1))]);
+                let resb = Downward::Resb(Resb { call, robot: ROBOT, chosen });
+                robot = if is_heard { robot.receive(resb).0 } else { robot };
+                let late = timer.and_then(|timer| robot.expire(timer).1);
+                require((robot.timer(), late) == (None, None), over)?;
+                return Ok("a robot that is answered");
+            }
+            if let Some(timer) = timer {
                 (robot, sent) = robot.expire(timer);
             }
         }
@@ -235,13 +248,22 @@ pub(super) fn repeated(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let word = Word::Move { hops: 1 };
     let bid = Upward { call, robot: ROBOT, word, parent: call.wfr };
     let (mut wfr, mut sent) = Wfr::<1>::new(rule, call.wfr).raise().0.receive(bid);
-    for told in 0..=repeats {
+    for number in 0..=repeats {
         if let Some(timer) = wfr.timer() {
             (wfr, sent) = wfr.expire(timer);
         }
         let resb = Resb { call, robot: ROBOT, chosen: Some(ROBOT) };
-        let is_told = sent == if told == 0 { Mail::All([Some(resb)]) } else { Mail::One(resb) };
+        let is_told = sent == if number == 0 { Mail::All([Some(resb)]) } else { Mail::One(resb) };
         require(is_told && wfr.call() == call, demand)?;
+        if number == answered {
+            let timer = wfr.timer();
+            let answer = Upward { word: one_of(oracle, &[Word::Accept, Word::Decline]), ..bid };
+            wfr = if is_heard { wfr.receive(answer).0 } else { wfr };
+            let late = timer.map(|timer| wfr.expire(timer).1);
+            let waits = matches!(wfr.timer(), Some(WfrTimer::Answer { .. }));
+            require(!waits && late == Some(Mail::Nothing), over)?;
+            return Ok("a WFR that is answered");
+        }
     }
     if let Some(timer) = wfr.timer() {
         (wfr, sent) = wfr.expire(timer);
@@ -327,6 +349,8 @@ fn read(observed: &Subject, message: Upward) -> Upward {
     match observed.misread {
         Some(Misreading::OneRobot) => Upward { robot: ROBOT, ..message },
         Some(Misreading::OneCall) => Upward { call: Call { epoch: Epoch::FIRST, ..message.call }, ..message },
-        Some(Misreading::Askers | Misreading::Offers | Misreading::Ends) | None => message,
+        Some(Misreading::Askers | Misreading::Offers | Misreading::Ends | Misreading::Answers) | None => {
+            message
+        }
     }
 }
