@@ -276,10 +276,7 @@ pub const CLAUSES: [Clause; 14] = [
             &Check::holds(
                 REPAIRED,
                 &Within(Demand::IsServed, ONE_AND_TWO),
-                &[NamedRule::new(
-                    "late MOVEs unanswered",
-                    Subject::rescuing(Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
-                )],
+                &[lacking("no collection window", Window), NO_EPOCH],
             ),
             &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO), &[NO_RENEWAL]),
             &Check::holds(REPAIRED, &Within(Demand::IsServed, TWO_LONGER), &[NO_RENEWAL]),
