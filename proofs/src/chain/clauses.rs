@@ -124,10 +124,6 @@ pub(super) const UNREHEARSED: NamedRule<Subject> =
 pub(super) const FICKLE: NamedRule<Subject> =
     NamedRule::new("stages go back", Subject::REEL.without_habits(&[Habit::KeepsTask]));
 
-/// A team that pursues as the repaired rule does, and does not unfold.
-const LEAVES_CELLS: NamedRule<Subject> =
-    NamedRule::new("as repaired, without unfolding", Subject::REEL.following(Rule::REPAIRED.without(Unfold)));
-
 /// The mutant of a reel, as one that need not hold.
 pub(super) const fn unheld(reel: NamedRule<Subject>) -> NamedRule<Subject> {
     NamedRule::new(reel.name, Subject { intended: Subject::UNHELD.rule, ..reel.rule.without(Hold) })
@@ -253,7 +249,10 @@ pub const CLAUSES: [Clause; 15] = [
             &Check::holds(
                 REPAIRED,
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
-                &[NamedRule::new("as published", Subject::PUBLISHED)],
+                &[
+                    NamedRule::new("as published", Subject::PUBLISHED),
+                    lacking(Subject::REPAIRED, FullForLeader),
+                ],
             ),
             &Check::holds(
                 UNHELD,
@@ -263,13 +262,7 @@ pub const CLAUSES: [Clause; 15] = [
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
-                &[
-                    lacking(Subject::REEL, Distinct),
-                    NamedRule::new(
-                        "without full cells",
-                        Subject::REEL.without(FullForFollower).without(FullForLeader),
-                    ),
-                ],
+                &[lacking(Subject::REEL, Distinct), lacking(Subject::REEL, FullForLeader)],
             ),
             &Check::holds(
                 NamedRule::new("repaired", Crowd::of(Rule::REPAIRED)),
@@ -494,12 +487,12 @@ pub const CLAUSES: [Clause; 15] = [
             &Check::holds(
                 UNHELD,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                &[unheld(LEAVES_CELLS)],
+                &[lacking(Subject::UNHELD, Distinct)],
             ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                &[LEAVES_CELLS],
+                &[lacking(Subject::REEL, Distinct)],
             ),
         ],
     },

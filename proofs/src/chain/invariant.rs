@@ -1,5 +1,6 @@
 //! The sentences that every team move of a run is checked for. They are those of `SPEC.md`, in plain arithmetic of
-//! their own: of the kernel's rule only the names of its conditions are used.
+//! their own: of the kernel's rule only the names of its conditions are used, and for CHAIN-16, which is about it, the
+//! admission relation.
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Budget, Chain, Condition, Intent, Kind, Message, Outcome, Plan, Pursuit, Rule};
@@ -199,7 +200,7 @@ impl Invariant {
             Self::Ends | Self::Exhausts | Self::Short => Ok(()),
             Self::Heard => moment.is_heard(),
             Self::Cheap => moment.is_cheap(),
-            Self::Certified => require(!moment.planned.is_refused(), "no plan is refused"),
+            Self::Certified => moment.is_certified(),
             Self::Falls => moment.falls(),
             Self::Arrives => moment.arrives(),
             Self::AnyOrder => moment.holds_in_any_order(),
@@ -260,6 +261,14 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         }
         let all_virtual = known(leader, EdgeMark::Virtual);
         require(!all_virtual, "the leader does not cross a virtual obstacle")
+    }
+
+    /// Neither the relation that the planner asks refuses its plan, nor that of the rule that the team claims to follow.
+    fn is_certified(&self) -> Result<(), Stop> {
+        let (mut grid, team) = (*self.planned.grid(), self.before.cells());
+        let is_admitted = self.plan.kind == Kind::Backtrack
+            || self.observed.intended.admits_plan(&mut grid, team, self.steps);
+        require(!self.planned.is_refused() && is_admitted, "no plan is refused")
     }
 
     fn is_distinct(&self) -> Result<(), Stop> {

@@ -2,13 +2,13 @@
 //! follow those of [`super::clauses`] in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{CoveredBehind, Hold, SafeAhead};
-use tautline_kernel::chain::{Habit, Rule, Walls};
+use tautline_kernel::chain::{Habit, Pursuit, Rule, Walls};
 
 use super::appearing_walls::{self, WallsCase};
 use super::barrier::{self, Reading};
 use super::clauses::{
     AREAS, FICKLE, FIVE_TWO_WALLS, FOUR_FEWER_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD,
-    UNREHEARSED, unheld,
+    UNREHEARSED, lacking, unheld,
 };
 use super::death::{self, Aftermath, DeathCase};
 use super::every_area::EveryArea;
@@ -53,14 +53,16 @@ const fn narrowed(subject: Subject) -> NamedRule<Subject> {
 const NARROWED_UNREHEARSED: NamedRule<Subject> =
     NamedRule::new("tasks are not rehearsed, E_S narrowed to E_N", UNREHEARSED.rule.with_safe(NARROWER));
 
-/// The repaired rule, pursued as a reel.
-const AS_REPAIRED: NamedRule<Subject> =
-    NamedRule::new("as repaired", Subject::REEL.following(Rule::REPAIRED));
+/// A reel that pursues as the repaired rule does.
+const IN_EPOCHS: NamedRule<Subject> = NamedRule::new(
+    "epochs and backtracks",
+    Subject::REEL.following(Rule { pursuit: Pursuit::Epochs, ..Rule::REEL }),
+);
 
 /// The contact of a reel of any number of robots, and what breaks it.
 const CONTACT: NamedRule<Contact<true>> = NamedRule::new("reel", Contact(Rule::REEL));
 const LOST_CONTACT: [NamedRule<Contact<true>>; 3] = [
-    NamedRule::new("without hold", Contact(Rule::REPAIRED)),
+    NamedRule::new("without hold", Contact(Rule::REEL.without(Hold))),
     NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
     NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
 ];
@@ -129,7 +131,7 @@ const DEATH_AT_RANDOM: Check<DeathCase> = Check::new(
     Verdict::Unrefuted,
     &[
         NamedRule::new("without hold", dying(Subject::UNHELD, Aftermath::Reform)),
-        NamedRule::new("as repaired", dying(Subject::REPAIRED, Aftermath::Reform)),
+        NamedRule::new("without E_S ahead", dying(Subject::REEL.without(SafeAhead), Aftermath::Reform)),
     ],
 );
 
@@ -163,7 +165,7 @@ const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
         covers: &["a wall appears"],
     },
     Verdict::Unrefuted,
-    &[NamedRule::new("as repaired", shut(Subject::REPAIRED, Walls::Changing))],
+    &[NamedRule::new("without hold", shut(NOT_HELD.rule, Walls::Changing))],
 );
 
 /// The clauses.
@@ -175,8 +177,7 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::holds(
                 PUBLISHED,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                // Whatever is left out of the published rule, its relation admits all that its planner plans.
-                &[NamedRule::new("repaired, E_S narrowed to E_N", narrowed(Subject::REPAIRED).rule)],
+                &[lacking(Subject::PUBLISHED, SafeAhead), lacking(Subject::PUBLISHED, CoveredBehind)],
             ),
             &Check::holds(
                 REPAIRED,
@@ -186,12 +187,12 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::holds(
                 UNHELD,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                &[unheld(NARROWED_UNREHEARSED)],
+                &[unheld(NARROWED_UNREHEARSED), lacking(Subject::UNHELD, SafeAhead)],
             ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                &[NARROWED_UNREHEARSED],
+                &[NARROWED_UNREHEARSED, lacking(Subject::REEL, SafeAhead)],
             ),
         ],
     },
@@ -233,7 +234,12 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::refuted(REPAIRED, &EveryArea(Invariant::AnyOrder, AREAS, AREAS))
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
-            &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
+            // Without hold four robots keep contact in any order among so few walls.
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS),
+                &[lacking(Subject::REEL, SafeAhead)],
+            ),
             &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FIVE_TWO_WALLS), &[NOT_HELD]),
             &Check::new(
                 REEL,
@@ -289,10 +295,10 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::holds(
                 UNHELD,
                 &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
-                &[unheld(AS_REPAIRED), unheld(UNREHEARSED)],
+                &[unheld(IN_EPOCHS), unheld(UNREHEARSED)],
             ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[AS_REPAIRED]),
-            &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[AS_REPAIRED]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[IN_EPOCHS]),
+            &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[IN_EPOCHS]),
             &Check::refuted(REEL, &EveryLayout(Invariant::Short, THREE_FIVE_WALLS))
                 .because("N² is no result of an argument, and not enough for five walls"),
         ],
@@ -304,12 +310,12 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Chosen, FOUR_TWO_WALLS),
-                &[UNREHEARSED, FICKLE, AS_REPAIRED],
+                &[UNREHEARSED, FICKLE, IN_EPOCHS],
             ),
             &Check::holds(
                 REEL,
                 &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS),
-                &[UNREHEARSED, FICKLE, AS_REPAIRED],
+                &[UNREHEARSED, FICKLE, IN_EPOCHS],
             ),
         ],
     },
