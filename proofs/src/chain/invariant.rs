@@ -263,7 +263,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         require(!all_virtual, "the leader does not cross a virtual obstacle")
     }
 
-    /// Neither the relation that the planner asks refuses its plan, nor that of the rule that the team claims to follow.
+    /// Neither the relation that the planner asks refuses its plan, nor that of the rule that the team claims to have.
     fn is_certified(&self) -> Result<(), Stop> {
         let (mut grid, team) = (*self.planned.grid(), self.before.cells());
         let is_admitted = self.plan.kind == Kind::Backtrack
