@@ -140,6 +140,9 @@ const fn shut(observed: Subject, walls: Walls) -> WallsCase {
     WallsCase { observed, walls, plans_among: walls }
 }
 
+const UNTRIED: NamedRule<WallsCase> =
+    NamedRule::new("crossed sides are not tried", shut(Subject::REEL, Walls::Lasting));
+
 const SHUT: Check<WallsCase> = Check::holds(
     NamedRule::new("reel", shut(Subject::REEL, Walls::Changing)),
     &EveryAnswer {
@@ -148,7 +151,7 @@ const SHUT: Check<WallsCase> = Check::holds(
         covers: &["a wall appears", "no wall appears"],
     },
     &[
-        NamedRule::new("crossed sides are not tried", shut(Subject::REEL, Walls::Lasting)),
+        UNTRIED,
         NamedRule::new(
             "the history below a wall is kept",
             WallsCase { plans_among: Walls::Lasting, ..shut(Subject::REEL, Walls::Changing) },
@@ -165,7 +168,7 @@ const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
         covers: &["a wall appears"],
     },
     Verdict::Unrefuted,
-    &[NamedRule::new("without hold", shut(NOT_HELD.rule, Walls::Changing))],
+    &[UNTRIED],
 );
 
 /// The clauses.
