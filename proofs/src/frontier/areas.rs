@@ -4,6 +4,7 @@
 use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell};
 
+use super::readings::LITERAL_T;
 use super::world::{Demand, Event, Setting, World};
 use crate::decide::{
     self, Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
@@ -133,6 +134,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
             Rule::PRINTED => judge::Rule::Printed,
             Rule::LITERAL => judge::Rule::Literal,
             Rule::WANDERS => judge::Rule::Wanders,
+            LITERAL_T => judge::Rule::AdaptiveLiteral,
             _ => return None,
         };
         let (start, steps, once) = self.steps()?;

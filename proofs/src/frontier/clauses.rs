@@ -13,7 +13,7 @@ use super::fusion::{self, FusedBudget, StandingRobot};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
-use super::readings::{PAPER, READINGS, adaptive};
+use super::readings::{LITERAL_T, PAPER, READINGS, adaptive};
 use super::world::Demand;
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::{EveryAnswer, EveryState};
@@ -36,7 +36,7 @@ const ALL_CELLS: NamedRule<Rule> = NamedRule::new("wanders-T", Rule { basis: Bas
 const NEIGHBOURS_ALONE: NamedRule<Rule> =
     NamedRule::new("the own cell does not count", adaptive(Rule::WANDERS));
 /// Robots that do not store obstacles, whose threshold follows from earlier probabilities, and does not.
-const ADAPTIVE: NamedRule<Rule> = NamedRule::new("literal-T", adaptive(Rule::LITERAL));
+const ADAPTIVE: NamedRule<Rule> = NamedRule::new("literal-T", LITERAL_T);
 const NEVER_ADAPTED: NamedRule<Rule> = NamedRule::new("the threshold stays as it is given", Rule::LITERAL);
 
 const REFUTED: [Reading<Rule>; 15] = holding(READINGS, []);
@@ -47,8 +47,10 @@ const MARKS: [Reading<Rule>; 7] =
 const COVERS: [Reading<Rule>; 15] = holding(READINGS, [0, 2]);
 /// As (11) is printed, robots move only if they wander, and then to where others have started.
 const APART: [Reading<Rule>; 15] = holding(READINGS, [3, 5, 11, 13]);
-/// Robots that go to no unexplored cell, at once or after a move, end unless they wander.
+/// One robot that goes to no unexplored cell, at once or after a move, ends unless it wanders.
 const ENDS: [Reading<Rule>; 15] = holding(READINGS, [3, 4, 5, 6, 7, 9, 11, 12, 13, 14]);
+/// Two that wander go to and fro between their starts, and a threshold stays above 0 beside another robot.
+const ENDS_OF_TWO: [Reading<Rule>; 15] = holding(READINGS, [3, 5, 7, 11, 13]);
 
 /// One condition taken out of a rule, under its name.
 const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
@@ -241,9 +243,13 @@ pub const CLAUSES: [Clause; 12] = [
             &Check::holds(PUBLISHED, &smallest::<1>(Demand::Ends), &[without(Rule::PUBLISHED, Record)])
                 .under(&ENDS)
                 .of(&PAPER),
+            &Check::holds(PUBLISHED, &smallest::<2>(Demand::Ends), &[without(Rule::PUBLISHED, Record)])
+                .under(&ENDS_OF_TWO)
+                .of(&PAPER),
             &Check::refuted(LITERAL, &smallest::<1>(Demand::Ends)).because("another reading of the paper"),
             &Check::refuted(WANDERS, &smallest::<1>(Demand::Ends)).because("another reading of the paper"),
             &Check::holds(ADAPTIVE, &smallest::<1>(Demand::Ends), &[NEVER_ADAPTED]),
+            &Check::refuted(ADAPTIVE, &smallest::<2>(Demand::Ends)).because("another reading of the paper"),
             &Check::holds(PLAIN, &one(Demand::Ends), &[plain(Record)]),
             &Check::holds(PLAIN, &two(Demand::Ends), &[plain(Turn)]),
             &Check::holds(PLAIN, &three(Demand::Ends), &[plain(Turn)]),

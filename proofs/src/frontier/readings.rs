@@ -19,7 +19,7 @@ pub(super) const READINGS: [(&str, Rule); 15] = [
     ("wanders + literal + printed", wandering(Rule::PRINTED.without(Record))),
     ("adaptive", adaptive(Rule::PUBLISHED)),
     ("wanders + adaptive", adaptive(Rule::WANDERS)),
-    ("literal + adaptive", adaptive(Rule::LITERAL)),
+    ("literal + adaptive", LITERAL_T),
     ("wanders + literal + adaptive", adaptive(wandering(Rule::LITERAL))),
     ("printed + adaptive", adaptive(Rule::PRINTED)),
     ("wanders + printed + adaptive", adaptive(wandering(Rule::PRINTED))),
@@ -91,6 +91,9 @@ pub(super) static PAPER: Paper = Paper {
 const fn wandering(rule: Rule) -> Rule {
     Rule { otherwise: Otherwise::Wanders, ..rule }
 }
+
+/// Robots that do not store obstacles, whose threshold follows from earlier probabilities.
+pub(super) const LITERAL_T: Rule = adaptive(Rule::LITERAL);
 
 /// This rule with a threshold that is the mean of the neighbours' probabilities.
 pub(super) const fn adaptive(rule: Rule) -> Rule {

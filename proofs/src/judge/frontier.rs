@@ -38,6 +38,8 @@ pub enum Rule {
     Literal,
     /// A robot without a candidate goes to any explored neighbour.
     Wanders,
+    /// *Literal*, with an adaptive threshold.
+    AdaptiveLiteral,
 }
 
 /// A step of a move.
@@ -67,7 +69,7 @@ pub enum What {
 }
 
 plain!(Run { rule, floor, starts, steps, round });
-plain!(Rule one of Published, Printed, Literal, Wanders);
+plain!(Rule one of Published, Printed, Literal, Wanders, AdaptiveLiteral);
 plain!(Step { robot, what, side, fix });
 plain!(What one of Decides, Enters, IsBarred, Arrives);
 
@@ -89,6 +91,8 @@ struct Robot {
     at: Place,
     stance: Stance,
     known: Repository,
+    /// Whether its threshold has fallen to 0.
+    is_shut: bool,
     /// Where each other robot was when it told something last.
     told: Vec<Place>,
 }
@@ -119,6 +123,7 @@ impl Case for Run {
             at,
             stance: Stance::Stands,
             known: known.clone(),
+            is_shut: false,
             told: starts.clone(),
         };
         let robots = starts.iter().map(robot).collect();
@@ -209,7 +214,7 @@ impl Run {
         // farther 0. As printed it is 1 a cell from a midpoint.
         let is_candidate = |cell: Place| {
             let is_taken = self.rule == Rule::Printed || robot.told.contains(&cell);
-            !robot.known.contains_key(&cell) && !is_taken
+            !robot.known.contains_key(&cell) && !is_taken && !robot.is_shut
         };
         if let Some(side) = BY_NUMBER.into_iter().find(|side| leads(side, &is_candidate)) {
             return vec![side];
@@ -234,6 +239,10 @@ impl Run {
             (What::Decides, Stance::Stands) => {
                 let side = step.side.filter(|side| self.choices(&robot).contains(side));
                 team.robots[own].stance = Stance::Tries(side.ok_or("the rule does not go there")?);
+                // An adaptive threshold is above 0 where another robot is in one of the four neighbours.
+                let mut near = (0..4).filter_map(|side| beside(robot.at, side));
+                let is_alone = !near.any(|cell| robot.told.contains(&cell));
+                team.robots[own].is_shut = self.rule == Rule::AdaptiveLiteral && is_alone;
             }
             (What::Enters | What::IsBarred, Stance::Tries(side)) => {
                 let cell = beside(robot.cell, side).ok_or("there is no such side")?;
@@ -270,7 +279,8 @@ impl Run {
         let at = team.robots[own].at;
         for (number, robot) in team.robots.iter_mut().enumerate() {
             robot.told[own] = at;
-            let stores = number != own || is_explored || self.rule != Rule::Literal;
+            let is_literal = matches!(self.rule, Rule::Literal | Rule::AdaptiveLiteral);
+            let stores = number != own || is_explored || !is_literal;
             if stores && self.floor.has(cell) {
                 let known = robot.known.entry(cell).or_insert(is_explored);
                 *known |= is_explored;
