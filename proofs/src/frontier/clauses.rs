@@ -13,7 +13,7 @@ use super::fusion::{self, FusedBudget, StandingRobot};
 use super::local::Alone;
 use super::pairs;
 use super::place::{self, ErrorBudget};
-use super::readings::{LITERAL_T, PAPER, READINGS, adaptive};
+use super::readings::{LITERAL_T, OF_TEAMS, PAPER, READINGS, SEES, adaptive};
 use super::world::Demand;
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::{EveryAnswer, EveryState};
@@ -45,12 +45,18 @@ const MARKS: [Reading<Rule>; 7] =
     [REFUTED[0], REFUTED[1], REFUTED[2], REFUTED[7], REFUTED[8], REFUTED[9], REFUTED[10]];
 /// Robots that wander do not stop while a cell is left out, and know it then, unless they go to no unexplored one.
 const COVERS: [Reading<Rule>; 15] = holding(READINGS, [0, 2]);
-/// As (11) is printed, robots move only if they wander, and then to where others have started.
-const APART: [Reading<Rule>; 15] = holding(READINGS, [3, 5, 11, 13]);
+const COVERS_OF_TWO: [Reading<Rule>; 31] = holding(OF_TEAMS, [0, 2, 16, 18]);
+/// Robots that do not see each other keep apart where none moves: as (11) is printed, robots move only if they wander,
+/// and then to where others have started.
+const APART: [Reading<Rule>; 31] =
+    holding(OF_TEAMS, [3, 5, 11, 13, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30]);
 /// One robot that goes to no unexplored cell, at once or after a move, ends unless it wanders.
 const ENDS: [Reading<Rule>; 15] = holding(READINGS, [3, 4, 5, 6, 7, 9, 11, 12, 13, 14]);
 /// Two that wander go to and fro between their starts, and a threshold stays above 0 beside another robot.
-const ENDS_OF_TWO: [Reading<Rule>; 15] = holding(READINGS, [3, 5, 7, 11, 13]);
+const ENDS_OF_TWO: [Reading<Rule>; 31] = holding(OF_TEAMS, [3, 5, 7, 11, 13, 15, 19, 21, 23, 27, 29]);
+/// Robots that see each other store one as an obstacle in an unexplored cell, which none enters as (11) is printed.
+const MARKS_OF_TWO: [Reading<Rule>; 31] =
+    holding(OF_TEAMS, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 19, 20, 21, 22, 27, 28, 29, 30]);
 
 /// One condition taken out of a rule, under its name.
 const fn without(rule: Rule, condition: Condition) -> NamedRule<Rule> {
@@ -204,6 +210,7 @@ pub const CLAUSES: [Clause; 12] = [
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
         checks: &[
             &Check::refuted(PUBLISHED, &smallest::<1>(Demand::Covers)).under(&COVERS).of(&PAPER),
+            &Check::refuted(PUBLISHED, &smallest::<2>(Demand::Covers)).under(&COVERS_OF_TWO).of(&PAPER),
             &Check::refuted(PRINTED, &smallest::<1>(Demand::Covers)).because("another reading of the paper"),
             &Check::holds(ALL_CELLS, &smallest::<1>(Demand::Covers), &[NEIGHBOURS_ALONE]),
             &Check::holds(PLAIN, &one(Demand::Covers), &[plain(Route)]),
@@ -284,6 +291,13 @@ pub const CLAUSES: [Clause; 12] = [
         sentence: "A robot MUST take a cell for explored only where a robot \
                    was, and for an obstacle only where one is.",
         checks: &[
+            &Check::holds(
+                PUBLISHED,
+                &smallest::<2>(Demand::Marks),
+                &[NamedRule::new("a robot is an obstacle", SEES)],
+            )
+            .under(&MARKS_OF_TWO)
+            .of(&PAPER),
             &Check::refuted(PUBLISHED, &wrong(Demand::Marks)).under(&MARKS).of(&PAPER),
             &Check::refuted(off(PUBLISHED, QUARTER), &drifting(|| off_by(QUARTER)))
                 .judged(|drift, choices| drift.case(&SMALLEST, choices)),

@@ -239,6 +239,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         self.rule.has(Condition::Nearer) || !self.rule.has(Condition::Route)
     }
 
+    /// Whether robots that see each other take each other for obstacles, and wait for nobody.
+    const fn are_obstacles(&self) -> bool {
+        !self.rule.has(Condition::Tell) && !self.rule.has(Condition::Turn)
+    }
+
     /// Whether an obstacle is given there.
     fn is_given(&self, cell: Cell) -> bool {
         self.given.is_some_and(|given| given.status(cell) == Status::Obstacle)
@@ -363,7 +368,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     ) -> Successor<ROBOTS> {
         let mut after = *world;
         let cell = world.cells[robot].beyond(side);
-        let met = if self.rule.has(Condition::Look) { world.inside(robot, cell, Rim::Counts) } else { 0 };
+        // One at the rim of its cell is an obstacle in that cell alone.
+        let rim = if self.are_obstacles() { Rim::No } else { Rim::Counts };
+        let met = if self.rule.has(Condition::Look) { world.inside(robot, cell, rim) } else { 0 };
         let sight = match met {
             _ if world.small < self.max_small && oracle.mishap() => Sight::Small,
             0 if self.is_obstacle(&mut after, cell, oracle) => Sight::Obstacle,
@@ -382,11 +389,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 }
             }
             Sight::Small if self.rule.has(Condition::Detour) => {}
-            Sight::Obstacle | Sight::Small => {
-                let known = world.robots[robot].at().beyond(side);
-                missed = self.tell(&mut after, robot, (known, Status::Obstacle), u8::MAX, oracle);
-            }
-            Sight::Robot => {
+            Sight::Robot if !self.are_obstacles() => {
                 // Nothing is known of the cell, but that the robot has claimed none any more.
                 missed = self.tell(&mut after, robot, (cell, Status::Unexplored), u8::MAX, oracle);
                 if self.rule.has(Condition::Share) {
@@ -402,6 +405,10 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 } else {
                     after.has_tried |= usize::from(world.slot) == robot;
                 }
+            }
+            Sight::Obstacle | Sight::Small | Sight::Robot => {
+                let known = world.robots[robot].at().beyond(side);
+                missed = self.tell(&mut after, robot, (known, Status::Obstacle), u8::MAX, oracle);
             }
         }
         self.settle(&mut after, &mut breaks);
