@@ -511,3 +511,28 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 fn says(robot: &Robot<TinyMap>) -> Other {
     Other { cell: robot.at(), place: Place::midpoint(robot.at()), aim: robot.aim() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frontier::areas::setting;
+
+    #[test]
+    fn a_robot_that_wanders_may_leave_a_cell_out_for_ever() {
+        let setting = Setting { max_obstacles: 0, ..setting::<1>(Rule::WANDERS, (4, 1)).expect("4 cells") };
+        let mut world = setting.start([Cell::new(2, 0)]).expect("4 cells");
+        let mut goes = |side| {
+            let is_other = |event| matches!(event, Event::Decides(_, decided, ..) if decided != side);
+            for _ in 0..3 {
+                let mut turns = setting.turns(&world).into_iter();
+                world = turns.find(|turned| !is_other(turned.event)).expect("a turn").world;
+            }
+            world
+        };
+        goes(Side::West);
+        let before = goes(Side::West);
+        goes(Side::East);
+        assert_eq!(goes(Side::West), before, "it goes to and fro");
+        assert_eq!(before.truth.status(Cell::new(3, 0)), Status::Unexplored);
+    }
+}
