@@ -10,6 +10,8 @@ mod plain;
 pub mod symmetry;
 mod talks;
 #[cfg(test)]
+mod told;
+#[cfg(test)]
 mod traps;
 pub mod world;
 

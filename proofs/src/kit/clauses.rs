@@ -294,7 +294,7 @@ pub const CLAUSES: [Clause; 14] = [
             &Check::refuted(PUBLISHED, &AT_EQUAL_SPEEDS).under(STAYING).of(&PAPER),
             &Check::holds(
                 NamedRule::new("filtered", AtEqualSpeeds(Rule::PUBLISHED)),
-                &local::TWO,
+                &local::TOLD,
                 &[NamedRule::new(NO_NEXT.name, AtEqualSpeeds(Rule::PUBLISHED.without(NextInReach)))],
             ),
             &Check::holds(

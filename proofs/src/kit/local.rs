@@ -10,8 +10,12 @@ use crate::local::{Act, EveryNumber, Far, Local, Plan, Robot, in_a_row};
 pub(super) const TWO: EveryNumber =
     EveryNumber { teams: "two robots", most_robots: 2, most_starts: 2, ..EveryNumber::DEFAULT };
 
-/// As [`TWO`], looked at where both stand.
-pub(super) const AT_NODES: EveryNumber = EveryNumber { teams: "two robots where both stand", ..TWO };
+/// As [`TWO`], of published robots: each knows where the other one goes, since none answers that stands (KIT-5).
+pub(super) const TOLD: EveryNumber = EveryNumber { teams: "two robots, by true news", ..TWO };
+
+/// As [`TOLD`], looked at where both stand.
+pub(super) const AT_NODES: EveryNumber =
+    EveryNumber { teams: "two robots where both stand, by true news", ..TWO };
 
 /// The act of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

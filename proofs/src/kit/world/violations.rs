@@ -26,7 +26,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 
     /// The demand broken by an arrival.
-    pub(super) fn broken_by_arrival(&self, world: &World<ROBOTS>, robot: usize) -> Option<Demand> {
+    pub(in crate::kit) fn broken_by_arrival(&self, world: &World<ROBOTS>, robot: usize) -> Option<Demand> {
         let others: Vec<(usize, Stance)> =
             world.team.stances().enumerate().filter(|&(other, _)| other != robot).collect();
         let stands = world.team.stance(robot)?;
@@ -36,7 +36,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 
     /// The demands broken by a drive that `robot` begins.
-    pub(super) fn broken_by_drive(
+    pub(in crate::kit) fn broken_by_drive(
         &self,
         before: &World<ROBOTS>,
         robot: usize,
