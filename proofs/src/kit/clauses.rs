@@ -70,6 +70,10 @@ const ANSWERING: [(&str, Rule); 2] = [
     ("the first goes first", Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED }),
 ];
 
+/// A robot that stands answers, too.
+const ANSWERS_ALWAYS: NamedRule<Rule> = NamedRule::new("answers-always", ANSWERING[0].1);
+const SILENT: NamedRule<Rule> = NamedRule::new("a robot that stands is silent", Rule::PUBLISHED);
+
 const REFUTED: &[Reading<Rule>] = &holding(READINGS, []);
 
 /// The readings of sentences that hold in a larger bound where KIT runs at every node and a robot stays rather than go
@@ -175,6 +179,8 @@ const BESIDE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (3, 2, 7)];
 
 /// The situations that a run of the published rule must have before it goes wrong.
 const ANY: [&str; 0] = [];
+/// Those that occur in runs of the published rule, by which no robot is ever done.
+const MOVES: [&str; 4] = ["a new path", "a stay", "an arrival", "an old path"];
 /// The situations that occur in the runs of the repaired rule.
 const ALL: [&str; 5] = ["a new path", "a stay", "an arrival", "an old path", "done"];
 
@@ -196,6 +202,10 @@ const fn side_by_side(demand: Demand) -> Lattices<3> {
     let (sizes, starts, pass) = (&BESIDE, Starts::SideBySide, Pass::Together);
     Lattices { sizes, starts, pass, ..three(demand) }
 }
+
+/// Robots that are answered where the other one stands, too, and what they are told is true.
+const ANSWERED_TRULY: Lattices<2> =
+    Lattices { sizes: &SMALL, answers: Answers::TrueNews, covers: &MOVES, ..published(Demand::Moves) };
 
 const AT_EQUAL_SPEEDS: Lattices<2> =
     Lattices { sizes: &ROWS, speeds: Speeds::Equal, ..published(Demand::Contact) };
@@ -391,6 +401,7 @@ pub const CLAUSES: [Clause; 14] = [
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Moves)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Moves), &[NO_TURN, NO_REGROUP]),
+            &Check::holds(ANSWERS_ALWAYS, &ANSWERED_TRULY, &[SILENT]),
         ],
     },
     Clause {

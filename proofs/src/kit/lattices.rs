@@ -133,6 +133,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         let answers = match self.answers {
             Answers::AnyTime => "",
             Answers::AtOnce => ", answered at once",
+            Answers::TrueNews => ", true news",
         };
         let starts = match self.starts {
             Starts::Anywhere => "all starts",

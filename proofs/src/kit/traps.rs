@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
-use tautline_kernel::kit::Rule;
+use tautline_kernel::kit::{Answers as Answering, Rule};
 
 use super::symmetry::{Image, stripped};
 use super::world::{Answers, Setting, Speeds, World};
@@ -128,9 +128,14 @@ fn published_robots_are_trapped_in_some_layouts() {
     let setting = Setting::<2>::new(Rule::PUBLISHED, (3, 3)).expect("a lattice");
     let cases = cases(&setting);
     assert_eq!(cases.values().sum::<u32>(), 2691);
-    for (speeds, goal) in
-        [(Speeds::Equal, Goal::Nodes), (Speeds::Equal, Goal::Sides), (Speeds::Any, Goal::Nodes)]
-    {
+    for (answers, speeds, goal) in [
+        (Answers::AtOnce, Speeds::Equal, Goal::Nodes),
+        (Answers::AtOnce, Speeds::Equal, Goal::Sides),
+        (Answers::AtOnce, Speeds::Any, Goal::Nodes),
+        (Answers::TrueNews, Speeds::Any, Goal::Nodes),
+    ] {
+        let answering = if answers == Answers::TrueNews { Answering::Always } else { Answering::Driving };
+        let rule = Rule { answers: answering, ..setting.rule };
         // By the number of walls.
         let mut counts = [[0; 4]; 4];
         for (&(walls, start), &count) in &cases {
@@ -138,14 +143,28 @@ fn published_robots_are_trapped_in_some_layouts() {
             let edges = setting.area.edges().enumerate().filter(|(number, _)| walls >> number & 1 == 1);
             edges.for_each(|(_, edge)| given.put_edge(EdgeMark::Wall, edge));
             let start = setting.area.cells().nth(start).expect("a node");
-            let (given, answers) = (Some(given), Answers::AtOnce);
-            let fate = fate(&Setting { speeds, answers, given, ..setting }, start, goal);
+            let fate = fate(&Setting { rule, speeds, answers, given: Some(given), ..setting }, start, goal);
             for (number, _) in fate.iter().enumerate().filter(|&(_, &is)| is) {
                 counts[number][walls.count_ones() as usize] += count;
             }
         }
         for (what, counts) in FATES.iter().zip(counts) {
-            println!("{speeds:?}, {goal:?}: {} {what}, by walls {counts:?}", counts.iter().sum::<u32>());
+            println!(
+                "{answers:?}, {speeds:?}, {goal:?}: {} {what}, by walls {counts:?}",
+                counts.iter().sum::<u32>()
+            );
         }
     }
+}
+
+#[test]
+fn robots_that_are_always_answered_may_go_round_for_ever_and_leave_a_node_out() {
+    let rule = Rule { answers: Answering::Always, ..Rule::PUBLISHED };
+    let open = Setting::<2>::new(rule, (3, 3)).expect("a lattice");
+    let mut walls = TinyGrid::new(open.area).expect("a map");
+    for (column, row, side) in [(0, 0, Side::South), (0, 1, Side::East), (1, 0, Side::South)] {
+        walls.put_edge(EdgeMark::Wall, Edge::new(Cell::new(column, row), side));
+    }
+    let setting = Setting { answers: Answers::TrueNews, given: Some(walls), ..open };
+    assert_eq!(fate(&setting, Cell::new(2, 2), Goal::Nodes), [true, false, true, false]);
 }

@@ -99,8 +99,11 @@ pub enum Speeds {
 pub enum Answers {
     /// A robot that stands may be overtaken by the arrival of the other one.
     AnyTime,
-    /// A robot is answered at the moment when it arrives.
+    /// A robot is answered at the moment when it arrives, if the other one drives.
     AtOnce,
+    /// As *any time*; by the reading *answers always* a robot that stands answers, too, and what it says is still true
+    /// when the other one decides.
+    TrueNews,
 }
 
 /// The lattice and what goes on there.
@@ -382,7 +385,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
     fn awake(&self, state: &World<ROBOTS>) -> Bits {
         let is_awake = |robot: &usize| {
             let is_driving = state.team.stance(*robot).is_some_and(|stance| !stance.stands());
-            is_driving || state.team.may_decide(*robot)
+            is_driving || self.may_decide(&state.team, *robot)
         };
         (0..ROBOTS).filter(is_awake).fold(0, |set, robot| set | 1 << robot)
     }

@@ -2,9 +2,9 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
-use tautline_kernel::kit::{Next, Records, Sight, Stance, touch};
+use tautline_kernel::kit::{Answers as Answering, Next, Records, Sight, Stance, touch};
 
-use super::{Answers, DRIVEN, Demand, Event, Setting, Speeds, Successor, World};
+use super::{Answers, DRIVEN, Demand, Event, Setting, Speeds, Successor, Team, World};
 use crate::engine::outcomes;
 
 /// Looks after which a decision is taken for one that never ends: each side once for each reason that there is to look.
@@ -78,6 +78,24 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         decided
     }
 
+    /// The team as the kernel has it when `robot` decides, where robots that stand answer it as if they drove.
+    fn answered(&self, team: &Team<ROBOTS>, robot: usize) -> Option<Team<ROBOTS>> {
+        if (self.answers, self.rule.answers) != (Answers::TrueNews, Answering::Always) {
+            return None;
+        }
+        let mut answered = *team;
+        let others = answered.robots_mut().iter_mut().enumerate().filter(|&(other, _)| other != robot);
+        for (_, other) in others {
+            other.stance = Stance::Drives { from: other.stance.from(), to: other.stance.to() };
+        }
+        Some(answered)
+    }
+
+    /// Whether `robot` stands, has been answered, and has not decided yet.
+    pub(super) fn may_decide(&self, team: &Team<ROBOTS>, robot: usize) -> bool {
+        self.answered(team, robot).as_ref().unwrap_or(team).may_decide(robot)
+    }
+
     /// `robot` decides, if it may.
     fn decide(
         &self,
@@ -87,7 +105,13 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     ) -> Option<Successor<ROBOTS>> {
         let mut after = *world;
         let from = Self::ends(world)[robot];
+        if let Some(answered) = self.answered(&world.team, robot) {
+            after.team = answered;
+        }
         let mut next = after.team.decide(robot, oracle).ok()?;
+        for (other, at) in after.team.robots_mut().iter_mut().zip(world.team.robots()) {
+            other.stance = at.stance;
+        }
         let mut looks = Vec::new();
         let (mut is_old, mut never_ends) = (false, false);
         while let Next::Looks(side) = next {
