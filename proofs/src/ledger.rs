@@ -34,6 +34,7 @@ pub fn rooms() -> &'static [Room] {
         Room { title: "cells and walls", clauses: &crate::ground::clauses::CLAUSES },
         Room { title: "a recursive chain", clauses: &crate::chain::clauses::CLAUSES },
         Room { title: "a recursive chain", clauses: &crate::chain::own_clauses::CLAUSES },
+        Room { title: "a recursive chain", clauses: &crate::chain::paper_clauses::CLAUSES },
         Room { title: "Ants", clauses: &crate::ants::clauses::CLAUSES },
         Room { title: "Brick&Mortar", clauses: &crate::bricks::clauses::CLAUSES },
         Room { title: "broadcast by k-FNF", clauses: &crate::notice::clauses::CLAUSES },

@@ -124,16 +124,16 @@ pub fn explore_all(
 }
 
 /// The configurations that can be reached from the start, which is the first, and the team moves between them.
-struct Graph {
-    robots: usize,
+pub(super) struct Graph {
+    pub(super) robots: usize,
     places: Vec<(Followers, u8)>,
     /// By configuration: the cells that robots are in.
-    occupied: Vec<u128>,
-    next: Vec<Vec<u32>>,
+    pub(super) occupied: Vec<u128>,
+    pub(super) next: Vec<Vec<u32>>,
 }
 
 impl Graph {
-    fn new(ground: &Ground, rule: &Rule) -> Result<Self, OptimumError> {
+    pub(super) fn new(ground: &Ground, rule: &Rule) -> Result<Self, OptimumError> {
         let relation = Relation::new(ground, rule).map_err(OptimumError::TooLarge)?;
         let mut places = vec![relation.start()];
         let mut known = FxHashMap::from_iter([(places[0], 0)]);
@@ -201,7 +201,7 @@ impl Graph {
         (1..=movers).map(|last| union(&by_robot) & !union(&by_robot[..movers - last])).collect()
     }
 
-    fn team(&self, place: u32, base: Cell, cells: &[Cell]) -> Vec<Cell> {
+    pub(super) fn team(&self, place: u32, base: Cell, cells: &[Cell]) -> Vec<Cell> {
         let (followers, leader) = self.places[place as usize];
         let mut team = vec![base];
         team.extend(
