@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
-use tautline_kernel::ground::{Cell, SmallGrid, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, SmallGrid, Step};
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::breach::frame;
 use tautline_proofs::chain::invariant::Invariant;
@@ -205,4 +205,27 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
         rejects(&|changed| changed.blocked = BTreeSet::from([changed.base]), "a blocked base");
         rejects(&|changed| changed.robots = usize::MAX, "more robots than there can be");
     }
+}
+
+/// CHAIN-27: what a wall has brought together, a team move that is taken back brings together once more.
+#[test]
+fn two_robots_that_a_backtrack_brings_into_one_cell_are_judged_to_meet() {
+    let (area, base) = (Area::new(Cell::new(0, 0), Cell::new(3, 0)).expect("cells"), Cell::new(1, 0));
+    let mut chain = Chain::<_, 3>::new(Rule::PUBLISHED, 3, base, SmallGrid::new(area).expect("four cells"))
+        .expect("it fits");
+    let wall = Edge::new(Cell::new(2, 0), Side::East);
+    let (mut log, mut frames) = (Vec::new(), Vec::new());
+    while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
+        let settled = chain.settle(&plan, |edge| edge != wall);
+        log.extend_from_slice(settled.messages());
+        frames.push(frame(plan.kind, settled.messages(), chain.cells()));
+    }
+    frames.truncate(6);
+    let bounds = Bounds { area, base, ..Bounds::new(Subject::PUBLISHED, 3, 1) };
+    let (broken, demand, answers) = (Invariant::Meets, "nothing", Vec::new());
+    let found = Counterexample { broken, runs: 1, demand, frames, answers };
+    let mut input = JudgeInput { width: 4, height: 1, ..input(&found, &bounds) };
+    assert_eq!(judge(&input), Ok(()));
+    input.moves.pop();
+    assert_eq!(judge(&input), Err(Objection { at: 5, what: "the last move does not break the clause" }));
 }

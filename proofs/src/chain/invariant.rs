@@ -65,6 +65,10 @@ pub enum Invariant {
     Short,
     /// CHAIN-25: the team moves are those of the procedure.
     Chosen,
+    /// CHAIN-27: of two robots that come together one is blocked.
+    Meets,
+    /// CHAIN-27, of advances alone.
+    MeetsInAdvance,
 }
 
 impl Invariant {
@@ -106,6 +110,8 @@ impl Invariant {
             (Self::Certified, ..) => &[Self::Certified],
             (Self::AnyOrder, ..) => &[Self::AnyOrder],
             (Self::Chosen, ..) => &[Self::Chosen],
+            (Self::Meets, ..) => &[Self::Meets],
+            (Self::MeetsInAdvance, ..) => &[Self::MeetsInAdvance],
             (_, Pursuit::Reel(_), Some((Self::AnyOrder, others))) if !rule.has(Condition::Hold) => others,
             (_, Pursuit::Reel(_), _) => &Self::OF_REELS,
             (_, Pursuit::Epochs, _) => self.family(),
@@ -119,6 +125,8 @@ impl Invariant {
             Self::Exhausts => &[Self::Exhausts],
             Self::Certified => &[Self::Certified],
             Self::Chosen => &[Self::Chosen],
+            Self::Meets => &[Self::Meets],
+            Self::MeetsInAdvance => &[Self::MeetsInAdvance],
             Self::Falls | Self::Arrives | Self::AnyOrder | Self::Doubles | Self::Short => &Self::OF_REELS,
             Self::Admitted
             | Self::Distinct
@@ -152,7 +160,9 @@ impl Invariant {
             | Self::AnyOrder
             | Self::Doubles
             | Self::Short
-            | Self::Chosen => None,
+            | Self::Chosen
+            | Self::Meets
+            | Self::MeetsInAdvance => None,
         }
     }
 
@@ -174,6 +184,7 @@ impl Invariant {
             Self::Doubles => "CHAIN-23",
             Self::Short => "CHAIN-24",
             Self::Chosen => "CHAIN-25",
+            Self::Meets | Self::MeetsInAdvance => "CHAIN-27",
         }
     }
 
@@ -206,6 +217,8 @@ impl Invariant {
             Self::AnyOrder => moment.holds_in_any_order(),
             Self::Chosen => moment.is_chosen(),
             Self::Doubles => moment.doubles(),
+            Self::MeetsInAdvance if moment.plan.kind == Kind::Backtrack => Ok(()),
+            Self::Meets | Self::MeetsInAdvance => moment.meets_blocked(),
         }
     }
 }
@@ -439,6 +452,22 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             }
         }
         Ok(())
+    }
+
+    /// Where a robot enters a cell other than the base in which another one then is, one of the two was blocked.
+    fn meets_blocked(&self) -> Result<(), Stop> {
+        let (before, after) = (self.before.cells(), self.after.cells());
+        let passed = |robot: usize| {
+            let message = Message::decode(self.messages[robot - 1]);
+            message.is_ok_and(|message| message.outcome != Outcome::Blocked)
+        };
+        let meet = |one: usize, other: usize| {
+            let is_entered = before[one] != after[one] || before[other] != after[other];
+            after[one] == after[other] && after[one] != after[0] && is_entered
+        };
+        let met = (2..after.len())
+            .any(|other| (1..other).any(|one| meet(one, other) && passed(one) && passed(other)));
+        require(!met, "of two robots that come together in a cell one is blocked")
     }
 
     /// Each of two neighbours has gone, or not yet.

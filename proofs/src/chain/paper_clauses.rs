@@ -1,16 +1,35 @@
-//! One more sentence of Kovács, Pásztor and Istenes 2011 about the chain: how soon it explores a share of an open area
-//! (II.E). It follows those of [`super::own_clauses`].
+//! Two more sentences of Kovács, Pásztor and Istenes 2011 about the chain: how soon it explores a share of an open area
+//! (II.E), and when two robots arrive in one cell (III.D). They follow those of [`super::own_clauses`].
 
-use super::clauses::PUBLISHED;
+use tautline_kernel::chain::Condition::Distinct;
+
+use super::clauses::{AREAS, FOUR_FEWER_WALLS, PUBLISHED, lacking};
+use super::every_area::EveryArea;
+use super::invariant::Invariant;
 use super::milestones::Milestone;
+use super::search::EveryLayout;
+use super::subject::Subject;
 use crate::clause::{Check, Clause};
 
 /// The clauses.
-pub const CLAUSES: [Clause; 1] = [
+pub const CLAUSES: [Clause; 2] = [
     Clause {
         id: "CHAIN-26",
         sentence: "Without obstacles the chain MUST have explored half, and three quarters, of the cells after as few \
                    team moves as any chain.",
         checks: &[&Check::refuted(PUBLISHED, &Milestone::<50>), &Check::refuted(PUBLISHED, &Milestone::<75>)],
+    },
+    Clause {
+        id: "CHAIN-27",
+        sentence: "Two robots MUST arrive in one cell other than the base only in a team move in which one of them is \
+                   blocked.",
+        checks: &[
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Meets, AREAS, AREAS)),
+            &Check::holds(
+                PUBLISHED,
+                &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
+                &[lacking(Subject::PUBLISHED, Distinct)],
+            ),
+        ],
     },
 ];

@@ -206,7 +206,8 @@ impl Method<Subject> for EveryLayout {
 
     fn bound(&self) -> String {
         let (robots, max_walls) = self.1;
-        format!("all layouts, N = {robots}, at most {max_walls} walls")
+        let of = if self.0 == Invariant::MeetsInAdvance { ", in advances" } else { "" };
+        format!("all layouts, N = {robots}, at most {max_walls} walls{of}")
     }
 
     fn family(&self, observed: &Subject) -> Option<String> {

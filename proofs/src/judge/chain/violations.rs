@@ -14,6 +14,7 @@ pub(super) fn broken(clause: &str) -> Option<Violation> {
         "CHAIN-3" => Violation::ByMove(|court, made| range_is_left(&court.places, &made.places)),
         "CHAIN-13" => Violation::AtEnd(|court| Ok(misses_within_reach(court))),
         "CHAIN-19" => Violation::ByMove(|court, made| order_loses_contact(&court.places, &made.places)),
+        "CHAIN-27" => Violation::ByMove(|court, made| robots_meet(&court.places, made)),
         "CHAIN-14" => Violation::AtEnd(|court| misses_reachable(court, MOST_CONFIGURATIONS)),
         _ => return None,
     })
@@ -50,6 +51,17 @@ fn range_is_left(before: &[Place], after: &[Place]) -> bool {
             [before[robot - 1], after[robot - 1]].into_iter().any(|behind| is_far(ahead, behind))
         })
     })
+}
+
+/// CHAIN-27: two robots come together outside the base, and neither is blocked.
+fn robots_meet(before: &[Place], made: &Move) -> bool {
+    let after = &made.places;
+    let passed: Vec<usize> = (1..after.len()).filter(|&robot| !made.blocked[robot]).collect();
+    let meet = |one: usize, other: usize| {
+        let is_entered = before[one] != after[one] || before[other] != after[other];
+        one < other && after[one] == after[other] && after[one] != after[0] && is_entered
+    };
+    passed.iter().any(|&one| passed.iter().any(|&other| meet(one, other)))
 }
 
 /// CHAIN-19: some two neighbours lose contact when each of them has gone or not yet.
