@@ -401,8 +401,9 @@ pub const CLAUSES: [Clause; 15] = [
             &Check::holds(
                 PUBLISHED,
                 &EveryLayout(Invariant::Ends, FOUR_ROBOTS),
-                &[lacking(Subject::PUBLISHED, EpochMustGain), lacking(Subject::PUBLISHED, RefusedIsVirtual)],
-            ),
+                &[lacking(Subject::PUBLISHED, RefusedIsVirtual)],
+            )
+            .under(&holding([("goes on", Subject::PUBLISHED.without(EpochMustGain))], [])),
             &Check::holds(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &ENDLESS),
             &Check::holds(REEL, &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS), &[UNREHEARSED, FICKLE]),
         ],
