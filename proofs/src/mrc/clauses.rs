@@ -227,7 +227,8 @@ pub const CLAUSES: [Clause; 14] = [
     },
     Clause {
         id: "MRC-3",
-        sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
+        sentence: "A WFR MUST choose the best of the MOVEs of its present call that it has received when its window \
+                   closes.",
         checks: &[
             &Check::refuted(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE))
                 .under(REFUTED)
@@ -296,7 +297,7 @@ pub const CLAUSES: [Clause; 14] = [
     Clause {
         id: "MRC-7",
         sentence: "A free robot MUST ask for the nearest of the calls that it has heard \
-                   and whose SBit is clear, until it is set.",
+                   and whose SBit is clear, until it is set or the robot takes a lease.",
         checks: &[
             &Check::holds(
                 PUBLISHED,

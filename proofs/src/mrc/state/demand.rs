@@ -63,7 +63,7 @@ impl Demand {
             Self::OneRobotForACall => "two robots are on their way for one call",
             Self::OneCallForARobot => "two WFRs count on one robot",
             Self::BestOfTheWindow => {
-                "the robot chosen is not the best of those heard while the window was open"
+                "the robot chosen is not the best of those heard under the present call while the window was open"
             }
             Self::CountsOnConsent => "a WFR counts on a robot that has not taken its lease",
             Self::IsServed => "a WFR waits for ever, and a robot lives",

@@ -220,6 +220,11 @@ impl State {
             (Task::Asking { call: before, .. }, Task::Asking { call, .. }) if before == call => {
                 open().all(|request| request.call.wfr != call.wfr)
             }
+            (Task::Asking { call: before, .. }, Task::Free | Task::Asking { .. })
+                if open().any(|request| request.call == before) =>
+            {
+                true
+            }
             (_, Task::Asking { call, .. }) => nearest() != Some(call),
             (_, Task::Free) => nearest().is_some(),
             (_, Task::Leased { .. }) => false,
