@@ -164,3 +164,50 @@ pub(super) fn later(observed: &Subject, choices: &Choices) -> Option<Box<dyn Any
     let later = Later { clause: "NOTICE-4", before, news: written(news), is_first };
     replay.matches().then(|| Box::new(later) as Box<dyn AnyCase>)
 }
+
+#[cfg(test)]
+mod tests {
+    use core::num::NonZeroU32;
+
+    use tautline_kernel::net::Reception;
+    use tautline_kernel::notice::{Scheme, Stage, Surroundings};
+
+    use super::*;
+    use crate::engine::Tape;
+
+    /// “k-FNF has the lowest reachability and the smallest number of rebroadcasts for the case of k = 1” (3.2): not in
+    /// this network, with the paper's waits and without a loss. The source is the first node.
+    #[test]
+    fn with_k_1_a_broadcast_may_reach_more_nodes_and_take_more_rebroadcasts_than_with_k_2() {
+        let range_um = NonZeroU32::new(100_000).expect("a range");
+        let places_mm: [[u32; 2]; 6] = [[169, 142], [88, 74], [50, 142], [137, 94], [147, 88], [38, 39]];
+        let distance_um = |one: [u32; 2], other: [u32; 2]| {
+            let [x, y] = [0, 1].map(|axis| 1000 * u64::from(one[axis].abs_diff(other[axis])));
+            (x * x + y * y).isqrt() as u32
+        };
+        let reached_and_rebroadcasts = |k: u8| {
+            let rule = Rule::new(Scheme::Farthest { k: Count::new(k) }, range_um, 1_000_000_000);
+            let mut nodes: [Node; 6] = core::array::from_fn(|id| Node::new(NodeId(id as u32), NodeId(0)));
+            let mut sent = nodes[0].originate().map(|notice| (0, 0, notice));
+            while let Some((now_ns, from, message)) = sent {
+                for (to, node) in nodes.iter_mut().enumerate() {
+                    let distance_um = distance_um(places_mm[from], places_mm[to]);
+                    if to != from && distance_um <= range_um.get() {
+                        let heard = Reception { message, distance_um, now_ns };
+                        node.receive(&rule, heard, Surroundings::none, &mut Tape(&[]));
+                    }
+                }
+                let waits = |(id, node): (usize, &Node)| match node.stage() {
+                    Stage::Waiting { until_ns } => Some((until_ns, id)),
+                    Stage::Unaware | Stage::Silent | Stage::Forwarded => None,
+                };
+                sent = nodes.iter().enumerate().filter_map(waits).min().and_then(|(until_ns, id)| {
+                    nodes[id].expire(until_ns).map(|notice| (until_ns, id, notice))
+                });
+            }
+            let forwarded = nodes.iter().filter(|node| node.stage() == Stage::Forwarded).count();
+            (nodes.iter().filter(|node| node.event().is_some()).count(), forwarded - 1)
+        };
+        assert_eq!([1, 2].map(reached_and_rebroadcasts), [(6, 4), (5, 3)]);
+    }
+}
