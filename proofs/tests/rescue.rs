@@ -6,12 +6,12 @@
 mod model;
 
 use std::collections::hash_map::{DefaultHasher, Entry};
-use std::collections::{HashMap, HashSet, VecDeque};
+use std::collections::{BTreeSet, HashMap, HashSet, VecDeque};
 use std::hash::{Hash, Hasher};
 
 use stateright::{Checker, Model};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::mrc::{Condition, Rule, Task};
+use tautline_kernel::mrc::{Condition, Phase, Rule, Task};
 use tautline_proofs::engine::states::{Limits, System};
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::mrc::space::{Findings, Space, Until, search};
@@ -166,6 +166,45 @@ fn stateright_breaks_the_published_rule_in_as_few_steps() {
         assert_eq!(found.broken(demand).map(|broken| broken.actions.len()), theirs, "{demand:?}");
     }
     assert!(found.broken(Demand::IsServed).is_some());
+}
+
+/// The demands that break where nothing is lost, doubled or late, nobody fails and each WFR calls once, as if each event
+/// had a RID of its own. A robot asks no WFR any more whose RESB it has heard, so no run goes round.
+fn broken_over_reliable_links(rule: Rule, (robots, wfrs): (usize, usize), max_hops: u16) -> Vec<Demand> {
+    let setting = Setting { rule, ..setting((robots, wfrs), wfrs as u8, max_hops, Faults::any(0)) };
+    let (mut ahead, mut known, mut broken) = (setting.starts(), HashSet::new(), BTreeSet::new());
+    while let Some(state) = ahead.pop() {
+        if !known.insert(state.clone()) {
+            continue;
+        }
+        broken.extend(Demand::ALL.into_iter().filter(|&demand| state.breaks(demand)));
+        let mut actions = state.actions(&setting);
+        let has_called = |wfr: usize| state.wfr(wfr).phase() != Phase::Idle;
+        actions.retain(|action| !matches!(action, &Action::Raise(wfr) if has_called(wfr)));
+        let goes_on = |&action: &Action| {
+            state.is_bound_to_happen(&setting, action) && state.after(&setting, action) != state
+        };
+        if !actions.iter().any(goes_on) && (0..wfrs).any(|wfr| state.is_owed_service(&setting, wfr)) {
+            broken.insert(Demand::IsServed);
+        }
+        ahead.extend(actions.into_iter().map(|action| state.after(&setting, action)));
+    }
+    broken.into_iter().collect()
+}
+
+#[test]
+fn over_reliable_links_and_with_a_new_rid_for_each_event_a_window_with_answers_breaks_mrc_4_alone() {
+    use Demand::*;
+    let window = Rule::PUBLISHED.with(Condition::ChoiceStands).with(Condition::Window);
+    let answered = window.with(Condition::AnswersAgain);
+    for (robots_wfrs, max_hops) in [((2, 2), 2), ((2, 3), 1), ((3, 2), 1)] {
+        assert_eq!(broken_over_reliable_links(answered, robots_wfrs, max_hops), [CountsOnConsent]);
+    }
+    assert_eq!(broken_over_reliable_links(window, (2, 2), 2), [CountsOnConsent, TellsWhoAsked]);
+    assert_eq!(broken_over_reliable_links(window, (2, 3), 1), [CountsOnConsent, IsServed, TellsWhoAsked]);
+    let anew =
+        [OneRobotForACall, BestOfTheWindow, CountsOnConsent, IsServed, TakesWhatItAsksFor, TellsWhoAsked];
+    assert_eq!(broken_over_reliable_links(Rule::PUBLISHED, (2, 2), 2), anew);
 }
 
 #[test]
