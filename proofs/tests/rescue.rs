@@ -168,8 +168,8 @@ fn stateright_breaks_the_published_rule_in_as_few_steps() {
     assert!(found.broken(Demand::IsServed).is_some());
 }
 
-/// The demands that break where nothing is lost, doubled or late, nobody fails and each WFR calls once, as if each event
-/// had a RID of its own. A robot asks no WFR any more whose RESB it has heard, so no run goes round.
+/// The demands that break where nothing is lost, doubled or late, nobody fails and each WFR calls once, as if each
+/// event had a RID of its own. A robot asks no WFR any more whose RESB it has heard, so no run goes round.
 fn broken_over_reliable_links(rule: Rule, (robots, wfrs): (usize, usize), max_hops: u16) -> Vec<Demand> {
     let setting = Setting { rule, ..setting((robots, wfrs), wfrs as u8, max_hops, Faults::any(0)) };
     let (mut ahead, mut known, mut broken) = (setting.starts(), HashSet::new(), BTreeSet::new());
