@@ -10,8 +10,8 @@ use tautline_kernel::floor::{Ring, Scan, SensorFate};
 
 use super::floors::{
     ALONE, AS_SHIPPED, AT_ONCE, BEHIND_A_WALL, COUNTED, FAILING, HALF_BLIND, HALF_BLIND_PAIR, HELPING,
-    IN_ONE_CELL, IN_TURNS, ONE_COUNTED, PAIR, ROUND, SEVEN_MISSED, THREE, THRICE_MISSED, TOGETHER, TREES,
-    TREES_FAILING, TREES_HALF_BLIND, TWICE, pair_of,
+    IN_ONE_CELL, IN_TURNS, ONE_COUNTED, PAIR, ROUND, ROUND_BLOCKED, ROUND_WALLS, SEVEN_MISSED, THREE,
+    THRICE_MISSED, TOGETHER, TREES, TREES_FAILING, TREES_HALF_BLIND, TWICE, pair_of,
 };
 use super::marking::{self, Eyes, LESS_THAN_HALF, MORE_THAN_HALF};
 use super::tree::mdfs::Mdfs;
@@ -298,6 +298,9 @@ pub const CLAUSES: [Clause; 15] = [
         id: "BRICKS-5",
         sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
         checks: &[
+            &refuted(PUBLISHED, &Floors::broken_on(ROUND_WALLS, &ROUND_BLOCKED, Explores))
+                .under(SEEING)
+                .of(&PAPER),
             &refuted(PUBLISHED, &Floors::new(&HALF_BLIND, Explores)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::new(&HALF_BLIND, Explores), &[TRUSTING, ONCE_OVER]),
             &holds(CAREFUL, &Floors::shared(&TREES_HALF_BLIND, Explores), &[BELIEVING]),

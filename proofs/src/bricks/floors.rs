@@ -56,6 +56,12 @@ pub(super) const fn pair_of(series: Series) -> Series {
 /// One agent in six cells, round one of whose walls it can go for ever.
 pub(super) const BEHIND_A_WALL: Series = Series::new(Area::walled(3, 2), 1);
 
+/// One agent in ten cells, the fewest in which it goes round walls for ever and leaves a cell unexplored.
+pub(super) const ROUND_WALLS: Series = Series::new(Area::walled(5, 2), 1);
+
+/// One agent in fifteen cells, the fewest in which it does so round blocked ones.
+pub(super) const ROUND_BLOCKED: [Series; 1] = [Series::new(Area::blocked(5, 3), 1)];
+
 /// Two agents in the only cell, of which one may fail.
 pub(super) const IN_ONE_CELL: Series = Series::failing(Area::blocked(1, 1), 2);
 

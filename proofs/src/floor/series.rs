@@ -304,7 +304,7 @@ impl<S: Demands> Method<Subject<S>> for Floors<S::Own> {
         // What is missed, and which turns are taken, as in the series with least of it.
         let least = self.all().min_by_key(|series| (series.patience, series.max_misses));
         let Some(least) = least else { return Ok(None) };
-        let cells = if least.max_misses == 0 { 9 } else { 6 };
+        let cells = if least.max_misses == 0 { 10 } else { 6 };
         let most = Most { cells, barriers: 2, robots: 1..=2 };
         let search = |class, until| Ok::<_, MethodError>(self.shortest(subject, class, (least, until)));
         Ok(Some(smallest(&most, search)?.drawn_by_cells(|plan| plan)))
