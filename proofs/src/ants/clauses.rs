@@ -100,8 +100,8 @@ const KEEPS: EveryAnswer<Rule> = EveryAnswer {
 pub const CLAUSES: [Clause; 3] = [
     Clause {
         id: "ANTS-1",
-        sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
-               finite number of times.",
+        sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed, as \
+               its reading has it.",
         checks: &[
             &Check::holds(PUBLISHED, &EXPLORES, &[uncounted(Rule::PUBLISHED)])
                 .under(&HOLDS_BUT_IN_THE_DARK)

@@ -296,7 +296,7 @@ pub const CLAUSES: [Clause; 15] = [
     },
     Clause {
         id: "BRICKS-5",
-        sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
+        sentence: "Every cell MUST be explored, whatever sensors are missed, as its reading has it.",
         checks: &[
             &refuted(PUBLISHED, &Floors::broken_on(ROUND_WALLS, &ROUND_BLOCKED, Explores))
                 .under(SEEING)
@@ -309,7 +309,7 @@ pub const CLAUSES: [Clause; 15] = [
     Clause {
         id: "BRICKS-6",
         sentence: "Every run in which every agent acts again and again MUST end with every cell visited, whatever \
-                   sensors are missed a finite number of times.",
+                   sensors are missed, as its reading has it.",
         checks: &[
             &refuted(PUBLISHED, &Floors::broken_on(BEHIND_A_WALL, &ALONE, Ends)).under(SEEING).of(&PAPER),
             &holds(
