@@ -25,7 +25,7 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
     let always_whole = |line| always(Estimate::share(whole(line), merged.layouts));
     let fewest = |team| {
         let fewest = of(team).map(whole).min().unwrap_or(0);
-        format!("everything in {fewest} of {} runs, at the worst point", merged.layouts)
+        format!("everything in {fewest} of {} runs within their steps, at the worst point", merged.layouts)
     };
     match figure {
         Figure::Agents => {
