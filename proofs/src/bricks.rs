@@ -162,6 +162,22 @@ mod tests {
         }
     }
 
+    /// Three turns in four cells are enough; of two agents that act in turn none is shut in.
+    #[test]
+    fn an_agent_that_acts_twice_shuts_another_in_beside_an_unexplored_cell() {
+        let broken = |area: Area, max_streak: Option<u8>| -> Vec<&'static str> {
+            let series = Series { max_streak, ..Series::new(area, 2) };
+            let teams = series.teams(&Subject::of(Rule::PUBLISHED), Demand::Knowing);
+            let runs = teams.iter().flat_map(|team| search(team, team.starts(), Limits::NONE).broken);
+            runs.map(|run| run.demand).collect()
+        };
+        let first = broken(Area::blocked(4, 1), Some(2)).first().copied();
+        assert_eq!(first, Some("an agent is done only when every cell is explored"));
+        for (width, height) in [(4, 2), (3, 3)] {
+            assert_eq!(broken(Area::blocked(width, height), Some(1)), [""; 0], "{width}×{height}");
+        }
+    }
+
     #[test]
     #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture two_agents"]
     fn two_agents_keep_all_layouts_of_four_by_three_cells_connected_and_end_with_every_cell_visited() {
