@@ -1,6 +1,5 @@
 //! `tautline prove`: the clauses of SPEC.md, decided.
 
-mod answers;
 mod decided;
 mod html;
 mod screen;
@@ -21,7 +20,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::clause::{Clause, Variant};
 use tautline_proofs::decide::{Answer, Depiction, Verdict};
 use tautline_proofs::engine::states::{self, MemoryLimit};
-use tautline_proofs::ledger::{self, Hear, Limits, News, PATIENCE_S, Row, table};
+use tautline_proofs::ledger::{self, Hear, Indecision, Limits, News, PATIENCE_S, Row, table};
 
 pub(super) use self::decided::DecidedRows;
 use super::evidence::{self, EvidenceJson, shown};
@@ -292,8 +291,15 @@ impl DecisionArgs {
         let is_single = checks.len() == 1;
         let (seen, patience) = (bar.clone(), self.patience);
         let hear: Hear = Arc::new(move |heard: News<'_>| match heard {
-            News::Search(progress) if is_single => progress::show(&seen, progress),
-            News::Search(_) => ControlFlow::Continue(()),
+            News::Search(progress) => {
+                if is_single {
+                    // A search that a signal ends would be an answer; all of them are ended together.
+                    let _ = progress::show(&seen, progress);
+                }
+                ControlFlow::Continue(())
+            }
+            News::Second if interrupt::is_requested() => ControlFlow::Break(()),
+            News::Second => ControlFlow::Continue(()),
             News::Done { clause, jobs, of } => {
                 seen.set_length(of as u64);
                 seen.set_position(jobs as u64);
@@ -305,9 +311,14 @@ impl DecisionArgs {
                 ControlFlow::Continue(())
             }
         });
-        let rows = answers::decide(&checks, &limits, &hear).map_err(|refused| {
+        // The one thread of a pool does the work itself, and hears nothing meanwhile.
+        if rayon::current_thread_index().is_none() {
+            interrupt::defer();
+        }
+        let mut rows = ledger::decide(&checks, &limits, &hear).map_err(|refused| {
             Diagnostic::usage(refused, "this is a bug in the registry: please report it")
         })?;
+        rows.retain(|row| row.undecided != Some(Indecision::Ended));
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
         let made = DecidedRows { rows: &rows, memory, left: checks.len() - rows.len() };
