@@ -71,7 +71,7 @@ const ANSWERING: [(&str, Rule); 2] = [
 ];
 
 /// A robot that stands answers, too.
-const ANSWERS_ALWAYS: NamedRule<Rule> = NamedRule::new("answers-always", ANSWERING[0].1);
+const ANSWERS_STANDING: NamedRule<Rule> = NamedRule::new("answered", ANSWERING[0].1);
 const SILENT: NamedRule<Rule> = NamedRule::new("a robot that stands is silent", Rule::PUBLISHED);
 
 const REFUTED: &[Reading<Rule>] = &holding(READINGS, []);
@@ -401,7 +401,7 @@ pub const CLAUSES: [Clause; 14] = [
         checks: &[
             &Check::refuted(PUBLISHED, &published(Demand::Moves)).under(REFUTED).of(&PAPER),
             &Check::holds(REPAIRED, &repaired(Demand::Moves), &[NO_TURN, NO_REGROUP]),
-            &Check::holds(ANSWERS_ALWAYS, &ANSWERED_TRULY, &[SILENT]),
+            &Check::holds(ANSWERS_STANDING, &ANSWERED_TRULY, &[SILENT]),
         ],
     },
     Clause {

@@ -233,7 +233,7 @@ pub const CLAUSES: [Clause; 9] = [
                    robots.",
         checks: &[&Check::holds(
             PUBLISHED,
-            &demand(OF_FEW, Demand::Near),
+            &demand(ANYWHERE, Demand::Near),
             &[NamedRule::new(NO_CONNECT.name, Subject::of(Rule::PUBLISHED.without(Connect)))],
         )],
     },
