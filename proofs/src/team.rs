@@ -277,8 +277,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// A team that follows `rule` in it; of its demands those are looked at that are `wanted`, or all if none is.
     ///
     /// # Errors
-    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand, or if states would be searched
-    /// for several demands on endless runs.
+    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand, or if states would be
+    /// searched for several demands on endless runs.
     pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
         let starts = self.starts(rule)?;
         let start =

@@ -24,7 +24,10 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
         (&["explore", "open:60x60", "--noise-db", "4"], "a smaller floor, less --noise-db"),
         (&["explore", "open:6x6", "--noise-db", "1", "--odometry", "0.02:5"], "--odometry smaller errors"),
         (&["explore", "cells:3x3:0", "--objects", "0"], "--objects 1 to 1000 of them"),
-        (&["explore", "cells:3x3:0", "--objects", "-3"], "write a whole number, or columns and rows"),
+        (
+            &["explore", "cells:3x3:0", "--objects", "-3"],
+            "write a whole number, from 0 on, or columns and rows",
+        ),
         (&["explore", "cells:3x3:0", "--objects", "1:2,3"], "columns and rows such as 1.5:2,3:4"),
         (
             &["explore", "cells:3x3:0", "--objects", "1:2,3:1"],

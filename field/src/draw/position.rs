@@ -50,10 +50,7 @@ pub fn spots(title: &str, anchors: &[Point], spots: &[Spot]) -> String {
         (format!("<path class=\"robot\" d=\"M8 0{ROBOT}\"/>"), "robot"),
         ("<path class=\"found\" d=\"M4 0h0M9-3h0M12 2h0\"/>".to_owned(), "position found"),
         ("<ellipse class=\"errors\" cx=\"8\" rx=\"9\" ry=\"5\"/>".to_owned(), "95 % of them"),
-        (
-            "<ellipse class=\"bound\" cx=\"8\" rx=\"9\" ry=\"5\"/>".to_owned(),
-            "95 % at the Cramér–Rao bound, the best possible",
-        ),
+        ("<ellipse class=\"bound\" cx=\"8\" rx=\"9\" ry=\"5\"/>".to_owned(), "95 % at the Cramér–Rao bound"),
     ];
     ground.picture(title, &body, &key)
 }
@@ -118,7 +115,9 @@ impl Ground {
         let along = |from: f64, to: f64| {
             let count = ((to - from) / step_m) as i32;
             let first = (from / step_m).ceil();
-            (0..=count).map(move |tick| (first + f64::from(tick)) * step_m).filter(move |&at| at <= to)
+            // A corner has no room for words.
+            let is_inside = move |at: &f64| (at - from).min(to - at) > step_m / 4.0;
+            (0..=count).map(move |tick| (first + f64::from(tick)) * step_m).filter(is_inside)
         };
         let metres = |at: f64| {
             // Zero has no sign.
