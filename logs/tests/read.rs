@@ -91,7 +91,7 @@ fn damaged_logs_are_refused_with_the_place() {
         (b"t,robot,x,y\n0,a,0,0\n0,a,1.0.0,0\n", Some(3), "\"1.0.0\" is no number"),
         (b"t,robot,x,y\n0,a,0\n0,a,0,0\n", Some(2), "no field 4"),
         (b"t,robot,x,y\ninf,a,0,0\n", Some(2), "no such time"),
-        (b"t,robot,x,y\n0,\xff,0,0\n", Some(2), "no text"),
+        (b"t,robot,x,y\n0,\xff,0,0\n", Some(2), "not UTF-8 text"),
         (b"{\"t\":0,\"robot\":\"a\",\"x\":0}\n", Some(1), "no y"),
         (b"{\"t\":0,\"x\":0,\"y\":0}\n", Some(1), "no robot"),
         (b"{\"t\":0,\"robot\":\"a\",\"id\":1,\"x\":0,\"y\":0}\n", Some(1), "two robots"),

@@ -30,8 +30,8 @@ enum Rounding {
     Down,
 }
 
-/// A milestone of a chain.
-struct Reached {
+/// How a chain comes to a milestone.
+struct Exploration {
     cells: u32,
     /// Cells of the area.
     of: u32,
@@ -49,7 +49,7 @@ impl<const PERCENT: u32> Milestone<PERCENT> {
         format!("{}, {PERCENT} % of the cells, rounded up and down", whole_runs::chains(&ROBOTS))
     }
 
-    fn reach(observed: &Subject, oracle: &mut dyn Oracle) -> Result<Reached, Stop> {
+    fn reach(observed: &Subject, oracle: &mut dyn Oracle) -> Result<Exploration, Stop> {
         let robots = whole_runs::within(&ROBOTS, oracle) as usize;
         let (area, base) = whole_runs::area(robots);
         let all: Vec<Cell> = area.cells().collect();
@@ -63,7 +63,7 @@ impl<const PERCENT: u32> Milestone<PERCENT> {
         let graph = Graph::new(&ground, &observed.rule).map_err(|_| Stop::Assumed)?;
         let sooner = soonest(&graph, cells, moves - 1);
         let sooner = sooner.map(|path| path.iter().map(|&place| graph.team(place, base, &all)).collect());
-        Ok(Reached { cells, of, moves, sooner })
+        Ok(Exploration { cells, of, moves, sooner })
     }
 
     fn body(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
@@ -78,7 +78,7 @@ impl<const PERCENT: u32> Milestone<PERCENT> {
         let Ok(reached) = Self::reach(observed, &mut Replay::new(&answers)) else {
             return Depiction::Choices;
         };
-        let Reached { cells, of, moves, sooner } = reached;
+        let Exploration { cells, of, moves, sooner } = reached;
         let teams = sooner.unwrap_or_default();
         let fewest = teams.len().saturating_sub(1);
         let mut story = format!(
