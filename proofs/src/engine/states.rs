@@ -279,8 +279,9 @@ pub(crate) fn first_states<S: System>(
 /// # Errors
 /// [`Unsound`] if they differ, or too many situations must occur.
 pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>) -> Result<(), Unsound> {
-    let of_step = |step: Step<S>| (walk::kept(system, &step.state), step.is_bound, step.breaks);
-    let outlook = |state: &S::State| steps(system, state).map(of_step).collect::<Vec<_>>();
+    let made = |state: &S::State| steps(system, state).collect::<Vec<_>>();
+    let of_step = |step: &Step<S>| (walk::kept(system, &step.state), step.is_bound, step.breaks.clone());
+    let outlook = |steps: &[Step<S>]| steps.iter().map(of_step).collect::<Vec<_>>();
     let canonical = |state: &S::State| {
         let mut state = state.clone();
         system.make_canonical(&mut state);
@@ -289,30 +290,30 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
     if system.covers().len() > MOST_COVERS {
         return Err(Unsound::TooManyCovers);
     }
-    let of_class = |state: &S::State| {
+    let of_class = |steps: &[Step<S>]| {
         let mut times: FxHashMap<_, u32> = FxHashMap::default();
-        for Step { state, is_bound, breaks, .. } in steps(system, state) {
-            *times.entry((walk::kept(system, &canonical(&state)), is_bound, breaks.len())).or_default() += 1;
+        for Step { state, is_bound, breaks, .. } in steps {
+            *times.entry((walk::kept(system, &canonical(state)), *is_bound, breaks.len())).or_default() += 1;
         }
         times
     };
     let mut before: Option<S::State> = None;
     for state in first_states(system, starts) {
-        let (own, first) = (canonical(&state), outlook(&state));
-        if first != outlook(&state) {
+        let (own, first) = (canonical(&state), made(&state));
+        if outlook(&first) != outlook(&made(&state)) {
             return Err(Unsound::Unrepeatable);
         }
-        if of_class(&state) != of_class(&own) || !is_same(system, &own, &canonical(&own)) {
+        let of_own = made(&own);
+        if of_class(&first) != of_class(&of_own) || !is_same(system, &own, &canonical(&own)) {
             return Err(Unsound::Unlike);
         }
-        let of_own = outlook(&own);
         if let Some(mut other) = before.replace(own) {
             let (parts, bytes) = before.as_ref().map(|own| walk::kept(system, own)).unwrap_or_default();
             system.read(&mut other, &bytes);
             for (place, part) in parts.iter().enumerate() {
                 system.put(&mut other, place, part);
             }
-            if outlook(&other) != of_own {
+            if outlook(&made(&other)) != outlook(&of_own) {
                 return Err(Unsound::Torn);
             }
         }
