@@ -33,7 +33,7 @@ fn value(output: &Output) -> Value {
 }
 
 /// One clause that is decided at once, and one that takes long.
-const CLAUSES: [&str; 3] = ["prove", "NOTICE-4", "KIT-1"];
+const CLAUSES: [&str; 3] = ["prove", "NOTICE-4", "MRC-1"];
 
 #[test]
 fn checks_that_are_decided_are_told_and_the_others_counted() {
@@ -50,7 +50,7 @@ fn checks_that_are_decided_are_told_and_the_others_counted() {
 #[test]
 fn no_folder_stays_that_was_made_for_nothing() {
     let folder = folder();
-    ended(folder.path(), &["prove", "KIT-1", "--out", "found/deep", "--certificate", "proofs"], 2);
+    ended(folder.path(), &["prove", "MRC-1", "--out", "found/deep", "--certificate", "proofs"], 2);
     // A counterexample may be found by then.
     match names(folder.path())[..] {
         [] => {}
