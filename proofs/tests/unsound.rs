@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::decide::{
     Cache, Context, EveryAnswer, EveryState, Method, MethodResult, RandomAnswers, Verdict,
 };
-use tautline_proofs::engine::states::{MemoryLimit, System, Unsound, repeats};
+use tautline_proofs::engine::states::{self, MemoryLimit, System, Unsound, repeats};
 use tautline_proofs::engine::tree::{Progress, unwatched};
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::engine::{Outcome, Stop, Until};
@@ -36,6 +36,7 @@ enum Slip {
     TakesAllForOne,
     TakesSevenForSix,
     NeverCanonical,
+    LeavesOutADifference,
 }
 
 /// Two counters, of which the second goes round.
@@ -97,6 +98,10 @@ impl System for Counters {
         state.0 = bytes.first().copied().unwrap_or(state.0);
     }
 
+    fn differing(&self, _: &(u8, u8), _: &(u8, u8)) -> states::Places {
+        if self.0 == Slip::LeavesOutADifference { 1 } else { states::Places::MAX }
+    }
+
     fn make_canonical(&self, state: &mut (u8, u8)) {
         match self.0 {
             Slip::TakesAllForOne => state.1 = 0,
@@ -129,6 +134,8 @@ fn a_system_that_leaves_something_of_a_state_out_is_refused() {
         let refusal = refusal(&COUNTED, &slip);
         assert!(refusal.starts_with("a state and the one that `make_canonical` makes"), "{refusal}");
     }
+    let refusal = refusal(&COUNTED, &Slip::LeavesOutADifference);
+    assert!(refusal.starts_with("a step leads to a state that differs in a part"), "{refusal}");
 }
 
 /// A counter that may wait, of which one byte alone is kept.

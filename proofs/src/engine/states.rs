@@ -219,6 +219,8 @@ pub enum Unsound {
     Torn,
     /// A state and the one that stands for it have other steps, or that is not the one that stands for itself.
     Unlike,
+    /// A step leads to a state that differs in a part that is not among the differing ones.
+    Undeclared,
 }
 
 impl fmt::Display for Unsound {
@@ -235,6 +237,10 @@ impl fmt::Display for Unsound {
             Self::Unlike => {
                 "a state and the one that `make_canonical` makes of it go on in other ways, or it makes another one of \
                  that: only states that are alike may be taken for one"
+            }
+            Self::Undeclared => {
+                "a step leads to a state that differs in a part that `differing` does not name: it may name too many \
+                 places, but none too few"
             }
         })
     }
@@ -304,6 +310,14 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
             return Err(Unsound::Unrepeatable);
         }
         let of_own = made(&own);
+        for after in of_own.iter().map(|step| canonical(&step.state)) {
+            let differing = system.differing(&own, &after);
+            let is_kept = |&place: &usize| place < Places::BITS as usize && differing >> place & 1 == 0;
+            let differs = |place| system.part(&own, place) != system.part(&after, place);
+            if (0..system.places(&own)).filter(is_kept).any(differs) {
+                return Err(Unsound::Undeclared);
+            }
+        }
         if of_class(&first) != of_class(&of_own) || !is_same(system, &own, &canonical(&own)) {
             return Err(Unsound::Unlike);
         }

@@ -364,7 +364,8 @@ struct Completion {
 }
 
 /// The checks, those with most others in their family first, as these may take longest, each family with the variants
-/// about which it tells as much; then the other variants.
+/// about which it tells as much; behind each family the other variants of its checks, so that these are decided
+/// before the next ones.
 fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     let of = |place: usize| {
         let (clause, number) = checks[place];
@@ -390,8 +391,14 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
             }
         }
     }
-    let families = families.into_iter().map(|(_, questions)| Job { questions, until: Until::Exhausted });
-    families.chain(others).collect()
+    let mut jobs = Vec::new();
+    for (_, questions) in families {
+        let checks = questions.iter().filter(|question| question.variant.is_none());
+        let places: Vec<usize> = checks.map(|question| question.place).collect();
+        jobs.push(Job { questions, until: Until::Exhausted });
+        jobs.extend(others.extract_if(.., |variant: &mut Job| places.contains(&variant.place())));
+    }
+    jobs
 }
 
 /// The questions of the same family, if there are any.

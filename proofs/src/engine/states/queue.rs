@@ -11,6 +11,9 @@ use super::spill::Lookup;
 use super::state_table::{Parts, StateTable};
 use super::{Places, System};
 
+/// Of so many states that are met in a debug build one is compared as a whole with what is told to differ.
+const COMPARED: HashOfState = 32;
+
 /// States that wait to be looked up in a table, in the order in which they are to be met.
 pub(super) struct Queue<P> {
     /// Their codes, one after the other.
@@ -111,7 +114,11 @@ impl<P: Clone + Eq + Hash> Queue<P> {
             let differs = |place: usize| place >= Places::BITS as usize || differing >> place & 1 == 1;
             (0..*places).filter(|&place| differs(place)).for_each(|place| made.put(place, number(place)));
         }
-        debug_assert!((0..*places).all(|place| made.at(place) == Some(number(place))), "it does differ");
+        debug_assert!(
+            !made.hash.is_multiple_of(COMPARED)
+                || (0..*places).all(|place| made.at(place) == Some(number(place))),
+            "it does differ"
+        );
         self.bytes.extend_from_slice(&self.made.bytes);
         self.push(self.made.hash, has_new);
     }
