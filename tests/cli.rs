@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use insta::assert_snapshot;
 use serde_json::Value;
-use tempfile::TempDir;
+
+use crate::folder::folder;
 
 #[path = "cli/areas.rs"]
 mod areas;
@@ -44,11 +45,7 @@ fn tautline(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-fn folder() -> TempDir {
-    tempfile::tempdir().expect("a folder")
-}
-
-fn ran(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn ran(folder: &Path, arguments: &[&str]) -> Output {
     tautline(folder, arguments).output().expect("the program runs")
 }
 
@@ -92,6 +89,33 @@ fn refused(folder: &Path, arguments: &[&str]) -> String {
     errors.lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
 }
 
+/// Checks that a text has all these words.
+#[track_caller]
+pub(crate) fn says(text: &str, words: &[&str]) {
+    for word in words {
+        assert!(text.contains(word), "{word:?} is not in {text}");
+    }
+}
+
+/// The words about each of these commands, which all begin so and are refused.
+fn refusals(folder: &Path, begin: &[&str], ends: &[&[&str]]) -> String {
+    let said = ends.iter().map(|end| {
+        let arguments = [begin, end].concat();
+        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, &arguments))
+    });
+    said.collect::<Vec<_>>().join("\n")
+}
+
+/// The words about each of these texts, none of which is `stored`, in the file that a command reads.
+fn refused_texts(folder: &Path, stored: &str, texts: &[(&str, String)], command: [&str; 2]) -> String {
+    let said = texts.iter().map(|(what, text)| {
+        assert_ne!(text, stored, "{what}");
+        fs::write(folder.join(command[1]), text).expect("a file");
+        format!("{what}\n{}\n", refused(folder, &command))
+    });
+    said.collect::<Vec<_>>().join("\n")
+}
+
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let mut names: Vec<String> =
@@ -102,25 +126,24 @@ fn names(folder: &Path) -> Vec<String> {
 
 #[test]
 fn an_open_area_takes_62_team_moves() {
-    let folder = folder();
+    let folder = &folder();
     assert_snapshot!(
-        printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--format", "json"], 0),
+        printed(folder, &["explore", "open:15x15", "--robots", "8", "--format", "json"], 0),
         @r#"{"schema_version":1,"scheme":"chain","rule":"repaired","robots":8,"seed":0,"layout":"open:15x15","base":[7,7],"steps":62,"explored":225,"cells":225,"milestones":{"50":34,"75":48,"100":62},"stopped":"explored","violations":[]}"#
     );
     assert_snapshot!(
         "order_of_62_moves",
-        printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--draw", "order"], 0)
+        printed(folder, &["explore", "open:15x15", "--robots", "8", "--draw", "order"], 0)
     );
-    printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--trace", "run.jsonl"], 0);
-    let frames = printed(folder.path(), &["replay", "run.jsonl"], 0);
+    printed(folder, &["explore", "open:15x15", "--robots", "8", "--trace", "run.jsonl"], 0);
+    let frames = printed(folder, &["replay", "run.jsonl"], 0);
     assert_snapshot!("frames_of_62_moves", frames::in_short(&frames));
-    assert_eq!(names(folder.path()), ["run.jsonl"]);
+    assert_eq!(names(folder), ["run.jsonl"]);
 }
 
 #[test]
 fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let hunt = ["hunt", "--scheme", "chain", "--rule", "published", "--robots", "4", "--max-walls", "4"];
     let found = json(folder, &hunt, 1);
     assert_eq!((&found["runs"], &found["moves"]), (&396_261.into(), &10_057_328.into()));
@@ -151,19 +174,18 @@ fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
 
 #[test]
 fn the_repaired_rule_breaks_in_no_layout_with_four_walls() {
-    let folder = folder();
+    let folder = &folder();
     let hunt = ["hunt", "--scheme", "chain", "--rule", "repaired", "--robots", "4", "--max-walls", "4"];
-    assert_snapshot!(printed(folder.path(), &hunt, 0), @r#"
+    assert_snapshot!(printed(folder, &hunt, 0), @r#"
     chain (repaired), 4 robots, at most 4 walls: 395682 runs, 9669112 team moves, 356 the longest
     No clause is broken in any layout within this bound.
     "#);
-    assert_eq!(names(folder.path()), [""; 0]);
+    assert_eq!(names(folder), [""; 0]);
 }
 
 #[test]
 fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let hunt = ["hunt", "--scheme", "bricks", "--max-misses", "2"];
     assert_snapshot!("trap", printed(folder, &hunt, 1));
     let found = json(folder, &hunt, 1);
@@ -187,18 +209,13 @@ fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
             ),
         ),
     ];
-    let said = cases.map(|(what, text)| {
-        assert_ne!(text, stored, "{what}");
-        fs::write(folder.join("run.jsonl"), text).expect("a file");
-        format!("{what}\n{}\n", refused(folder, &["replay", "run.jsonl"]))
-    });
-    assert_snapshot!("wrong_traps", said.join("\n"));
+    let said = refused_texts(folder, &stored, &cases, ["replay", "run.jsonl"]);
+    assert_snapshot!("wrong_traps", said);
 }
 
 #[test]
 fn ants_and_the_robust_rule_are_not_trapped() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     assert_snapshot!(printed(folder, &["hunt", "--scheme", "bricks-ants", "--max-misses", "2", "--size", "3x3"], 0),
         @r#"
     bricks-ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 169999 states, 196963 team moves
@@ -217,18 +234,18 @@ fn ants_and_the_robust_rule_are_not_trapped() {
 
 #[test]
 fn a_hunt_that_ends_before_its_bound_claims_nothing() {
-    let folder = folder();
-    let found = json(folder.path(), &["hunt", "--rule", "repaired", "--budget", "1000"], 3);
+    let folder = &folder();
+    let found = json(folder, &["hunt", "--rule", "repaired", "--budget", "1000"], 3);
     assert_eq!((&found["verdict"], &found["complete"]), (&"open".into(), &false.into()));
 }
 
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_a_hunt_without_a_claim() {
-    let folder = folder();
+    let folder = &folder();
     let hunt = ["hunt", "--robots", "6", "--max-walls", "6", "--out", "found/deep"];
-    assert_eq!(interrupted(folder.path(), &hunt), Some(3));
-    assert_eq!(names(folder.path()), [""; 0]);
+    assert_eq!(interrupted(folder, &hunt), Some(3));
+    assert_eq!(names(folder), [""; 0]);
 }
 
 /// It is killed at work and, after a Ctrl-C, perhaps while it writes its file; budgets take it further in between.
@@ -250,12 +267,11 @@ fn a_hunt_killed_at_any_moment_and_resumed_comes_out_the_same() {
         let stored = names(folder).into_iter().filter(|name| name.starts_with("chain-"));
         stored.map(|name| (fs::read(folder.join(&name)).expect("a run"), name)).collect::<Vec<_>>()
     };
-    let undisturbed = folder();
-    let whole = ended(run(undisturbed.path(), "2", &["--resume", "hunt.json"]));
+    let undisturbed = &folder();
+    let whole = ended(run(undisturbed, "2", &["--resume", "hunt.json"]));
     assert_eq!(whole.0, Some(1));
     for threads in ["1", "2"] {
-        let folder = folder();
-        let folder = folder.path();
+        let folder = &folder();
         let kept = || fs::read(folder.join("hunt.json")).ok();
         for (budget, millis) in [("1000", 3), ("30000", 37), ("150000", 11), ("300000", 61)] {
             let (code, _) = ended(run(folder, threads, &["--resume", "hunt.json", "--budget", budget]));
@@ -270,7 +286,7 @@ fn a_hunt_killed_at_any_moment_and_resumed_comes_out_the_same() {
             }
         }
         assert_eq!(ended(run(folder, threads, &["--resume", "hunt.json"])), whole, "{threads} threads");
-        assert_eq!(runs_in(folder), runs_in(undisturbed.path()), "{threads} threads");
+        assert_eq!(runs_in(folder), runs_in(undisturbed), "{threads} threads");
         let done = kept();
         assert_eq!(ended(run(folder, threads, &["--resume", "hunt.json"])), whole, "nothing is left to do");
         assert_eq!(kept(), done);
@@ -292,8 +308,7 @@ fn of_another_build(text: &str) -> String {
 
 #[test]
 fn a_kept_hunt_that_is_damaged_or_another_is_refused_with_its_place() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let file = folder.join("hunt.json");
     let hunt = ["hunt", "--rule", "repaired", "--robots", "3", "--max-walls", "2", "--resume", "hunt.json"];
     printed(folder, &hunt, 0);
@@ -343,8 +358,8 @@ fn a_kept_hunt_that_is_damaged_or_another_is_refused_with_its_place() {
 
 #[test]
 fn a_reader_that_goes_away_ends_nothing_but_the_printing() {
-    let folder = folder();
-    let mut command = tautline(folder.path(), &["explore", "walls:15x15:0.1", "--draw", "moves"]);
+    let folder = &folder();
+    let mut command = tautline(folder, &["explore", "walls:15x15:0.1", "--draw", "moves"]);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program runs");
     let mut line = String::new();
     BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
@@ -354,7 +369,7 @@ fn a_reader_that_goes_away_ends_nothing_but_the_printing() {
 
 #[test]
 fn the_environments_are_drawn_from_the_radii() {
-    assert_snapshot!(printed(folder().path(), &["show", "environments"], 0), @r#"
+    assert_snapshot!(printed(&folder(), &["show", "environments"], 0), @r#"
     E_N, one step or none       E_S, wholly within r_safe   E_C, wholly within r_cov
     · · · · · · ·               · · · · · · ·               · · · · · · ·
     · · · · · · ·               · · · · · · ·               · · · # · · ·
@@ -368,10 +383,10 @@ fn the_environments_are_drawn_from_the_radii() {
 
 #[test]
 fn a_layout_shown_is_a_layout_file() {
-    let folder = folder();
-    let drawing = printed(folder.path(), &["show", "walls:5x4:0.2", "--seed", "2"], 0);
-    fs::write(folder.path().join("walls.txt"), &drawing).expect("a file");
-    assert_eq!(printed(folder.path(), &["show", "walls.txt"], 0), drawing);
+    let folder = &folder();
+    let drawing = printed(folder, &["show", "walls:5x4:0.2", "--seed", "2"], 0);
+    fs::write(folder.join("walls.txt"), &drawing).expect("a file");
+    assert_eq!(printed(folder, &["show", "walls.txt"], 0), drawing);
     assert_snapshot!(drawing, @r#"
     tautline layout 1
     +--+--+--+--+--+
@@ -384,7 +399,7 @@ fn a_layout_shown_is_a_layout_file() {
     |  |     |  |  |
     +--+--+--+--+--+
     "#);
-    let shown = json(folder.path(), &["show", "walls.txt"], 0);
+    let shown = json(folder, &["show", "walls.txt"], 0);
     assert_eq!(
         (&shown["width"], &shown["free_cells"], &shown["base"]),
         (&5.into(), &20.into(), &serde_json::json!([2, 1]))
@@ -393,8 +408,8 @@ fn a_layout_shown_is_a_layout_file() {
 
 #[test]
 fn clauses_are_decided_by_name() {
-    let folder = folder();
-    assert_snapshot!(printed(folder.path(), &["prove", "LATTICE-1", "chain-5"], 0), @r#"
+    let folder = &folder();
+    assert_snapshot!(printed(folder, &["prove", "LATTICE-1", "chain-5"], 0), @r#"
     clause     rule       engine      cases  verdict  mutants killed
                bound
     LATTICE-1  published  exhaustive     81  holds    3/3
@@ -412,102 +427,98 @@ fn clauses_are_decided_by_name() {
 
     All 4 verdicts are the registered ones.
     "#);
-    let ledger = json(folder.path(), &["prove", "CHAIN-10"], 0);
+    let ledger = json(folder, &["prove", "CHAIN-10"], 0);
     assert_eq!(ledger["as_registered"], true);
     let first = &ledger["clauses"][0];
     assert_eq!((&first["id"], &first["verdict"]), (&"CHAIN-10".into(), &"holds".into()));
     assert_eq!(first["mutants"], serde_json::json!({ "killed": 2, "of": 2, "survived": [] }));
-    let told = printed(folder.path(), &["prove", "NOTICE-5"], 0);
-    assert!(
-        told.contains("\n2 hears 1 and is silent.\nNothing more happens; 3 has not heard of the event.\n"),
-        "{told}"
-    );
-    assert_snapshot!("unknown_clause", refused(folder.path(), &["prove", "CHAIN-99"]));
+    let told = printed(folder, &["prove", "NOTICE-5"], 0);
+    says(&told, &["\n2 hears 1 and is silent.\nNothing more happens; 3 has not heard of the event.\n"]);
+    assert_snapshot!("unknown_clause", refused(folder, &["prove", "CHAIN-99"]));
 }
 
 #[test]
 fn a_bound_on_memory_leaves_checks_open_and_says_so() {
-    let folder = folder();
-    let enough = printed(folder.path(), &["prove", "KIT-12", "--memory", "1GiB"], 0);
+    let folder = &folder();
+    let enough = printed(folder, &["prove", "KIT-12", "--memory", "1GiB"], 0);
     assert!(enough.contains("verdicts are the registered ones."), "{enough}");
-    let told = printed(folder.path(), &["prove", "KIT-12", "--memory", "64KiB"], 3);
+    let told = printed(folder, &["prove", "KIT-12", "--memory", "64KiB"], 3);
     assert!(told.contains("KIT-12 as repaired: open, registered as holds"), "{told}");
     assert!(told.contains("would have taken more than 48 KiB") && told.contains("--memory"), "{told}");
-    let ledger = json(folder.path(), &["prove", "KIT-12", "--memory", "64KiB"], 3);
+    let ledger = json(folder, &["prove", "KIT-12", "--memory", "64KiB"], 3);
     assert_eq!((&ledger["out_of_memory"], &ledger["as_registered"]), (&true.into(), &false.into()));
     for wrong in ["1", "0GiB", "1GB", "-1MiB", "99999999999GiB", "GiB"] {
-        let said = refused(folder.path(), &["prove", "KIT-12", &format!("--memory={wrong}")]);
+        let said = refused(folder, &["prove", "KIT-12", &format!("--memory={wrong}")]);
         assert!(said.contains("KiB, MiB or GiB"), "{said}");
     }
 }
 
 #[test]
 fn the_patience_with_a_step_is_a_number_of_seconds_and_changes_nothing_where_steps_end() {
-    let folder = folder();
-    let patient = printed(folder.path(), &["prove", "KIT-12", "--patience", "1"], 0);
-    assert_eq!(patient, printed(folder.path(), &["prove", "KIT-12"], 0));
-    let ledger = json(folder.path(), &["prove", "NOTICE-4", "--patience", "600"], 0);
+    let folder = &folder();
+    let patient = printed(folder, &["prove", "KIT-12", "--patience", "1"], 0);
+    assert_eq!(patient, printed(folder, &["prove", "KIT-12"], 0));
+    let ledger = json(folder, &["prove", "NOTICE-4", "--patience", "600"], 0);
     assert_eq!((&ledger["unended"], &ledger["clauses"][0]["undecided"]), (&false.into(), &().into()));
     for wrong in ["0", "-1", "1.5", "a while"] {
-        let said = refused(folder.path(), &["prove", "NOTICE-4", &format!("--patience={wrong}")]);
+        let said = refused(folder, &["prove", "NOTICE-4", &format!("--patience={wrong}")]);
         assert!(said.contains("write a whole number from 1"), "{said}");
     }
 }
 
 #[test]
 fn the_counterexample_of_a_clause_of_agents_is_drawn() {
-    let folder = folder();
-    assert_snapshot!("missed_sensors_in_turns", printed(folder.path(), &["prove", "BRICKS-5"], 0));
-    let shown = json(folder.path(), &["prove", "BRICKS-5"], 0)["clauses"][1]["counterexample"].take();
+    let folder = &folder();
+    assert_snapshot!("missed_sensors_in_turns", printed(folder, &["prove", "BRICKS-5"], 0));
+    let shown = json(folder, &["prove", "BRICKS-5"], 0)["clauses"][1]["counterexample"].take();
     assert_eq!((&shown["demand"], &shown["turns"]), (&"every cell is explored".into(), &4.into()));
     assert!(shown["drawing"].as_str().is_some_and(|drawing| drawing.contains("before turn 4")), "{shown}");
 }
 
 #[test]
 fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
-    let folder = folder();
-    let table = |threads| with_threads(folder.path(), threads, &["reproduce", "repair-cost", "--runs", "12"]);
+    let folder = &folder();
+    let table = |threads| with_threads(folder, threads, &["reproduce", "repair-cost", "--runs", "12"]);
     assert_eq!(table("1"), table("3"));
-    let measured = json(folder.path(), &["reproduce", "repair-cost", "--runs", "3"], 0);
+    let measured = json(folder, &["reproduce", "repair-cost", "--runs", "3"], 0);
     assert_eq!(measured["densities"].as_array().map(Vec::len), Some(7));
 }
 
 #[test]
 fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
-    let folder = folder();
-    let table = |threads| with_threads(folder.path(), threads, &["reproduce", "optimum", "--max-walls", "2"]);
+    let folder = &folder();
+    let table = |threads| with_threads(folder, threads, &["reproduce", "optimum", "--max-walls", "2"]);
     let one = table("1");
     assert_eq!(one, table("3"));
     assert_snapshot!("optimum_of_two_walls", one);
-    let measured = json(folder.path(), &["reproduce", "optimum", "--max-walls", "0"], 0);
+    let measured = json(folder, &["reproduce", "optimum", "--max-walls", "0"], 0);
     assert_eq!((&measured["id"], &measured["lines"][2]["mean"]), (&"optimum".into(), &1.0.into()));
     let layout = measured["lines"][0]["worst"]["layout"].as_str().expect("a drawing");
-    fs::write(folder.path().join("worst.txt"), layout).expect("a file");
-    printed(folder.path(), &["show", "worst.txt"], 0);
-    assert!(refused(folder.path(), &["reproduce", "optimum", "--max-walls", "7"]).contains("from 0 to 6"));
+    fs::write(folder.join("worst.txt"), layout).expect("a file");
+    printed(folder, &["show", "worst.txt"], 0);
+    assert!(refused(folder, &["reproduce", "optimum", "--max-walls", "7"]).contains("from 0 to 6"));
 }
 
 #[test]
 fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
-    let folder = folder();
+    let folder = &folder();
     let figure = |threads| {
         let arguments =
             ["reproduce", "bricks-fig11", "--runs", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
-        let told = with_threads(folder.path(), threads, &arguments);
-        (told, fs::read_to_string(folder.path().join("fig11.svg")).expect("text"))
+        let told = with_threads(folder, threads, &arguments);
+        (told, fs::read_to_string(folder.join("fig11.svg")).expect("text"))
     };
     assert_eq!(figure("1"), figure("3"));
     let short = ["--runs", "1", "--max-steps", "500"];
-    let area = json(folder.path(), &[&["reproduce", "bricks-fig12"], &short[..]].concat(), 0);
+    let area = json(folder, &[&["reproduce", "bricks-fig12"], &short[..]].concat(), 0);
     assert_eq!((&area["miss"], area["lines"].as_array().map(Vec::len)), (&0.0556.into(), Some(56)));
-    let ideal = json(folder.path(), &[&["reproduce", "bricks-ideal"], &short[..]].concat(), 0);
+    let ideal = json(folder, &[&["reproduce", "bricks-ideal"], &short[..]].concat(), 0);
     assert_eq!((&ideal["miss"], &ideal["lines"][2]["visited"]), (&0.0.into(), &Value::Null));
 }
 
 #[test]
 fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let figure = ["reproduce", "notice-fig5", "--nodes", "300,700", "--runs", "20", "--channel", "shared"];
     let table = |threads| with_threads(folder, threads, &figure);
     let one = table("1");
@@ -526,7 +537,7 @@ fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
 
 #[test]
 fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
-    let folder = folder();
+    let folder = &folder();
     let wrong: [&[&str]; 16] = [
         &["--nodes", "0"],
         &["--nodes", "1"],
@@ -545,18 +556,13 @@ fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
         &["--channel", "quiet"],
         &["--nodes", "2", "--runs", "1", "--svg-reach", "."],
     ];
-    let said = wrong.map(|arguments| {
-        let arguments = [&["reproduce", "notice-fig5"], arguments].concat();
-        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), &arguments))
-    });
-    assert_snapshot!("wrong_networks", said.join("\n"));
-    assert_eq!(names(folder.path()), [""; 0]);
+    assert_snapshot!("wrong_networks", refusals(folder, &["reproduce", "notice-fig5"], &wrong));
+    assert_eq!(names(folder), [""; 0]);
 }
 
 #[test]
 fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let table = |threads| {
         let arguments = ["reproduce", "rescue-fig7", "--nodes", "300,700", "--runs", "12", "--svg", "7.svg"];
         let told = with_threads(folder, threads, &arguments);
@@ -590,8 +596,7 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let figure = ["reproduce", "rescue-fig8", "--runs", "20", "--svg", "ways.svg"];
     let table = |threads| with_threads(folder, threads, &figure);
     let one = table("1");
@@ -614,12 +619,12 @@ fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_directional_antenna_and_what_noise_does_to_a_scan() {
-    let folder = folder();
+    let folder = &folder();
     let asked = ["reproduce", "antenna-fig4", "--runs", "200", "--svg", "antenna.svg"];
-    assert_snapshot!("antenna", printed(folder.path(), &asked, 0));
-    let drawn = fs::read_to_string(folder.path().join("antenna.svg")).expect("a picture");
+    assert_snapshot!("antenna", printed(folder, &asked, 0));
+    let drawn = fs::read_to_string(folder.join("antenna.svg")).expect("a picture");
     assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
-    let near = json(folder.path(), &["reproduce", "antenna-fig4", "--distance", "1", "--runs", "10"], 0);
+    let near = json(folder, &["reproduce", "antenna-fig4", "--distance", "1", "--runs", "10"], 0);
     let levels = near["pattern"].as_array().expect("angles");
     assert_eq!((levels.len(), &levels[12]["degrees"]), (25, &0.into()));
     let level = |place: usize| levels[place]["level_db"].as_f64().expect("heard so near");
@@ -630,7 +635,7 @@ fn a_directional_antenna_and_what_noise_does_to_a_scan() {
 
 #[test]
 fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
-    let folder = folder();
+    let folder = &folder();
     let wrong: [&[&str]; 20] = [
         &["rescue-fig7", "--nodes", "1"],
         &["rescue-fig7", "--nodes", "300,"],
@@ -653,18 +658,14 @@ fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
         &["antenna-fig4", "--distance", "0"],
         &["antenna-fig4", "--noise-db", "0,21"],
     ];
-    let said = wrong.map(|arguments| {
-        let arguments = [&["reproduce"], arguments].concat();
-        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), &arguments))
-    });
-    assert_snapshot!("wrong_journeys", said.join("\n"));
-    assert_eq!(names(folder.path()), [""; 0]);
+    assert_snapshot!("wrong_journeys", refusals(folder, &["reproduce"], &wrong));
+    assert_eq!(names(folder), [""; 0]);
 }
 
 #[test]
 fn the_tables_are_listed_and_have_help_with_examples() {
-    let folder = folder();
-    assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
+    let folder = &folder();
+    assert_snapshot!("tables", printed(folder, &["reproduce"], 0));
     for table in [
         "repair-cost",
         "optimum",
@@ -676,7 +677,7 @@ fn the_tables_are_listed_and_have_help_with_examples() {
         "locate-fig8",
         "locate-convergence",
     ] {
-        let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
+        let help = printed(folder, &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);
     }
@@ -700,8 +701,7 @@ fn film_of(page: &str) -> Value {
 
 #[test]
 fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let explore = ["explore", "walls:9x9:0.1", "--robots", "5", "--trace", "run.jsonl"];
     printed(folder, &[&explore[..], &["--svg", "order.svg", "--html", "run.html"]].concat(), 0);
     printed(
@@ -728,8 +728,8 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 
 #[test]
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
-    let folder = folder();
-    fs::write(folder.path().join("file"), "").expect("a file");
+    let folder = &folder();
+    fs::write(folder.join("file"), "").expect("a file");
     let wrong: [&[&str]; 47] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
@@ -779,25 +779,22 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["minimise", "file", "--clause", "CHAIN-4"],
         &["minimise"],
     ];
-    let said = wrong.map(|arguments| {
-        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), arguments))
-    });
-    assert_snapshot!("wrong_usage", said.join("\n"));
-    assert_eq!(names(folder.path()), ["file"]);
+    assert_snapshot!("wrong_usage", refusals(folder, &[], &wrong));
+    assert_eq!(names(folder), ["file"]);
 }
 
 #[test]
 fn a_base_on_a_blocked_cell_is_refused_with_the_nearest_free_one() {
-    let folder = folder();
+    let folder = &folder();
     let drawing = "tautline layout 1\n+--+--+\n|##   |\n+--+--+\n";
-    fs::write(folder.path().join("layout"), drawing).expect("a file");
-    assert_snapshot!(refused(folder.path(), &["explore", "layout", "--base", "0,0"]), @r#"
+    fs::write(folder.join("layout"), drawing).expect("a file");
+    assert_snapshot!(refused(folder, &["explore", "layout", "--base", "0,0"]), @r#"
     Error: the base 0,0 is on a blocked cell; the nearest free cell is 1,0
      Help: put the base on 1,0
     "#);
     let starts =
         ["explore", "layout", "--scheme", "bricks", "--robots", "2", "--start", "1,0", "--start", "0,0"];
-    assert_snapshot!(refused(folder.path(), &starts), @r#"
+    assert_snapshot!(refused(folder, &starts), @r#"
     Error: the start 0,0 is on a blocked cell; the nearest free cell is 1,0
      Help: start on 1,0
     "#);
@@ -817,8 +814,7 @@ tautline layout 1
 
 #[test]
 fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     fs::write(folder.join("ring"), RING).expect("a file");
     let starts = ["--robots", "3", "--start", "0,0", "--start", "3,1", "--start", "2,2"];
     let explore = |scheme: &'static str| [&["explore", "ring", "--scheme", scheme], &starts[..]].concat();
@@ -842,8 +838,7 @@ fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
 
 #[test]
 fn a_run_of_agents_without_end_is_found_and_drawn() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     fs::write(folder.join("ring"), RING).expect("a file");
     let explore = ["explore", "ring", "--scheme", "bricks", "--rule", "published", "--robots", "1"];
     printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 1);
@@ -859,8 +854,7 @@ fn a_run_of_agents_without_end_is_found_and_drawn() {
 
 #[test]
 fn runs_of_agents_are_stored_and_replayed() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let starts = ["--robots", "2", "--start", "0,0", "--start", "4,2", "--miss", "0.2", "--seed", "3"];
     for scheme in ["ants", "bricks", "bricks-ants"] {
         let explore =
@@ -888,18 +882,13 @@ fn runs_of_agents_are_stored_and_replayed() {
         ("a rule that nobody has published", run.replacen("repaired", "published", 1)),
         ("a chain that misses sensors", run.replacen("bricks-ants", "chain", 1)),
     ];
-    let said = cases.map(|(what, text)| {
-        assert_ne!(text, run, "{what}");
-        fs::write(folder.join("run.jsonl"), text).expect("a file");
-        format!("{what}\n{}\n", refused(folder, &["replay", "run.jsonl"]))
-    });
-    assert_snapshot!("wrong_runs_of_agents", said.join("\n"));
+    let said = refused_texts(folder, &run, &cases, ["replay", "run.jsonl"]);
+    assert_snapshot!("wrong_runs_of_agents", said);
 }
 
 #[test]
 fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let run = fs::read_to_string(folder.join("run.jsonl")).expect("text");
     let lines: Vec<&str> = run.split_inclusive('\n').collect();
@@ -961,8 +950,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
 
 #[test]
 fn a_run_on_a_map_shrinks_to_one_that_replays() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let explore = ["explore", "walls:15x15:0.15", "--seed", "41", "--robots", "8", "--rule", "published"];
     printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 1);
     assert_snapshot!("minimal_run", printed(folder, &["minimise", "run.jsonl"], 0));
@@ -985,11 +973,11 @@ fn a_run_on_a_map_shrinks_to_one_that_replays() {
 
 #[test]
 fn a_refutation_shrinks_to_one_of_the_same_clause() {
-    let folder = folder();
+    let folder = &folder();
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     for clause in ["KIT-1", "KIT-2", "KIT-3", "KIT-6", "KIT-7"] {
         let file = docs.join(format!("{}-published.jsonl", clause.to_lowercase()));
-        let minimal = json(folder.path(), &["minimise", file.to_str().expect("a path"), "--force"], 0);
+        let minimal = json(folder, &["minimise", file.to_str().expect("a path"), "--force"], 0);
         assert_eq!(minimal["clause"], clause);
         assert!(minimal["after"]["steps"].as_u64() <= minimal["before"]["steps"].as_u64(), "{minimal}");
     }
@@ -997,8 +985,7 @@ fn a_refutation_shrinks_to_one_of_the_same_clause() {
 
 #[test]
 fn a_run_that_breaks_nothing_cannot_be_minimised() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     assert_snapshot!(refused(folder, &["minimise", "run.jsonl"]), @r#"
     Error: run.jsonl: this run breaks no clause: there is nothing to minimise
@@ -1016,11 +1003,11 @@ fn a_run_that_breaks_nothing_cannot_be_minimised() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_minimising_with_nothing_stored() {
-    let folder = folder();
+    let folder = &folder();
     let explore = ["explore", "walls:127x127:0.05", "--seed", "3", "--robots", "64", "--rule", "published"];
-    printed(folder.path(), &[&explore[..], &["--max-moves", "200", "--trace", "run.jsonl"]].concat(), 1);
-    assert_eq!(interrupted(folder.path(), &["minimise", "run.jsonl"]), Some(3));
-    assert_eq!(names(folder.path()), ["run.jsonl"]);
+    printed(folder, &[&explore[..], &["--max-moves", "200", "--trace", "run.jsonl"]].concat(), 1);
+    assert_eq!(interrupted(folder, &["minimise", "run.jsonl"]), Some(3));
+    assert_eq!(names(folder), ["run.jsonl"]);
 }
 
 /// Three robots, three WFRs, one message in ten lost on each link, one robot failing.
@@ -1028,8 +1015,7 @@ const RESCUE: [&str; 9] = ["rescue", "--wfr", "3", "--robots", "3", "--loss", "0
 
 #[test]
 fn a_rescue_is_told_event_by_event() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     assert_snapshot!("rescue_of_one_wfr", printed(folder, &["rescue", "--seeds", "0"], 0));
     let published = [&RESCUE[..], &["--rule", "published", "--seeds", "8"]].concat();
     assert_snapshot!("rescue_published", printed(folder, &published, 1));
@@ -1050,8 +1036,7 @@ fn a_rescue_is_told_event_by_event() {
 
 #[test]
 fn rescues_are_counted_and_judged() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     assert_snapshot!("rescues", printed(folder, &[&RESCUE[..], &["--seeds", "0..19"]].concat(), 0));
     let published = [&RESCUE[..], &["--seeds", "0..19", "--rule", "published"]].concat();
     assert_snapshot!("rescues_published", printed(folder, &published, 1));
@@ -1083,8 +1068,7 @@ fn rescues_are_counted_and_judged() {
 
 #[test]
 fn a_rescue_is_stored_played_and_drawn() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let published = [&RESCUE[..], &["--rule", "published", "--seeds", "8", "--channel", "shared"]].concat();
     let files = ["--trace", "r.jsonl", "--html", "r.html", "--svg", "r.svg"];
     let told = printed(folder, &[&published[..], &files].concat(), 1);
@@ -1130,12 +1114,8 @@ fn a_rescue_is_stored_played_and_drawn() {
         ("cut", run.split_inclusive('\n').take(3).collect()),
         ("a line after the end", run.clone() + "{}\n"),
     ];
-    let said = cases.map(|(what, text)| {
-        assert_ne!(text, run, "{what}");
-        fs::write(folder.join("wrong.jsonl"), text).expect("a file");
-        format!("{what}\n{}\n", refused(folder, &["replay", "wrong.jsonl"]))
-    });
-    assert_snapshot!("wrong_stored_rescues", said.join("\n"));
+    let said = refused_texts(folder, &run, &cases, ["replay", "wrong.jsonl"]);
+    assert_snapshot!("wrong_stored_rescues", said);
     assert_snapshot!(refused(folder, &several), @r"
     Error: several rescues do not fit into one file
      Help: give one seed, for example --seeds 0
@@ -1164,7 +1144,7 @@ fn a_rescue_is_stored_played_and_drawn() {
 
 #[test]
 fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
-    let folder = folder();
+    let folder = &folder();
     let cases: [&[&str]; 34] = [
         &["--nodes", "0"],
         &["--nodes", "1"],
@@ -1202,24 +1182,24 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
         &["--failing-nodes", "700"],
     ];
     let said = cases.map(|arguments| {
-        format!("{}\n{}\n", arguments.join(" "), refused(folder.path(), &[&["rescue"], arguments].concat()))
+        format!("{}\n{}\n", arguments.join(" "), refused(folder, &[&["rescue"], arguments].concat()))
     });
     assert_snapshot!("wrong_rescues", said.join("\n"));
     let seeds = ["", "5..4", "..4", "1..", "a", "0..1000000"]
-        .map(|seeds| format!("{seeds:?}\n{}\n", refused(folder.path(), &["rescue", "--seeds", seeds])));
+        .map(|seeds| format!("{seeds:?}\n{}\n", refused(folder, &["rescue", "--seeds", seeds])));
     assert_snapshot!("wrong_seeds", seeds.join("\n"));
 }
 
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_rescues() {
-    let folder = folder();
-    assert_eq!(interrupted(folder.path(), &["rescue", "--seeds", "0..999999"]), Some(3));
+    let folder = &folder();
+    assert_eq!(interrupted(folder, &["rescue", "--seeds", "0..999999"]), Some(3));
 }
 
 #[test]
 fn every_command_has_help_with_examples() {
-    let folder = folder();
+    let folder = &folder();
     for command in [
         "prove",
         "library",
@@ -1240,17 +1220,16 @@ fn every_command_has_help_with_examples() {
         "completions",
         "man",
     ] {
-        let help = printed(folder.path(), &[command, "--help"], 0);
+        let help = printed(folder, &[command, "--help"], 0);
         assert!(help.contains("Example"), "{command}");
         assert_snapshot!(format!("help_{command}"), help);
     }
-    assert_snapshot!("help", printed(folder.path(), &["--help"], 0));
+    assert_snapshot!("help", printed(folder, &["--help"], 0));
 }
 
 #[test]
 fn completions_and_the_manual_pages_are_printed_and_stored() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let script = printed(folder, &["completions", shell], 0);
         assert!(script.contains("tautline") && script.contains("hunt"), "{shell}");
@@ -1276,9 +1255,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
         &["man", "--out", "man1/tautline.1"],
         &["man", "show", "--out", "man1"],
     ];
-    let said = wrong
-        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
-    assert_snapshot!("wrong_manuals", said.join("\n"));
+    assert_snapshot!("wrong_manuals", refusals(folder, &[], &wrong));
 }
 
 /// The log of a program that ends with `code`.
@@ -1291,8 +1268,7 @@ fn logged(folder: &Path, arguments: &[&str], code: i32) -> String {
 
 #[test]
 fn with_v_every_command_says_what_it_read_and_how_long_it_took() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let run: &[&str] = &["explore", "walls:15x15:0.15", "--seed", "41", "--rule", "published"];
     printed(folder, &[run, &["--trace", "run.jsonl"]].concat(), 1);
     let cases: [(&[&str], i32, &str); 11] = [
@@ -1335,33 +1311,32 @@ fn alone(folder: &Path, arguments: &[&str]) -> Command {
 #[cfg(target_os = "linux")]
 #[test]
 fn where_no_thread_can_be_started_the_work_is_done_without() {
-    let folder = folder();
+    let folder = &folder();
     let table = ["reproduce", "repair-cost", "--runs", "2"];
-    let output = alone(folder.path(), &table).output().expect("prlimit runs");
+    let output = alone(folder, &table).output().expect("prlimit runs");
     let errors = String::from_utf8(output.stderr).expect("text");
     assert_snapshot!(errors.lines().next().unwrap_or_default(),
         @" WARN the system starts no thread: Ctrl-C will end the work at once");
     assert!(errors.contains("the system starts no more threads: 1 instead of "), "{errors}");
     assert_eq!(output.status.code(), Some(0), "{errors}");
     let told = String::from_utf8(output.stdout).expect("text");
-    assert_eq!(told, printed(folder.path(), &table, 0));
+    assert_eq!(told, printed(folder, &table, 0));
 }
 
 #[test]
 fn a_hundred_thousand_threads_are_as_many_as_make_sense() {
-    let folder = folder();
+    let folder = &folder();
     let table = ["reproduce", "repair-cost", "--runs", "2"];
-    let output = tautline(folder.path(), &table).env("RAYON_NUM_THREADS", "100000").output();
+    let output = tautline(folder, &table).env("RAYON_NUM_THREADS", "100000").output();
     let output = output.expect("the program runs");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(errors.contains("RAYON_NUM_THREADS asks for 100000 threads; "), "{errors}");
-    assert_eq!(String::from_utf8_lossy(&output.stdout), printed(folder.path(), &table, 0));
+    assert_eq!(String::from_utf8_lossy(&output.stdout), printed(folder, &table, 0));
 }
 
 #[test]
 fn an_option_that_can_have_no_effect_is_refused() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     fs::write(folder.join("ring"), RING).expect("a file");
     let wrong: [&[&str]; 21] = [
         &["library", "--memory", "1GiB"],
@@ -1386,9 +1361,7 @@ fn an_option_that_can_have_no_effect_is_refused() {
         &["locate", "--noise-db", "0", "--at", "3,3", "--seed", "1"],
         &["judge", "log.csv", "--clauses", "CHAIN-2", "--map", "open:9x9", "--seed", "1"],
     ];
-    let said = wrong
-        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
-    assert_snapshot!("needless_options", said.join("\n"));
+    assert_snapshot!("needless_options", refusals(folder, &[], &wrong));
     // Where they matter they are taken.
     fs::write(folder.join("log.csv"), "time,robot,x,y\n0,a,1.5,1.5\n0,b,3.5,1.5\n").expect("a file");
     let frontier = ["explore", "open:4x4", "--scheme", "frontier", "--robots", "2"];
@@ -1412,14 +1385,14 @@ fn an_option_that_can_have_no_effect_is_refused() {
 
 #[test]
 fn a_failure_that_never_happens_is_a_warning() {
-    let folder = folder();
+    let folder = &folder();
     for (option, word, is_late) in [
         ("--fail", "3@500", true),
         ("--wall", "2,2,E@500", true),
         ("--fail", "3@5", false),
         ("--wall", "2,2,E@5", false),
     ] {
-        let output = ran(folder.path(), &["explore", "open:7x7", "--robots", "3", option, word]);
+        let output = ran(folder, &["explore", "open:7x7", "--robots", "3", option, word]);
         let errors = String::from_utf8(output.stderr).expect("text");
         let warning = format!("{option} never happened: it is for team move 500");
         assert_eq!((output.status.code(), errors.contains(&warning)), (Some(0), is_late), "{word}: {errors}");
@@ -1428,8 +1401,7 @@ fn a_failure_that_never_happens_is_a_warning() {
 
 #[test]
 fn what_is_wrong_is_said_without_the_words_of_programs() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     for (name, text) in [("list.jsonl", "[]\n"), ("cut.jsonl", "{\"format\":\n")] {
         fs::write(folder.join(name), text).expect("a file");
@@ -1459,9 +1431,7 @@ fn what_is_wrong_is_said_without_the_words_of_programs() {
         &["locate", "--runs", "-1"],
         &["explore", "open:3x3", "--scheme", "kit", "--robots", "2", "--rule", "nearer"],
     ];
-    let said = wrong
-        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
-    let said = said.join("\n");
+    let said = refusals(folder, &[], &wrong);
     for word in [
         "os error",
         "struct ",
@@ -1480,8 +1450,7 @@ fn what_is_wrong_is_said_without_the_words_of_programs() {
 
 #[test]
 fn one_is_not_many() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let said = |arguments: &[&str], code| {
         let text = printed(folder, arguments, code);
         let lines: Vec<&str> = text.lines().take(4).collect();
@@ -1502,8 +1471,7 @@ fn one_is_not_many() {
 
 #[test]
 fn a_page_begins_with_all_robots_at_the_base_or_at_their_start() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let film = |arguments: &[&str], file: &str| {
         printed(folder, &[arguments, &["--html", file]].concat(), 0);
         film_of(&fs::read_to_string(folder.join(file)).expect("a page"))
@@ -1518,8 +1486,7 @@ fn a_page_begins_with_all_robots_at_the_base_or_at_their_start() {
 
 #[test]
 fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let marked = |name: &str| {
         let text = fs::read_to_string(folder.join(name)).expect("text");
         fs::write(folder.join(format!("marked-{name}")), format!("\u{feff}{text}")).expect("a file");
@@ -1552,8 +1519,7 @@ fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
 
 #[test]
 fn a_bad_number_in_a_map_is_called_one_and_hints_keep_to_the_limits() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let map = "type octile\nheight 1\nwidth 3\nmap\n.@.\n";
     let maps = ["height -1", "height many", "height 99999999999999999999", "height", "high 1"].map(|line| {
         fs::write(folder.join("a.map"), map.replace("height 1", line)).expect("a file");
@@ -1574,9 +1540,7 @@ fn a_bad_number_in_a_map_is_called_one_and_hints_keep_to_the_limits() {
         &["rescue", "--failing-nodes", "2", "--nodes", "2"],
         &["explore", "open:9x9", "--scheme", "ants", "--robots", "1", "--start", "1,1", "--start", "2,2"],
     ];
-    let said = wrong
-        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
-    assert_snapshot!("hints_within_limits", said.join("\n"));
+    assert_snapshot!("hints_within_limits", refusals(folder, &[], &wrong));
     let places = (0..17).flat_map(|node| ["--wfr-at".to_owned(), node.to_string()]);
     let places: Vec<String> = ["rescue", "--wfr", "3"].map(str::to_owned).into_iter().chain(places).collect();
     assert_snapshot!(refused(folder, &places.iter().map(String::as_str).collect::<Vec<_>>()), @r"

@@ -9,6 +9,8 @@ use std::time::{Duration, Instant};
 use insta::assert_snapshot;
 use serde_json::Value;
 
+use crate::cli::says;
+use crate::folder::folder;
 use crate::recipes::{has, recipe};
 
 /// The lines of a command on stdout and stderr, without blanks at their ends.
@@ -37,8 +39,7 @@ fn a_chain_in_c_that_shares_no_code_plans_as_the_model_does() {
     if !has("cc", "--version") {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let compiled = Command::new("cc")
         .args(["-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-pedantic", "-o", "chain"])
         .arg(recipe("examples/conform/chain.c"))
@@ -75,8 +76,7 @@ fn ants_in_python_that_prefer_west_to_south_are_told_where_they_differ() {
     if !has("python3", "--version") {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let ants = recipe("examples/conform/ants.py");
     let ants = ants.to_str().expect("text");
     for agents in 1..4 {
@@ -108,8 +108,7 @@ fn ants_in_python_that_prefer_west_to_south_are_told_where_they_differ() {
 /// knows it.
 #[test]
 fn what_was_recorded_of_a_run_conforms_to_it() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     for (run, knows_its_end) in [
         ("walls:5x5:0.2 --robots 3", true),
         ("walls:5x5:0.2 --robots 3 --rule reel", true),
@@ -133,10 +132,7 @@ fn what_was_recorded_of_a_run_conforms_to_it() {
             // A team that is done too early, and one that is not done.
             let early = [&moves[..3], &[end.to_owned()]].concat();
             let told = conform(folder, run, &["sh", "-c", &recorded(&early)], 1);
-            assert!(
-                told.contains("differs in team move 4:") && told.contains("has nothing left to do"),
-                "{told}"
-            );
+            says(&told, &["differs in team move 4:", "has nothing left to do"]);
             *moves.last_mut().expect("an end") = r#"{"tried":"..."}"#.to_owned();
             let told = conform(folder, run, &["sh", "-c", &recorded(&moves)], 1);
             assert!(told.ends_with("the model has nothing left to do, the program plans ..."), "{told}");
@@ -164,11 +160,11 @@ fn programs_that_do_not_answer_are_named_with_their_lines() {
         ("has too long a line", "head -c 2000000 /dev/zero | tr '\\0' x".to_owned()),
         ("goes on for ever", "exec yes".to_owned()),
     ];
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = &folder();
     let start = Instant::now();
     let said = cases.map(|(what, program)| {
         let conform = ["conform", run, "--patience", "1", "--", "sh", "-c", &program];
-        let (told, said) = ended(folder.path(), &conform, 2);
+        let (told, said) = ended(folder, &conform, 2);
         assert_eq!(told, "", "{what}");
         // Each has its remedy, and its line is drawn.
         assert!(said.contains(" Help: ") && said.contains("╭─") == said.contains("╰── here"), "{said}");
@@ -193,8 +189,7 @@ fn programs_that_do_not_answer_are_named_with_their_lines() {
 
 #[test]
 fn runs_of_which_no_program_could_know_enough_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     for run in [
         "walls:5x5:0.1 --scheme kit --robots 2",
         "cells:5x5:0.1 --scheme pack --robots 2",
@@ -215,8 +210,7 @@ fn runs_of_which_no_program_could_know_enough_are_refused() {
 
 #[test]
 fn what_is_told_and_answered_is_as_the_schemas_say() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let tee = "tee told.jsonl | sed -u -n 's/.*\"step\".*/{\"tried\":\"..\"}/p'";
     for run in ["open:3x3 --scheme ants --robots 2", "open:3x3 --robots 2"] {
         conform(folder, run, &["sh", "-c", tee], 1);

@@ -10,6 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::commands::documents;
+use crate::folder::folder;
 use crate::foreign;
 use crate::proved::proved;
 use crate::tidy::sources;
@@ -242,7 +243,7 @@ fn a_thousand_rescues_are_those_of_the_page() {
 
 #[test]
 fn the_pictures_are_drawn_by_the_commands_beside_them() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = &folder();
     for (page, picture, arguments, code) in [
         ("docs/chain.md", "environments.svg", "show environments --svg", 0),
         ("docs/chain.md", "move.svg", "replay docs/open-7x7.jsonl --moves 5..5 --svg", 0),
@@ -266,14 +267,14 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
         ("docs/floor.md", "trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
         shows(page, &format!("tautline {arguments} docs/{picture}"));
-        let drawn = folder.path().join(picture);
+        let drawn = folder.join(picture);
         let arguments: Vec<&str> =
             arguments.split(' ').chain([drawn.to_str().expect("a plain name")]).collect();
         printed(&arguments, code);
         let drawn = fs::read_to_string(drawn).expect("a picture");
         assert_eq!(drawn, document(&format!("docs/{picture}")), "{picture}");
     }
-    let run = folder.path().join("run");
+    let run = folder.join("run");
     printed(&["explore", "open:7x7", "--robots", "4", "--trace", run.to_str().expect("a plain name")], 0);
     assert_eq!(fs::read_to_string(run).expect("a run"), document("docs/open-7x7.jsonl"));
 }
@@ -282,10 +283,10 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
 fn the_readme_is_one_page_and_its_commands_answer() {
     let readme = document("README.md");
     assert!(readme.len() <= 10_000, "{} bytes", readme.len());
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::create_dir(folder.path().join("docs")).expect("a folder");
+    let folder = &folder();
+    fs::create_dir(folder.join("docs")).expect("a folder");
     let run = "docs/chain-2-published-n4.jsonl";
-    fs::write(folder.path().join(run), document(run)).expect("a run");
+    fs::write(folder.join(run), document(run)).expect("a run");
     let commands = readme.lines().filter_map(|line| line.strip_prefix("cargo run --release -- "));
     let commands: Vec<&str> = commands.map(|line| line.split('#').next().unwrap_or(line).trim()).collect();
     let [all, quick @ ..] = &commands[..] else { panic!("the README has no commands") };
@@ -293,7 +294,7 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     assert_eq!(quick.len(), 3, "{quick:?}");
     for (command, code) in quick.iter().zip([1, 1, 0]) {
         let arguments: Vec<&str> = command.split_whitespace().collect();
-        assert!(!foreign::ended(folder.path(), &arguments, code).0.is_empty(), "{command}");
+        assert!(!foreign::ended(folder, &arguments, code).0.is_empty(), "{command}");
     }
 }
 
@@ -428,14 +429,14 @@ fn the_templates_find_the_crates_where_they_are_copied_as_the_page_says() {
     let tree = format!("'{}' tree --offline --manifest-path", env!("CARGO"));
     let copying = copying.replace("cargo test --manifest-path", &tree);
     assert!(copying.contains(&tree), "{copying}");
-    let folder = tempfile::tempdir().expect("a folder");
-    std::os::unix::fs::symlink(env!("CARGO_MANIFEST_DIR"), folder.path().join("tautline")).expect("a link");
+    let folder = &folder();
+    std::os::unix::fs::symlink(env!("CARGO_MANIFEST_DIR"), folder.join("tautline")).expect("a link");
     for name in ["rule", "page"] {
         let lines = copying.replace("rule", name);
-        let output = Command::new("sh").args(["-ec", &lines]).current_dir(&folder).output().expect("a shell");
+        let output = Command::new("sh").args(["-ec", &lines]).current_dir(folder).output().expect("a shell");
         assert!(output.status.success(), "{lines}\n{}", String::from_utf8_lossy(&output.stderr));
     }
-    let copied = fs::read_to_string(folder.path().join("rule/Cargo.toml")).expect("a file");
+    let copied = fs::read_to_string(folder.join("rule/Cargo.toml")).expect("a file");
     let needed = block_from(&tutorial, "tautline-kernel = {");
     assert!(copied.contains(needed), "{copied}");
 }
@@ -470,22 +471,22 @@ fn ended(folder: &Path, arguments: &[String]) -> Option<i32> {
 fn the_commands_of_the_pages_answer() {
     let (mut seen, mut answered) = (BTreeSet::new(), 0);
     for block in crate::commands::blocks().into_iter().filter(|block| block.is_shell) {
-        let folder = tempfile::tempdir().expect("a folder");
-        fs::create_dir(folder.path().join("docs")).expect("a folder");
+        let folder = &folder();
+        fs::create_dir(folder.join("docs")).expect("a folder");
         for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|extension| extension == "jsonl") {
                 let name = path.file_name().expect("a name");
-                fs::copy(&path, folder.path().join("docs").join(name)).expect("a copy");
+                fs::copy(&path, folder.join("docs").join(name)).expect("a copy");
                 // What the line before has stored, by another program.
-                fs::copy(&path, folder.path().join("found.jsonl")).expect("a copy");
+                fs::copy(&path, folder.join("found.jsonl")).expect("a copy");
             }
         }
         for arguments in block.commands.iter().filter(|arguments| seen.insert((*arguments).clone())) {
             // The whole ledger is the matter of another test.
             let is_ledger = arguments[0] == "prove"
                 && !arguments.iter().any(|argument| argument.starts_with(char::is_uppercase));
-            match (!is_ledger).then(|| ended(folder.path(), arguments)).flatten() {
+            match (!is_ledger).then(|| ended(folder, arguments)).flatten() {
                 Some(code) => {
                     // 4: of the shards that a page names only the first was run.
                     assert!(

@@ -3,9 +3,11 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use insta::assert_snapshot;
+
+use crate::cli::ran;
+use crate::folder::{Folder, folder};
 
 /// Two robots in a row of three cells; the first meets the wall, the second comes into its cell.
 const RUN: &str = r#"{"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"stop"},"clause":"PAIR-1","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
@@ -14,34 +16,25 @@ const RUN: &str = r#"{"format":"tautline run","version":1,"scheme":"pair","rule"
 {"end":{"stopped":"violation","steps":2,"explored":2,"cells":3,"violations":[{"clause":"PAIR-1","step":2}]}}
 "#;
 
-fn tautline(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tautline"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the program runs")
-}
-
 /// The text on stdout, and that on stderr, of a command that ends with exit code `code`.
 pub(crate) fn ended(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
-    let output = tautline(folder, arguments);
+    let output = ran(folder, arguments);
     let text = |bytes| String::from_utf8(bytes).expect("text");
     let (told, said) = (text(output.stdout), text(output.stderr));
     assert_eq!(output.status.code(), Some(code), "{told}{said}");
     (told, said)
 }
 
-fn folder(run: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("run.jsonl"), run).expect("a file");
+fn with_run(run: &str) -> Folder {
+    let folder = folder();
+    fs::write(folder.join("run.jsonl"), run).expect("a file");
     folder
 }
 
 #[test]
 fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
-    let folder = folder(RUN);
-    let (told, said) = ended(folder.path(), &["replay", "run.jsonl"], 1);
+    let folder = &with_run(RUN);
+    let (told, said) = ended(folder, &["replay", "run.jsonl"], 1);
     assert_eq!(said, "");
     assert_snapshot!(told, @r"
     pair (eager), 2 robots, start 0,0: run.jsonl
@@ -76,8 +69,8 @@ fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
         .replacen("\"clause\":\"PAIR-1\",\"layout\"", "\"clause\":null,\"layout\"", 1)
         .replacen("[{\"clause\":\"PAIR-1\",\"step\":2}]", "[]", 1)
         .replacen("\"stopped\":\"violation\"", "\"stopped\":\"exhausted\"", 1);
-    let folder = folder(&kept);
-    let (told, _) = ended(folder.path(), &["replay", "run.jsonl", "--moves", "1..1"], 0);
+    let folder = &with_run(&kept);
+    let (told, _) = ended(folder, &["replay", "run.jsonl", "--moves", "1..1"], 0);
     assert_snapshot!(told, @r"
     pair (eager), 2 robots, start 0,0: run.jsonl
     2 team moves: the team can explore nothing more
@@ -96,8 +89,7 @@ fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
 
 #[test]
 fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
-    let folder = folder(RUN);
-    let folder = folder.path();
+    let folder = &with_run(RUN);
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--html", "run.html", "--svg", "run.svg"], 1);
     assert!(told.contains("the file says that it is a counterexample to PAIR-1"), "{told}");
     let page = fs::read_to_string(folder.join("run.html")).expect("a page");
@@ -111,8 +103,8 @@ fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
 
 #[test]
 fn a_run_of_an_unknown_scheme_that_contradicts_itself_is_refused() {
-    let folder = folder(&RUN.replacen("\"blocked\":[1]", "\"blocked\":[]", 1));
-    let (_, said) = ended(folder.path(), &["replay", "run.jsonl"], 2);
+    let folder = &with_run(&RUN.replacen("\"blocked\":[1]", "\"blocked\":[]", 1));
+    let (_, said) = ended(folder, &["replay", "run.jsonl"], 2);
     assert_snapshot!(said, @r#"
     Error: robot 1 at 1,0 cannot cross a wall
        ╭─[ run.jsonl:3:36 ]
@@ -128,7 +120,7 @@ fn a_run_of_an_unknown_scheme_that_contradicts_itself_is_refused() {
 
 #[test]
 fn a_run_of_an_unknown_scheme_is_not_minimised() {
-    let folder = folder(RUN);
-    let (_, said) = ended(folder.path(), &["minimise", "run.jsonl"], 2);
+    let folder = &with_run(RUN);
+    let (_, said) = ended(folder, &["minimise", "run.jsonl"], 2);
     assert_snapshot!("unknown_scheme", said);
 }

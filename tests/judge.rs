@@ -6,6 +6,8 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::cli::says;
+use crate::folder::{Folder, folder};
 use crate::foreign::ended;
 
 /// Four robots in a row swing to and fro for half a minute; from 20 s on the last one is 80 cm farther off.
@@ -23,9 +25,9 @@ fn field(header: &str, metre: f64) -> String {
     text
 }
 
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("field.csv"), field("time,robot,x,y", 1.0)).expect("a file");
+fn with_log() -> Folder {
+    let folder = folder();
+    fs::write(folder.join("field.csv"), field("time,robot,x,y", 1.0)).expect("a file");
     folder
 }
 
@@ -36,8 +38,7 @@ fn judged(folder: &Path, arguments: &str, code: i32) -> (String, String) {
 
 #[test]
 fn a_breach_has_its_moment_its_robots_its_line_a_picture_and_a_page() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     let arguments = "field.csv --clauses CHAIN-3,CHAIN-2,KIT-12,PACK-2 --svg moment.svg --html moment.html";
     let (told, _) = judged(folder, arguments, 1);
     let page = include_str!("../docs/judge.md");
@@ -48,10 +49,7 @@ fn a_breach_has_its_moment_its_robots_its_line_a_picture_and_a_page() {
     );
     assert_eq!(picture.matches("class=\"crowded\"").count(), 2, "{picture}");
     let page = fs::read_to_string(folder.join("moment.html")).expect("a page");
-    assert!(
-        page.contains("20 s, x and y in metres: CHAIN-3 is broken") && page.contains("! 4 (ugv4)"),
-        "{page}"
-    );
+    says(&page, &["20 s, x and y in metres: CHAIN-3 is broken", "! 4 (ugv4)"]);
     let (told, _) = judged(folder, "field.csv --clauses chain-3 --format json", 1);
     let told: Value = serde_json::from_str(&told).expect("JSON");
     assert_eq!(told["clauses"][0]["breach"]["place"], 165);
@@ -59,8 +57,7 @@ fn a_breach_has_its_moment_its_robots_its_line_a_picture_and_a_page() {
 
 #[test]
 fn runs_of_ours_keep_their_clauses_in_the_recordings_that_we_write() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     for (run, map, clauses) in [
         ("--robots 4", "walls:9x9:0.1", "CHAIN-2,CHAIN-3"),
         ("--robots 3 --scheme frontier", "cells:6x6:0.1", "FRONTIER-1,FRONTIER-2"),
@@ -80,15 +77,11 @@ fn runs_of_ours_keep_their_clauses_in_the_recordings_that_we_write() {
 
 #[test]
 fn a_log_of_another_map_or_in_other_units_is_said() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     fs::write(folder.join("mm.csv"), field("time,robot,x,y", 1_000.0)).expect("a file");
     fs::write(folder.join("units.csv"), field("time_s,robot,x_mm,y_mm", 1_000.0)).expect("a file");
     let (told, _) = judged(folder, "mm.csv --clauses CHAIN-3 --map open:12x3", 3);
-    assert!(
-        told.contains("are they millimetres?") && told.contains("CHAIN-3: unknown: more than half"),
-        "{told}"
-    );
+    says(&told, &["are they millimetres?", "CHAIN-3: unknown: more than half"]);
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-3 --map open:3x3", 3);
     assert!(!told.contains("millimetres") && told.contains("off the map, first in line 3"), "{told}");
     judged(folder, "units.csv --clauses CHAIN-3 --map open:12x3", 1);
@@ -106,8 +99,7 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
 /// The lower left corner of the image is at -1,-1, and its lowest row of pixels is blocked.
 #[test]
 fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     let image = format!("P2\n20 6\n255\n{}{}", "255 ".repeat(100), "0 ".repeat(20));
     fs::write(folder.join("floor.pgm"), image).expect("a file");
     let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\n\
@@ -116,10 +108,7 @@ fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
     // Ten columns from x = -1 on, of which robots reach 1 to 9; two of three rows are free, from y = 0 on.
     let (told, _) =
         judged(folder, "field.csv --clauses FRONTIER-1,CHAIN-2 --map floor.yaml --cell 1 --radius 0.4", 1);
-    assert!(
-        told.contains("nobody was in 11 cells, the first is (0,0)") && told.contains("CHAIN-2: kept"),
-        "{told}"
-    );
+    says(&told, &["nobody was in 11 cells, the first is (0,0)", "CHAIN-2: kept"]);
     assert!(!told.contains("off the map"), "{told}");
     let (told, _) =
         judged(folder, "field.csv --clauses CHAIN-2 --map floor.yaml --cell 1 --radius 0.4 --origin 0,5", 3);
@@ -128,8 +117,7 @@ fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
 
 #[test]
 fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
     write("nobody.csv", "robot_a,1\n");
     write("twice.csv", "ugv1,1\nugv1,2\n");
@@ -171,22 +159,17 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
 
 #[test]
 fn numbers_of_robots_are_those_of_the_file_of_names() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     fs::write(folder.join("names.csv"), "name,robot\nugv3,1\nugv4,2\nugv9,3\n").expect("a file");
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-3,KIT-12 --names names.csv", 3);
-    assert!(
-        told.contains("120 × not taken: a name that is no robot") && told.contains("not in the log: ugv9"),
-        "{told}"
-    );
+    says(&told, &["120 × not taken: a name that is no robot", "not in the log: ugv9"]);
     assert!(told.contains("CHAIN-3: broken at 20 s: robots 1 (ugv3) and 2 (ugv4)"), "{told}");
     assert!(told.contains("KIT-12: unknown: the log has no position of robot 3 (ugv9)"), "{told}");
 }
 
 #[test]
 fn names_that_steer_a_terminal_or_break_xml_are_shown_as_text() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     let rows = [0, 2, 9].map(|x| format!(r#"{{"t":0,"robot":"{x}\n\u001b[31m","x":{x},"y":0}}"#));
     fs::write(folder.join("R&D.jsonl"), rows.join("\n")).expect("a file");
     let (told, _) = judged(folder, "R&D.jsonl --clauses CHAIN-3 --svg moment.svg", 1);
@@ -200,8 +183,7 @@ fn names_that_steer_a_terminal_or_break_xml_are_shown_as_text() {
 #[test]
 fn logs_of_other_programs_are_judged() {
     let log = |name: &str| format!("{}/logs/tests/logs/{name}", env!("CARGO_MANIFEST_DIR"));
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &with_log();
     let (told, _) = judged(folder, &format!("{} --clauses KIT-3,KIT-12", log("sumo-fcd.csv")), 3);
     assert!(told.contains("72 positions of 3 robots in 15.5 s"), "{told}");
     assert!(told.contains("KIT-3: unknown: robot 2 (cart_1) is silent from 0 s to 4 s"), "{told}");

@@ -13,6 +13,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_io::json_lines::MAX_FILE_BYTES;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use crate::folder::folder;
 use crate::fuzz_corpus::targets::report::{Colour, render, with_flags};
 
 const DRAWING: &str = "\
@@ -62,10 +63,10 @@ fn made(description: &str, seed: u64) -> Layout {
 
 /// The one line that is said about a file of this name and content.
 fn refused(name: &str, content: impl AsRef<[u8]>) -> String {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join(name);
+    let folder = &folder();
+    let file = folder.join(name);
     fs::write(&file, content).expect("a file");
-    plain(&layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault"), folder.path())
+    plain(&layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault"), folder)
 }
 
 fn plain(fault: &Diagnostic, folder: &Path) -> String {
@@ -314,12 +315,12 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
 
 /// The map that the YAML and the image make together.
 fn ros_map(yaml: &str, image: &[u8], named: Option<&str>) -> Result<(Layout, ros::Frame), String> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("map.yaml");
+    let folder = &folder();
+    let file = folder.join("map.yaml");
     fs::write(&file, yaml).expect("a file");
-    fs::write(folder.path().join("map.pgm"), image).expect("a file");
-    let named = named.map(|name| folder.path().join(name));
-    ros::load(&file, named.as_deref()).map_err(|fault| plain(&fault, folder.path()))
+    fs::write(folder.join("map.pgm"), image).expect("a file");
+    let named = named.map(|name| folder.join(name));
+    ros::load(&file, named.as_deref()).map_err(|fault| plain(&fault, folder))
 }
 
 #[test]
@@ -562,11 +563,11 @@ fn a_file_that_is_no_layout_is_refused() {
     assert_snapshot!(load("open:3x3", Some(Path::new("map.pgm"))),
         @"--image is given, but the layout is not a ROS map; leave --image out, or name the map's .yaml file");
 
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("large.map");
+    let folder = &folder();
+    let file = folder.join("large.map");
     fs::File::create(&file).and_then(|large| large.set_len(MAX_FILE_BYTES + 1)).expect("a file");
     let fault = layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault");
-    assert_snapshot!(plain(&fault, folder.path()),
+    assert_snapshot!(plain(&fault, folder),
         @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 \
           cells on a side and at most 16777216 in all");
 }

@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 mod conform;
 mod documents;
+mod folder;
 mod foreign;
 #[expect(unreachable_pub, reason = "the library of the fuzz targets is a module here")]
 mod fuzz_corpus;

@@ -8,6 +8,8 @@ use std::process::{Command, Output};
 use mcap::MessageStream;
 use serde_json::{Value, json};
 
+use crate::folder::folder;
+
 fn ran(folder: &Path, arguments: &str) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
     command.current_dir(folder).args(arguments.split(' ')).output().expect("the program runs")
@@ -185,8 +187,7 @@ impl<T, const N: usize> FromFn<T> for [T; N] {
 
 #[test]
 fn a_recording_reads_back_equal_to_the_trace_and_is_the_same_bytes_each_time() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     for run in [
         "open:7x7 --robots 4",
         "walls:15x15:0.15 --robots 6 --seed 3 --rule published",
@@ -244,8 +245,7 @@ fn a_recording_reads_back_equal_to_the_trace_and_is_the_same_bytes_each_time() {
 
 #[test]
 fn the_links_of_a_recording_are_those_of_the_scheme() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let recorded = |arguments: &str| {
         ran(folder, &format!("{arguments} --mcap run.mcap"));
         read(&fs::read(folder.join("run.mcap")).expect("a recording"))
@@ -263,8 +263,7 @@ fn the_links_of_a_recording_are_those_of_the_scheme() {
 
 #[test]
 fn the_recording_of_a_rescue_has_the_lines_of_its_trace_and_the_places_of_its_robots() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let rescue = "rescue --nodes 300 --wfr 2 --robots 2 --obstacle 100,100,150,150 --seeds 8";
     ran(folder, &format!("{rescue} --trace rescue.jsonl --mcap rescue.mcap"));
     let bytes = fs::read(folder.join("rescue.mcap")).expect("a recording");
@@ -312,8 +311,7 @@ fn the_recording_of_a_rescue_has_the_lines_of_its_trace_and_the_places_of_its_ro
 
 #[test]
 fn what_has_no_team_moves_has_no_trace_of_them() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let refused = |arguments: &str, what: &str| {
         let refused = ran(folder, arguments);
         let said = String::from_utf8_lossy(&refused.stderr);

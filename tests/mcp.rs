@@ -10,6 +10,9 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+use crate::cli::says;
+use crate::folder::{Folder, folder};
+
 /// A client, and the server that it has started.
 struct Client {
     child: Child,
@@ -78,18 +81,18 @@ impl Client {
 }
 
 /// A folder with a folder for the server, and a run beside it.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::create_dir(folder.path().join("runs")).expect("a folder");
+fn with_runs() -> Folder {
+    let folder = folder();
+    fs::create_dir(folder.join("runs")).expect("a folder");
     let run = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chain-1-published-n4.jsonl");
-    fs::copy(run, folder.path().join("outside.jsonl")).expect("a file");
+    fs::copy(run, folder.join("outside.jsonl")).expect("a file");
     folder
 }
 
 #[test]
 fn each_tool_answers_as_its_command_does() {
-    let folder = folder();
-    let mut client = Client::new(folder.path());
+    let folder = &with_runs();
+    let mut client = Client::new(folder);
     let listed = client.asks("tools/list", &json!({}));
     let tools = listed["result"]["tools"].as_array().expect("a list");
     let names: Vec<&str> = tools.iter().filter_map(|tool| tool["name"].as_str()).collect();
@@ -107,18 +110,18 @@ fn each_tool_answers_as_its_command_does() {
         let told = client.told(tool, &arguments);
         crate::schema::check(schema, &told, tool);
     }
-    assert!(folder.path().join("runs/minimal/chain-13-published-n3.jsonl").is_file());
+    assert!(folder.join("runs/minimal/chain-13-published-n3.jsonl").is_file());
     drop(client.input);
     assert!(client.child.wait().expect("it ends").success());
 }
 
 #[test]
 fn a_call_that_could_not_store_its_file_has_failed() {
-    let folder = folder();
-    let foreign = folder.path().join("runs/found/chain-13-published-n3.jsonl");
-    fs::create_dir(folder.path().join("runs/found")).expect("a folder");
+    let folder = &with_runs();
+    let foreign = folder.join("runs/found/chain-13-published-n3.jsonl");
+    fs::create_dir(folder.join("runs/found")).expect("a folder");
     fs::write(&foreign, "mine").expect("a file");
-    let mut client = Client::new(folder.path());
+    let mut client = Client::new(folder);
     let said = client.refused("hunt", &json!({"rule": "published", "robots": 3, "max_walls": 2}));
     assert!(said.contains("tautline did not write this file"), "{said}");
     assert!(said.ends_with("Help: store it elsewhere"), "{said}");
@@ -127,12 +130,12 @@ fn a_call_that_could_not_store_its_file_has_failed() {
 
 #[test]
 fn no_call_leaves_the_folder() {
-    let folder = folder();
-    let outside = folder.path().join("outside.jsonl");
-    symlink(&outside, folder.path().join("runs/link.jsonl")).expect("a link");
-    symlink(folder.path(), folder.path().join("runs/up")).expect("a link");
-    fs::write(folder.path().join("runs/map.yaml"), "image: ../map.png").expect("a file");
-    let mut client = Client::new(folder.path());
+    let folder = &with_runs();
+    let outside = folder.join("outside.jsonl");
+    symlink(&outside, folder.join("runs/link.jsonl")).expect("a link");
+    symlink(folder, folder.join("runs/up")).expect("a link");
+    fs::write(folder.join("runs/map.yaml"), "image: ../map.png").expect("a file");
+    let mut client = Client::new(folder);
     let outside = outside.to_str().expect("text");
     for file in [
         "../outside.jsonl",
@@ -158,16 +161,16 @@ fn no_call_leaves_the_folder() {
         let said = client.refused("explore", &arguments);
         assert!(said.contains("within the folder"), "{path}: {said}");
     }
-    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "something was written beside");
+    assert_eq!(fs::read_dir(folder).expect("a folder").count(), 2, "something was written beside");
     // What is within is read.
-    fs::copy(outside, folder.path().join("runs/inside.jsonl")).expect("a file");
+    fs::copy(outside, folder.join("runs/inside.jsonl")).expect("a file");
     assert_eq!(client.told("replay", &json!({"file": "inside.jsonl"}))["counterexample_to"], "CHAIN-1");
 }
 
 #[test]
 fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
-    let folder = folder();
-    let mut client = Client::new(folder.path());
+    let folder = &with_runs();
+    let mut client = Client::new(folder);
     let long = |seconds: u32| json!({"robots": 6, "max_walls": 7, "seconds": seconds});
     let start = Instant::now();
     assert!(client.refused("hunt", &long(1)).contains("took more than 1 second and"));
@@ -205,8 +208,7 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
     // What the caller wrote stands as it was written.
     for file in ["no--such-file.jsonl", "a--trace.jsonl"] {
         let said = client.refused("replay", &json!({"file": file}));
-        assert!(said.contains(&format!("{file}: there is no such file")), "{said}");
-        assert!(said.contains("`tautline explore --trace`"), "{said}");
+        says(&said, &[&format!("{file}: there is no such file"), "`tautline explore --trace`"]);
     }
     let id = client.begins("tools/call", &json!({"name": "hunt", "arguments": long(600)}));
     client
@@ -221,9 +223,9 @@ fn a_call_is_bounded_and_can_be_cancelled_and_wrong_arguments_are_named() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_search_stops_at_half_of_little_memory() {
-    let folder = folder();
+    let folder = &with_runs();
     // So many arenas of glibc, one for each thread, would take all of it.
-    let mut client = Client::with(folder.path(), &[("RAYON_NUM_THREADS", "8")]);
+    let mut client = Client::with(folder, &[("RAYON_NUM_THREADS", "8")]);
     let told = client.told("prove", &json!({"clauses": ["KIT-5"], "memory_mib": 256}));
     assert_eq!(told["clauses"][0]["id"], "KIT-5");
 }
@@ -257,8 +259,8 @@ fn no_call_outlives_the_server() {
     for (signal, code, seconds) in
         [("TERM", Some(3), 600), ("INT", Some(3), 600), ("HUP", Some(3), 600), ("KILL", None, 1)]
     {
-        let folder = folder();
-        let Client { mut child, mut input, .. } = Client::new(folder.path());
+        let folder = &with_runs();
+        let Client { mut child, mut input, .. } = Client::new(folder);
         let hunt = json!({"robots": 6, "max_walls": 7, "seconds": seconds});
         let call = json!({"name": "hunt", "arguments": hunt});
         writeln!(input, "{}", json!({"jsonrpc": "2.0", "id": 2, "method": "tools/call", "params": call}))

@@ -11,6 +11,9 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
+use crate::cli::says;
+use crate::folder::folder;
+
 /// A browser with one page open.
 struct Browser {
     child: Child,
@@ -170,14 +173,8 @@ fn shows_how_a_clause_is_broken(browser: &mut Browser, folder: &Path) {
     assert!(browser.text(SAID).ends_with("breaks CHAIN-2"));
     assert_eq!(browser.value(HASH), "#7");
     let why = browser.text("document.getElementById('why').textContent");
-    assert!(
-        why.contains("There MUST never be three robots or more in one cell other than the base."),
-        "{why}"
-    );
-    assert!(
-        why.contains("R_2, R_3, R_4 are in one cell, 1,1") && why.contains("meets a wall and stays"),
-        "{why}"
-    );
+    says(&why, &["There MUST never be three robots or more in one cell other than the base."]);
+    says(&why, &["R_2, R_3, R_4 are in one cell, 1,1", "meets a wall and stays"]);
 }
 
 /// The page of a rescue says at each arrival where the robot is.
@@ -195,10 +192,7 @@ fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
         let Some(arrives) = event.get("arrives") else { continue };
         browser.go_to(step);
         let said = browser.text(SAID);
-        assert!(
-            said.contains(&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])),
-            "{said}"
-        );
+        says(&said, &[&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])]);
         let robot = arrives["robot"].as_u64().expect("a number") as usize - 1;
         let place = browser.value(WHERE)[robot].as_str().expect("a place").to_owned();
         let told: Vec<f64> =
@@ -226,8 +220,8 @@ fn shows_a_death(browser: &mut Browser, folder: &Path) {
 
 #[test]
 fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = &folder.path().canonicalize().expect("a folder");
+    let folder = &folder();
+    let folder = &folder.canonicalize().expect("a folder");
     let Some(mut browser) = Browser::open(folder) else {
         println!("skipped: there is no chromium; TAUTLINE_BROWSER can name a browser like it");
         return;
@@ -300,8 +294,8 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
 #[ignore = "takes ten seconds: cargo test --release --test all page -- --ignored --nocapture \
             (790 kB, 0.5 s, a step 1 ms, 41 ms at most)"]
 fn a_page_of_ten_thousand_team_moves_is_small_and_quick() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = &folder.path().canonicalize().expect("a folder");
+    let folder = &folder();
+    let folder = &folder.canonicalize().expect("a folder");
     let Some(mut browser) = Browser::open(folder) else {
         println!("skipped: there is no chromium; TAUTLINE_BROWSER can name a browser like it");
         return;

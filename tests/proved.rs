@@ -6,6 +6,8 @@ use std::fs;
 use std::process::Command;
 use std::sync::OnceLock;
 
+use crate::folder::folder;
+
 /// The text and the files of `tautline prove --verbose --out refuted`.
 pub(crate) struct ProveOutput {
     /// The text that it prints.
@@ -18,12 +20,12 @@ pub(crate) struct ProveOutput {
 pub(crate) fn proved() -> &'static ProveOutput {
     static PROVED: OnceLock<ProveOutput> = OnceLock::new();
     PROVED.get_or_init(|| {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = &folder();
         let mut prove = Command::new(env!("CARGO_BIN_EXE_tautline"));
-        prove.current_dir(&folder).args(["prove", "--verbose", "--out", "refuted"]).env("NO_COLOR", "1");
+        prove.current_dir(folder).args(["prove", "--verbose", "--out", "refuted"]).env("NO_COLOR", "1");
         let output = prove.output().expect("the program runs");
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-        let files = fs::read_dir(folder.path().join("refuted")).expect("a folder");
+        let files = fs::read_dir(folder.join("refuted")).expect("a folder");
         let stored = files.map(|file| {
             let file = file.expect("a file");
             let name = file.file_name().into_string().expect("a plain name");

@@ -6,6 +6,8 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use crate::folder::{Folder, folder};
+
 const TAUTLINE: &str = env!("CARGO_BIN_EXE_tautline");
 
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "3", "--max-walls", "2"];
@@ -33,12 +35,11 @@ pub(crate) fn has(program: &str, argument: &str) -> bool {
 const PLAN: &str = "my plan.json";
 
 /// A folder with a plan of four shards, and what one process prints.
-fn planned() -> (tempfile::TempDir, Vec<u8>) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let one = tempfile::tempdir().expect("a folder");
-    let whole = ran(one.path(), TAUTLINE, &HUNT).stdout;
+fn planned() -> (Folder, Vec<u8>) {
+    let whole = ran(&folder(), TAUTLINE, &HUNT).stdout;
     let plan = [&HUNT[..], &["--plan", PLAN, "--shards", "4"]].concat();
-    assert_eq!(ran(folder.path(), TAUTLINE, &plan).status.code(), Some(0));
+    let folder = folder();
+    assert_eq!(ran(&folder, TAUTLINE, &plan).status.code(), Some(0));
     (folder, whole)
 }
 
@@ -48,7 +49,7 @@ fn gnu_parallel_runs_all_shards() {
         return;
     }
     let (folder, whole) = planned();
-    let output = ran(folder.path(), recipe("docs/recipes/parallel.sh"), &["hunt", PLAN, "4"]);
+    let output = ran(&folder, recipe("docs/recipes/parallel.sh"), &["hunt", PLAN, "4"]);
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.ends_with(&*String::from_utf8_lossy(&whole)), "{said}");
@@ -58,14 +59,14 @@ fn gnu_parallel_runs_all_shards() {
 #[test]
 fn hyperqueue_runs_all_shards() {
     let (folder, whole) = planned();
-    let hq = folder.path().join("hq");
+    let hq = folder.join("hq");
     let tasks = r#"while [ "$1" != -- ]; do shift; done
 shift
 for task in 1 2 3 4; do HQ_TASK_ID=$task "$@" > /dev/null; done
 "#;
     fs::write(&hq, format!("#!/bin/sh\n{tasks}")).expect("a file");
     fs::set_permissions(&hq, fs::Permissions::from_mode(0o755)).expect("a file of ours");
-    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap_or_default());
+    let path = format!("{}:{}", folder.display(), std::env::var("PATH").unwrap_or_default());
     let mut command = Command::new(recipe("docs/recipes/hyperqueue.sh"));
     command.current_dir(&folder).args(["hunt", PLAN, "4"]).env("TAUTLINE", TAUTLINE).env("PATH", path);
     let output = command.output().expect("it runs");
@@ -83,20 +84,20 @@ fn an_array_of_slurm_runs_all_shards() {
     let script = recipe("docs/recipes/slurm.sh");
     let script = script.to_str().expect("text");
     let array = ["--wait", "--array=1-4", script, "hunt", PLAN];
-    assert!(ran(folder.path(), "sbatch", &array).status.success());
-    let merged = ran(folder.path(), TAUTLINE, &["merge", PLAN]);
+    assert!(ran(&folder, "sbatch", &array).status.success());
+    let merged = ran(&folder, TAUTLINE, &["merge", PLAN]);
     assert_eq!((merged.status.code(), merged.stdout), (Some(1), whole));
 }
 
 #[test]
 fn the_action_keeps_a_page_of_each_counterexample_and_ends_as_its_command() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = &folder();
     let hunt = [&[TAUTLINE], &HUNT[..], &["--format", "github", "--out", "out"]].concat();
-    let output = ran(folder.path(), recipe(".github/action.sh"), &hunt);
+    let output = ran(folder, recipe(".github/action.sh"), &hunt);
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.lines().any(|line| line.starts_with("::error title=")), "{said}");
-    let entries = fs::read_dir(folder.path().join("out")).expect("a folder");
+    let entries = fs::read_dir(folder.join("out")).expect("a folder");
     let mut names: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).collect();
     names.sort();
     let runs: Vec<&PathBuf> =
@@ -108,7 +109,7 @@ fn the_action_keeps_a_page_of_each_counterexample_and_ends_as_its_command() {
         assert!(run.with_extension("txt").exists());
     }
     let small = [TAUTLINE, "hunt", "--robots", "3", "--max-walls", "1", "--out", "out"];
-    assert_eq!(ran(folder.path(), recipe(".github/action.sh"), &small).status.code(), Some(0));
+    assert_eq!(ran(folder, recipe(".github/action.sh"), &small).status.code(), Some(0));
 }
 
 /// The shell steps of the action, each as an object with its `run`.
@@ -125,8 +126,7 @@ fn shell_steps() -> Vec<serde_json::Value> {
 #[test]
 fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources()
  {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let at = |name: &str| folder.join(name);
     for name in ["action/.github", "caller", "temp", "stand-ins", "released"] {
         fs::create_dir_all(at(name)).expect("a folder");
@@ -290,11 +290,11 @@ fn a_junit_file_is_read_by_another_reader() {
     if !has("python3", "--version") {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = &folder();
     let read = |arguments: &[&str]| {
-        let told = ran(folder.path(), TAUTLINE, &[arguments, &["--format", "junit"]].concat());
-        fs::write(folder.path().join("told.xml"), told.stdout).expect("a file");
-        let read = ran(folder.path(), "python3", &["-c", READER, "told.xml"]);
+        let told = ran(folder, TAUTLINE, &[arguments, &["--format", "junit"]].concat());
+        fs::write(folder.join("told.xml"), told.stdout).expect("a file");
+        let read = ran(folder, "python3", &["-c", READER, "told.xml"]);
         String::from_utf8(read.stdout).expect("text")
     };
     assert_eq!(read(&HUNT), "1 1 0 0\nchain|CHAIN-13 by chain (published)|failure\n");
@@ -318,11 +318,11 @@ fn the_notes_of_a_release_are_a_section_of_the_changelog() {
 /// book; mdBook makes `index.html` of a `README.md`, and nothing of a folder.
 #[test]
 fn no_page_is_left_out_of_the_book() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().to_str().expect("text");
-    let made = ran(folder.path(), recipe(".ci/book"), &[out]);
+    let folder = &folder();
+    let out = folder.to_str().expect("text");
+    let made = ran(folder, recipe(".ci/book"), &[out]);
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-    let source = folder.path().join("src");
+    let source = folder.join("src");
     let contents = fs::read_to_string(source.join("SUMMARY.md")).expect("a table of contents");
     let links = |text: &str| -> Vec<String> {
         let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());

@@ -6,6 +6,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
+use crate::folder::folder;
+
 fn printed(folder: &Path, arguments: &str) -> Value {
     let arguments = arguments.split_whitespace().chain(["--format", "json"]);
     let output = Command::new(env!("CARGO_BIN_EXE_tautline")).current_dir(folder).args(arguments).output();
@@ -118,8 +120,7 @@ const COMMANDS: [(&str, &str); 15] = [
 
 #[test]
 fn what_each_command_prints_is_as_its_schema_says() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = &folder();
     let measured = "fix,x_m,y_m,range_m\na,0,0,5\na,10,0,8\na,0,10,7\nb,0,0,4\nb,9,0,5\nb,0,9,6\n";
     std::fs::write(folder.join("measured.csv"), measured).expect("a file");
     let others = [("show-environments", "show environments"), ("reproduce", "reproduce")];

@@ -13,8 +13,7 @@ const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--max-cells", "10", "--
 
 #[test]
 fn the_smallest_runs_of_all_areas_are_those_of_the_pages() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let found = json(folder, &HUNT, 1);
     assert_eq!((&found["verdict"], &found["complete"]), (&"refuted".into(), &true.into()));
     assert_eq!((&found["max_cells"], &found["cells_done"]), (&10.into(), &10.into()));
@@ -54,9 +53,9 @@ fn the_smallest_runs_of_all_areas_are_those_of_the_pages() {
 
 #[test]
 fn the_repaired_rule_breaks_in_no_area_of_ten_cells() {
-    let folder = folder();
+    let folder = &folder();
     let hunt = ["hunt", "--max-cells", "10", "--max-walls", "13"];
-    insta::assert_snapshot!(printed(folder.path(), &hunt, 0), @r"
+    insta::assert_snapshot!(printed(folder, &hunt, 0), @r"
     chain (repaired), 4 robots, at most 10 cells and 13 walls: 21 areas with 84 places of the base, 36168 runs, 392872 team moves
     No clause is broken in any layout within this bound.
     ");
@@ -64,8 +63,7 @@ fn the_repaired_rule_breaks_in_no_area_of_ten_cells() {
 
 #[test]
 fn a_hunt_over_areas_that_is_ended_says_how_far_it_came() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let output = ran(folder, &[&HUNT[..], &["--budget", "200000", "--format", "json"]].concat());
     let told: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(output.status.code(), Some(3));
@@ -74,8 +72,7 @@ fn a_hunt_over_areas_that_is_ended_says_how_far_it_came() {
 
 #[test]
 fn what_no_hunt_over_areas_can_be_told_is_refused() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let wrong: [(&[&str], &str); 9] = [
         (&["--max-cells", "0"], "--max-cells a number from 1 to 49"),
         (&["--max-cells", "50"], "--max-cells a number from 1 to 49"),
@@ -97,8 +94,7 @@ fn what_no_hunt_over_areas_can_be_told_is_refused() {
 /// Robots that each need a cell of their own; those of a chain and agents may start in one cell together.
 #[test]
 fn an_area_too_small_for_the_team_is_refused_with_what_would_be_right() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let mut told = 0;
     for scheme in CATALOGUE.schemes() {
         for rule in scheme.rules {

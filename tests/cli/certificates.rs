@@ -18,8 +18,7 @@ fn changed(bytes: &[u8], one: &[u8], other: &[u8]) -> Vec<u8> {
 
 #[test]
 fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_changed() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let proved = ran(folder, &["prove", "KIT-5", "--certificate", "certificates"]);
     assert_eq!((proved.status.code(), &*proved.stderr), (Some(0), &b""[..]));
     let files = ["kit-5-published-states.cert", "kit-5-repaired-states.cert", "kit-5-robust-states.cert"];
@@ -85,8 +84,7 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
 
 #[test]
 fn a_search_over_layouts_gets_a_certificate_whose_ends_are_its_runs() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let proved = ran(folder, &["prove", "CHAIN-14", "--certificate", "certificates"]);
     assert_eq!((proved.status.code(), &*proved.stderr), (Some(0), &b""[..]));
     assert_eq!(names(&folder.join("certificates")), ["chain-14-repaired-search.cert"]);
@@ -103,8 +101,7 @@ fn a_search_over_layouts_gets_a_certificate_whose_ends_are_its_runs() {
 
 #[test]
 fn what_holds_without_a_search_is_told_to_get_no_certificate() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let proved = ran(folder, &["prove", "KIT-9", "--certificate", "certificates"]);
     assert_eq!(proved.status.code(), Some(0));
     let said = String::from_utf8_lossy(&proved.stderr);

@@ -33,8 +33,7 @@ pub(crate) fn left_out(folder: &Path, arguments: &[&str]) -> (String, String) {
 
 #[test]
 fn what_a_command_reads_is_never_overwritten_by_whatever_name() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     write(folder, "own.map", MAP);
     let yaml = "image: floor.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
                 free_thresh: 0.196\n";
@@ -76,8 +75,7 @@ fn what_a_command_reads_is_never_overwritten_by_whatever_name() {
 
 #[test]
 fn what_tautline_did_not_write_is_replaced_only_with_force() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let explore = ["explore", "open:3x3", "--robots", "2"];
     let rescue = ["rescue", "--seeds", "0"];
@@ -117,8 +115,7 @@ fn what_tautline_did_not_write_is_replaced_only_with_force() {
 
 #[test]
 fn a_counterexample_that_has_no_place_is_left_out_and_the_others_are_stored() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let hunt = ["hunt", "--rule", "published", "--max-cells", "10", "--max-walls", "13"];
     let (mine, other) = ("chain-1-published-n4.jsonl", "chain-2-published-n4.jsonl");
     write(folder, mine, "a thesis\n");
@@ -137,8 +134,7 @@ fn a_counterexample_that_has_no_place_is_left_out_and_the_others_are_stored() {
 
 #[test]
 fn a_hunt_names_each_file_that_it_writes() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let hunt = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "2", "--resume", "kept.json"];
     let told = printed(folder, &hunt, 1);
     let found = json(folder, &hunt, 1);
@@ -159,8 +155,7 @@ fn a_hunt_names_each_file_that_it_writes() {
 #[test]
 fn a_symbolic_link_is_followed_and_stays() {
     use std::os::unix::fs::symlink;
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     fs::create_dir(folder.join("far")).expect("a folder");
     symlink("far/run.jsonl", folder.join("link")).expect("a link");
     symlink("link", folder.join("second")).expect("a link");
@@ -195,8 +190,7 @@ fn a_symbolic_link_is_followed_and_stays() {
 #[cfg(unix)]
 #[test]
 fn without_room_for_one_file_the_rest_is_stored_and_printed() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let limited = |kilobytes: u32, arguments: &str, output: &str| {
         let program = env!("CARGO_BIN_EXE_tautline");
         let script = format!("ulimit -f {}; exec {program} {arguments} {output}", 2 * kilobytes);
@@ -228,8 +222,7 @@ fn without_room_for_one_file_the_rest_is_stored_and_printed() {
 #[cfg(target_os = "linux")]
 #[test]
 fn files_are_stored_also_if_nothing_can_be_printed() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let full = fs::File::options().write(true).open("/dev/full").expect("a device");
     let explore = ["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl", "--svg", "order.svg"];
     let output = tautline(folder, &explore).stdout(full).output().expect("the program runs");
@@ -240,8 +233,7 @@ fn files_are_stored_also_if_nothing_can_be_printed() {
 
 #[test]
 fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let explore = ["explore", "cells:9x9:0.1", "--scheme", "bricks", "--robots", "1", "--draw", "moves"];
     let files = ["--trace", "run.jsonl", "--html", "run.html", "--svg", "moves.svg"];
     let whole = printed(folder, &explore, 0);
@@ -263,8 +255,7 @@ fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
 
 #[test]
 fn team_moves_that_a_run_does_not_have_are_refused_and_all_are_drawn_where_all_are_wanted() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let replay = ["replay", "run.jsonl", "--svg", "a.svg"];
     for (moves, why) in [("9..12", "the run has 8 team moves"), ("0..0", "counted from 1 on; write 1..1")] {
@@ -289,12 +280,12 @@ fn team_moves_that_a_run_does_not_have_are_refused_and_all_are_drawn_where_all_a
 #[cfg(target_os = "linux")]
 #[test]
 fn a_pipe_is_no_place_for_a_file_and_help_that_has_no_place_is_a_fault() {
-    let folder = folder();
-    let said = refused(folder.path(), &["show", "open:3x3", "--svg", "/dev/stdout"]);
+    let folder = &folder();
+    let said = refused(folder, &["show", "open:3x3", "--svg", "/dev/stdout"]);
     assert!(said.contains("/dev/stdout: this is a device or a pipe"), "{said}");
     for asked in ["--help", "--version"] {
         let full = fs::File::options().write(true).open("/dev/full").expect("a device");
-        let output = tautline(folder.path(), &[asked]).stdout(full).output().expect("the program runs");
+        let output = tautline(folder, &[asked]).stdout(full).output().expect("the program runs");
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.code() == Some(2) && said.contains("standard output"), "{asked}: {said}");
     }
@@ -302,8 +293,7 @@ fn a_pipe_is_no_place_for_a_file_and_help_that_has_no_place_is_a_fault() {
 
 #[test]
 fn what_is_known_to_be_too_large_is_refused_before_the_work() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let large = ["explore", "open:4000x4000", "--scheme", "bricks", "--svg", "a.svg"];
     let cases: [&[&str]; 4] = [
@@ -312,9 +302,7 @@ fn what_is_known_to_be_too_large_is_refused_before_the_work() {
         &["explore", "open:4000x4000", "--scheme", "ants", "--html", "a.html"],
         &["replay", "run.jsonl", "--moves", "1..201", "--svg", "a.svg"],
     ];
-    let said = cases
-        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
-    assert_snapshot!(said.join("\n"), @r"
+    assert_snapshot!(refusals(folder, &[], &cases), @r"
     $ tautline explore open:4000x4000 --scheme bricks --svg a.svg
     Error: an area of 4000x4000 cells is too large to be drawn
      Help: leave out the picture and the page, or take at most 524288 cells
@@ -356,8 +344,7 @@ fn peak_kib(folder: &Path, arguments: &[&str]) -> (u64, Option<i32>) {
 #[cfg(target_os = "linux")]
 #[test]
 fn however_many_team_moves_are_replayed_memory_stays_bounded() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let explore = ["explore", "cells:96x96:0.1", "--scheme", "bricks", "--robots", "80"];
     printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 0);
     let replay = ["replay", "run.jsonl", "--moves"];
@@ -373,8 +360,7 @@ fn however_many_team_moves_are_replayed_memory_stays_bounded() {
 
 #[test]
 fn where_a_page_or_a_picture_is_asked_for_nothing_is_drawn_on_stdout() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let summary = "chain (repaired), 2 robots, base 1,1: run.jsonl
 8 team moves: every cell of the area is explored
@@ -390,9 +376,9 @@ no clause is broken
 
 #[test]
 fn a_hunt_that_was_ended_tells_so_also_if_it_has_found_something() {
-    let folder = folder();
+    let folder = &folder();
     let hunt = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "4", "--budget", "200000"];
-    let found = json(folder.path(), &hunt, 3);
+    let found = json(folder, &hunt, 3);
     assert_eq!((&found["verdict"], &found["complete"]), (&"refuted".into(), &false.into()));
     assert_eq!(found["counterexamples"].as_array().map(Vec::is_empty), Some(false));
     // What was found lies beyond what was covered, and is not called the smallest.
@@ -403,11 +389,8 @@ fn a_hunt_that_was_ended_tells_so_also_if_it_has_found_something() {
         ("--scheme kit --size 4x1 --budget 30", "all layouts of at most 2 nodes were"),
     ] {
         let words: Vec<&str> = ["hunt", "--rule", "published"].into_iter().chain(hunt.split(' ')).collect();
-        let said = printed(folder.path(), &words, 3);
-        assert!(
-            said.contains(&format!("Found before the hunt was ended, when {covered} covered;")),
-            "{said}"
-        );
+        let said = printed(folder, &words, 3);
+        says(&said, &[&format!("Found before the hunt was ended, when {covered} covered;")]);
         assert!(!said.contains("The smallest"), "{said}");
     }
 }
@@ -415,8 +398,7 @@ fn a_hunt_that_was_ended_tells_so_also_if_it_has_found_something() {
 #[cfg(unix)]
 #[test]
 fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     make_pipe(folder);
     for command in ["replay", "minimise"] {
         let said = refused(folder, &[command, "pipe"]);
@@ -434,8 +416,7 @@ fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     make_pipe(folder);
     let large = fs::File::create(folder.join("large")).expect("a file");
     large.set_len((128 << 20) + 1).expect("room for nothing");
@@ -480,8 +461,7 @@ const LONG_HUNT: [&str; 7] = ["hunt", "--robots", "6", "--max-walls", "6", "--re
 #[cfg(unix)]
 #[test]
 fn two_hunts_are_not_kept_in_one_file() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let first = hunting(tautline(folder, &LONG_HUNT), folder);
     for _ in 0..3 {
         let said = refused(folder, &[&LONG_HUNT[..], &["--out", "new/found"]].concat());
@@ -501,8 +481,7 @@ fn two_hunts_are_not_kept_in_one_file() {
 #[cfg(unix)]
 #[test]
 fn each_signal_that_asks_for_an_end_gets_what_is_known_and_keeps_the_hunt() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     // What was started to ignore SIGHUP, as by nohup, goes on.
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:")?.trim().chars().last());
@@ -524,8 +503,7 @@ fn each_signal_that_asks_for_an_end_gets_what_is_known_and_keeps_the_hunt() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_hunt_that_was_started_to_outlive_its_terminal_does() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let mut shell = Command::new("sh");
     let script = format!("trap '' HUP; exec {} {}", env!("CARGO_BIN_EXE_tautline"), LONG_HUNT.join(" "));
     shell.current_dir(folder).args(["-c", &script]);
@@ -556,8 +534,7 @@ fn is_whole(folder: &Path, name: &str) -> bool {
 #[test]
 fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
     use std::os::unix::process::ExitStatusExt;
-    let inputs = folder();
-    let inputs = inputs.path();
+    let inputs = &folder();
     let explore = ["explore", "cells:96x96:0.1", "--scheme", "bricks", "--robots", "20"];
     printed(inputs, &[&explore[..], &["--trace", "floor.jsonl"]].concat(), 0);
     let chain = ["explore", "walls:127x127:0.05", "--seed", "3", "--robots", "64", "--rule", "published"];
@@ -583,8 +560,7 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
     for command in commands {
         let mut ended = 0;
         for millis in [2, 20, 70, 160, 310, 400] {
-            let folder = folder();
-            let folder = folder.path();
+            let folder = &folder();
             let mut child = tautline(folder, command);
             let child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program runs");
             std::thread::sleep(Duration::from_millis(millis));

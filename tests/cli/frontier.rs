@@ -9,8 +9,7 @@ use super::{folder, json, names, printed, refused};
 
 #[test]
 fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let wrong: [(&[&str], &str); 28] = [
         (&["explore", "cells:3x3:0", "--threshold", "1.5"], "--threshold a number from 0 to 1"),
         (&["explore", "cells:3x3:0", "--threshold", "nan"], "--threshold a number from 0 to 1"),
@@ -64,8 +63,7 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
 
 #[test]
 fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let explored = ["explore", "cells:6x7:0.2", "--scheme", "frontier", "--robots", "2", "--noise-db", "1"];
     let told = printed(folder, &[&explored[..], &["--map", "map.yaml"]].concat(), 0);
     let cells = told.lines().find_map(|line| line.split_once(" explored")).expect("what is explored").0;
@@ -87,8 +85,7 @@ fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
 
 #[test]
 fn the_cells_of_a_map_of_ros_lie_where_those_of_the_layout_do() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let floor = "image: floor.pgm\nresolution: 0.1\norigin: [-1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
                  free_thresh: 0.196\n";
     fs::write(folder.join("floor.yaml"), floor).expect("a file");
@@ -108,8 +105,7 @@ fn the_cells_of_a_map_of_ros_lie_where_those_of_the_layout_do() {
 
 #[test]
 fn the_objects_that_robots_find_are_told_with_their_errors_and_drawn_on_the_map() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let run = ["explore", "open:4x3", "--scheme", "frontier", "--robots", "2", "--noise-db", "1"];
     let objects = ["--objects", "1.25:2,3:0.5", "--draw", "map", "--svg", "map.svg"];
     let told = printed(folder, &[&run[..], &objects].concat(), 0);
@@ -135,8 +131,7 @@ fn options(folder: &Path, run: &str) -> Value {
 
 #[test]
 fn one_option_of_a_stored_run_leaves_the_others_as_they_were() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let run = "explore cells:4x4:0.1 --scheme frontier --robots 2 --loss 0.1 --noise-db 0.5 --objects 2 \
                --outliers 0.01 --small 0.1 --trace run.jsonl";
     printed(folder, &run.split_whitespace().collect::<Vec<_>>(), 0);

@@ -11,8 +11,7 @@ fn is_judged(replayed: &str, clause: &str) -> bool {
 
 #[test]
 fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     fs::create_dir(folder.join("found")).expect("a folder");
     let hunt = ["hunt", "--scheme", "kit", "--robots", "2", "--size", "3x1"];
     let published = json(folder, &[&hunt[..], &["--rule", "published", "--out", "found"]].concat(), 1);
@@ -41,8 +40,7 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
 
 #[test]
 fn a_hunt_of_another_reading_stores_runs_that_break_it_again() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let hunt = ["hunt", "--scheme", "kit", "--robots", "2", "--size", "5x1", "--rule", "ahead"];
     let ahead = json(folder, &hunt, 1);
     let found = ahead["counterexamples"].as_array().expect("a list");
@@ -62,8 +60,7 @@ fn a_hunt_of_another_reading_stores_runs_that_break_it_again() {
 
 #[test]
 fn what_no_robots_that_keep_in_touch_can_be_told_is_refused() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let wrong: [(&[&str], &str); 14] = [
         (&["explore", "open:1x1", "--robots", "2"], "--robots a number up to 1"),
         (&["explore", "open:5x4", "--robots", "300"], "1 to 8 robots"),

@@ -9,26 +9,26 @@ use super::{folder, json, names, printed, ran, refused};
 
 #[test]
 fn the_library_is_listed_with_what_comes_out() {
-    assert_snapshot!("library_list", printed(folder().path(), &["library"], 0));
+    assert_snapshot!("library_list", printed(&folder(), &["library"], 0));
 }
 
 #[test]
 fn a_rule_of_the_library_is_decided_stored_and_played_again() {
-    let folder = folder();
-    let told = printed(folder.path(), &["library", "rmf-lane", "--out", "found"], 0);
+    let folder = &folder();
+    let told = printed(folder, &["library", "rmf-lane", "--out", "found"], 0);
     assert_snapshot!("library_rule", told);
     let stored = "found/lane-2-before-the-pull-request-states.jsonl";
-    let played = printed(folder.path(), &["replay", stored], 1);
+    let played = printed(folder, &["replay", stored], 1);
     let story =
         told.lines().skip_while(|line| !line.starts_with("start")).take_while(|line| !line.is_empty());
     for line in story {
         assert!(played.contains(line), "{line}\n{played}");
     }
-    let text = fs::read_to_string(folder.path().join(stored)).expect("a file");
+    let text = fs::read_to_string(folder.join(stored)).expect("a file");
     let other = text.replace("\"taken\":0", "\"taken\":1");
-    fs::write(folder.path().join(stored), other).expect("a file");
-    assert_eq!(ran(folder.path(), &["replay", stored]).status.code(), Some(2));
-    let ledger = json(folder.path(), &["library", "rmf-lane", "RMF-SWAP"], 0);
+    fs::write(folder.join(stored), other).expect("a file");
+    assert_eq!(ran(folder, &["replay", stored]).status.code(), Some(2));
+    let ledger = json(folder, &["library", "rmf-lane", "RMF-SWAP"], 0);
     assert_eq!(
         (ledger["as_registered"].as_bool(), ledger["clauses"].as_array().map(Vec::len)),
         (Some(true), Some(8))
@@ -37,7 +37,7 @@ fn a_rule_of_the_library_is_decided_stored_and_played_again() {
 
 #[test]
 fn a_wrong_name_and_options_without_effect_are_refused() {
-    let folder = folder();
+    let folder = &folder();
     for (name, arguments) in [
         ("library_unknown", &["library", "pbit"][..]),
         ("library_no_larger", &["library", "rmf-lane", "--larger"]),
@@ -46,14 +46,13 @@ fn a_wrong_name_and_options_without_effect_are_refused() {
         ("library_runs", &["library", "--runs", "5"]),
         ("library_plan", &["library", "rmf-lane", "--plan", "plan.json"]),
     ] {
-        assert_snapshot!(name, refused(folder.path(), arguments));
+        assert_snapshot!(name, refused(folder, arguments));
     }
 }
 
 #[test]
 fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_minimised() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let hunt = ["library", "ricart-agrawala", "--runs", "50", "--seed", "3"];
     let told = printed(folder, &[&hunt[..], &["--out", "found"]].concat(), 1);
     assert_snapshot!("library_hunt", told);
@@ -93,8 +92,7 @@ fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_mini
 
 #[test]
 fn the_shards_of_the_library_in_any_order_give_what_one_process_gives() {
-    let (one, many) = (folder(), folder());
-    let (one, many) = (one.path(), many.path());
+    let (one, many) = (&folder(), &folder());
     let rules = ["library", "dijkstra", "rmf-swap", "ba-star"];
     let whole = printed(one, &[&rules[..], &["--out", "found"]].concat(), 0);
     let planned = printed(many, &[&rules[..], &["--plan", "plan.json", "--shards", "4"]].concat(), 0);
@@ -126,33 +124,33 @@ fn the_shards_of_the_library_in_any_order_give_what_one_process_gives() {
 /// The first promise of Ricart–Agrawala has 10,522 states, and no room for them.
 #[test]
 fn a_search_larger_than_memory_goes_on_in_a_folder() {
-    let folder = folder();
-    let spill = folder.path().join("states");
+    let folder = &folder();
+    let spill = folder.join("states");
     let bounded = ["library", "ricart-agrawala", "--memory", "480KiB"];
     let spilling = [&bounded[..], &["--spill", "states"]].concat();
-    let said = refused(folder.path(), &spilling);
+    let said = refused(folder, &spilling);
     assert!(said.contains("there is no such folder") && said.contains("make it"), "{said}");
     fs::create_dir(&spill).expect("a folder");
-    let whole = printed(folder.path(), &bounded[..2], 0);
-    assert!(printed(folder.path(), &bounded, 3).contains("give it a folder with --spill"));
-    assert_eq!(printed(folder.path(), &spilling, 0), whole);
+    let whole = printed(folder, &bounded[..2], 0);
+    assert!(printed(folder, &bounded, 3).contains("give it a folder with --spill"));
+    assert_eq!(printed(folder, &spilling, 0), whole);
     assert_eq!(fs::read_dir(&spill).expect("a folder").count(), 0, "nothing is left");
     let narrow = ["library", "ricart-agrawala", "--memory", "64KiB", "--spill", "states"];
-    let said = printed(folder.path(), &narrow, 3);
+    let said = printed(folder, &narrow, 3);
     assert!(said.contains("Give more with --memory") && !said.contains("--spill"), "{said}");
     // Of a search that was killed while it wrote.
     fs::write(spill.join("0-0.part"), "tautline sta").expect("it is written");
-    assert_eq!(printed(folder.path(), &spilling, 0), whole);
+    assert_eq!(printed(folder, &spilling, 0), whole);
     assert_eq!(fs::read_dir(&spill).expect("a folder").count(), 0, "nothing is left");
     for (name, content) in [("notes.txt", "tautline states 1\n"), ("1-0.states", "mine")] {
         fs::write(spill.join(name), content).expect("it is written");
-        let said = refused(folder.path(), &spilling);
+        let said = refused(folder, &spilling);
         assert!(said.contains(name) && said.contains("name a folder that is empty"), "{said}");
         fs::remove_file(spill.join(name)).expect("it is there");
     }
-    fs::write(folder.path().join("file"), "").expect("it is written");
-    let said = refused(folder.path(), &[&bounded[..], &["--spill", "file"]].concat());
+    fs::write(folder.join("file"), "").expect("it is written");
+    let said = refused(folder, &[&bounded[..], &["--spill", "file"]].concat());
     assert!(said.contains("this is no folder"), "{said}");
-    let said = refused(folder.path(), &[&bounded[..2], &["--spill", "states"]].concat());
+    let said = refused(folder, &[&bounded[..2], &["--spill", "states"]].concat());
     assert!(said.contains("--memory"), "{said}");
 }

@@ -34,8 +34,7 @@ fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
     let mut again = 0;
     for scheme in CATALOGUE.schemes() {
         for told in told(&scheme) {
-            let folder = folder();
-            let folder = folder.path();
+            let folder = &folder();
             let explore =
                 ["explore", "cells:6x6:0.1", "--seed", "5", "--robots", "3", "--scheme", scheme.name];
             let rule = scheme.rules[0].name;
@@ -64,8 +63,7 @@ fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
 
 #[test]
 fn a_seed_that_draws_nothing_is_refused_with_what_would_be_drawn() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let said: Vec<String> = CATALOGUE
         .schemes()
         .filter(|scheme| scheme.drawn.iter().all(|drawn| drawn.by != By::Every))

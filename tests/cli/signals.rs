@@ -37,10 +37,10 @@ const CLAUSES: [&str; 3] = ["prove", "NOTICE-4", "MRC-1"];
 
 #[test]
 fn checks_that_are_decided_are_told_and_the_others_counted() {
-    let folder = folder();
-    let text = told(&ended(folder.path(), &CLAUSES, 4));
+    let folder = &folder();
+    let text = told(&ended(folder, &CLAUSES, 4));
     assert!(text.contains("NOTICE-4  published") && text.contains("A signal ended the work: "), "{text}");
-    let json = value(&ended(folder.path(), &[&CLAUSES[..], &["--format", "json"]].concat(), 4));
+    let json = value(&ended(folder, &[&CLAUSES[..], &["--format", "json"]].concat(), 4));
     let clauses = json["clauses"].as_array().expect("a list");
     assert!(clauses.iter().filter(|row| row["id"] == "NOTICE-4").count() == 2, "{json}");
     assert_eq!((&json["complete"], &json["as_registered"]), (&false.into(), &false.into()));
@@ -49,34 +49,34 @@ fn checks_that_are_decided_are_told_and_the_others_counted() {
 
 #[test]
 fn no_folder_stays_that_was_made_for_nothing() {
-    let folder = folder();
-    ended(folder.path(), &["prove", "MRC-1", "--out", "found/deep", "--certificate", "proofs"], 2);
+    let folder = &folder();
+    ended(folder, &["prove", "MRC-1", "--out", "found/deep", "--certificate", "proofs"], 2);
     // A counterexample may be found by then.
-    match names(folder.path())[..] {
+    match names(folder)[..] {
         [] => {}
-        [ref found] => assert!(found == "found" && !names(&folder.path().join("found/deep")).is_empty()),
+        [ref found] => assert!(found == "found" && !names(&folder.join("found/deep")).is_empty()),
         ref others => panic!("{others:?}"),
     }
 }
 
 #[test]
 fn random_runs_of_the_library_end_with_the_checks_that_they_were_made_for() {
-    let folder = folder();
+    let folder = &folder();
     let runs = ["library", "pibt", "--larger", "--runs", "9999999999", "--format", "json"];
-    assert_eq!(value(&ended(folder.path(), &runs, 2))["complete"], false);
+    assert_eq!(value(&ended(folder, &runs, 2))["complete"], false);
 }
 
 /// Whether a campaign that was ended prints what one of as many runs prints, which `smaller` makes of its output.
 fn comes_out_as(arguments: &[&str], seconds: u64, smaller: impl Fn(&Value) -> [String; 2]) {
-    let folder = folder();
+    let folder = &folder();
     let json = ["--format", "json"];
-    let mut part = value(&ended(folder.path(), &[arguments, &json].concat(), seconds));
+    let mut part = value(&ended(folder, &[arguments, &json].concat(), seconds));
     assert_eq!(part["complete"], false);
     let smaller = smaller(&part);
     let smaller =
         [&arguments[..arguments.len() - 2], &smaller.each_ref().map(String::as_str), &json].concat();
     part["complete"] = true.into();
-    assert_eq!(part, value(&ran(folder.path(), &smaller)));
+    assert_eq!(part, value(&ran(folder, &smaller)));
 }
 
 #[test]
@@ -95,14 +95,14 @@ fn trials_up_to_the_first_that_was_not_made_come_out_as_fewer_do() {
 
 #[test]
 fn of_a_part_of_a_table_no_figure_is_claimed() {
-    let folder = folder();
+    let folder = &folder();
     let table = ["reproduce", "notice-fig5", "--runs", "100000", "--csv", "values.csv"];
-    let text = told(&ended(folder.path(), &table, 2));
+    let text = told(&ended(folder, &table, 2));
     assert!(text.contains("of a part no figure is claimed"), "{text}");
-    let json = value(&ended(folder.path(), &[&table[..], &["--format", "json"]].concat(), 2));
+    let json = value(&ended(folder, &[&table[..], &["--format", "json"]].concat(), 2));
     assert_eq!((&json["id"], &json["complete"]), (&"notice-fig5".into(), &false.into()));
     assert!(json["parts_done"].as_u64() < json["parts"].as_u64(), "{json}");
-    assert_eq!(names(folder.path()), [""; 0]);
+    assert_eq!(names(folder), [""; 0]);
     let schema = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/schemas/reproduce-interrupted.json");
     assert!(fs::read_to_string(schema).is_ok_and(|schema| schema.contains("parts_done")));
 }
