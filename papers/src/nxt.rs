@@ -9,57 +9,33 @@
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::run::Frame;
 
-/// A robot and its cells, in millimetres and milliseconds.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Body {
-    /// From the centre of a cell to that of the next.
-    pub(crate) cell_mm: u64,
-    /// How far it drives in a second.
-    pub(crate) speed_mm: u64,
-    /// How long a quarter turn takes.
-    pub(crate) quarter_ms: u64,
-    /// How far it backs up from what it touches.
-    pub(crate) back_mm: u64,
-    /// Its length.
-    pub(crate) length_mm: u64,
-    /// Its width.
-    pub(crate) width_mm: u64,
-    /// The error of its place, per mille of its way.
-    pub(crate) drift_per_mille: u64,
-}
+/// From the centre of a cell to that of the next, in millimetres.
+pub(crate) const CELL_MM: u64 = 4000;
+/// How far a robot drives in a second.
+pub(crate) const SPEED_MM: u64 = 300;
+/// How long a quarter turn takes.
+const QUARTER_MS: u64 = 500;
+/// How far a robot backs up from what it touches.
+const BACK_MM: u64 = 300;
+/// Its length.
+const LENGTH_MM: u64 = 220;
+/// How far it goes aside: its length and its width.
+const ASIDE_MM: u64 = LENGTH_MM + 180;
+/// The error of its place, per mille of its way.
+pub(crate) const DRIFT_PER_MILLE: u64 = 2;
 
-impl Body {
-    /// The paper's.
-    pub(crate) const NXT: Self = Self {
-        cell_mm: 4000,
-        speed_mm: 300,
-        quarter_ms: 500,
-        back_mm: 300,
-        length_mm: 220,
-        width_mm: 180,
-        drift_per_mille: 2,
-    };
+/// Millimetres and quarter turns.
+type Way = (u64, u64);
 
-    const fn aside_mm(self) -> u64 {
-        self.length_mm + self.width_mm
-    }
+/// The way of a robot that meets a wall: to the wall, back, aside and to the wall again, and from there back and aside
+/// to the centre.
+const WALL: Way = (2 * ((CELL_MM - LENGTH_MM) / 2 + BACK_MM + ASIDE_MM), 4);
 
-    /// Millimetres and quarter turns of a robot that meets a wall: to the wall, back, aside and to the wall again, and
-    /// from there back and aside to the centre.
-    const fn wall(self) -> (u64, u64) {
-        let there = (self.cell_mm - self.length_mm) / 2;
-        (2 * (there + self.back_mm + self.aside_mm()), 4)
-    }
+/// The way that another robot on the way costs besides: back and forth again, aside and back.
+const PASSING: Way = (2 * (BACK_MM + ASIDE_MM), 4);
 
-    /// The way in mm, and the quarter turns, that another robot on the way costs
-    /// besides: back and forth again, aside and back.
-    const fn passing(self) -> (u64, u64) {
-        (2 * (self.back_mm + self.aside_mm()), 4)
-    }
-
-    const fn milliseconds(self, (way_mm, quarters): (u64, u64)) -> u64 {
-        way_mm * 1000 / self.speed_mm + quarters * self.quarter_ms
-    }
+const fn milliseconds((way_mm, quarters): Way) -> u64 {
+    way_mm * 1000 / SPEED_MM + quarters * QUARTER_MS
 }
 
 /// The time that a run has taken so far.
@@ -96,18 +72,17 @@ impl Odometer {
             let Step::Cross(side) = step else { continue };
             let turned = turns(self.headings[robot], side);
             self.headings[robot] = side;
-            let (mut way, mut quarters) = (Body::NXT.cell_mm, turned);
-            if frame.blocked[robot] {
-                let (there, more) = Body::NXT.wall();
-                (way, quarters) = (there, quarters + more);
+            let (way, quarters) = if frame.blocked[robot] {
                 self.walls += 1;
+                WALL
             } else if meets(before, frame, robot) {
-                let (there, more) = Body::NXT.passing();
-                (way, quarters) = (way + there, quarters + more);
                 self.passed += 1;
-            }
+                (CELL_MM + PASSING.0, PASSING.1)
+            } else {
+                (CELL_MM, 0)
+            };
             self.ways_mm[robot] += way;
-            last = last.max(Body::NXT.milliseconds((way, quarters)));
+            last = last.max(milliseconds((way, turned + quarters)));
         }
         self.milliseconds += last;
     }
@@ -119,7 +94,7 @@ impl Odometer {
 
     /// How far off the robot with the longest way can be.
     pub(crate) fn drift_mm(&self) -> u64 {
-        self.longest_mm() * Body::NXT.drift_per_mille / 1000
+        self.longest_mm() * DRIFT_PER_MILLE / 1000
     }
 }
 

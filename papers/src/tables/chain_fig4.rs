@@ -6,7 +6,7 @@ use tautline_io::svg::Panel;
 use tautline_kernel::ground::{Area, Cell};
 
 use super::prelude::*;
-use crate::nxt::{Body, Odometer};
+use crate::nxt::{CELL_MM, DRIFT_PER_MILLE, Odometer, SPEED_MM};
 use tautline_grids::layout::ColumnRow;
 use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
@@ -164,15 +164,14 @@ impl Table for ChainFig4 {
     }
 
     fn text(&self, _: &Settings, merged: &Summary) -> Result<String, Halt> {
-        let Body { cell_mm, speed_mm, drift_per_mille, .. } = Body::NXT;
         let tenths = |number: u64, unit: u64| {
             let tenths = (number * 10 + unit / 2) / unit;
             format!("{}.{}", tenths / 10, tenths % 10)
         };
         let mut text = format!(
-            "{ROBOTS} robots: cells of {} m, {} m/s, error {drift_per_mille} ‰ of the way\n\n",
-            cell_mm / 1000,
-            tenths(speed_mm, 1000)
+            "{ROBOTS} robots: cells of {} m, {} m/s, error {DRIFT_PER_MILLE} ‰ of the way\n\n",
+            CELL_MM / 1000,
+            tenths(SPEED_MM, 1000)
         );
         let a_move = |run: &Run| tenths(run.milliseconds, 1000 * u64::from(run.team_moves.max(1)));
         text += &Columns::of(&merged.runs)

@@ -3,7 +3,7 @@
 use tautline_field::stats::Estimate;
 use tautline_io::text_table::{Column, TextTable, Width};
 
-use super::estimates::{percent, text};
+use super::estimates::{percent, plain, text};
 
 /// Lines, and the columns in which they are told.
 pub(super) struct Columns<L> {
@@ -48,6 +48,17 @@ impl<L: Copy> Columns<L> {
         cell: impl Fn(L) -> D,
     ) -> Self {
         self.column(heading.into(), Column::right(width.into()), &|line| cell(line).to_string())
+    }
+
+    /// A column of numbers with so many decimals.
+    pub(super) fn number<N: Into<Option<f64>>>(
+        self,
+        heading: impl Into<String>,
+        width: impl Into<Width>,
+        decimals: usize,
+        cell: impl Fn(L) -> N,
+    ) -> Self {
+        self.right(heading, width, move |line| plain(cell(line), decimals))
     }
 
     /// A column of estimates with so many decimals.

@@ -39,6 +39,11 @@ pub(super) fn text(estimate: impl Into<Option<Estimate>>, decimals: usize) -> St
     Estimate::text_or_dash(estimate.into(), decimals)
 }
 
+/// A number for people, with so many decimals; a dash for none.
+pub(super) fn plain(number: impl Into<Option<f64>>, decimals: usize) -> String {
+    number.into().map_or("-".to_owned(), |number| format!("{number:.decimals$}"))
+}
+
 /// A share for people, in percent; a dash for none.
 pub(super) fn percent(share: impl Into<Option<Estimate>>, decimals: usize) -> String {
     text(share.into().map(|share| share.times(100.0)), decimals)

@@ -240,18 +240,15 @@ impl Table for LocateExplore {
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         type Part = (&'static str, fn(&Figure) -> String);
         const WIDTH: usize = 22;
-        fn sides(number: Option<f64>, decimals: usize) -> String {
-            number.map_or_else(|| "-".to_owned(), |number| format!("{number:.decimals$}"))
-        }
         // Of the repaired rule.
         let parts: [Part; 7] = [
             ("team moves", |figure| text(figure.moves, 1)),
             ("times those without noise", |figure| text(figure.ratio, 2)),
             ("a robot stands, times a run", |figure| text(figure.stands, 1)),
             ("positions off, in cells (rms)", |figure| text(figure.off, 3)),
-            ("objects off, in cells: median", |figure| sides(figure.objects.map(|[median, _]| median), 3)),
-            ("objects off: 95th percentile", |figure| sides(figure.objects.map(|[_, most]| most), 3)),
-            ("over their ellipses (rms)", |figure| sides(figure.objects_ratio, 2)),
+            ("objects off, in cells: median", |figure| plain(figure.objects.map(|[median, _]| median), 3)),
+            ("objects off: 95th percentile", |figure| plain(figure.objects.map(|[_, most]| most), 3)),
+            ("over their ellipses (rms)", |figure| plain(figure.objects_ratio, 2)),
         ];
         let mut told = format!(
             "{} runs for each, {} anchors, {} beacons of each at a stop, \

@@ -177,9 +177,6 @@ impl Table for Margins {
 
     fn text(&self, settings: &Settings, merged: &Summary) -> Result<String, Halt> {
         let Settings { range_m, cell_m, exponent } = settings;
-        let metres = |number: f64| format!("{number:.3}");
-        let or_dash =
-            |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}"));
         let head = format!(
             "A range of {range_m} m, cells of {cell_m} m, paths of {PATH_M} m, a signal \
              that weakens with exponent {exponent}\n\n"
@@ -187,13 +184,13 @@ impl Table for Margins {
         let body = Columns::of(&merged.lines)
             .left("rule", 20, |line| line.rule)
             .left("measured", 8, |line| line.kept.word())
-            .right("at rest, m", Fit, move |line| metres(line.rest_m))
-            .right("moving, m", Fit, move |line| metres(line.moving_m))
-            .right("left, m", Fit, move |line| metres(line.margin_m))
-            .right("each off, m", Fit, move |line| or_dash(line.each_m))
-            .right("weaker, dB", Fit, move |line| or_dash(line.weaker_db))
-            .right("side up to, m", Fit, move |line| metres(line.largest_m))
-            .right("left of r_cov, m", Fit, move |line| or_dash(line.of_r_cov_m))
+            .number("at rest, m", Fit, 3, |line| line.rest_m)
+            .number("moving, m", Fit, 3, |line| line.moving_m)
+            .number("left, m", Fit, 3, |line| line.margin_m)
+            .number("each off, m", Fit, 3, |line| line.each_m)
+            .number("weaker, dB", Fit, 3, |line| line.weaker_db)
+            .number("side up to, m", Fit, 3, |line| line.largest_m)
+            .number("left of r_cov, m", Fit, 3, |line| line.of_r_cov_m)
             .right("late", Fit, |line| if line.is_late_allowed { "any" } else { "none" })
             .text();
         Ok(head

@@ -255,8 +255,7 @@ impl Table for NoticeFig5 {
         for (place, line) in schemes.iter().enumerate() {
             table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach, 2));
             if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
-                let said =
-                    |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
+                let said = |part: Option<f64>| plain(part.map(|part| 100.0 * part), 2);
                 table.row("  paper", |density| said(density.schemes[place].paper));
                 table.row("  difference", |density| said(density.schemes[place].difference));
             }

@@ -196,7 +196,7 @@ impl Table for Optimum {
             .right("beyond", 6, |line| line.beyond)
             .right("below", 5, |line| line.below)
             .right("optimal", 7, |line| line.optimal)
-            .right("mean", 4, |line| line.mean.map_or("-".to_owned(), |mean| format!("{mean:.2}")))
+            .number("mean", 4, 2, |line| line.mean)
             .left("worst", Fit, |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio));
         let mut text = format!(
             "Team moves until the last chain-reachable cell is explored, by the \

@@ -213,10 +213,10 @@ fn moves<'a>(goal: &str, lines: impl Iterator<Item = &'a Line>) -> String {
              is slower"
         ))
         .left("layouts", 17, |line| line.ground)
-        .right("repaired", 9, |line| tenths(line.rules[0].mean));
+        .number("repaired", 9, 1, |line| line.rules[0].mean);
     for (place, rule) in RULES.iter().enumerate().skip(1) {
         columns = columns
-            .right(rule.as_str(), 9, move |line| tenths(line.rules[place].mean))
+            .number(rule.as_str(), 9, 1, move |line| line.rules[place].mean)
             .right("ratio", 15, move |line| line.rules[place].ratio())
             .right("slower", 7, move |line| line.rules[place].slower);
     }
@@ -231,19 +231,15 @@ fn cells(cells: &[Cells]) -> String {
              which a rule explores fewer cells, and more",
         )
         .left("layouts", 17, |line| line.ground)
-        .right("repaired", 9, |line| tenths(line.rules[0].mean));
+        .number("repaired", 9, 1, |line| line.rules[0].mean);
     for (place, rule) in RULES.iter().enumerate().skip(1) {
         columns = columns
-            .right(rule.as_str(), 9, move |line| tenths(line.rules[place].mean))
+            .number(rule.as_str(), 9, 1, move |line| line.rules[place].mean)
             .estimate("in %", 16, 2, move |line| line.rules[place].percent)
             .right("fewer", 7, move |line| line.rules[place].fewer)
             .right("more", 6, move |line| line.rules[place].more);
     }
     columns.text()
-}
-
-fn tenths(mean: Option<f64>) -> String {
-    mean.map_or("-".to_owned(), |mean| format!("{mean:.1}"))
 }
 
 /// The team moves to each of [`GOALS`], if it is reached.

@@ -221,8 +221,8 @@ fn compared(title: &str, lines: &[Line], number: impl Fn(&Line) -> &Comparison) 
     Columns::of(lines.iter().map(|line| (line.density, number(line))))
         .title(format!("{title}; the difference with its 95 % interval"))
         .left("density", 7, |(density, _)| density)
-        .right("published", 9, |(_, both)| format!("{:.2}", both.published))
-        .right("repaired", 9, |(_, both)| format!("{:.2}", both.repaired))
+        .number("published", 9, 2, |(_, both)| both.published)
+        .number("repaired", 9, 2, |(_, both)| both.repaired)
         .right("difference", 15, |(_, both)| {
             let margin = both.margin.map_or_else(String::new, |margin| format!(" ± {margin:.2}"));
             format!("{:+.2}{margin}", both.difference)

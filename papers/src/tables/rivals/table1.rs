@@ -154,13 +154,13 @@ impl Table for ChainTable1 {
             counted(*max_moves, "cell"),
             counted(*patience, "team move"),
         );
-        let or_dash = |number: Option<String>| number.unwrap_or_else(|| "-".to_owned());
+        let signed = |off: Option<f64>| off.map_or("-".to_owned(), |off| format!("{off:+.1}"));
         let paper = Columns::of(&merged.paper)
             .title("What the paper prints")
             .left("", Fit, |line| &line.what)
-            .right("paper", 9, |line| format!("{:.0}", line.paper))
-            .right("ours", 14, move |line| or_dash(line.ours.map(|ours| format!("{ours:.1}"))))
-            .right("difference", 11, move |line| or_dash(line.difference.map(|off| format!("{off:+.1}"))))
+            .number("paper", 9, 0, |line| line.paper)
+            .number("ours", 14, 1, |line| line.ours)
+            .right("difference", 11, move |line| signed(line.difference))
             .right("reached", 10, |line| format!("{}/{}", line.reached, line.runs));
         let mut open = Columns::of(&merged.open)
             .title(format!("Team moves in {OPEN} until so much is explored"))
@@ -251,7 +251,7 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judgement> {
     judged.push(Judgement::new(
         "“62 time units … the minimal theoretical value of 9(N−1)−1”",
         "chain",
-        chain.map_or("-".to_owned(), |chain| format!("{chain:.0}")),
+        plain(chain, 0),
         Verdict::of(chain.is_some_and(|chain| (chain - 62.0).abs() < 0.5)),
     ));
     for (sentence, factor, search) in [
