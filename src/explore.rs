@@ -21,7 +21,9 @@ use super::layout_args::LayoutArgs;
 use super::output::Output;
 use super::ros_map;
 use super::viewers::{self, ViewerArgs};
-use super::{CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, needless, positive, progress, whole};
+use super::{
+    CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, positive, progress, refuse_needless, whole,
+};
 use crate::value_parser::{self, chosen};
 use tautline_grids::chance::Probability;
 use tautline_sim::counterexample::refutation;
@@ -225,10 +227,7 @@ impl Explore {
         if let Some(writer) = writer {
             out.keep(writer.end(&report));
         }
-        if let Some(mut page) = page {
-            page::write(&mut page, &setup, &report, &(1..=report.steps))?;
-            out.keep(page);
-        }
+        out.store(page, |page| page::write(page, &setup, &report, &(1..=report.steps)))?;
         viewers::store([itf, mcap], &setup, out)?;
         if let (Some(mut map), Some(mut grid), Some(frame)) = (map, grid, frame) {
             grid.append(ros_map::image(&setup, &report));
@@ -237,19 +236,14 @@ impl Explore {
             out.keep(grid);
             out.keep(map);
         }
-        if let Some(mut picture) = picture {
-            match self.draw {
-                Some(Draw::Moves) => picture.draw(svg::team_moves(&setup, &report, &(1..=report.steps)))?,
-                Some(Draw::Map) => {
-                    picture.append(Panel::picture(&setup.title(), &[svg::map(&setup, &report)]));
-                }
-                Some(Draw::Order) | None => {
-                    let order = svg::order(&setup, &report.chart);
-                    picture.append(Panel::picture(&setup.title(), &[order]));
-                }
-            }
-            out.keep(picture);
-        }
+        let drawn = |panel: Panel| Ok(Panel::picture(&setup.title(), &[panel]));
+        out.store(picture, |picture| {
+            picture.draw(match self.draw {
+                Some(Draw::Moves) => svg::team_moves(&setup, &report, &(1..=report.steps)),
+                Some(Draw::Map) => drawn(svg::map(&setup, &report)),
+                Some(Draw::Order) | None => drawn(svg::order(&setup, &report.chart)),
+            })
+        })?;
         match self.format.format {
             Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
             Format::Text => {
@@ -264,9 +258,9 @@ impl Explore {
         if let Some((what, remedy)) = &self.told.wrong {
             return Err(Diagnostic::usage(what, remedy).into());
         }
-        if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
-            return Err(needless("--draw", "JSON has no drawing, and no picture is stored").into());
-        }
+        let is_undrawn = self.format.format == Format::Json && self.svg.is_none();
+        let why = "JSON has no drawing, and no picture is stored";
+        refuse_needless([("--draw", self.draw.is_some() && is_undrawn)], why)?;
         let stored = self.stored()?;
         let asked = self.asked(stored.as_ref());
         asked.check()?;

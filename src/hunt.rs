@@ -28,7 +28,7 @@ use tautline_sim::explore::hunt::{
 };
 use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
 use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
-use tautline_sim::trace::store;
+use tautline_sim::trace::{path_in, store};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -275,7 +275,8 @@ fn stored(
     out: &mut Output,
 ) -> Result<Option<String>, Halt> {
     let (Exhibit::Run(clause) | Exhibit::Story(clause, _)) = finding.shown else { return Ok(None) };
-    let (file, _) = store(folder, &finding.setup, clause, replaceable)?;
+    let path = path_in(folder, &finding.setup, clause);
+    let (file, _) = store(&path, &finding.setup, clause, replaceable)?;
     Ok(keep(file, out))
 }
 

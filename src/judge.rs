@@ -17,8 +17,8 @@ use tautline_proofs::ledger;
 use self::ground::{LogMap, MapArgs};
 use self::report::LogReport;
 use super::output::Output;
-use super::{Exit, ForceArgs, FormatArgs, needless};
-use tautline_sim::draw::page::{self, Sink};
+use super::{Exit, ForceArgs, FormatArgs, refuse_needless};
+use tautline_sim::draw::page;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -156,16 +156,12 @@ impl Judge {
             misplaced,
             verdicts: &verdicts,
         };
-        if let Some(mut svg) = svg {
-            svg.draw(told.picture().map_err(Halt::from))?;
-            out.keep(svg);
-        }
-        if let Some(mut html) = html {
+        out.store(svg, |svg| svg.draw(told.picture().map_err(Halt::from)))?;
+        out.store(html, |html| {
             let text = told.text();
             let (first, words) = text.split_once('\n').unwrap_or((&text, ""));
-            html.add(&page::in_words(&told.title(), first, words, &told.moments()));
-            out.keep(html);
-        }
+            html.draw(Ok(page::in_words(&told.title(), first, words, &told.moments())))
+        })?;
         match self.format.format {
             super::Format::Json => out.json(&told.json())?,
             super::Format::Text => out.text(told.text())?,
@@ -191,12 +187,11 @@ impl Judge {
     /// Refuses options that have no effect.
     fn check(&self) -> Result<(), Diagnostic> {
         let has_range = self.has(|kind| matches!(kind, Kind::Neighbours | Kind::Pair | Kind::Joined));
-        if self.range.is_some() && !has_range {
-            return Err(needless("--range", "CHAIN-3, KIT-1 and KIT-12 alone have a range"));
-        }
-        if self.least.is_some() && !self.has(|kind| matches!(kind, Kind::Apart)) {
-            return Err(needless("--least", "KIT-3 alone has a least distance"));
-        }
+        let why = "CHAIN-3, KIT-1 and KIT-12 alone have a range";
+        refuse_needless([("--range", self.range.is_some() && !has_range)], why)?;
+        let has_least = self.has(|kind| matches!(kind, Kind::Apart));
+        let why = "KIT-3 alone has a least distance";
+        refuse_needless([("--least", self.least.is_some() && !has_least)], why)?;
         let has_cells = self.has(|kind| matches!(kind, Kind::Crowd { .. } | Kind::Visited));
         let has_base = self.has(|kind| matches!(kind, Kind::Crowd { is_base_free: true, .. }));
         let is_range_in_cells = self.range.is_none() && self.has(|kind| matches!(kind, Kind::Neighbours));

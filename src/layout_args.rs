@@ -8,7 +8,7 @@ use tautline_grids::layout::{self, Coarse, Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::value_parser::real;
 
-use super::{needless, number};
+use super::{number, refuse_needless};
 
 #[derive(Debug, Args)]
 pub(super) struct LayoutArgs {
@@ -50,12 +50,9 @@ impl LayoutArgs {
     /// # Errors
     /// A [`Diagnostic`] if something of it is told.
     pub(super) fn refuse_map_options(&self, why: &str) -> Result<(), Diagnostic> {
-        let told = [
-            ("--image", self.image.is_some()),
-            ("--cell", self.coarse.cell_m.is_some()),
-            ("--radius", self.coarse.radius_m.is_some()),
-        ];
-        told.iter().find(|(_, is_told)| *is_told).map_or(Ok(()), |(option, _)| Err(needless(option, why)))
+        let CoarseArgs { cell_m, radius_m } = self.coarse;
+        let (image, cell, radius) = (self.image.is_some(), cell_m.is_some(), radius_m.is_some());
+        refuse_needless([("--image", image), ("--cell", cell), ("--radius", radius)], why)
     }
 
     /// The layout.

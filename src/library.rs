@@ -17,7 +17,7 @@ pub(super) use self::jobs::rows;
 use super::output::Output;
 use super::prove::{DecisionArgs, Detail};
 use super::shards::Scope;
-use super::{Exit, needless, number, positive, whole};
+use super::{Exit, number, positive, refuse_needless, whole};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -82,20 +82,16 @@ impl Library {
             return jobs::run(path, shard, format.plain()?, out);
         }
         if self.rules.is_empty() {
-            let wanted =
-                [("--larger", self.larger), ("--runs", self.runs.is_some()), ("--plan", self.plan.is_some())];
-            if let Some((option, _)) = wanted.into_iter().find(|(_, is_given)| *is_given) {
-                return Err(needless(option, "without a name nothing is decided").into());
-            }
+            let (has_runs, has_plan) = (self.runs.is_some(), self.plan.is_some());
+            let wanted = [("--larger", self.larger), ("--runs", has_runs), ("--plan", has_plan)];
+            refuse_needless(wanted, "without a name nothing is decided")?;
             self.how.nothing_is_decided()?;
             out.text(list())?;
             return Ok(Exit::Expected);
         }
         let rules = chosen(&self.rules)?;
         let clauses = clauses(&rules, self.larger);
-        if clauses.is_empty() {
-            return Err(needless("--larger", "these rules have no larger bound").into());
-        }
+        refuse_needless([("--larger", clauses.is_empty())], "these rules have no larger bound")?;
         match (scope, self.runs) {
             (Scope::Plan(path, shards), _) => {
                 jobs::plan((path, shards), (&rules, self.larger), (self.how.force(), format.plain()?), out)

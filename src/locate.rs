@@ -20,7 +20,7 @@ use tautline_proofs::plural::counted;
 use tautline_sim::explore::RuleName;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, interrupt, needless, number, progress};
+use super::{Exit, ForceArgs, Format, FormatArgs, interrupt, number, progress, refuse_needless};
 use crate::value_parser::chosen;
 
 const EXAMPLES: &str = "\
@@ -153,12 +153,11 @@ impl Locate {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let signal = Signal::new(self.exponent, self.noise_db)
             .ok_or_else(|| Diagnostic::usage("there is no such noise", "write decibels from 0 to 100"))?;
-        if self.rule.is_some() && self.solver != Solver::Pso {
-            return Err(needless("--rule", &format!("{} has no order of updates", self.solver.word())).into());
-        }
-        if self.inside && !self.solver.has_area() {
-            return Err(needless("--inside", &format!("{} keeps to no rectangle", self.solver.word())).into());
-        }
+        let (solver, word) = (self.solver, self.solver.word());
+        let rule = ("--rule", self.rule.is_some() && solver != Solver::Pso);
+        refuse_needless([rule], format_args!("{word} has no order of updates"))?;
+        let inside = ("--inside", self.inside && !solver.has_area());
+        refuse_needless([inside], format_args!("{word} keeps to no rectangle"))?;
         match &self.file {
             Some(file) => self.measured(file, &signal, out),
             None => self.tried(signal, out),
@@ -170,13 +169,10 @@ impl Locate {
     }
 
     fn tried(&self, signal: Signal, out: &mut Output) -> Result<Exit, Halt> {
-        if self.power_dbm.is_some() {
-            return Err(needless("--power-dbm", "there is no file of levels").into());
-        }
+        refuse_needless([("--power-dbm", self.power_dbm.is_some())], "there is no file of levels")?;
         let is_drawn = signal.noise_db() > 0.0 || self.at.is_none() || self.solver == Solver::Pso;
-        if self.seed.is_some() && !is_drawn {
-            return Err(needless("--seed", "without noise, at one place, nothing is left to chance").into());
-        }
+        let why = "without noise, at one place, nothing is left to chance";
+        refuse_needless([("--seed", self.seed.is_some() && !is_drawn)], why)?;
         if self.advice && self.at.is_some() {
             let what = "--advice is about a whole floor, and --at is one place of it";
             return Err(Diagnostic::usage(what, "leave --at or --advice out").into());
@@ -210,14 +206,8 @@ impl Locate {
         }
         let (setting, report) = progress::during("locating", setting.parts(), |watch| setting.run(watch))?;
         let complete = setting.trials == trials;
-        if let Some(mut picture) = picture {
-            picture.append(draw::position::spots(
-                &title(&setting),
-                setting.anchors.places(),
-                &setting.spots(),
-            ));
-            out.keep(picture);
-        }
+        let spots = || draw::position::spots(&title(&setting), setting.anchors.places(), &setting.spots());
+        out.store(picture, |picture| picture.draw(Ok(spots())))?;
         match self.format.format {
             Format::Json => out.json(&TrialsJson { setting: &setting, report: &report, complete })?,
             Format::Text => {
@@ -242,17 +232,13 @@ impl Locate {
             ("--advice", self.advice),
             ("--seed", self.seed.is_some() && self.solver != Solver::Pso),
         ];
-        if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
-            return Err(needless(option, "the positions of measurements are found").into());
-        }
+        refuse_needless(given, "the positions of measurements are found")?;
         let [picture] = self.force.files([&self.svg], [file.to_path_buf()])?;
         let measured = Measurements::read(file, signal, self.power_dbm)?;
         let found = measured.locate(self.solver, self.rule(), signal, self.seed.unwrap_or(0))?;
-        if let Some(mut picture) = picture {
-            let title = format!("Positions by {}", self.solver.word());
-            picture.append(draw::position::found(&title, &measured.anchors(), &found));
-            out.keep(picture);
-        }
+        let title = format!("Positions by {}", self.solver.word());
+        let drawn = || draw::position::found(&title, &measured.anchors(), &found);
+        out.store(picture, |picture| picture.draw(Ok(drawn())))?;
         match self.format.format {
             Format::Json => {
                 let (noise_db, exponent) = (self.noise_db, self.exponent.exponent());

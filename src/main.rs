@@ -39,6 +39,7 @@ mod threads;
 mod value_parser;
 mod viewers;
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -206,9 +207,13 @@ struct FormatArgs {
     format: Format,
 }
 
-/// An option that can have no effect.
-fn needless(option: &str, why: &str) -> Diagnostic {
-    Diagnostic::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out"))
+/// Refuses options that can have no effect, where one of them is given.
+///
+/// # Errors
+/// A [`Diagnostic`] of the first that is.
+fn refuse_needless<const N: usize>(options: [(&str, bool); N], why: impl Display) -> Result<(), Diagnostic> {
+    let Some((option, _)) = options.into_iter().find(|&(_, is_given)| is_given) else { return Ok(()) };
+    Err(Diagnostic::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out")))
 }
 
 /// The choice about files that stand where others are to be stored.
@@ -261,10 +266,7 @@ impl ForceArgs {
     }
 
     fn has_effect(&self, is_any_stored: bool) -> Result<(), Diagnostic> {
-        if self.force && !is_any_stored {
-            return Err(needless("--force", "no file is to be stored"));
-        }
-        Ok(())
+        refuse_needless([("--force", self.force && !is_any_stored)], "no file is to be stored")
     }
 }
 

@@ -9,7 +9,7 @@ use tautline_io::atomic_file::{AtomicFile, MAN_HEAD};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::output::{self, Output};
-use super::{EXIT_CODES, Exit, ForceArgs, hunt, needless, program};
+use super::{EXIT_CODES, Exit, ForceArgs, hunt, program};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,9 +33,7 @@ pub(super) struct Manual {
 
 impl Manual {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        if self.force.force && self.out.is_none() {
-            return Err(needless("--force", "no file is to be stored").into());
-        }
+        self.force.has_effect(self.out.is_some())?;
         let mut program = program().disable_help_subcommand(true);
         program.build();
         if let Some(folder) = &self.out {

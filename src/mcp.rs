@@ -484,10 +484,8 @@ impl Mcp {
         // Stdout is the server's.
         out.leave();
         let unable = |error: &dyn std::fmt::Display| {
-            Diagnostic::usage(
-                format_args!("the server cannot go on: {error}"),
-                "start it from an editor that speaks the protocol",
-            )
+            let remedy = "start it from an editor that speaks the protocol";
+            Diagnostic::usage(format_args!("the server cannot go on: {error}"), remedy)
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|error| unable(&error))?;

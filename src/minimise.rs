@@ -22,7 +22,7 @@ use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, evidence, hunt, prog
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
-use tautline_sim::trace::{Trace, path_in, store_at};
+use tautline_sim::trace::{Trace, path_in, store};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -240,7 +240,7 @@ impl Minimise {
         let replaceable = self.force.replaceable([self.file.clone()]);
         let usual = path_in(&self.out, setup, *clause);
         let path = if is_same(&usual, &self.file) { self.beside() } else { usual };
-        let (file, report) = store_at(&path, setup, *clause, &replaceable)?;
+        let (file, report) = store(&path, setup, *clause, &replaceable)?;
         let minimised = MinimiseJson {
             scheme: setup.scheme,
             rule: setup.rule,

@@ -9,7 +9,7 @@ use std::mem;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::atomic_file::{self, AtomicFile, FinishedFile};
-use tautline_io::diagnostic::Diagnostic;
+use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::{SCHEMA_VERSION, complain};
 
@@ -50,6 +50,21 @@ impl Output {
     #[cfg(feature = "mcp")]
     pub(super) fn leave(&mut self) {
         self.stdout = None;
+    }
+
+    /// Writes a file, if it has a place, and keeps it until the command ends.
+    ///
+    /// # Errors
+    /// [`Halt`], as of `write`.
+    pub(super) fn store(
+        &mut self,
+        file: Option<AtomicFile>,
+        write: impl FnOnce(&mut AtomicFile) -> Result<(), Halt>,
+    ) -> Result<(), Halt> {
+        let Some(mut file) = file else { return Ok(()) };
+        write(&mut file)?;
+        self.keep(file);
+        Ok(())
     }
 
     /// Keeps a file until the command ends. Whether it will stand in its place; otherwise it is left out.

@@ -27,7 +27,7 @@ use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Format, FormatArgs};
 use super::hunt::{clear, keep, make_folder};
 use super::output::{Output, replay_line};
-use super::{Exit, ForceArgs, interrupt, needless, positive, progress, spill};
+use super::{Exit, ForceArgs, interrupt, positive, progress, refuse_needless, spill};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
 
@@ -214,7 +214,7 @@ impl DecisionArgs {
     /// # Errors
     /// A [`Diagnostic`] if more is asked for.
     pub(super) fn nothing_is_decided(&self) -> Result<(), Diagnostic> {
-        for (option, is_given) in [
+        let given = [
             ("--out", self.out.is_some()),
             ("--certificate", self.certificate.is_some()),
             ("--html", self.html.is_some()),
@@ -222,11 +222,8 @@ impl DecisionArgs {
             ("--memory", self.memory.is_some()),
             ("--patience", self.patience != PATIENCE),
             ("--force", self.force.force),
-        ] {
-            if is_given {
-                return Err(needless(option, "nothing is decided"));
-            }
-        }
+        ];
+        refuse_needless(given, "nothing is decided")?;
         match self.format.format {
             Format::Text => Ok(()),
             Format::Json | Format::Github | Format::Junit => {
@@ -364,10 +361,7 @@ impl DecisionArgs {
             let (out_of_memory, unended) = (memory.was_too_small(), rows.iter().any(decided::is_undecided));
             Ok(Ledger { clauses, as_registered, complete: left == 0, left, out_of_memory, unended })
         };
-        if let Some(mut page) = page {
-            page.draw(html::report(rows, &ledger()?))?;
-            out.keep(page);
-        }
+        out.store(page, |page| page.draw(html::report(rows, &ledger()?)))?;
         match (self.format.format, detail) {
             (Format::Json, _) => out.json(&ledger()?)?,
             (Format::Text, detail) => {
@@ -449,7 +443,7 @@ pub(super) fn stored(
         Depiction::Choices | Depiction::Story(_) | Depiction::Agents(_) | Depiction::Messages { .. } => None,
     };
     let file = match run {
-        Some((setup, breach)) => trace::store_at(&path, &setup, breach, replaceable)?.0,
+        Some((setup, breach)) => trace::store(&path, &setup, breach, replaceable)?.0,
         None => refutation::store(&path, clause, check, evidence, replaceable)?,
     };
     Ok(keep(file, out))

@@ -265,16 +265,11 @@ impl Replay {
         let is_drawn = page.is_none() && picture.is_none();
         let moves = self.moves(report)?;
         let is_said = self.all || self.moves.is_some();
-        if let Some(mut page) = page {
-            let all = 1..=report.steps;
-            page::write(&mut page, run, report, if is_said { &moves } else { &all })?;
-            out.keep(page);
-        }
-        if let Some(mut picture) = picture {
-            let last = report.steps..=report.steps;
-            picture.draw(svg::team_moves(run, report, if is_said { &moves } else { &last }))?;
-            out.keep(picture);
-        }
+        let [all, last] = [1, report.steps].map(|first| first..=report.steps);
+        out.store(page, |page| page::write(page, run, report, if is_said { &moves } else { &all }))?;
+        out.store(picture, |picture| {
+            picture.draw(svg::team_moves(run, report, if is_said { &moves } else { &last }))
+        })?;
         viewers::store(viewers, run, out)?;
         let name = self.file.display().to_string();
         match self.format.format {
@@ -334,10 +329,7 @@ impl Replay {
         let is_judged = self.is_judged(clause, check, &evidence)?;
         let (rule, engine, bound) = (check.rule(), check.engine(), check.bound());
         let story = story(clause, check, &evidence)?;
-        if let Some(mut page) = page {
-            evidence::page(clause, check, &evidence, &mut page)?;
-            out.keep(page);
-        }
+        out.store(page, |page| evidence::page(clause, check, &evidence, page))?;
         match self.format.format {
             Format::Json => out.json(&RefutationJson {
                 file: self.file.display().to_string(),
@@ -397,11 +389,8 @@ impl Replay {
         match &self.moves {
             Some(Moves(moves)) if *moves.start() > report.steps => {
                 let what = format!("the run has {}, from 1 on", counted(report.steps, "team move"));
-                Err(Diagnostic::of_field(
-                    "moves",
-                    what,
-                    "give `moves` the first and the last of some of them",
-                ))
+                let remedy = "give `moves` the first and the last of some of them";
+                Err(Diagnostic::of_field("moves", what, remedy))
             }
             Some(Moves(moves)) => Ok(moves.clone()),
             None if self.all => Ok(1..=report.steps),

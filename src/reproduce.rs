@@ -203,14 +203,10 @@ impl Files {
 
 /// Stores a table in its files, and tells of it.
 pub(super) fn tell(made: &dyn Report, files: Files, format: Format, out: &mut Output) -> Result<Exit, Halt> {
-    for (name, mut file) in files.pictures {
-        file.draw(made.picture(&name))?;
-        out.keep(file);
+    for (name, file) in files.pictures {
+        out.store(Some(file), |file| file.draw(made.picture(&name)))?;
     }
-    if let Some(mut file) = files.csv {
-        file.append(made.csv(SCHEMA_VERSION)?);
-        out.keep(file);
-    }
+    out.store(files.csv, |file| file.draw(Ok(made.csv(SCHEMA_VERSION)?)))?;
     match format {
         Format::Json => out.text(made.json(SCHEMA_VERSION)? + "\n")?,
         Format::Text => out.text(made.text()?)?,

@@ -18,7 +18,9 @@ use tautline_proofs::mrc::Demand;
 use tautline_proofs::plural::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, interrupt, needless, progress, real, viewers, whole};
+use super::{
+    Exit, ForceArgs, Format, FormatArgs, interrupt, progress, real, refuse_needless, viewers, whole,
+};
 use crate::value_parser::chosen;
 use tautline_field::draw::{self, field::picture};
 use tautline_field::radio::{ChannelName, FREE_SPACE, Lake};
@@ -222,10 +224,9 @@ fn count(seeds: &RangeInclusive<u64>) -> u64 {
 
 impl Rescue {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        if self.k.is_some() && !matches!(self.scheme, SchemeName::KFnf | SchemeName::Counter) {
-            let why = format!("{} does not count senders", self.scheme.word());
-            return Err(needless("--k", &why).into());
-        }
+        let counts = matches!(self.scheme, SchemeName::KFnf | SchemeName::Counter);
+        let why = format_args!("{} does not count senders", self.scheme.word());
+        refuse_needless([("--k", self.k.is_some() && !counts)], why)?;
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
@@ -294,28 +295,22 @@ pub(super) fn tell(
 ) -> Result<Exit, Halt> {
     let summary = Summary::of(setting, seed, report);
     let title = format!("{}, seed {seed}", title(setting));
-    if let Some(mut trace) = files.trace {
-        trace::write(&mut trace, setting, seed, report);
-        out.keep(trace);
-    }
-    if let Some(mut page) = files.page {
+    out.store(files.trace, |file| {
+        trace::write(file, setting, seed, report);
+        Ok(())
+    })?;
+    out.store(files.page, |page| {
         let served = summary.assignments.served_once + summary.assignments.served_more_often;
         let broken: Vec<&str> = summary.violations.iter().map(|broken| broken.clause).collect();
         let broken = if broken.is_empty() { none_broken() } else { format!("{} broken", broken.join(", ")) };
         let (events, what) = (summary.assignments.events, counted_as(setting));
         let outcome = format!("{served} of {events} {what} served; {broken}.");
         let drawn = draw::rescue::page(page.path(), (setting, seed), [&title, &outcome], report);
-        page.draw(drawn.map_err(Halt::from))?;
-        out.keep(page);
-    }
-    if let Some(mut map) = files.map {
-        map.append(picture(&title, &[draw::rescue::map(String::new(), report)]));
-        out.keep(map);
-    }
-    if let Some(mut file) = files.recording {
-        viewers::record(&mut file, setting, seed, report)?;
-        out.keep(file);
-    }
+        page.draw(drawn.map_err(Halt::from))
+    })?;
+    let map = || picture(&title, &[draw::rescue::map(String::new(), report)]);
+    out.store(files.map, |file| file.draw(Ok(map())))?;
+    out.store(files.recording, |file| Ok(viewers::record(file, setting, seed, report)?))?;
     print(out, format, (setting, &(seed..=seed), 1), (&summary, Some(report)))
 }
 

@@ -22,11 +22,8 @@ const SHADES: [u8; 3] = [254, 0, 205];
 /// A [`Diagnostic`] if that is no name of a map, or the layout has walls, for which a map has no place.
 pub(super) fn frame(path: &Path, layout: &LayoutArgs, setup: &Setup) -> Result<Frame, Diagnostic> {
     if !is_ros(path) {
-        return Err(Diagnostic::in_file(
-            path,
-            "a map of ROS has another name",
-            "name a file that ends in .yaml",
-        ));
+        let remedy = "name a file that ends in .yaml";
+        return Err(Diagnostic::in_file(path, "a map of ROS has another name", remedy));
     }
     if setup.layout.walls().next().is_some() {
         let what = "the layout has walls between cells, and a map of ROS has room for blocked cells alone";

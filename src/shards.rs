@@ -23,7 +23,7 @@ use super::output::Output;
 use super::prove::{DecidedRows, DecisionArgs, Detail};
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
-use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, needless, progress, whole};
+use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, progress, refuse_needless, whole};
 
 /// The most gaps that are named.
 const MOST_NAMED: usize = 20;
@@ -237,13 +237,11 @@ impl Merge {
             Work::Library { .. } => Some("the library"),
             Work::Table { .. } => None,
         };
-        let tables = [("--picture", !self.pictures.is_empty()), ("--csv", self.csv.is_some())];
-        if let (Some(of), Some((option, _))) = (of, tables.into_iter().find(|(_, is_given)| *is_given)) {
-            let why = format!(
-                "{} is a plan of {of}, and only a table has pictures and values",
-                self.plan.display()
-            );
-            return Err(needless(option, &why).into());
+        if let Some(of) = of {
+            let tables = [("--picture", !self.pictures.is_empty()), ("--csv", self.csv.is_some())];
+            let path = self.plan.display();
+            let why = format_args!("{path} is a plan of {of}, and only a table has pictures and values");
+            refuse_needless(tables, why)?;
         }
         let shards = match plan.results(&files)? {
             Ok(shards) => shards,
@@ -253,9 +251,7 @@ impl Merge {
             }
         };
         let inputs = files.into_iter().chain([self.plan.clone()]);
-        if matches!(plan.of, Work::Table { .. }) && self.out.is_some() {
-            return Err(needless("--out", "a table has no counterexamples").into());
-        }
+        refuse_needless([("--out", of.is_none() && self.out.is_some())], "a table has no counterexamples")?;
         match plan.of {
             Work::Library { .. } => {
                 let how = DecisionArgs::elsewhere(self.out.clone(), self.force, self.format);

@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::Cell;
 
 use super::layout_args::LayoutArgs;
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, needless};
+use super::{Exit, ForceArgs, Format, FormatArgs, refuse_needless};
 use tautline_grids::layout::ColumnRow;
 use tautline_io::svg::Panel;
 use tautline_sim::draw::svg;
@@ -71,12 +70,11 @@ impl Show {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         if self.layout.layout == ENVIRONMENTS {
             let why = "the environments are the same in every layout";
-            if self.layout.seed.is_some() {
-                return Err(needless("--seed", why).into());
-            }
+            refuse_needless([("--seed", self.layout.seed.is_some())], why)?;
             self.layout.refuse_map_options(why)?;
             let [file] = self.force.files([&self.svg], [])?;
-            store(out, file, "The environments of a cell", &svg::environments());
+            let title = "The environments of a cell";
+            out.store(file, |file| file.draw(Ok(Panel::picture(title, &svg::environments()))))?;
             match self.format.format {
                 Format::Text => out.text(draw::environments())?,
                 Format::Json => out.json(&EnvironmentsJson { environments: Environment::ALL.map(shown) })?,
@@ -84,14 +82,12 @@ impl Show {
             return Ok(Exit::Expected);
         }
         let layout = self.layout.load()?;
-        if self.layout.has_other_seed() {
-            return Err(needless("--seed", "nothing here is left to chance").into());
-        }
+        refuse_needless([("--seed", self.layout.has_other_seed())], "nothing here is left to chance")?;
         let [file] = self.force.files([&self.svg], self.layout.inputs())?;
         if file.is_some() {
             svg::check_size(layout.size().area())?;
         }
-        store(out, file, "A layout", &[svg::layout(&layout)]);
+        out.store(file, |file| file.draw(Ok(Panel::picture("A layout", &[svg::layout(&layout)]))))?;
         let drawing = layout.to_string();
         match self.format.format {
             Format::Text => out.text(drawing)?,
@@ -107,14 +103,6 @@ impl Show {
             })?,
         }
         Ok(Exit::Expected)
-    }
-}
-
-/// Stores a picture of `panels` where the user wants one.
-fn store(out: &mut Output, file: Option<AtomicFile>, title: &str, panels: &[Panel]) {
-    if let Some(mut file) = file {
-        file.append(Panel::picture(title, panels));
-        out.keep(file);
     }
 }
 

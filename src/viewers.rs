@@ -58,10 +58,7 @@ pub(super) fn refuse(
 pub(super) fn store([itf, mcap]: ViewerFiles, run: &dyn Play, out: &mut Output) -> Result<(), Halt> {
     type Write = fn(&mut AtomicFile, &dyn Play) -> Result<(), Halt>;
     for (file, write) in [(itf, itf::write as Write), (mcap, mcap::write)] {
-        if let Some(mut file) = file {
-            write(&mut file, run)?;
-            out.keep(file);
-        }
+        out.store(file, |file| write(file, run))?;
     }
     Ok(())
 }

@@ -98,11 +98,8 @@ impl Program {
             }
             Err(RecvTimeoutError::Disconnected) => {
                 let ended = format!("{} before it answered {what}", self.ended());
-                return Err(Diagnostic::in_file(
-                    &self.name,
-                    ended,
-                    "its own messages, if it has written any, stand above",
-                ));
+                let remedy = "its own messages, if it has written any, stand above";
+                return Err(Diagnostic::in_file(&self.name, ended, remedy));
             }
         };
         self.count += 1;

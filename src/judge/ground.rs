@@ -10,7 +10,7 @@ use tautline_io::value_parser::{Metres, metres_within, real};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
 
-use super::super::{CellArg, needless, number};
+use super::super::{CellArg, number, refuse_needless};
 use super::{MOST, above_0};
 use tautline_grids::layout::ros::{self, Frame};
 use tautline_grids::layout::{self, Coarse, Generator, Layout};
@@ -69,21 +69,10 @@ impl MapArgs {
         is_range_in_cells: bool,
     ) -> Result<(), Diagnostic> {
         let lies = has_cells || self.map.is_some();
-        for (is_given, has_effect, option, why) in [
-            (self.base.is_some(), has_base, "--base", "CHAIN-2 alone has a base"),
-            (self.origin.is_some(), lies, "--origin", "none of these clauses speaks of cells"),
-            (
-                self.cell.is_some(),
-                lies || is_range_in_cells,
-                "--cell",
-                "none of these clauses speaks of cells",
-            ),
-        ] {
-            if is_given && !has_effect {
-                return Err(needless(option, why));
-            }
-        }
-        Ok(())
+        refuse_needless([("--base", self.base.is_some() && !has_base)], "CHAIN-2 alone has a base")?;
+        let origin = ("--origin", self.origin.is_some() && !lies);
+        let cell = ("--cell", self.cell.is_some() && !lies && !is_range_in_cells);
+        refuse_needless([origin, cell], "none of these clauses speaks of cells")
     }
 
     pub(super) fn load(&self, is_map_needed: bool) -> Result<LogMap, Diagnostic> {
@@ -123,9 +112,8 @@ impl MapArgs {
             corner = origin;
         }
         let is_random = |map: &str| map.parse::<Generator>().is_ok_and(|generator| generator.is_random());
-        if self.seed.is_some() && !self.map.as_deref().is_some_and(is_random) {
-            return Err(needless("--seed", "nothing of the map is left to chance"));
-        }
+        let has_other_seed = self.seed.is_some() && !self.map.as_deref().is_some_and(is_random);
+        refuse_needless([("--seed", has_other_seed)], "nothing of the map is left to chance")?;
         let base = self.base.map(|CellArg(cell)| cell);
         if let (Some(layout), Some(base)) = (&layout, base) {
             layout.check_base(base)?;
