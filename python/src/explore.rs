@@ -22,12 +22,8 @@ use crate::run::{Run, RunSource, stopped};
 /// The scheme of this name.
 pub(crate) fn scheme(py: Python<'_>, name: &str) -> PyResult<Scheme> {
     CATALOGUE.scheme(name).ok_or_else(|| {
-        error(
-            py,
-            Kind::Input,
-            format_args!("there is no scheme {name:?}"),
-            format_args!("take one of {}", CATALOGUE.names(|_| true).join(", ")),
-        )
+        let remedy = format_args!("take one of {}", CATALOGUE.names(|_| true).join(", "));
+        error(py, Kind::Input, format_args!("there is no scheme {name:?}"), remedy)
     })
 }
 
@@ -49,12 +45,8 @@ pub(crate) fn robots(py: Python<'_>, robots: Option<Int>) -> PyResult<Option<u64
 fn probability(py: Python<'_>, name: &str, value: Option<f64>) -> PyResult<Option<Probability>> {
     let read = |value| {
         Probability::new(value).ok_or_else(|| {
-            error(
-                py,
-                Kind::Input,
-                format_args!("{name} is {value}"),
-                format_args!("give {name} a number from 0 to 1"),
-            )
+            let remedy = format_args!("give {name} a number from 0 to 1");
+            error(py, Kind::Input, format_args!("{name} is {value}"), remedy)
         })
     };
     value.map(read).transpose()

@@ -200,12 +200,8 @@ impl Layout {
     /// The cell where a robot is that tries this side, one of E, S, W and N; none if it meets a wall or a blocked cell.
     fn beyond(&self, py: Python<'_>, cell: At, letter: char) -> PyResult<Option<Pair>> {
         let Some(Step::Cross(side)) = trace::step(letter) else {
-            return Err(error(
-                py,
-                Kind::Input,
-                format_args!("{letter:?} is no side"),
-                "give one of E, S, W and N",
-            ));
+            let remedy = "give one of E, S, W and N";
+            return Err(error(py, Kind::Input, format_args!("{letter:?} is no side"), remedy));
         };
         let At(cell) = cell;
         let next = cell.beyond(side);

@@ -17,7 +17,7 @@ use tautline_sim::trace::step;
 use crate::arguments::{At, List};
 use crate::diagnostic::{Kind, error};
 use crate::hunt::verdict;
-use crate::script::{Script, attribute, kept, number, shown, word};
+use crate::script::{Script, attribute, kept, number, shown, word, wrong_answer};
 
 /// The most states of a robot, whose words are kept as long as the process.
 const MAX_STATES: usize = 256;
@@ -131,8 +131,7 @@ impl LocalScript {
         let acts_in = |state: &State| {
             let state = self.script.state(py, state.number);
             let answer = self.script.called(py, "acts", |rule| rule.call_method1("acts", (state,)))?;
-            let wrong =
-                || error(py, Kind::WrongType, format_args!("acts returned {}", shown(&answer)), remedy);
+            let wrong = || wrong_answer("acts", &answer, remedy);
             let List(told): List<ActAnswer<'_>> = answer.extract().map_err(|_| wrong())?;
             let act = |(letter, List(ends)): ActAnswer<'_>| {
                 let step = step(letter).filter(|_| !ends.is_empty()).ok_or_else(wrong)?;
@@ -193,10 +192,9 @@ impl LocalScript {
 
     fn started(&self, py: Python<'_>, robots: usize) -> PyResult<Vec<Robot<State>>> {
         let answer = self.script.called(py, "start", |rule| rule.call_method1("start", (robots,)))?;
-        let List(told): List<(At, Bound<'_, PyAny>)> = answer.extract().map_err(|_| {
-            let what = format_args!("start returned {}", shown(&answer)).to_string();
-            error(py, Kind::WrongType, what, "return a list with the cell and the state of each robot")
-        })?;
+        let remedy = "return a list with the cell and the state of each robot";
+        let List(told): List<(At, Bound<'_, PyAny>)> =
+            answer.extract().map_err(|_| wrong_answer("start", &answer, remedy))?;
         told.iter().map(|(At(at), state)| Ok(Robot::new(*at, self.named(py, "start", state)?))).collect()
     }
 }

@@ -370,12 +370,8 @@ impl Run {
                 if first < 1 || moves.is_empty() {
                     let what =
                         format!("moves are {first} to {last} of a run of {}", counted(steps, "team move"));
-                    return Err(error(
-                        py,
-                        Kind::Input,
-                        what,
-                        "give the first and the last of some, counted from 1",
-                    ));
+                    let remedy = "give the first and the last of some, counted from 1";
+                    return Err(error(py, Kind::Input, what, remedy));
                 }
                 self.panels(py, &(*moves.start() as u32..=*moves.end() as u32))
             }
@@ -401,12 +397,8 @@ impl Run {
             RunSource::Known(setup) => setup,
             RunSource::Recorded(..) => {
                 let what = "a run of a rule that is not in the catalogue";
-                return Err(error(
-                    py,
-                    Kind::Input,
-                    what,
-                    "take the run that hunt_rule has found: it has the fewest walls",
-                ));
+                let remedy = "take the run that hunt_rule has found: it has the fewest walls";
+                return Err(error(py, Kind::Input, what, remedy));
             }
         };
         let asked = clause

@@ -107,6 +107,11 @@ fn raised(py: Python<'_>, what: &str, raised: PyErr) -> PyErr {
     told
 }
 
+/// The exception of an answer of a function that is not what the function is to return.
+pub(crate) fn wrong_answer(what: &str, answer: &Bound<'_, PyAny>, remedy: &str) -> PyErr {
+    error(answer.py(), Kind::WrongType, format_args!("{what} returned {}", shown(answer)), remedy)
+}
+
 /// A value as a person sees it, not too long.
 pub(crate) fn shown(value: &Bound<'_, PyAny>) -> String {
     let text =
@@ -257,10 +262,7 @@ impl Script {
         arguments: Bound<'_, PyTuple>,
     ) -> bool {
         let answer = self.called(py, what, |_| asked.bind(py).call1(arguments)).and_then(|answer| {
-            answer.extract().map_err(|_| {
-                let said = format!("{what} returned {}", shown(&answer));
-                error(py, Kind::WrongType, said, "return True or False")
-            })
+            answer.extract().map_err(|_| wrong_answer(what, &answer, "return True or False"))
         });
         answer.unwrap_or_else(|error| self.fail(error))
     }

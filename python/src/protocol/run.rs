@@ -60,13 +60,7 @@ impl StateRun {
             start,
             moves: once.iter().map(&mut made).collect::<PyResult<_>>()?,
             again: evidence.choices.again.iter().map(made).collect::<PyResult<_>>()?,
-            story: match &evidence.seen {
-                Depiction::Story(story) => story.clone(),
-                Depiction::Choices
-                | Depiction::Robots(_)
-                | Depiction::Agents(_)
-                | Depiction::Messages { .. } => String::new(),
-            },
+            story: if let Depiction::Story(story) = &evidence.seen { story.clone() } else { String::new() },
             text,
         })
     }

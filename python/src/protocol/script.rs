@@ -13,7 +13,7 @@ use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
 use crate::arguments::{List, entries};
 use crate::diagnostic::{Kind, error};
-use crate::script::{Script, attribute, attribute_of, distinct, held, kept, shown, word};
+use crate::script::{Script, attribute, attribute_of, distinct, held, kept, shown, word, wrong_answer};
 
 /// Different words of moves that a rule may have, which are kept as long as the process.
 const MAX_WORDS: usize = 256;
@@ -101,9 +101,7 @@ impl StateScript {
                 Err(_) => Ok(Err(answer)),
             }
         })?;
-        listed.map_err(|answer| {
-            error(py, Kind::WrongType, format_args!("{what} returned {}", shown(&answer)), remedy)
-        })
+        listed.map_err(|answer| wrong_answer(what, &answer, remedy))
     }
 
     fn states<'py>(
@@ -124,7 +122,7 @@ impl StateScript {
     }
 
     fn made(&self, py: Python<'_>, made: &Bound<'_, PyAny>) -> PyResult<Move<u32>> {
-        let wrong = || error(py, Kind::WrongType, format_args!("moves returned {}", shown(made)), MOVES);
+        let wrong = || wrong_answer("moves", made, MOVES);
         let (List(actors), words, to): (List<u32>, String, Bound<'_, PyAny>) =
             made.extract().map_err(|_| wrong())?;
         if actors.iter().any(|&actor| actor >= Bits::BITS) {
@@ -218,9 +216,7 @@ impl ScriptCheck {
             let owed = rule.listed(py, clause, remedy, |_| asked.bind(py).call1(state))?;
             let number = |owed: &Bound<'_, PyAny>| {
                 let number = owed.extract().ok().filter(|&number: &u32| number < Bits::BITS);
-                number.map(|number| number as usize).ok_or_else(|| {
-                    error(py, Kind::WrongType, format_args!("{clause} returned {}", shown(owed)), remedy)
-                })
+                number.map(|number| number as usize).ok_or_else(|| wrong_answer(clause, owed, remedy))
             };
             Ok(set(owed.iter().map(number).collect::<PyResult<Vec<_>>>()?))
         })
@@ -258,10 +254,8 @@ impl Protocol for ScriptCheck {
         rule.answer(|py| {
             let state = (rule.script.state(py, state),);
             let drawing = rule.script.called(py, "draw", |rule| rule.call_method1("draw", state))?;
-            drawing.extract().map_err(|_| {
-                let what = format!("draw returned {}", shown(&drawing));
-                error(py, Kind::WrongType, what, "return a string, in as many lines as it takes")
-            })
+            let remedy = "return a string, in as many lines as it takes";
+            drawing.extract().map_err(|_| wrong_answer("draw", &drawing, remedy))
         })
     }
 

@@ -13,7 +13,7 @@ use tautline_sim::trace::{self, letter};
 use super::team_move::TeamMove;
 use crate::arguments::{At, Int, List};
 use crate::diagnostic::{Kind, error};
-use crate::script::{Script, attribute, attribute_of, distinct, held, kept, number, shown, word};
+use crate::script::{Script, attribute, attribute_of, distinct, held, kept, number, shown, word, wrong_answer};
 
 /// The most robots of a rule written in Python.
 pub(super) const MAX_ROBOTS: usize = 8;
@@ -181,7 +181,7 @@ impl RuleScript {
         if answer.is_none() {
             return Ok((state, None));
         }
-        let wrong = || error(py, Kind::WrongType, format_args!("step returned {}", shown(&answer)), ANSWER);
+        let wrong = || wrong_answer("step", &answer, ANSWER);
         let (next, letters): (Bound<'_, PyAny>, Option<String>) = answer.extract().map_err(|_| wrong())?;
         let next = |py| self.script.number(py, "step", &next);
         let Some(letters) = letters else { return Ok((next(py)?, None)) };
