@@ -449,88 +449,50 @@ mod tests {
 
     #[test]
     fn what_makes_no_rescue_is_refused() {
-        let good = setting(RuleName::Repaired);
-        let refusal = |setting: Setting| rescue(&setting, 0).map(|_| ());
-        let field = |problem: radio::Problem| Err(Problem::Field(problem));
-        assert_eq!(refusal(Setting { nodes: 1, ..good.clone() }), field(radio::Problem::Nodes { nodes: 1 }));
-        assert_eq!(
-            refusal(Setting { range_m: 0.0, ..good.clone() }),
-            field(radio::Problem::Range { range_m: 0.0 })
-        );
-        assert_eq!(
-            refusal(Setting { loss: 1.5, ..good.clone() }),
-            field(radio::Problem::Probability { probability: 1.5 })
-        );
-        assert_eq!(
-            refusal(Setting { noise_db: -1.0, ..good.clone() }),
-            field(radio::Problem::Deviation { deviation_db: -1.0 })
-        );
-        assert_eq!(
-            refusal(Setting { shadowing_db: 20.5, ..good.clone() }),
-            field(radio::Problem::Deviation { deviation_db: 20.5 })
-        );
-        assert_eq!(
-            refusal(Setting { exponent: 1.9, ..good.clone() }),
-            field(radio::Problem::Exponent { exponent: 1.9 })
-        );
-        assert_eq!(
-            refusal(Setting { wfrs_at: vec![700], ..good.clone() }),
-            field(radio::Problem::NoNode { node: 700, nodes: 700 })
-        );
-        let most = |scheme, k, most| Err(Problem::K { k, scheme, most });
-        assert_eq!(refusal(Setting { k: 0, ..good.clone() }), most(SchemeName::KFnf, 0, 8));
-        let counter = Setting { scheme: SchemeName::Counter, k: 8, ..good.clone() };
-        assert_eq!(refusal(counter), most(SchemeName::Counter, 8, 7));
-        assert_eq!(refusal(Setting { wfrs: 0, ..good.clone() }), Err(Problem::Wfrs { wfrs: 0, nodes: 700 }));
-        assert_eq!(
-            refusal(Setting { wfrs: 17, ..good.clone() }),
-            Err(Problem::Wfrs { wfrs: 17, nodes: 700 })
-        );
-        assert_eq!(
-            refusal(Setting { nodes: 2, ..good.clone() }),
-            Err(Problem::WfrsOfNodes { wfrs: 3, nodes: 2 })
-        );
-        assert_eq!(
-            refusal(Setting { wfrs_at: vec![5, 6, 5], ..good.clone() }),
-            Err(Problem::WfrTwice { node: 5 })
-        );
-        assert_eq!(
-            refusal(Setting { wfrs_at: vec![1, 2, 3, 4], ..good.clone() }),
-            Err(Problem::WfrPlaces { places: 4, wfrs: 3 })
-        );
-        for events in [0, 17] {
-            let refused = refusal(Setting { events_per_wfr: events, ..good.clone() });
-            assert_eq!(refused, Err(Problem::Events { events }));
+        let good = || setting(RuleName::Repaired);
+        let field = |setting, problem: radio::Problem| (setting, Problem::Field(problem));
+        let counter = Setting { scheme: SchemeName::Counter, k: 8, ..good() };
+        let robots_at_m = |robots_at_m| Setting { robots_at_m, ..good() };
+        let lake = Setting { obstacles_m: vec![[0.0, 0.0, 9.0, 9.0]], ..robots_at_m(vec![[1.0, 1.0]]) };
+        let (probability, deviation_db) = (1.5, 20.5);
+        let cases = [
+            field(Setting { nodes: 1, ..good() }, radio::Problem::Nodes { nodes: 1 }),
+            field(Setting { range_m: 0.0, ..good() }, radio::Problem::Range { range_m: 0.0 }),
+            field(Setting { loss: probability, ..good() }, radio::Problem::Probability { probability }),
+            field(Setting { noise_db: -1.0, ..good() }, radio::Problem::Deviation { deviation_db: -1.0 }),
+            field(
+                Setting { shadowing_db: deviation_db, ..good() },
+                radio::Problem::Deviation { deviation_db },
+            ),
+            field(Setting { exponent: 1.9, ..good() }, radio::Problem::Exponent { exponent: 1.9 }),
+            field(Setting { wfrs_at: vec![700], ..good() }, radio::Problem::NoNode { node: 700, nodes: 700 }),
+            (Setting { k: 0, ..good() }, Problem::K { k: 0, scheme: SchemeName::KFnf, most: 8 }),
+            (counter, Problem::K { k: 8, scheme: SchemeName::Counter, most: 7 }),
+            (Setting { wfrs: 0, ..good() }, Problem::Wfrs { wfrs: 0, nodes: 700 }),
+            (Setting { wfrs: 17, ..good() }, Problem::Wfrs { wfrs: 17, nodes: 700 }),
+            (Setting { nodes: 2, ..good() }, Problem::WfrsOfNodes { wfrs: 3, nodes: 2 }),
+            (Setting { wfrs_at: vec![5, 6, 5], ..good() }, Problem::WfrTwice { node: 5 }),
+            (Setting { wfrs_at: vec![1, 2, 3, 4], ..good() }, Problem::WfrPlaces { places: 4, wfrs: 3 }),
+            (Setting { events_per_wfr: 0, ..good() }, Problem::Events { events: 0 }),
+            (Setting { events_per_wfr: 17, ..good() }, Problem::Events { events: 17 }),
+            (Setting { robots: 17, ..good() }, Problem::Robots { robots: 17 }),
+            (robots_at_m(vec![[0.0; 2]; 4]), Problem::RobotPlaces { places: 4, robots: 3 }),
+            (
+                robots_at_m(vec![[1.0, 1.0], [1.0, 301.0]]),
+                Problem::RobotOutside { robot: 2, x_m: 1.0, y_m: 301.0 },
+            ),
+            (lake, Problem::RobotBlocked { robot: 1 }),
+            (Setting { failing: 4, ..good() }, Problem::Failing { failing: 4, robots: 3 }),
+            (Setting { failing_nodes: 698, ..good() }, Problem::FailingNodes { failing: 698, others: 697 }),
+            (
+                Setting { nodes: 1_000_000, wfrs: 5, ..good() },
+                Problem::TooLarge { nodes: 1_000_000, wfrs: 5 },
+            ),
+        ];
+        for (setting, problem) in cases {
+            assert_eq!(rescue(&setting, 0).map(|_| ()), Err(problem));
         }
-        assert_eq!(refusal(Setting { robots: 17, ..good.clone() }), Err(Problem::Robots { robots: 17 }));
-        assert_eq!(
-            refusal(Setting { robots_at_m: vec![[0.0; 2]; 4], ..good.clone() }),
-            Err(Problem::RobotPlaces { places: 4, robots: 3 })
-        );
-        assert_eq!(
-            refusal(Setting { robots_at_m: vec![[1.0, 1.0], [1.0, 301.0]], ..good.clone() }),
-            Err(Problem::RobotOutside { robot: 2, x_m: 1.0, y_m: 301.0 })
-        );
-        assert!(matches!(
-            refusal(Setting { robots_at_m: vec![[f64::NAN, 1.0]], ..good.clone() }),
-            Err(Problem::RobotOutside { robot: 1, .. })
-        ));
-        let lake = Setting { obstacles_m: vec![[0.0, 0.0, 9.0, 9.0]], ..good.clone() };
-        assert_eq!(
-            refusal(Setting { robots_at_m: vec![[1.0, 1.0]], ..lake }),
-            Err(Problem::RobotBlocked { robot: 1 })
-        );
-        assert_eq!(
-            refusal(Setting { failing: 4, ..good.clone() }),
-            Err(Problem::Failing { failing: 4, robots: 3 })
-        );
-        assert_eq!(
-            refusal(Setting { failing_nodes: 698, ..good.clone() }),
-            Err(Problem::FailingNodes { failing: 698, others: 697 })
-        );
-        assert_eq!(
-            refusal(Setting { nodes: 1_000_000, wfrs: 5, ..good }),
-            Err(Problem::TooLarge { nodes: 1_000_000, wfrs: 5 })
-        );
+        let nowhere = rescue(&robots_at_m(vec![[f64::NAN, 1.0]]), 0);
+        assert!(matches!(nowhere, Err(Problem::RobotOutside { robot: 1, .. })));
     }
 }

@@ -143,11 +143,8 @@ impl Lines {
         let mut bytes = Vec::new();
         let read = self.input.by_ref().take(most + 1).read_until(b'\n', &mut bytes);
         let read = read.map_err(|error| {
-            Diagnostic::in_file(
-                &self.path,
-                format_args!("the file cannot be read: {error}"),
-                "make it readable",
-            )
+            let remedy = "make it readable";
+            Diagnostic::in_file(&self.path, format_args!("the file cannot be read: {error}"), remedy)
         })?;
         if read == 0 {
             return Ok(None);

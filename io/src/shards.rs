@@ -290,10 +290,9 @@ pub fn program() -> Result<String, Diagnostic> {
     let read = || Ok(hex(&Sha256::digest(fs::read(env::current_exe()?)?)));
     read().map_err(|error: io::Error| {
         let what = format_args!("the file of this program cannot be read: {error}");
-        Diagnostic::usage(
-            what,
-            "run it from a file that it may read: a file that work goes on from says which program made it",
-        )
+        let remedy =
+            "run it from a file that it may read: a file that work goes on from says which program made it";
+        Diagnostic::usage(what, remedy)
     })
 }
 

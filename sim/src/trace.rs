@@ -173,25 +173,11 @@ pub fn path_in(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
     folder.join(file_name(setup.scheme.name, setup.rule, setup.robots, clause))
 }
 
-/// Writes the run of `setup`, which breaks `clause`, to a file in `folder` under a name that says so. The file has yet
-/// to be put in its place.
-///
-/// # Errors
-/// [`Halt`] if the setup does not fit its scheme.
-pub fn store(
-    folder: &Path,
-    setup: &Setup,
-    clause: ClauseId,
-    replaceable: &Replaceable,
-) -> Result<(AtomicFile, Report), Halt> {
-    store_at(&path_in(folder, setup, clause), setup, clause, replaceable)
-}
-
 /// Writes the run of `setup`, which breaks `clause`, to a file at `path`. The file has yet to be put in its place.
 ///
 /// # Errors
 /// [`Halt`] if the setup does not fit its scheme.
-pub fn store_at(
+pub fn store(
     path: &Path,
     setup: &Setup,
     clause: ClauseId,

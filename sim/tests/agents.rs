@@ -188,18 +188,12 @@ fn is_visited(name: &str, layout: &Layout, (start, cells): (Cell, u32)) {
         teams.clear();
     }
     for (rule, agents) in teams {
-        assert_eq!(
-            ended(rule, layout, start, agents),
-            (cells, cells, 0),
-            "{name}, {agents} agents, {rule:?}"
-        );
+        let end = ended(rule, layout, start, agents);
+        assert_eq!(end, (cells, cells, 0), "{name}, {agents} agents, {rule:?}");
     }
     for (rule, agents) in trees {
-        assert_eq!(
-            ended(rule, layout, start, agents),
-            (cells, cells, 0),
-            "{name}, {agents} agents, {rule:?}"
-        );
+        let end = ended(rule, layout, start, agents);
+        assert_eq!(end, (cells, cells, 0), "{name}, {agents} agents, {rule:?}");
     }
 }
 
@@ -291,12 +285,8 @@ fn hunts_of_trees_find_the_smallest_early_end_and_it_is_a_run() {
     ] {
         let hunted = hunted(scheme, rule, bound, 3);
         let [finding] = &hunted.found[..] else { panic!("{hunted:?}") };
-        assert_eq!(
-            (finding.title.as_str(), &finding.shown),
-            (title, &Exhibit::Run(PREMATURE)),
-            "{}",
-            scheme.name
-        );
+        let found = (finding.title.as_str(), &finding.shown);
+        assert_eq!(found, (title, &Exhibit::Run(PREMATURE)), "{}", scheme.name);
         let report = run(&finding.setup);
         assert!(report.violations.iter().any(|violation| violation.clause == PREMATURE), "{report:?}");
     }

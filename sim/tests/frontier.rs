@@ -261,18 +261,12 @@ fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
         let hunt = FRONTIER.rule(rule).and_then(|rule| rule.hunt).expect("it is hunted");
         hunt.hunt(&asked, &mut NoWatcher).expect_err("no hunt").to_string()
     };
-    assert_eq!(
-        refused("repaired", 5),
-        "this search holds 3 robots, and not 5; give `robots` a number from 1 to 3"
-    );
-    assert_eq!(
-        refused("repaired", 0),
-        "a hunt without a robot finds nothing; give `robots` a number from 1 to 3"
-    );
-    assert_eq!(
-        refused("greedy", 10),
-        "10 robots do not find room in 3x3 cells; give `robots` a number up to 9, or a larger `size`"
-    );
+    let many = "this search holds 3 robots, and not 5; give `robots` a number from 1 to 3";
+    let none = "a hunt without a robot finds nothing; give `robots` a number from 1 to 3";
+    let full = "10 robots do not find room in 3x3 cells; give `robots` a number up to 9, or a larger `size`";
+    for (rule, robots, said) in [("repaired", 5, many), ("repaired", 0, none), ("greedy", 10, full)] {
+        assert_eq!(refused(rule, robots), said);
+    }
 }
 
 /// So many free cells, any of them.

@@ -21,7 +21,7 @@ use tautline_sim::explore::{
     Catalogue, ClauseId, ExplorationRequest, Limits, OnViolation, RuleId, RuleName, Setup, StopReason,
     explore,
 };
-use tautline_sim::trace::{Trace, store};
+use tautline_sim::trace::{Trace, path_in, store};
 
 /// Column and row.
 type Place = (i16, i16);
@@ -245,9 +245,9 @@ fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
     let minimal = minimal(&setup, Some(Breach::Crowding)).expect("it breaks CHAIN-2");
     check(&minimal);
     let folder = tempfile::tempdir().expect("a folder");
-    let replaceable = Replaceable::default();
-    let (file, report) = store(folder.path(), &minimal.setup, minimal.clause, &replaceable).expect("a run");
-    let path = file.path().to_owned();
+    let path = path_in(folder.path(), &minimal.setup, minimal.clause);
+    let stored = store(&path, &minimal.setup, minimal.clause, &Replaceable::default());
+    let (file, report) = stored.expect("a run");
     file.keep().expect("a file");
     assert_eq!(path.file_name(), Some("chain-2-published-n10.jsonl".as_ref()));
     let broken: Vec<ClauseId> = report.violations.iter().map(|violation| violation.clause).collect();

@@ -54,11 +54,10 @@ fn run(name: &str, content: String) -> Result<Value, Diagnostic> {
             })?;
             let settings = Settings::of(&setup, None);
             if settings.seed > MOST_SEED {
-                return Err(Diagnostic::in_file(
-                    name,
-                    format!("its seed is larger than {MOST_SEED}, the largest that a page holds exactly"),
-                    "draw it with `tautline replay` in a terminal",
-                ));
+                let what =
+                    format!("its seed is larger than {MOST_SEED}, the largest that a page holds exactly");
+                let remedy = "draw it with `tautline replay` in a terminal";
+                return Err(Diagnostic::in_file(name, what, remedy));
             }
             Ok(json!({ "run": {
                 "settings": written(&settings),
@@ -88,16 +87,13 @@ fn spot(fault: &Diagnostic) -> Diagnostic {
 /// The run of these settings as a stored run.
 pub(crate) fn store(settings: &Settings) -> Result<Value, Diagnostic> {
     if settings.world {
-        return Err(Diagnostic::usage(
-            "what is played by hand in every order is no stored run",
-            "keep the link instead: it holds the answers",
-        ));
+        let remedy = "keep the link instead: it holds the answers";
+        return Err(Diagnostic::usage("what is played by hand in every order is no stored run", remedy));
     }
     if settings.switched().is_some() {
-        return Err(Diagnostic::usage(
-            "a stored run follows a rule as it is, and here conditions are switched",
-            "keep the link instead: it holds the switches",
-        ));
+        let what = "a stored run follows a rule as it is, and here conditions are switched";
+        let remedy = "keep the link instead: it holds the switches";
+        return Err(Diagnostic::usage(what, remedy));
     }
     let setup = settings.setup()?;
     let text = trace::text(&setup, setup.limits.stop()).map_err(|halt| match halt {

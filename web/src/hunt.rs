@@ -206,10 +206,8 @@ impl RowHunt {
         let mut others = self.settings.options.keys().filter(|&field| field != Bound::Range.field());
         if let Some(field) = others.next() {
             let what = format!("no hunt looks at the option `{field}`");
-            return Err(Diagnostic::usage(
-                what,
-                "take it back under More options, or run single layouts with it",
-            ));
+            let remedy = "take it back under More options, or run single layouts with it";
+            return Err(Diagnostic::usage(what, remedy));
         }
         Ok(self.settings.options()?.range_cells)
     }

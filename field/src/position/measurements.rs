@@ -116,11 +116,9 @@ impl Measurements {
         })?;
         if text.len() as u64 > MAX_BYTES {
             let most = MAX_BYTES >> 20;
-            return Err(Diagnostic::in_file(
-                file,
-                format_args!("the file has more than {most} MiB"),
-                "split it",
-            ));
+            let what = format_args!("the file has more than {most} MiB");
+            let remedy = "split it";
+            return Err(Diagnostic::in_file(file, what, remedy));
         }
         let mut measured = Self { file: file.to_owned(), text: String::new(), fixes: Vec::new() };
         measured.take(&text, signal, power)?;

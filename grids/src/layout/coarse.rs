@@ -52,11 +52,8 @@ impl Coarse {
         }
         let radius = self.radius_m.map_or(side / 2.0, |radius_m| radius_m / resolution_m);
         if !(radius >= 0.0 && radius.is_finite()) {
-            return Err(Diagnostic::of_field(
-                "radius",
-                "a robot has no such radius",
-                "give metres from 0 on",
-            ));
+            let remedy = "give metres from 0 on";
+            return Err(Diagnostic::of_field("radius", "a robot has no such radius", remedy));
         }
         let side = side as i16;
         let mut layout = Layout::open((width / side) as u64, (height / side) as u64)?;

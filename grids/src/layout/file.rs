@@ -16,11 +16,8 @@ use super::{Misread, problem};
 pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
     let bytes = read_bytes(file).map_err(|problem| problem.found_in(file))?;
     let not_text = |byte| {
-        Diagnostic::in_file(
-            file,
-            format_args!("byte {byte} is not UTF-8 text"),
-            "a layout is a drawing, a MovingAI map or a ROS map's .yaml file",
-        )
+        let remedy = "a layout is a drawing, a MovingAI map or a ROS map's .yaml file";
+        Diagnostic::in_file(file, format_args!("byte {byte} is not UTF-8 text"), remedy)
     };
     String::from_utf8(bytes).map_err(|error| not_text(error.utf8_error().valid_up_to()))
 }

@@ -55,10 +55,8 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
 
     let width = rim.text.len().saturating_sub(1) / 3;
     if width == 0 || rim.text != format!("+{}", "--+".repeat(width)) {
-        return Err(rim.misread(Diagnostic::usage(
-            "the northern rim should be drawn here",
-            "draw it as `+--+--+`, one `--` for each column",
-        )));
+        let remedy = "draw it as `+--+--+`, one `--` for each column";
+        return Err(rim.misread(Diagnostic::usage("the northern rim should be drawn here", remedy)));
     }
     let pairs = rows.chunks_exact(2);
     if rows.is_empty() || !pairs.remainder().is_empty() {

@@ -172,11 +172,8 @@ pub fn replay_by<'a>(path: &Path, known: &[Meant<'a>]) -> Result<Refutation<'a>,
     let (mut choices, mut of) = (Choices::default(), Vec::new());
     let end = loop {
         let Some(text) = lines.next(MAX_LINE_BYTES)? else {
-            return Err(Diagnostic::in_file(
-                path,
-                format_args!("the file ends after line {}", 1 + of.len()),
-                AGAIN,
-            ));
+            let what = format_args!("the file ends after line {}", 1 + of.len());
+            return Err(Diagnostic::in_file(path, what, AGAIN));
         };
         let choice = match lines.parse(&text, AGAIN)? {
             Line::Choice(_) if !choices.again.is_empty() => {

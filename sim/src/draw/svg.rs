@@ -35,10 +35,8 @@ pub fn check_size(area: Area) -> Result<(), Diagnostic> {
         return Ok(());
     }
     let what = format!("an area of {columns}x{rows} cells is too large to be drawn");
-    Err(Diagnostic::usage(
-        what,
-        format_args!("leave out the picture and the page, or take at most {MAX_CELLS} cells"),
-    ))
+    let remedy = format_args!("leave out the picture and the page, or take at most {MAX_CELLS} cells");
+    Err(Diagnostic::usage(what, remedy))
 }
 
 /// A drawing of `layout`, the base marked if it has one.
@@ -104,10 +102,8 @@ pub fn check_moves(moves: &RangeInclusive<u32>) -> Result<(), Diagnostic> {
         return Ok(());
     }
     let what = format!("a picture of more than {MAX_PANELS} team moves");
-    Err(Diagnostic::usage(
-        what,
-        format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`"),
-    ))
+    let remedy = format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`");
+    Err(Diagnostic::usage(what, remedy))
 }
 
 /// Bytes of the panels that a picture can hold.

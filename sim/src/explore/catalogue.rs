@@ -168,11 +168,8 @@ impl Scheme {
             };
             let (least, most) = (self.robots.start(), self.robots.end());
             let base = if has_base { ", the base counted" } else { "" };
-            Diagnostic::of_field(
-                "robots",
-                what,
-                format_args!("a {team} has {least} to {most} {robot}s{base}"),
-            )
+            let remedy = format_args!("a {team} has {least} to {most} {robot}s{base}");
+            Diagnostic::of_field("robots", what, remedy)
         })
     }
 

@@ -116,6 +116,11 @@ impl Clause {
     }
 }
 
+/// The clauses that are broken, in this order.
+pub(super) fn broken<const N: usize>(clauses: [(bool, ClauseId); N]) -> Vec<ClauseId> {
+    clauses.into_iter().filter_map(|(is_broken, clause)| is_broken.then_some(clause)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

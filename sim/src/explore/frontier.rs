@@ -15,7 +15,7 @@ use tautline_proofs::run::Frame;
 
 use self::hunt::{KernelHunt, RivalHunt};
 use super::catalogue::{By, Look, Profile, RandomPart, Starts};
-use super::clause::{Clause, ClauseId};
+use super::clause::{Clause, ClauseId, broken};
 use super::connectivity::has_double;
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
@@ -157,10 +157,8 @@ fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>
     setup.refuse_walls("frontier cells", "cells:6x7:0.1")?;
     if setup.options != Options::default() || !setup.choices.is_empty() {
         let what = format!("the rule {} knows neither radio nor positions", setup.rule);
-        return Err(Diagnostic::usage(
-            what,
-            "leave `range`, `loss`, `noise-db` and `threshold` out, or take `rule` repaired",
-        ));
+        let remedy = "leave `range`, `loss`, `noise-db` and `threshold` out, or take `rule` repaired";
+        return Err(Diagnostic::usage(what, remedy));
     }
     let robots = AssignedTeam::new(assignment, &setup.layout, &setup.starts());
     Ok(team(setup, Who::Assigned(Box::new(robots))))
@@ -257,17 +255,14 @@ impl Team for FrontierTeam {
             Who::Robots(robots) => robots.is_wrong(),
             Who::Assigned(_) => false,
         };
-        [is_double.then_some(ALONE), is_wrong.then_some(MARKS)].into_iter().flatten().collect()
+        broken([(is_double, ALONE), (is_wrong, MARKS)])
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         let is_endless = end == End::Endless;
         let is_short = !is_endless && end != End::Idle && !self.missed(layout, chart).is_empty();
         let knows_not = self.ended == Some(TeamEnd::Still);
-        [is_short.then_some(COVERS), is_endless.then_some(ENDS), knows_not.then_some(KNOWS)]
-            .into_iter()
-            .flatten()
-            .collect()
+        broken([(is_short, COVERS), (is_endless, ENDS), (knows_not, KNOWS)])
     }
 
     fn objects(&self) -> Vec<ObjectReport> {

@@ -21,7 +21,7 @@ use tautline_proofs::run::Frame;
 use self::hunt::KernelHunt;
 
 use super::catalogue::{By, Profile, RandomPart, Starts};
-use super::clause::{Clause, ClauseId};
+use super::clause::{Clause, ClauseId, broken};
 use super::connectivity::unlinked;
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
@@ -227,12 +227,9 @@ impl Team for KitTeam {
         let driver = before.iter().zip(&frame.cells).position(|(before, after)| before != after);
         let others = || stances.iter().enumerate().filter(|&(robot, _)| Some(robot) != driver);
         let is_near = driver.is_some_and(|driver| others().any(|(_, other)| other.has(frame.cells[driver])));
-        let is_whole = is_connected(&stances, self.reach);
-        let is_cut = |robots: bool, clause: ClauseId| (robots && !is_whole).then_some(clause);
-        [is_cut(before.len() == 2, CONTACT), is_near.then_some(APART), is_cut(before.len() > 2, CONNECTED)]
-            .into_iter()
-            .flatten()
-            .collect()
+        let is_cut = !is_connected(&stances, self.reach);
+        let (are_two, are_more) = (before.len() == 2, before.len() > 2);
+        broken([(is_cut && are_two, CONTACT), (is_near, APART), (is_cut && are_more, CONNECTED)])
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {

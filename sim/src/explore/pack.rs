@@ -15,7 +15,7 @@ use tautline_proofs::pack::{Moves, are_side_by_side};
 use tautline_proofs::run::Frame;
 
 use super::catalogue::{Profile, Starts};
-use super::clause::{Clause, ClauseId};
+use super::clause::{Clause, ClauseId, broken};
 use super::connectivity::{has_double, unlinked};
 use super::rule::{Rule, RuleId, SwitchableRule};
 use super::run::{End, Surroundings, Survey, Team};
@@ -214,7 +214,7 @@ impl Team for PackTeam {
     fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
         let is_double = has_double(&frame.cells);
         let is_apart = !self.is_connected(&frame.cells);
-        [is_apart.then_some(CONNECTED), is_double.then_some(SINGLE)].into_iter().flatten().collect()
+        broken([(is_apart, CONNECTED), (is_double, SINGLE)])
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {

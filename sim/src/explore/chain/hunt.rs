@@ -252,11 +252,8 @@ pub fn bounds(
             1 => "the base alone".to_owned(),
             _ => format!("{robots} robots"),
         };
-        Diagnostic::of_field(
-            "robots",
-            format_args!("{what} cannot be the team"),
-            format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted"),
-        )
+        let remedy = format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted");
+        Diagnostic::of_field("robots", format_args!("{what} cannot be the team"), remedy)
     })?;
     let mut bounds = Bounds::new(observed, count, max_walls);
     if let Some(size) = size {

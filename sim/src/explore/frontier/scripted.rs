@@ -14,6 +14,7 @@ use tautline_proofs::run::Frame;
 
 use super::{COVERS, KNOWS};
 use crate::explore::ClauseId;
+use crate::explore::clause::broken;
 use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
 use crate::explore::setup::{Setup, of_choices};
@@ -107,6 +108,6 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         let is_short = is_still && !self.missed(layout, chart).is_empty();
         let knows = Setting { demand: Some(Demand::Knows), ..self.script.system };
         let knows_not = is_still && knows.broken_at_end(&self.script.state, &[]).contains(&Demand::Knows);
-        [is_short.then_some(COVERS), knows_not.then_some(KNOWS)].into_iter().flatten().collect()
+        broken([(is_short, COVERS), (knows_not, KNOWS)])
     }
 }

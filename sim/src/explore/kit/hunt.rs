@@ -213,10 +213,8 @@ fn finding<const ROBOTS: usize>(
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
     let Some(ScriptedRun { run, choices }) = found.scripted() else {
-        return Err(Diagnostic::usage(
-            "a run was found that cannot be made again",
-            "report it: this is a bug of tautline",
-        ));
+        let remedy = "report it: this is a bug of tautline";
+        return Err(Diagnostic::usage("a run was found that cannot be made again", remedy));
     };
     let (layout, starts) = layout(&run)?;
     let setup = asked.setup(layout, starts, Some(*clause))?;
