@@ -69,6 +69,7 @@ pub fn spread_m(anchors: &[Point]) -> [f64; 2] {
     if anchors.len() < 2 {
         return [0.0; 2];
     }
+    let coordinates = |place: Point| [place.x_m, place.y_m];
     let places = DMatrix::from_fn(anchors.len(), 2, |row, column| coordinates(anchors[row])[column]);
     let centred = DMatrix::from_fn(anchors.len(), 2, |row, column| {
         places[(row, column)] - places.column(column).mean()
@@ -100,8 +101,4 @@ pub fn bound(anchors: &[Point], at: Point, signal: &Signal) -> Option<Bound> {
     // The gradients are those of a relative error of 1: without noise the bound is 0.
     let covariance = information.try_inverse()? * signal.relative_error().powi(2);
     Some(Bound { covariance, dilution }).filter(|bound| bound.dilution.is_finite())
-}
-
-const fn coordinates(place: Point) -> [f64; 2] {
-    [place.x_m, place.y_m]
 }

@@ -137,7 +137,8 @@ impl Network {
         if pairs > MAX_PAIRS {
             return Err(Problem::TooDense { pairs, most: MAX_PAIRS });
         }
-        let mut upper = UpperLinks::with_room(points.len(), pairs as usize / 2);
+        let (ends, links) = (Vec::with_capacity(points.len()), Vec::with_capacity(pairs as usize / 2));
+        let mut upper = UpperLinks { ends, links };
         let mut buffer = vec![(0, 0.0); points.len()];
         for (node, &point) in (0..).zip(points) {
             let near = within(&grid, node, point, reach_m, &mut buffer);
@@ -154,10 +155,10 @@ impl Network {
                     }
                 };
                 if seems_m <= radio.range_m && field.has_way(point, points[other as usize]) {
-                    upper.add(Link { to: NodeId(other), distance_um: micrometres(seems_m) });
+                    upper.links.push(Link { to: NodeId(other), distance_um: micrometres(seems_m) });
                 }
             }
-            upper.end_node();
+            upper.ends.push(upper.links.len() as u32);
         }
         Ok(upper.both_ways())
     }
@@ -251,25 +252,13 @@ fn within<'a>(
 
 /// Links to larger numbers, node by node: half of a network.
 struct UpperLinks {
+    /// For each node, where its links end.
     ends: Vec<u32>,
+    /// Those of one node in any order.
     links: Vec<Link>,
 }
 
 impl UpperLinks {
-    fn with_room(nodes: usize, links: usize) -> Self {
-        Self { ends: Vec::with_capacity(nodes), links: Vec::with_capacity(links) }
-    }
-
-    /// A link of the next node to a larger number; they come in any order.
-    fn add(&mut self, link: Link) {
-        self.links.push(link);
-    }
-
-    /// There are no more links of the next node.
-    fn end_node(&mut self) {
-        self.ends.push(self.links.len() as u32);
-    }
-
     /// The network of these links, both ways. Node by node the smaller ends are put into the lists of the larger ones,
     /// and from these lists, node by node, the larger into those of the smaller: so each list ascends, without sorting.
     fn both_ways(self) -> Network {
