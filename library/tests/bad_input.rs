@@ -206,6 +206,12 @@ fn a_start_that_is_lost_is_refused_although_many_are_before_it() {
     assert!(refused.ends_with("does not come back from its bytes"), "{refused}");
 }
 
+fn are_as_registered(clause: &'static Clause) {
+    for row in ledger::decide_all(&[clause]).expect("they can be decided") {
+        assert!(row.is_as_registered(), "{:?}", row.decision);
+    }
+}
+
 /// A robot that stays where it is.
 #[derive(Clone, Copy)]
 struct Stays;
@@ -241,34 +247,19 @@ fn a_check_over_no_layout_with_room_for_the_robots_is_open() {
             &Check::new(STAYS, &TOO_MANY, Verdict::Open, &[]),
         ],
     };
-    let rows = ledger::decide_all(&[&BOTH]).expect("they can be decided");
-    assert!(rows.iter().all(ledger::Row::is_as_registered));
+    are_as_registered(&BOTH);
 }
 
 #[test]
 fn a_check_over_no_start_is_open() {
+    const PLAIN: NamedRule<Counter> = NamedRule::new("plain", Counter::AsItSays);
     static NONE: Clause = Clause {
         id: "COUNT-1",
         sentence: "The count MUST be 9 in the end.",
         checks: &[
-            &Check::new(
-                NamedRule::new("plain", Counter::AsItSays),
-                &Keeps::<Counter>(Starts::of(0), 0),
-                Verdict::Open,
-                &[],
-            ),
-            &Check::new(
-                NamedRule::new("plain", Counter::AsItSays),
-                &Keeps::<Counter>(Starts::of(1), 0),
-                Verdict::Holds,
-                &[],
-            ),
+            &Check::new(PLAIN, &Keeps(Starts::of(0), 0), Verdict::Open, &[]),
+            &Check::new(PLAIN, &Keeps(Starts::of(1), 0), Verdict::Holds, &[]),
         ],
     };
-    let rows = ledger::decide_all(&[&NONE]).expect("they can be decided");
-    assert!(
-        rows.iter().all(ledger::Row::is_as_registered),
-        "{:?}",
-        rows.iter().map(|row| &row.decision).collect::<Vec<_>>()
-    );
+    are_as_registered(&NONE);
 }

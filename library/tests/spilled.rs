@@ -117,6 +117,11 @@ fn written(rule: &Writes, limits: Limits<'_>, workers: usize) -> Findings<&'stat
     Keeps::<Writes>(Words::of(3), 0).search(rule, limits).expect("a search")
 }
 
+/// A search of words in this memory, to the end of its states; it can be taken up.
+fn words(memory: &MemoryLimit) -> Limits<'_> {
+    Limits { memory: memory.asked("words"), ..Limits::NONE }
+}
+
 /// Words are of many lengths.
 #[test]
 fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() {
@@ -126,12 +131,7 @@ fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() 
         assert_eq!((whole.states > 28_000, whole.broken.is_empty()), (true, rule.forbidden.len() == 1));
         let by = |most_steps, workers| {
             let memory = memory(whole.bytes / 3, &folder);
-            let some = written(
-                &rule,
-                Limits { memory: memory.asked("words"), ..Limits::steps(most_steps) },
-                workers,
-            );
-            (some, memory.fault())
+            (written(&rule, Limits { most_steps, ..words(&memory) }, workers), memory.fault())
         };
         for most_steps in [3, 5, 8].map(|tenths| whole.steps * tenths / 10) {
             let (some, fault) = by(most_steps, 2);
@@ -151,7 +151,7 @@ fn a_search_that_is_killed_again_and_again_is_taken_up_and_comes_out_the_same() 
 fn killed() -> (TempDir, u64) {
     let (bytes, folder) = (written(&WRITES, Limits::NONE, 1).bytes / 3, folder());
     let memory = memory(bytes, &folder);
-    written(&WRITES, Limits { memory: memory.asked("words"), ..Limits::steps(50_000) }, 1);
+    written(&WRITES, Limits { most_steps: 50_000, ..words(&memory) }, 1);
     (folder, bytes)
 }
 
@@ -166,7 +166,7 @@ fn a_search_is_not_taken_up_from_what_is_damaged_or_of_another_rule() {
             fs::write(&path, content).expect("it is written");
         }
         let (memory, before) = (memory(bytes, &folder), files(&folder).len());
-        let some = written(rule, Limits { memory: memory.asked("words"), ..Limits::NONE }, 1);
+        let some = written(rule, words(&memory), 1);
         assert_eq!((some.is_whole, some.broken, files(&folder).len()), (false, vec![], before));
         memory.fault().map(|error| error.fault)
     };
@@ -186,7 +186,7 @@ fn a_file_in_the_place_of_another_one_is_damaged() {
     };
     fs::copy(file("-1.states"), file("-2.states")).expect("it is copied");
     let memory = memory(bytes, &folder);
-    let some = written(&WRITES, Limits { memory: memory.asked("words"), ..Limits::NONE }, 1);
+    let some = written(&WRITES, words(&memory), 1);
     assert_eq!((some.is_whole, some.broken), (false, vec![]));
     assert_eq!(memory.fault().map(|error| error.fault), Some(SpillFault::Damaged));
 }
@@ -232,18 +232,14 @@ fn a_full_disk_leaves_a_search_open_and_nothing_half_written_behind() {
         let folder = folder();
         let spill = Spill::with(folder.path().to_owned(), create);
         let memory = MemoryLimit::of(bytes * 4 / 3, 1).spilling(spill);
-        let some = written(&WRITES, Limits { memory: memory.asked("words"), ..Limits::NONE }, 1);
+        let some = written(&WRITES, words(&memory), 1);
         assert_eq!((some.is_whole, some.broken), (false, vec![]));
         let error = memory.fault().expect("it fails");
         assert!(matches!(error.fault, SpillFault::Unwritable(_)), "{error}");
         assert!(error.to_string().contains("make room there"), "{error}");
         assert_eq!(files(&folder).len(), left, "{:?}", files(&folder));
         // There is room again.
-        let whole = written(
-            &WRITES,
-            Limits { memory: self::memory(bytes, &folder).asked("words"), ..Limits::NONE },
-            1,
-        );
+        let whole = written(&WRITES, words(&self::memory(bytes, &folder)), 1);
         assert_eq!((found(whole), files(&folder).len()), (right.clone(), 0));
     }
 }
@@ -270,11 +266,8 @@ impl World for Counters {
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
         let (far, late) = (*turn.after == [150, 40], *turn.after == [299, 89]);
-        [(far, "not there"), (late, "never there")]
-            .iter()
-            .filter(|(is, _)| *is)
-            .map(|(_, words)| *words)
-            .collect()
+        let demands = [(far, "not there"), (late, "never there")];
+        demands.into_iter().filter_map(|(is_broken, demand)| is_broken.then_some(demand)).collect()
     }
 }
 

@@ -6,36 +6,44 @@ use super::*;
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "3"];
 const TABLE: [&str; 6] = ["reproduce", "frontier-fig7", "--runs", "10", "--seed", "7"];
 
-fn hunt_shard(folder: &Path, plan: &str, shard: u32) {
-    printed(folder, &["hunt", "--plan", plan, "--shard", &shard.to_string()], 0);
+/// Does these shards of `plan.json` by `hunt` or `reproduce`.
+fn shards_done(folder: &Path, command: &str, shards: impl IntoIterator<Item = u8>) {
+    for shard in shards {
+        printed(folder, &[command, "--plan", "plan.json", "--shard", &shard.to_string()], 0);
+    }
 }
 
 fn planned(folder: &Path, work: &[&str], shards: &str) {
     printed(folder, &[work, &["--plan", "plan.json", "--shards", shards]].concat(), 0);
 }
 
+/// Checks that the shards of a hunt are merged to what one process prints of it, and stores: runs of these names.
+fn merged_as_by_one_process(many: &Path, hunt: &[&str], code: i32) -> Vec<String> {
+    let one = &folder();
+    for format in ["text", "json"] {
+        let shown =
+            |folder, arguments: &[&str]| printed(folder, &[arguments, &["--format", format]].concat(), code);
+        assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, hunt));
+    }
+    let runs = names(one);
+    for run in &runs {
+        assert_eq!(read(many, run), read(one, run), "{run}");
+    }
+    runs
+}
+
 #[test]
 fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
-    let (one, many) = (&folder(), &folder());
-    let whole = printed(one, &HUNT, 1);
+    let many = &folder();
     planned(many, &HUNT, "7");
-    for shard in [3, 7, 1, 2, 6, 4, 5] {
-        hunt_shard(many, "plan.json", shard);
-    }
+    shards_done(many, "hunt", [3, 7, 1, 2, 6, 4, 5]);
     let said = refused(many, &["merge", "plan.json", "plan.json"]);
     assert!(said.contains("leave it out, or name a shard in its place"), "{said}");
     // A shard that is done is not searched again.
     let kept = read(many, "plan-3.json");
-    hunt_shard(many, "plan.json", 3);
+    shards_done(many, "hunt", [3]);
     assert_eq!(read(many, "plan-3.json"), kept);
-    assert_eq!(printed(many, &["merge", "plan.json"], 1), whole);
-    let runs = names(one);
-    assert!(!runs.is_empty());
-    for run in &runs {
-        assert_eq!(read(many, run), read(one, run), "{run}");
-    }
-    let shown = |folder, arguments: &[&str]| printed(folder, &[arguments, &["--format", "json"]].concat(), 1);
-    assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &HUNT));
+    assert!(!merged_as_by_one_process(many, &HUNT, 1).is_empty());
 }
 
 #[test]
@@ -44,7 +52,7 @@ fn a_plan_of_which_a_shard_is_kept_is_not_replaced_by_another() {
     let other = ["hunt", "--rule", "published", "--robots", "3", "--max-walls", "3"];
     planned(folder, &other, "2");
     planned(folder, &HUNT, "2");
-    hunt_shard(folder, "plan.json", 2);
+    shards_done(folder, "hunt", [2]);
     planned(folder, &HUNT, "2");
     let kept = read(folder, "plan.json");
     let said = refused(folder, &[&other[..], &["--plan", "plan.json", "--shards", "2"]].concat());
@@ -60,9 +68,7 @@ fn a_plan_of_which_a_shard_is_kept_is_not_replaced_by_another() {
 fn a_merge_replaces_neither_its_plan_nor_a_shard() {
     let folder = &folder();
     planned(folder, &["reproduce", "margins"], "2");
-    for shard in ["1", "2"] {
-        printed(folder, &["reproduce", "--plan", "plan.json", "--shard", shard], 0);
-    }
+    shards_done(folder, "reproduce", [1, 2]);
     for file in ["plan.json", "plan-1.json"] {
         let kept = read(folder, file);
         for force in [&[][..], &["--force"]] {
@@ -86,12 +92,9 @@ fn the_shards_of_hunts_of_layouts_give_what_one_process_gives() {
     ];
     for (work, code) in works {
         let work = [&["hunt"], work].concat();
-        let (one, many) = (&folder(), &folder());
-        let whole = printed(one, &work, code);
+        let many = &folder();
         planned(many, &work, "5");
-        for shard in [4, 1, 5, 3] {
-            hunt_shard(many, "plan.json", shard);
-        }
+        shards_done(many, "hunt", [4, 1, 5, 3]);
         // The last one is ended again and again, and taken up where it was.
         let shard = ["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "1"];
         let mut ended = 0;
@@ -99,13 +102,7 @@ fn the_shards_of_hunts_of_layouts_give_what_one_process_gives() {
             ended += 1;
         }
         assert!(ended > 0, "{work:?}");
-        assert_eq!(printed(many, &["merge", "plan.json"], code), whole);
-        for run in names(one) {
-            assert_eq!(read(many, &run), read(one, &run), "{run}");
-        }
-        let shown =
-            |folder, arguments: &[&str]| printed(folder, &[arguments, &["--format", "json"]].concat(), code);
-        assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &work));
+        merged_as_by_one_process(many, &work, code);
     }
 }
 
@@ -114,13 +111,13 @@ fn a_shard_that_ran_out_of_its_budget_is_a_gap_until_it_has_gone_on() {
     let folder = &folder();
     let whole = printed(folder, &HUNT, 1);
     planned(folder, &HUNT, "2");
-    hunt_shard(folder, "plan.json", 1);
+    shards_done(folder, "hunt", [1]);
     printed(folder, &["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "5000"], 3);
     let output = ran(folder, &["merge", "plan.json"]);
     let said = String::from_utf8(output.stderr).expect("text");
     assert_eq!((output.status.code(), output.stdout.len()), (Some(4), 0), "{said}");
     assert!(said.contains("1 of 2 shards are not there: shard 2 is not at its end"), "{said}");
-    hunt_shard(folder, "plan.json", 2);
+    shards_done(folder, "hunt", [2]);
     assert_eq!(printed(folder, &["merge", "plan.json"], 1), whole);
 }
 
@@ -147,7 +144,7 @@ fn a_shard_that_is_run_again_with_the_same_budget_goes_on() {
     let folder = &folder();
     let whole = printed(folder, &HUNT, 1);
     planned(folder, &HUNT, "2");
-    hunt_shard(folder, "plan.json", 1);
+    shards_done(folder, "hunt", [1]);
     let shard = ["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "50000"];
     let mut nights = 1;
     while ran(folder, &shard).status.code() == Some(3) {
@@ -174,9 +171,14 @@ fn a_shard_that_did_less_than_it_was_dealt_is_refused() {
         says(&said, &["plan-2.json", "remove it, and run the shard again"]);
         said
     };
+    let remove_plan = || {
+        for file in ["plan.json", "plan-1.json", "plan-2.json"] {
+            fs::remove_file(folder.join(file)).expect("a file");
+        }
+    };
     let budget = ["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "5000"];
     planned(folder, &HUNT, "2");
-    hunt_shard(folder, "plan.json", 1);
+    shards_done(folder, "hunt", [1]);
     printed(folder, &budget, 3);
     let mut said = vec![refused_with(&|_| {})];
     // It forgets what is left of this number of walls, and of all.
@@ -186,23 +188,19 @@ fn a_shard_that_did_less_than_it_was_dealt_is_refused() {
         all.resize(levels, serde_json::json!({"runs": 0, "moves": 0}));
     };
     said.push(refused_with(&|far| forget(far, 4)));
-    hunt_shard(folder, "plan.json", 2);
+    shards_done(folder, "hunt", [2]);
     said.push(refused_with(&|far| far["count"]["searched"] = 1.into()));
-    fs::remove_file(folder.join("plan.json")).expect("a file");
-    (1..=2).for_each(|shard| fs::remove_file(folder.join(format!("plan-{shard}.json"))).expect("a file"));
+    remove_plan();
     let layouts = ["hunt", "--scheme", "mdfs", "--rule", "published", "--max-misses", "1", "--size", "3x2"];
     planned(folder, &layouts, "2");
-    (1..=2).for_each(|shard| hunt_shard(folder, "plan.json", shard));
+    shards_done(folder, "hunt", [1, 2]);
     let stages = |far: &mut Value| far.as_array().expect("stages").len();
     let looks = |far: &mut Value, stage: usize| far[stage].as_array_mut().expect("looks").pop();
     said.push(refused_with(&|far| drop(looks(far, stages(&mut far.clone()) - 1))));
     said.push(refused_with(&|far| drop(looks(far, stages(&mut far.clone()) - 2))));
-    fs::remove_file(folder.join("plan.json")).expect("a file");
-    (1..=2).for_each(|shard| fs::remove_file(folder.join(format!("plan-{shard}.json"))).expect("a file"));
+    remove_plan();
     planned(folder, &TABLE, "2");
-    for shard in ["1", "2"] {
-        printed(folder, &["reproduce", "--plan", "plan.json", "--shard", shard], 0);
-    }
+    shards_done(folder, "reproduce", [1, 2]);
     said.push(refused_with(&|far| drop(far["results"].as_array_mut().expect("results").pop())));
     assert_snapshot!(said.join("\n"));
 }
@@ -231,7 +229,7 @@ fn a_plan_with_numbers_that_contradict_each_other_is_refused_and_how_many_shards
     }
     let whole = printed(folder, &layouts, 0);
     changed(&layouts, "\"shards\":2", "\"shards\":1");
-    hunt_shard(folder, "plan.json", 1);
+    shards_done(folder, "hunt", [1]);
     assert_eq!(printed(folder, &["merge", "plan.json"], 0), whole);
 }
 
@@ -240,14 +238,12 @@ fn the_shards_of_a_table_give_what_one_process_gives() {
     let (one, many) = (&folder(), &folder());
     let whole = printed(one, &[&TABLE[..], &["--svg", "cost.svg"]].concat(), 0);
     planned(many, &TABLE, "3");
-    for shard in ["2", "3", "1"] {
-        printed(many, &["reproduce", "--plan", "plan.json", "--shard", shard], 0);
-    }
+    shards_done(many, "reproduce", [2, 3, 1]);
     let merge = ["merge", "plan.json", "--picture", "svg", "cost.svg"];
     assert_eq!(printed(many, &merge, 0), whole);
     let bare = &folder();
     planned(bare, &["reproduce", "repair-cost", "--runs", "2"], "1");
-    printed(bare, &["reproduce", "--plan", "plan.json", "--shard", "1"], 0);
+    shards_done(bare, "reproduce", [1]);
     let (_, said) = super::files::left_out(bare, &["merge", "plan.json", "--picture", "a", "b.svg"]);
     assert!(said.contains("leave it out: this table has no pictures"), "{said}");
     let said = refused(many, &["merge", "plan.json", "--out", "found"]);
@@ -262,9 +258,9 @@ fn wrong_plans_and_shards() {
     planned(folder, &small, "3");
     let other = ["hunt", "--rule", "repaired", "--robots", "3", "--max-walls", "2"];
     printed(folder, &[&other[..], &["--plan", "other.json", "--shards", "3"]].concat(), 0);
-    planned_table(folder);
-    (1..=3).for_each(|shard| hunt_shard(folder, "plan.json", shard));
-    hunt_shard(folder, "other.json", 2);
+    printed(folder, &[&TABLE[..], &["--plan", "table.json", "--shards", "2"]].concat(), 0);
+    shards_done(folder, "hunt", [1, 2, 3]);
+    printed(folder, &["hunt", "--plan", "other.json", "--shard", "2"], 0);
     let plan = read(folder, "plan.json");
     // What is not the same in every build is not shown.
     fs::write(folder.join("foreign.json"), of_another_build(&plan)).expect("a file");
@@ -309,10 +305,6 @@ fn wrong_plans_and_shards() {
         cases.map(|case| format!("$ tautline {}\n{}\n", case.join(" "), digest(refused(folder, case))));
     assert_snapshot!(said.join("\n"));
     assert!(!folder.join("new.json").exists());
-}
-
-fn planned_table(folder: &Path) {
-    printed(folder, &[&TABLE[..], &["--plan", "table.json", "--shards", "2"]].concat(), 0);
 }
 
 #[test]
