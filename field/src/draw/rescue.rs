@@ -1,6 +1,7 @@
 //! Rescues drawn: a map of the ways that robots went, and a page that plays what happened, event by event.
 
 use std::fmt::Write;
+use std::mem;
 use std::path::Path;
 
 use serde::Serialize;
@@ -128,15 +129,13 @@ const fn milliseconds(at_ns: u64) -> u64 {
 /// Where a robot was: milliseconds, millimetres east and south, each as what it is more than before.
 fn way(path: &[Fix]) -> String {
     let (mut text, mut last) = (String::new(), [0; 3]);
-    for fix in path {
+    let more = path.iter().flat_map(|fix| {
         let [x, y] = millimetres(fix.at).map(i64::from);
         let now = [milliseconds(fix.at_ns) as i64, x, y];
-        for (new, old) in now.into_iter().zip(last) {
-            text.push_str(if text.is_empty() { "" } else { "," });
-            base36(&mut text, new - old);
-        }
-        last = now;
-    }
+        let before = mem::replace(&mut last, now);
+        [0, 1, 2].map(|place| now[place] - before[place])
+    });
+    base36(&mut text, more);
     text
 }
 

@@ -7,6 +7,7 @@ pub mod film;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::mem;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -437,18 +438,19 @@ fn steps(frame: &Frame) -> String {
 /// A word with numbers in rising order: the first, then each as what it is more than the one before, to the base 36.
 pub fn word(name: &str, numbers: &[u32]) -> String {
     let (mut text, mut last) = (format!("{name}:"), 0);
-    for (place, &number) in numbers.iter().enumerate() {
-        if place > 0 {
-            text.push(',');
-        }
-        base36(&mut text, i64::from(number - last));
-        last = number;
-    }
+    base36(&mut text, numbers.iter().map(|&number| i64::from(number - mem::replace(&mut last, number))));
     text
 }
 
-/// A number to the base 36.
-pub fn base36(text: &mut String, number: i64) {
+/// Numbers to the base 36, with commas between them.
+pub fn base36(text: &mut String, numbers: impl IntoIterator<Item = i64>) {
+    for (place, number) in numbers.into_iter().enumerate() {
+        text.push_str(if place > 0 { "," } else { "" });
+        one_base36(text, number);
+    }
+}
+
+fn one_base36(text: &mut String, number: i64) {
     if number < 0 {
         text.push('-');
     }
@@ -471,12 +473,7 @@ fn listed(name: &str, numbers: &[u32]) -> String {
 /// The word of a thing that is somewhere from now on.
 fn marked(layer: usize, mark: &Mark) -> String {
     let mut text = format!(" e{layer}.{}@{}:", mark.value, mark.number);
-    for (place, &figure) in mark.figures.iter().enumerate() {
-        if place > 0 {
-            text.push(',');
-        }
-        base36(&mut text, figure.into());
-    }
+    base36(&mut text, mark.figures.iter().map(|&figure| figure.into()));
     text
 }
 
@@ -539,7 +536,7 @@ mod tests {
         assert_eq!(word("x", &[0, 35, 36, 1332]), "x:0,z,1,100");
         assert_eq!(word("x", &[]), "x:");
         let mut text = String::new();
-        base36(&mut text, -37);
-        assert_eq!(text, "-11");
+        base36(&mut text, [-37, 36]);
+        assert_eq!(text, "-11,10");
     }
 }
