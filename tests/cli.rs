@@ -9,7 +9,7 @@ use std::time::Duration;
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::folder::folder;
+use crate::folder::{folder, read, write};
 
 #[path = "cli/areas.rs"]
 mod areas;
@@ -49,12 +49,24 @@ pub(crate) fn ran(folder: &Path, arguments: &[&str]) -> Output {
     tautline(folder, arguments).output().expect("the program runs")
 }
 
-/// The text that a command prints with so many threads, if it succeeds.
-fn with_threads(folder: &Path, threads: &str, arguments: &[&str]) -> String {
-    let output = tautline(folder, arguments).env("RAYON_NUM_THREADS", threads).output();
-    let output = output.expect("the program runs");
-    assert_eq!(output.status.code(), Some(0));
-    String::from_utf8(output.stdout).expect("text")
+/// The text that a command prints on one thread, and as well on three; so it is with the files that it stores.
+fn on_any_threads(folder: &Path, arguments: &[&str]) -> String {
+    let [one, three] = ["1", "3"].map(|threads| {
+        let output = tautline(folder, arguments).env("RAYON_NUM_THREADS", threads).output();
+        let output = output.expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        let stored: Vec<String> = names(folder).iter().map(|name| read(folder, name)).collect();
+        (String::from_utf8(output.stdout).expect("text"), stored)
+    });
+    assert_eq!(one, three);
+    one.0
+}
+
+/// A picture that is stored, which is whole.
+fn picture(folder: &Path, name: &str) -> String {
+    let drawn = read(folder, name);
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"), "{name}");
+    drawn
 }
 
 /// The exit code of a command that gets a Ctrl-C at work.
@@ -110,7 +122,7 @@ fn refusals(folder: &Path, begin: &[&str], ends: &[&[&str]]) -> String {
 fn refused_texts(folder: &Path, stored: &str, texts: &[(&str, String)], command: [&str; 2]) -> String {
     let said = texts.iter().map(|(what, text)| {
         assert_ne!(text, stored, "{what}");
-        fs::write(folder.join(command[1]), text).expect("a file");
+        write(folder, command[1], text);
         format!("{what}\n{}\n", refused(folder, &command))
     });
     said.collect::<Vec<_>>().join("\n")
@@ -166,8 +178,8 @@ fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
         assert_eq!(replayed["counterexample_to"], clause);
         assert_eq!(replayed["violations"][0]["clause"], clause);
         // Under the other rule it is another run.
-        let text = fs::read_to_string(folder.join(file)).expect("text");
-        fs::write(folder.join("other.jsonl"), text.replace("published", "repaired")).expect("a file");
+        let text = read(folder, file);
+        write(folder, "other.jsonl", text.replace("published", "repaired"));
         assert!(refused(folder, &["replay", "other.jsonl"]).contains("the rule does not make this run"));
     }
 }
@@ -192,7 +204,7 @@ fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
     assert_snapshot!(found["counterexamples"],
         @r#"[{"clause":"BRICKS-4","columns":3,"file":"bricks-4-repaired-n1.jsonl","misses":1,"rows":3,"steps":5}]"#);
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/bricks-4-repaired-n1.jsonl");
-    let stored = fs::read_to_string(folder.join("bricks-4-repaired-n1.jsonl")).expect("a run");
+    let stored = read(folder, "bricks-4-repaired-n1.jsonl");
     assert_eq!(stored, fs::read_to_string(kept).expect("a run"), "the page draws another one");
     assert_snapshot!("trap_replayed", printed(folder, &["replay", "bricks-4-repaired-n1.jsonl"], 1));
     let cases = [
@@ -385,7 +397,7 @@ fn the_environments_are_drawn_from_the_radii() {
 fn a_layout_shown_is_a_layout_file() {
     let folder = &folder();
     let drawing = printed(folder, &["show", "walls:5x4:0.2", "--seed", "2"], 0);
-    fs::write(folder.join("walls.txt"), &drawing).expect("a file");
+    write(folder, "walls.txt", &drawing);
     assert_eq!(printed(folder, &["show", "walls.txt"], 0), drawing);
     assert_snapshot!(drawing, @r#"
     tautline layout 1
@@ -448,8 +460,7 @@ fn a_bound_on_memory_leaves_checks_open_and_says_so() {
     let ledger = json(folder, &["prove", "KIT-12", "--memory", "64KiB"], 3);
     assert_eq!((&ledger["out_of_memory"], &ledger["as_registered"]), (&true.into(), &false.into()));
     for wrong in ["1", "0GiB", "1GB", "-1MiB", "99999999999GiB", "GiB"] {
-        let said = refused(folder, &["prove", "KIT-12", &format!("--memory={wrong}")]);
-        assert!(said.contains("KiB, MiB or GiB"), "{said}");
+        says(&refused(folder, &["prove", "KIT-12", &format!("--memory={wrong}")]), &["KiB, MiB or GiB"]);
     }
 }
 
@@ -478,8 +489,7 @@ fn the_counterexample_of_a_clause_of_agents_is_drawn() {
 #[test]
 fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
     let folder = &folder();
-    let table = |threads| with_threads(folder, threads, &["reproduce", "repair-cost", "--runs", "12"]);
-    assert_eq!(table("1"), table("3"));
+    on_any_threads(folder, &["reproduce", "repair-cost", "--runs", "12"]);
     let measured = json(folder, &["reproduce", "repair-cost", "--runs", "3"], 0);
     assert_eq!(measured["densities"].as_array().map(Vec::len), Some(7));
 }
@@ -487,14 +497,12 @@ fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
 #[test]
 fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
     let folder = &folder();
-    let table = |threads| with_threads(folder, threads, &["reproduce", "optimum", "--max-walls", "2"]);
-    let one = table("1");
-    assert_eq!(one, table("3"));
-    assert_snapshot!("optimum_of_two_walls", one);
+    let table = on_any_threads(folder, &["reproduce", "optimum", "--max-walls", "2"]);
+    assert_snapshot!("optimum_of_two_walls", table);
     let measured = json(folder, &["reproduce", "optimum", "--max-walls", "0"], 0);
     assert_eq!((&measured["id"], &measured["lines"][2]["mean"]), (&"optimum".into(), &1.0.into()));
     let layout = measured["lines"][0]["worst"]["layout"].as_str().expect("a drawing");
-    fs::write(folder.join("worst.txt"), layout).expect("a file");
+    write(folder, "worst.txt", layout);
     printed(folder, &["show", "worst.txt"], 0);
     assert!(refused(folder, &["reproduce", "optimum", "--max-walls", "7"]).contains("from 0 to 6"));
 }
@@ -502,13 +510,8 @@ fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
 #[test]
 fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
     let folder = &folder();
-    let figure = |threads| {
-        let arguments =
-            ["reproduce", "bricks-fig11", "--runs", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
-        let told = with_threads(folder, threads, &arguments);
-        (told, fs::read_to_string(folder.join("fig11.svg")).expect("text"))
-    };
-    assert_eq!(figure("1"), figure("3"));
+    let figure = ["reproduce", "bricks-fig11", "--runs", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
+    on_any_threads(folder, &figure);
     let short = ["--runs", "1", "--max-steps", "500"];
     let area = json(folder, &[&["reproduce", "bricks-fig12"], &short[..]].concat(), 0);
     assert_eq!((&area["miss"], area["lines"].as_array().map(Vec::len)), (&0.0556.into(), Some(56)));
@@ -520,18 +523,14 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
 fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
     let folder = &folder();
     let figure = ["reproduce", "notice-fig5", "--nodes", "300,700", "--runs", "20", "--channel", "shared"];
-    let table = |threads| with_threads(folder, threads, &figure);
-    let one = table("1");
-    assert_eq!(one, table("3"));
-    assert_snapshot!("reach_of_broadcasts", one);
+    assert_snapshot!("reach_of_broadcasts", on_any_threads(folder, &figure));
     let asked = ["reproduce", "notice-fig5", "--nodes", "300", "--runs", "3", "--svg-reach", "a.svg"];
     let measured = json(folder, &[&asked[..], &["--svg-rebroadcasts", "b.svg"]].concat(), 0);
     let first = &measured["densities"][0]["schemes"][0];
     assert_eq!((&first["scheme"], &first["paper"]), (&"k-fnf k=1".into(), &1.0.into()));
     assert_eq!(names(folder), ["a.svg", "b.svg"]);
-    for name in names(folder) {
-        let picture = fs::read_to_string(folder.join(name)).expect("a picture");
-        assert!(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
+    for name in ["a.svg", "b.svg"] {
+        picture(folder, name);
     }
 }
 
@@ -563,14 +562,8 @@ fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
 #[test]
 fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
     let folder = &folder();
-    let table = |threads| {
-        let arguments = ["reproduce", "rescue-fig7", "--nodes", "300,700", "--runs", "12", "--svg", "7.svg"];
-        let told = with_threads(folder, threads, &arguments);
-        (told, fs::read_to_string(folder.join("7.svg")).expect("text"))
-    };
-    let one = table("1");
-    assert_eq!(one, table("3"));
-    assert_snapshot!("ways_of_robots", one.0);
+    let figure = ["reproduce", "rescue-fig7", "--nodes", "300,700", "--runs", "12", "--svg", "7.svg"];
+    assert_snapshot!("ways_of_robots", on_any_threads(folder, &figure));
     for (figure, obstacles, trails) in [("rescue-fig6", 0, 3), ("rescue-fig9", 1, 1), ("rescue-fig10", 4, 1)]
     {
         let measured = json(folder, &["reproduce", figure, "--runs", "3", "--svg", "ways.svg"], 0);
@@ -579,9 +572,8 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
         let tan = &measured["densities"][0]["ways"][0];
         assert_eq!((&tan["way"], &tan["arrivals"]["mean"]), (&"tan".into(), &1.0.into()));
         assert!(tan["ratio"]["mean"].as_f64().is_some_and(|ratio| ratio >= 1.0), "{tan}");
-        let drawn = fs::read_to_string(folder.join("ways.svg")).expect("a picture");
+        let drawn = picture(folder, "ways.svg");
         assert_eq!(drawn.matches("class=\"trail\"").count(), trails, "{figure}");
-        assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
     }
     let shapes = json(folder, &["reproduce", "rescue-shapes", "--runs", "3"], 0);
     let of = |place: usize| &shapes["densities"][place];
@@ -598,11 +590,8 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
 fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
     let folder = &folder();
     let figure = ["reproduce", "rescue-fig8", "--runs", "20", "--svg", "ways.svg"];
-    let table = |threads| with_threads(folder, threads, &figure);
-    let one = table("1");
-    assert_eq!(one, table("3"));
-    assert_snapshot!("three_robots_for_three_wfrs", one);
-    let drawn = fs::read_to_string(folder.join("ways.svg")).expect("a picture");
+    assert_snapshot!("three_robots_for_three_wfrs", on_any_threads(folder, &figure));
+    let drawn = read(folder, "ways.svg");
     assert_eq!(drawn.matches("class=\"trail\" d=\"M").count(), 6, "three, and the legend");
     let few = ["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "2", "--runs", "3"];
     let few = json(folder, &few, 0);
@@ -622,8 +611,7 @@ fn a_directional_antenna_and_what_noise_does_to_a_scan() {
     let folder = &folder();
     let asked = ["reproduce", "antenna-fig4", "--runs", "200", "--svg", "antenna.svg"];
     assert_snapshot!("antenna", printed(folder, &asked, 0));
-    let drawn = fs::read_to_string(folder.join("antenna.svg")).expect("a picture");
-    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
+    picture(folder, "antenna.svg");
     let near = json(folder, &["reproduce", "antenna-fig4", "--distance", "1", "--runs", "10"], 0);
     let levels = near["pattern"].as_array().expect("angles");
     assert_eq!((levels.len(), &levels[12]["degrees"]), (25, &0.into()));
@@ -666,17 +654,9 @@ fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
 fn the_tables_are_listed_and_have_help_with_examples() {
     let folder = &folder();
     assert_snapshot!("tables", printed(folder, &["reproduce"], 0));
-    for table in [
-        "repair-cost",
-        "optimum",
-        "bricks-fig11",
-        "notice-fig5",
-        "antenna-fig4",
-        "rescue-fig7",
-        "rescue-fig8",
-        "locate-fig8",
-        "locate-convergence",
-    ] {
+    let tables = "repair-cost optimum bricks-fig11 notice-fig5 antenna-fig4 rescue-fig7 rescue-fig8 locate-fig8 \
+                  locate-convergence";
+    for table in tables.split(' ') {
         let help = printed(folder, &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);
@@ -715,21 +695,21 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
         ["environments.svg", "moves.html", "moves.svg", "order.svg", "run.html", "run.jsonl"]
     );
     for name in names(folder) {
-        let text = fs::read_to_string(folder.join(&name)).expect("text");
+        let text = read(folder, &name);
         let links = text.replace("http://www.w3.org/2000/svg", "");
         assert!(!links.contains("http") && !text.contains("{{"), "{name}");
         if name.ends_with("svg") {
-            assert!(text.starts_with("<svg ") && text.ends_with("</svg>\n"), "{name}");
+            picture(folder, &name);
         }
     }
-    let page = fs::read_to_string(folder.join("moves.html")).expect("text");
+    let page = read(folder, "moves.html");
     assert_eq!(lines_of(&page).len(), 4, "three team moves, and where the robots were before");
 }
 
 #[test]
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = &folder();
-    fs::write(folder.join("file"), "").expect("a file");
+    write(folder, "file", "");
     let wrong: [&[&str]; 47] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
@@ -787,7 +767,7 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
 fn a_base_on_a_blocked_cell_is_refused_with_the_nearest_free_one() {
     let folder = &folder();
     let drawing = "tautline layout 1\n+--+--+\n|##   |\n+--+--+\n";
-    fs::write(folder.join("layout"), drawing).expect("a file");
+    write(folder, "layout", drawing);
     assert_snapshot!(refused(folder, &["explore", "layout", "--base", "0,0"]), @r#"
     Error: the base 0,0 is on a blocked cell; the nearest free cell is 1,0
      Help: put the base on 1,0
@@ -815,7 +795,7 @@ tautline layout 1
 #[test]
 fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
     let folder = &folder();
-    fs::write(folder.join("ring"), RING).expect("a file");
+    write(folder, "ring", RING);
     let starts = ["--robots", "3", "--start", "0,0", "--start", "3,1", "--start", "2,2"];
     let explore = |scheme: &'static str| [&["explore", "ring", "--scheme", scheme], &starts[..]].concat();
     assert_snapshot!("agents_in_two_parts", printed(folder, &explore("bricks"), 0));
@@ -830,8 +810,7 @@ fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
     // All is explored, and one is done while others have cells to go through.
     let starts = ["--robots", "3", "--start", "1,0", "--start", "2,0", "--start", "0,0"];
     let left = [&["explore", "open:4x1", "--scheme", "mdfs", "--rule", "published"], &starts[..]].concat();
-    let told = printed(folder, &left, 1);
-    assert!(told.contains("BRICKS-4 is broken in team move 1"), "{told}");
+    says(&printed(folder, &left, 1), &["BRICKS-4 is broken in team move 1"]);
     let one_part = json(folder, &["explore", "ring", "--scheme", "bricks", "--start", "3,0"], 0);
     assert_eq!((&one_part["cells"], one_part.get("components")), (&3.into(), None));
 }
@@ -839,7 +818,7 @@ fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
 #[test]
 fn a_run_of_agents_without_end_is_found_and_drawn() {
     let folder = &folder();
-    fs::write(folder.join("ring"), RING).expect("a file");
+    write(folder, "ring", RING);
     let explore = ["explore", "ring", "--scheme", "bricks", "--rule", "published", "--robots", "1"];
     printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 1);
     assert_snapshot!(
@@ -869,10 +848,10 @@ fn runs_of_agents_are_stored_and_replayed() {
     printed(folder, &[&explore[..], &["--robots", "2", "--start", "4,2"], &page].concat(), 0);
     assert_snapshot!("frames_of_agents", printed(folder, &["replay", "run.jsonl"], 0));
     printed(folder, &["replay", "run.jsonl", "--svg", "last.svg"], 0);
-    let drawn = fs::read_to_string(folder.join("last.svg")).expect("text");
+    let drawn = read(folder, "last.svg");
     assert!(drawn.contains("class=\"sealed\"") && !drawn.contains("class=\"base\""));
     printed(folder, &[&explore[..], &starts[..]].concat(), 0);
-    let run = fs::read_to_string(folder.join("run.jsonl")).expect("text");
+    let run = read(folder, "run.jsonl");
     let cases = [
         ("no agent", run.replacen("\"robots\":2", "\"robots\":0", 1)),
         ("a start too few", run.replacen("[[0,0],[4,2]]", "[[0,0]]", 1)),
@@ -890,7 +869,7 @@ fn runs_of_agents_are_stored_and_replayed() {
 fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
     let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
-    let run = fs::read_to_string(folder.join("run.jsonl")).expect("text");
+    let run = read(folder, "run.jsonl");
     let lines: Vec<&str> = run.split_inclusive('\n').collect();
     assert_snapshot!(run, @r#"
     {"format":"tautline run","version":1,"scheme":"chain","rule":"repaired","robots":2,"seed":0,"base":[1,1],"limits":{"until":null,"max_moves":null,"violation":"go-on"},"clause":null,"layout":"tautline layout 1\n+--+--+--+\n|        |\n+  +  +  +\n|   B    |\n+  +  +  +\n|        |\n+--+--+--+\n"}
@@ -926,7 +905,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
         ("a clause that it does not break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-1\"", 1)),
     ];
     let said = cases.map(|(what, text)| {
-        fs::write(folder.join("run.jsonl"), text).expect("a file");
+        write(folder, "run.jsonl", text);
         let refusal = refused(folder, &["replay", "run.jsonl"]);
         // What is no run might have been a rescue, which can be replayed and not minimised.
         let is_foreign = ["no bytes", "another format"].contains(&what);
@@ -934,7 +913,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
         format!("{what}\n{refusal}\n")
     });
     assert_snapshot!("wrong_runs", said.join("\n"));
-    fs::write(folder.join("run.jsonl"), b"\xff\xfe").expect("a file");
+    write(folder, "run.jsonl", b"\xff\xfe");
     assert_snapshot!(refused(folder, &["replay", "run.jsonl"]), @r#"
     Error: this is not UTF-8 text
        ╭─[ run.jsonl:1:1 ]
@@ -1025,13 +1004,8 @@ fn a_rescue_is_told_event_by_event() {
     let told = json(folder, &[&["rescue", "--seeds", "7"], &lake[..]].concat(), 0);
     assert_eq!((&told["robots"], &told["wfrs"]), (&2.into(), &1.into()));
     assert_eq!(told["events"][0]["calls"]["node"], 350);
-    let ends: Vec<&Value> = told["events"]
-        .as_array()
-        .expect("a list")
-        .iter()
-        .filter(|event| !event["arrives"].is_null())
-        .collect();
-    assert_eq!(ends.len(), 1, "one robot comes");
+    let events = told["events"].as_array().expect("a list");
+    assert_eq!(events.iter().filter(|event| !event["arrives"].is_null()).count(), 1, "one robot comes");
 }
 
 #[test]
@@ -1076,7 +1050,7 @@ fn a_rescue_is_stored_played_and_drawn() {
         printed(folder, &["replay", "r.jsonl", "--html", "again.html", "--svg", "again.svg"], 1),
         told
     );
-    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("text");
+    let read = |name: &str| read(folder, name);
     assert_eq!((read("r.html"), read("r.svg")), (read("again.html"), read("again.svg")));
     let (page, run) = (read("r.html"), read("r.jsonl"));
     let events = run.lines().count() - 2;
@@ -1092,7 +1066,7 @@ fn a_rescue_is_stored_played_and_drawn() {
         .iter()
         .fold(run.clone(), |run, field| run.replacen(field, "", 1));
     assert_eq!(older.len() + 53, run.len());
-    fs::write(folder.join("older.jsonl"), older).expect("a file");
+    write(folder, "older.jsonl", older);
     assert_eq!(printed(folder, &["replay", "older.jsonl"], 1), told);
     let events = ["--events", "2", "--trace", "twice.jsonl", "--html", "twice.html"];
     let told = printed(folder, &[&published[..], &events].concat(), 1);
@@ -1200,26 +1174,9 @@ fn ctrl_c_ends_rescues() {
 #[test]
 fn every_command_has_help_with_examples() {
     let folder = &folder();
-    for command in [
-        "prove",
-        "library",
-        "schemes",
-        "explore",
-        "hunt",
-        "minimise",
-        "rescue",
-        "locate",
-        "replay",
-        "check",
-        "conform",
-        "judge",
-        "page",
-        "show",
-        "reproduce",
-        "merge",
-        "completions",
-        "man",
-    ] {
+    let commands = "prove library schemes explore hunt minimise rescue locate replay check conform judge page show \
+                    reproduce merge completions man";
+    for command in commands.split(' ') {
         let help = printed(folder, &[command, "--help"], 0);
         assert!(help.contains("Example"), "{command}");
         assert_snapshot!(format!("help_{command}"), help);
@@ -1239,7 +1196,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
     let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
     assert_eq!((stored.len(), of_tables), (1 + 19 + 30, 30), "{stored:?}");
     for name in stored {
-        let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
+        let page = read(&folder.join("man1"), &name);
         let title = name.strip_suffix(".1").expect("section 1");
         let end = "Where several apply, the code is the first of 70, 2, 4, 3, 1, 0.";
         assert!(page.contains(&format!(".TH {title} 1 ")), "{name}");
@@ -1337,7 +1294,7 @@ fn a_hundred_thousand_threads_are_as_many_as_make_sense() {
 #[test]
 fn an_option_that_can_have_no_effect_is_refused() {
     let folder = &folder();
-    fs::write(folder.join("ring"), RING).expect("a file");
+    write(folder, "ring", RING);
     let wrong: [&[&str]; 21] = [
         &["library", "--memory", "1GiB"],
         &["library", "--patience", "3"],
@@ -1363,7 +1320,7 @@ fn an_option_that_can_have_no_effect_is_refused() {
     ];
     assert_snapshot!("needless_options", refusals(folder, &[], &wrong));
     // Where they matter they are taken.
-    fs::write(folder.join("log.csv"), "time,robot,x,y\n0,a,1.5,1.5\n0,b,3.5,1.5\n").expect("a file");
+    write(folder, "log.csv", "time,robot,x,y\n0,a,1.5,1.5\n0,b,3.5,1.5\n");
     let frontier = ["explore", "open:4x4", "--scheme", "frontier", "--robots", "2"];
     let wheels = [&frontier[..], &["--odometry", "0.001:0.1", "--readings", "0"]].concat();
     let noise = [&frontier[..], &["--noise-db", "0.1", "--anchors", "5", "--readings", "50"]].concat();
@@ -1404,9 +1361,9 @@ fn what_is_wrong_is_said_without_the_words_of_programs() {
     let folder = &folder();
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     for (name, text) in [("list.jsonl", "[]\n"), ("cut.jsonl", "{\"format\":\n")] {
-        fs::write(folder.join(name), text).expect("a file");
+        write(folder, name, text);
     }
-    fs::write(folder.join("latin.csv"), b"time,robot,x,y\n0,caf\xe9,1,2\n").expect("a file");
+    write(folder, "latin.csv", b"time,robot,x,y\n0,caf\xe9,1,2\n");
     fs::create_dir(folder.join("dir")).expect("a folder");
     printed(folder, &["library", "rmf-lane", "--plan", "plan.json", "--shards", "1"], 0);
     let wrong: [&[&str]; 20] = [
@@ -1474,7 +1431,7 @@ fn a_page_begins_with_all_robots_at_the_base_or_at_their_start() {
     let folder = &folder();
     let film = |arguments: &[&str], file: &str| {
         printed(folder, &[arguments, &["--html", file]].concat(), 0);
-        film_of(&fs::read_to_string(folder.join(file)).expect("a page"))
+        film_of(&read(folder, file))
     };
     let chain = film(&["explore", "open:5x5", "--robots", "12"], "chain.html");
     assert_eq!(chain["board"]["start"], Value::from(vec![12; 12]));
@@ -1488,15 +1445,15 @@ fn a_page_begins_with_all_robots_at_the_base_or_at_their_start() {
 fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
     let folder = &folder();
     let marked = |name: &str| {
-        let text = fs::read_to_string(folder.join(name)).expect("text");
-        fs::write(folder.join(format!("marked-{name}")), format!("\u{feff}{text}")).expect("a file");
+        let text = read(folder, name);
+        write(folder, format!("marked-{name}"), format!("\u{feff}{text}"));
     };
-    fs::write(folder.join("ring.txt"), RING).expect("a file");
-    fs::write(folder.join("two.map"), "type octile\nheight 1\nwidth 3\nmap\n.@.\n").expect("a file");
+    write(folder, "ring.txt", RING);
+    write(folder, "two.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
     let map = "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n\
                 negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
-    fs::write(folder.join("ros.yaml"), map).expect("a file");
-    fs::write(folder.join("map.pgm"), b"P5 2 1 255 \xff\x00").expect("a file");
+    write(folder, "ros.yaml", map);
+    write(folder, "map.pgm", b"P5 2 1 255 \xff\x00");
     for name in ["ring.txt", "two.map", "ros.yaml"] {
         marked(name);
         let shown = printed(folder, &["show", name], 0);
@@ -1509,9 +1466,9 @@ fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
         printed(folder, &["replay", &format!("marked-{name}")], 0);
     }
     // What is wrong after it is where a person sees it.
-    fs::write(folder.join("wrong.map"), "\u{feff}type tile\n").expect("a file");
-    fs::write(folder.join("wrong.yaml"), format!("\u{feff}{}", map.replace("0.1", "-1"))).expect("a file");
-    fs::write(folder.join("wrong.jsonl"), "\u{feff}{\"format\":\"a run\",\"version\":1}\n").expect("a file");
+    write(folder, "wrong.map", "\u{feff}type tile\n");
+    write(folder, "wrong.yaml", format!("\u{feff}{}", map.replace("0.1", "-1")));
+    write(folder, "wrong.jsonl", "\u{feff}{\"format\":\"a run\",\"version\":1}\n");
     let said = [&["show", "wrong.map"], &["show", "wrong.yaml"], &["replay", "wrong.jsonl"]]
         .map(|arguments| refused(folder, arguments));
     assert_snapshot!("wrong_after_a_byte_order_mark", said.join("\n\n"));
@@ -1522,7 +1479,7 @@ fn a_bad_number_in_a_map_is_called_one_and_hints_keep_to_the_limits() {
     let folder = &folder();
     let map = "type octile\nheight 1\nwidth 3\nmap\n.@.\n";
     let maps = ["height -1", "height many", "height 99999999999999999999", "height", "high 1"].map(|line| {
-        fs::write(folder.join("a.map"), map.replace("height 1", line)).expect("a file");
+        write(folder, "a.map", map.replace("height 1", line));
         format!("{line}\n{}\n", refused(folder, &["show", "a.map"]))
     });
     assert_snapshot!("bad_numbers_in_maps", maps.join("\n"));

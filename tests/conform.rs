@@ -1,7 +1,6 @@
 //! `tautline conform`: programs that are not this one, held to stored runs.
 #![cfg(unix)]
 
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -10,7 +9,7 @@ use insta::assert_snapshot;
 use serde_json::Value;
 
 use crate::cli::says;
-use crate::folder::folder;
+use crate::folder::{folder, read};
 use crate::recipes::{has, recipe};
 
 /// The lines of a command on stdout and stderr, without blanks at their ends.
@@ -117,7 +116,7 @@ fn what_was_recorded_of_a_run_conforms_to_it() {
         ("cells:5x5:0.2 --scheme helpers --robots 2", false),
     ] {
         conform(folder, run, &["true"], 2);
-        let lines = fs::read_to_string(folder.join("run.jsonl")).expect("a run");
+        let lines = read(folder, "run.jsonl");
         let moves = lines.lines().filter_map(|line| {
             let line: Value = serde_json::from_str(line).expect("JSON");
             let made = line.get("move")?;
@@ -214,7 +213,7 @@ fn what_is_told_and_answered_is_as_the_schemas_say() {
     let tee = "tee told.jsonl | sed -u -n 's/.*\"step\".*/{\"tried\":\"..\"}/p'";
     for run in ["open:3x3 --scheme ants --robots 2", "open:3x3 --robots 2"] {
         conform(folder, run, &["sh", "-c", tee], 1);
-        let told = fs::read_to_string(folder.join("told.jsonl")).expect("lines");
+        let told = read(folder, "told.jsonl");
         for line in told.lines() {
             crate::schema::check("conform-told", &serde_json::from_str(line).expect("JSON"), line);
         }

@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::commands::documents;
-use crate::folder::folder;
+use crate::folder::{folder, read, write};
 use crate::foreign;
 use crate::proved::proved;
 use crate::tidy::sources;
@@ -286,7 +286,7 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     let folder = &folder();
     fs::create_dir(folder.join("docs")).expect("a folder");
     let run = "docs/chain-2-published-n4.jsonl";
-    fs::write(folder.join(run), document(run)).expect("a run");
+    write(folder, run, document(run));
     let commands = readme.lines().filter_map(|line| line.strip_prefix("cargo run --release -- "));
     let commands: Vec<&str> = commands.map(|line| line.split('#').next().unwrap_or(line).trim()).collect();
     let [all, quick @ ..] = &commands[..] else { panic!("the README has no commands") };
@@ -436,7 +436,7 @@ fn the_templates_find_the_crates_where_they_are_copied_as_the_page_says() {
         let output = Command::new("sh").args(["-ec", &lines]).current_dir(folder).output().expect("a shell");
         assert!(output.status.success(), "{lines}\n{}", String::from_utf8_lossy(&output.stderr));
     }
-    let copied = fs::read_to_string(folder.join("rule/Cargo.toml")).expect("a file");
+    let copied = read(folder, "rule/Cargo.toml");
     let needed = block_from(&tutorial, "tautline-kernel = {");
     assert!(copied.contains(needed), "{copied}");
 }

@@ -1,5 +1,6 @@
 //! Folders of tests.
 
+use std::fs;
 use std::ops::Deref;
 use std::path::Path;
 
@@ -25,4 +26,15 @@ impl AsRef<Path> for Folder {
 /// A new, empty folder.
 pub(crate) fn folder() -> Folder {
     Folder(tempfile::tempdir().expect("a folder"))
+}
+
+/// The text of a file.
+#[track_caller]
+pub(crate) fn read(folder: &Path, name: impl AsRef<Path>) -> String {
+    fs::read_to_string(folder.join(name)).expect("text")
+}
+
+#[track_caller]
+pub(crate) fn write(folder: &Path, name: impl AsRef<Path>, content: impl AsRef<[u8]>) {
+    fs::write(folder.join(name), content).expect("room for a file");
 }

@@ -1,13 +1,12 @@
 //! `tautline replay` of a run whose scheme this program does not know: it is said what it is, and it plays as it was
 //! written.
 
-use std::fs;
 use std::path::Path;
 
 use insta::assert_snapshot;
 
 use crate::cli::ran;
-use crate::folder::{Folder, folder};
+use crate::folder::{Folder, folder, read, write};
 
 /// Two robots in a row of three cells; the first meets the wall, the second comes into its cell.
 const RUN: &str = r#"{"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"stop"},"clause":"PAIR-1","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
@@ -27,7 +26,7 @@ pub(crate) fn ended(folder: &Path, arguments: &[&str], code: i32) -> (String, St
 
 fn with_run(run: &str) -> Folder {
     let folder = folder();
-    fs::write(folder.join("run.jsonl"), run).expect("a file");
+    write(&folder, "run.jsonl", run);
     folder
 }
 
@@ -92,10 +91,10 @@ fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
     let folder = &with_run(RUN);
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--html", "run.html", "--svg", "run.svg"], 1);
     assert!(told.contains("the file says that it is a counterexample to PAIR-1"), "{told}");
-    let page = fs::read_to_string(folder.join("run.html")).expect("a page");
+    let page = read(folder, "run.html");
     // R1 tries to go east and meets a wall, R2 goes east.
     assert!(page.contains("\neE\t{\"broken\":[[\"PAIR-1\",[]]]}\n"), "{page}");
-    assert!(fs::read_to_string(folder.join("run.svg")).expect("a picture").contains("breaks PAIR-1"));
+    assert!(read(folder, "run.svg").contains("breaks PAIR-1"));
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--format", "json"], 1);
     assert_snapshot!(told,
         @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}]}"#);

@@ -1,13 +1,12 @@
 //! `tautline judge`: logs of robots that this program did not move.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
 use crate::cli::says;
-use crate::folder::{Folder, folder};
+use crate::folder::{Folder, folder, read, write};
 use crate::foreign::ended;
 
 /// Four robots in a row swing to and fro for half a minute; from 20 s on the last one is 80 cm farther off.
@@ -27,7 +26,7 @@ fn field(header: &str, metre: f64) -> String {
 
 fn with_log() -> Folder {
     let folder = folder();
-    fs::write(folder.join("field.csv"), field("time,robot,x,y", 1.0)).expect("a file");
+    write(&folder, "field.csv", field("time,robot,x,y", 1.0));
     folder
 }
 
@@ -43,12 +42,12 @@ fn a_breach_has_its_moment_its_robots_its_line_a_picture_and_a_page() {
     let (told, _) = judged(folder, arguments, 1);
     let page = include_str!("../docs/judge.md");
     assert!(page.contains(&told), "docs/judge.md has not:\n{told}");
-    let picture = fs::read_to_string(folder.join("moment.svg")).expect("a picture");
+    let picture = read(folder, "moment.svg");
     assert!(
         picture.contains("CHAIN-3 is broken at 20 s; cells of 1 m") && picture.contains("class=\"broken\"")
     );
     assert_eq!(picture.matches("class=\"crowded\"").count(), 2, "{picture}");
-    let page = fs::read_to_string(folder.join("moment.html")).expect("a page");
+    let page = read(folder, "moment.html");
     says(&page, &["20 s, x and y in metres: CHAIN-3 is broken", "! 4 (ugv4)"]);
     let (told, _) = judged(folder, "field.csv --clauses chain-3 --format json", 1);
     let told: Value = serde_json::from_str(&told).expect("JSON");
@@ -78,8 +77,8 @@ fn runs_of_ours_keep_their_clauses_in_the_recordings_that_we_write() {
 #[test]
 fn a_log_of_another_map_or_in_other_units_is_said() {
     let folder = &with_log();
-    fs::write(folder.join("mm.csv"), field("time,robot,x,y", 1_000.0)).expect("a file");
-    fs::write(folder.join("units.csv"), field("time_s,robot,x_mm,y_mm", 1_000.0)).expect("a file");
+    write(folder, "mm.csv", field("time,robot,x,y", 1_000.0));
+    write(folder, "units.csv", field("time_s,robot,x_mm,y_mm", 1_000.0));
     let (told, _) = judged(folder, "mm.csv --clauses CHAIN-3 --map open:12x3", 3);
     says(&told, &["are they millimetres?", "CHAIN-3: unknown: more than half"]);
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-3 --map open:3x3", 3);
@@ -91,7 +90,7 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
                 +--+--+--+--+--+--+--+--+--+--+--+--+\n\
                 |  |                                |\n\
                 +--+--+--+--+--+--+--+--+--+--+--+--+\n";
-    fs::write(folder.join("wall.txt"), wall).expect("a file");
+    write(folder, "wall.txt", wall);
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-2 --map wall.txt", 0);
     assert!(told.contains("a step through a wall of the map, first in line"), "{told}");
 }
@@ -101,10 +100,10 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
 fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
     let folder = &with_log();
     let image = format!("P2\n20 6\n255\n{}{}", "255 ".repeat(100), "0 ".repeat(20));
-    fs::write(folder.join("floor.pgm"), image).expect("a file");
+    write(folder, "floor.pgm", image);
     let yaml = "image: floor.pgm\nmode: trinary\nresolution: 0.5\norigin: [-1.0, -1.0, 0.0]\n\
                 negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
-    fs::write(folder.join("floor.yaml"), yaml).expect("a file");
+    write(folder, "floor.yaml", yaml);
     // Ten columns from x = -1 on, of which robots reach 1 to 9; two of three rows are free, from y = 0 on.
     let (told, _) =
         judged(folder, "field.csv --clauses FRONTIER-1,CHAIN-2 --map floor.yaml --cell 1 --radius 0.4", 1);
@@ -118,7 +117,7 @@ fn a_ros_map_lies_where_it_says_in_cells_of_the_size_that_is_asked_for() {
 #[test]
 fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
     let folder = &with_log();
-    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
+    let write = |name: &str, text: &str| write(folder, name, text);
     write("nobody.csv", "robot_a,1\n");
     write("twice.csv", "ugv1,1\nugv1,2\n");
     write("lost.csv", "time,robot,x,y\n0,a,NaN,0\n0,b,0,0\n");
@@ -154,13 +153,13 @@ fn what_cannot_be_judged_is_refused_with_what_would_be_right() {
             "{arguments}: {said}"
         );
     }
-    assert!(fs::read_to_string(folder.join("field.csv")).expect("the log").starts_with("time,"));
+    assert!(read(folder, "field.csv").starts_with("time,"));
 }
 
 #[test]
 fn numbers_of_robots_are_those_of_the_file_of_names() {
     let folder = &with_log();
-    fs::write(folder.join("names.csv"), "name,robot\nugv3,1\nugv4,2\nugv9,3\n").expect("a file");
+    write(folder, "names.csv", "name,robot\nugv3,1\nugv4,2\nugv9,3\n");
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-3,KIT-12 --names names.csv", 3);
     says(&told, &["120 × not taken: a name that is no robot", "not in the log: ugv9"]);
     assert!(told.contains("CHAIN-3: broken at 20 s: robots 1 (ugv3) and 2 (ugv4)"), "{told}");
@@ -171,12 +170,11 @@ fn numbers_of_robots_are_those_of_the_file_of_names() {
 fn names_that_steer_a_terminal_or_break_xml_are_shown_as_text() {
     let folder = &with_log();
     let rows = [0, 2, 9].map(|x| format!(r#"{{"t":0,"robot":"{x}\n\u001b[31m","x":{x},"y":0}}"#));
-    fs::write(folder.join("R&D.jsonl"), rows.join("\n")).expect("a file");
+    write(folder, "R&D.jsonl", rows.join("\n"));
     let (told, _) = judged(folder, "R&D.jsonl --clauses CHAIN-3 --svg moment.svg", 1);
     assert!(told.contains("2 (2 \u{fffd}[31m) and 3 (9 \u{fffd}[31m) are 7 m apart"), "{told}");
     assert_eq!((told.lines().count(), told.contains('\u{1b}')), (4, false), "{told}");
-    let picture = fs::read_to_string(folder.join("moment.svg")).expect("a picture");
-    assert!(picture.contains("<title>tautline judge R&amp;D.jsonl</title>"), "{picture}");
+    says(&read(folder, "moment.svg"), &["<title>tautline judge R&amp;D.jsonl</title>"]);
 }
 
 /// `logs/tests/logs` says which programs have written them.

@@ -13,7 +13,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_io::json_lines::MAX_FILE_BYTES;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use crate::folder::folder;
+use crate::folder::{folder, write};
 use crate::fuzz_corpus::targets::report::{Colour, render, with_flags};
 
 const DRAWING: &str = "\
@@ -318,7 +318,7 @@ fn ros_map(yaml: &str, image: &[u8], named: Option<&str>) -> Result<(Layout, ros
     let folder = &folder();
     let file = folder.join("map.yaml");
     fs::write(&file, yaml).expect("a file");
-    fs::write(folder.join("map.pgm"), image).expect("a file");
+    write(folder, "map.pgm", image);
     let named = named.map(|name| folder.join(name));
     ros::load(&file, named.as_deref()).map_err(|fault| plain(&fault, folder))
 }

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::cli::says;
-use crate::folder::{Folder, folder};
+use crate::folder::{Folder, folder, write};
 
 /// A client, and the server that it has started.
 struct Client {
@@ -134,7 +134,7 @@ fn no_call_leaves_the_folder() {
     let outside = folder.join("outside.jsonl");
     symlink(&outside, folder.join("runs/link.jsonl")).expect("a link");
     symlink(folder, folder.join("runs/up")).expect("a link");
-    fs::write(folder.join("runs/map.yaml"), "image: ../map.png").expect("a file");
+    write(folder, "runs/map.yaml", "image: ../map.png");
     let mut client = Client::new(folder);
     let outside = outside.to_str().expect("text");
     for file in [

@@ -12,7 +12,7 @@ use std::time::Instant;
 use serde_json::{Value, json};
 
 use crate::cli::says;
-use crate::folder::folder;
+use crate::folder::{folder, read};
 
 /// A browser with one page open.
 struct Browser {
@@ -184,7 +184,7 @@ fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
         &["rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--html", "r.html"],
     );
     browser.load(&folder.join("r.html"), "");
-    let trace = fs::read_to_string(folder.join("r.jsonl")).expect("a trace");
+    let trace = read(folder, "r.jsonl");
     let events: Vec<&str> = trace.lines().filter(|line| line.starts_with("{\"at_ns\"")).collect();
     let mut arrivals = 0;
     for (step, line) in (1..).zip(events) {
@@ -245,7 +245,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         let page = format!("{number}.html");
         let files = ["--trace", "run.jsonl", "--html", &page, "--force"];
         run(folder, &[&["explore", "--scheme", scheme][..], arguments, &files].concat());
-        let trace = fs::read_to_string(folder.join("run.jsonl")).expect("a trace");
+        let trace = read(folder, "run.jsonl");
         let moves: Vec<&str> = trace.lines().filter(|line| line.starts_with("{\"move\"")).collect();
         let last = moves.len();
         browser.load(&folder.join(&page), &format!("#{last}"));

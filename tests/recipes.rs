@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crate::folder::{Folder, folder};
+use crate::folder::{Folder, folder, read, write};
 
 const TAUTLINE: &str = env!("CARGO_BIN_EXE_tautline");
 
@@ -141,16 +141,9 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
         at("released").display()
     );
     for (name, does) in [("rustup", [said, "true"]), ("cargo", [said, &built]), ("curl", ["set -e", &curl])] {
-        fs::write(at("stand-ins").join(name), format!("#!/usr/bin/env bash\n{}\n", does.join("\n")))
-            .expect("a file");
-        assert!(
-            Command::new("chmod")
-                .arg("+x")
-                .arg(at("stand-ins").join(name))
-                .status()
-                .expect("chmod")
-                .success()
-        );
+        write(&at("stand-ins"), name, format!("#!/usr/bin/env bash\n{}\n", does.join("\n")));
+        let marked = Command::new("chmod").arg("+x").arg(at("stand-ins").join(name)).status();
+        assert!(marked.expect("chmod runs").success());
     }
     let path = format!("{}:{}", at("stand-ins").display(), std::env::var("PATH").expect("a path"));
     let run_of = |step: &serde_json::Value, action: &str| {
@@ -164,13 +157,8 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
             let value = value.as_str().expect("text");
             let value = value.replace("${{ runner.temp }}", at("temp").to_str().expect("text"));
             let value = value.replace("${{ github.action_ref }}", action);
-            command.env(
-                name,
-                value.replace(
-                    "${{ inputs.run }}",
-                    "tautline hunt --rule published --robots 3 --max-walls 2 --out \"$OUT\"",
-                ),
-            );
+            let hunt = "tautline hunt --rule published --robots 3 --max-walls 2 --out \"$OUT\"";
+            command.env(name, value.replace("${{ inputs.run }}", hunt));
         }
         command.output().expect("bash runs")
     };
@@ -178,9 +166,9 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
     let [released, key, build, hunt] = &shell_steps()[..] else { panic!("four steps of a shell") };
 
     let takes = |action: &str| {
-        fs::write(at("temp/output"), "").expect("a file");
+        write(folder, "temp/output", "");
         let output = run_of(released, action);
-        (output.status.success(), fs::read_to_string(at("temp/output")).expect("text"))
+        (output.status.success(), read(folder, "temp/output"))
     };
     let built = (true, String::new());
     // No such release yet, and then one.
@@ -193,29 +181,29 @@ fn the_steps_of_the_action_take_a_release_or_build_with_its_own_toolchain_and_na
     assert!(!at("temp/tautline").exists());
     assert_eq!(takes("v1.2.3"), (true, "here=true\n".to_owned()));
     fs::remove_dir_all(at("temp/tautline")).expect("the released program");
-    fs::write(at("released").join(archive), "another one").expect("a file");
+    write(&at("released"), archive, "another one");
     assert_eq!(takes("v1.2.3"), (false, String::new()));
     assert!(!at("temp/tautline").exists());
 
     let keyed = || {
-        fs::write(at("temp/output"), "").expect("a file");
+        write(folder, "temp/output", "");
         let output = run(key);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        fs::read_to_string(at("temp/output")).expect("text")
+        read(folder, "temp/output")
     };
     let first = keyed();
     assert!(first.starts_with("key=tautline-Linux-X64-own-"), "{first}");
     fs::create_dir_all(at("action/target")).expect("a folder");
-    fs::write(at("action/target/built"), "").expect("a file");
+    write(folder, "action/target/built", "");
     assert_eq!(keyed(), first);
-    fs::write(at("action/main.rs"), "").expect("a file");
+    write(folder, "action/main.rs", "");
     let second = keyed();
     assert_ne!(second, first);
     fs::rename(at("action/main.rs"), at("action/other.rs")).expect("a file");
     assert_ne!(keyed(), second);
 
     assert!(run(build).status.success());
-    let said = fs::read_to_string(at("temp/said")).expect("text");
+    let said = read(folder, "temp/said");
     let action = fs::canonicalize(at("action")).expect("a folder");
     for (line, begins) in
         said.lines().zip(["rustup toolchain install 1.95 ", "cargo install --locked --path . "])
@@ -293,7 +281,7 @@ fn a_junit_file_is_read_by_another_reader() {
     let folder = &folder();
     let read = |arguments: &[&str]| {
         let told = ran(folder, TAUTLINE, &[arguments, &["--format", "junit"]].concat());
-        fs::write(folder.join("told.xml"), told.stdout).expect("a file");
+        write(folder, "told.xml", told.stdout);
         let read = ran(folder, "python3", &["-c", READER, "told.xml"]);
         String::from_utf8(read.stdout).expect("text")
     };
@@ -323,7 +311,7 @@ fn no_page_is_left_out_of_the_book() {
     let made = ran(folder, recipe(".ci/book"), &[out]);
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     let source = folder.join("src");
-    let contents = fs::read_to_string(source.join("SUMMARY.md")).expect("a table of contents");
+    let contents = read(&source, "SUMMARY.md");
     let links = |text: &str| -> Vec<String> {
         let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
         targets.map(|target| target.split('#').next().unwrap_or_default().to_owned()).collect()
@@ -332,7 +320,7 @@ fn no_page_is_left_out_of_the_book() {
     for page in crate::commands::documents() {
         let name = page.strip_prefix(recipe("")).expect("a page of ours").display().to_string();
         assert_eq!(chapters.iter().filter(|chapter| **chapter == name).count(), 1, "{name}");
-        let text = fs::read_to_string(source.join(&name)).expect("a page");
+        let text = read(&source, &name);
         let near = |target: &&String| !target.is_empty() && !target.starts_with("https://");
         for target in links(&text).iter().filter(near) {
             assert!(!target.ends_with("README.md"), "{name}: {target} leads nowhere in the book");

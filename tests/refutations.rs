@@ -8,7 +8,7 @@ use tautline_proofs::ledger;
 use tautline_sim::counterexample::refutation::{self, replay};
 
 use crate::cli::says;
-use crate::folder::folder;
+use crate::folder::{folder, write};
 use crate::foreign::ended;
 use crate::proved::proved;
 
@@ -103,7 +103,7 @@ fn prove_stores_what_it_refutes_and_replay_draws_it_again() {
     ];
     for name in expected {
         let file = format!("refuted/{name}");
-        fs::write(folder.join(name), &proved().stored[name]).expect("room");
+        write(folder, name, &proved().stored[name]);
         assert!(told.contains(&format!("replay it with: tautline replay {file}\n")), "{told}");
         let (replayed, _) = ended(folder, &["replay", name], 1);
         let (head, story) = replayed.split_once("\n\n").expect("a head, then a story");

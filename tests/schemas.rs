@@ -6,7 +6,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::folder::folder;
+use crate::folder::{folder, write};
 
 fn printed(folder: &Path, arguments: &str) -> Value {
     let arguments = arguments.split_whitespace().chain(["--format", "json"]);
@@ -122,7 +122,7 @@ const COMMANDS: [(&str, &str); 15] = [
 fn what_each_command_prints_is_as_its_schema_says() {
     let folder = &folder();
     let measured = "fix,x_m,y_m,range_m\na,0,0,5\na,10,0,8\na,0,10,7\nb,0,0,4\nb,9,0,5\nb,0,9,6\n";
-    std::fs::write(folder.join("measured.csv"), measured).expect("a file");
+    write(folder, "measured.csv", measured);
     let others = [("show-environments", "show environments"), ("reproduce", "reproduce")];
     for (name, commands) in COMMANDS.into_iter().chain(others) {
         for command in commands.lines() {

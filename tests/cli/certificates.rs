@@ -4,7 +4,7 @@ use std::fs;
 
 use tautline_certificates::digest;
 
-use super::{folder, json, names, printed, ran, refused};
+use super::{folder, json, names, printed, ran, refused, says, write};
 
 /// The bytes of a certificate in which `one` stands once, and `other` in its place, with the digest made anew.
 fn changed(bytes: &[u8], one: &[u8], other: &[u8]) -> Vec<u8> {
@@ -37,7 +37,7 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
 
     let bytes = fs::read(folder.join(&paths[0])).expect("a certificate");
     let said = |change: Vec<u8>| {
-        fs::write(folder.join("changed.cert"), change).expect("a file");
+        write(folder, "changed.cert", change);
         refused(folder, &["check", "changed.cert"])
     };
     let mut damaged = bytes.clone();
@@ -64,8 +64,7 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
     // Of its states a checker keeps many times as many bytes.
     let large = fs::File::create(folder.join("large.cert")).expect("a file");
     large.set_len((1 << 28) + 1).expect("a large file");
-    let large = refused(folder, &["check", "large.cert"]);
-    assert!(large.contains("large.cert: the file has more than 256 MiB"), "{large}");
+    says(&refused(folder, &["check", "large.cert"]), &["large.cert: the file has more than 256 MiB"]);
     for (words, part) in cases {
         assert!(words.contains(part), "{part}: {words}");
     }
@@ -77,7 +76,7 @@ fn what_holds_gets_a_certificate_that_is_accepted_and_refused_where_it_is_change
         end + bytes[end..].iter().position(|&byte| byte == b'\n').expect("its end") + 1
     };
     let mixed = [&other[..header(&other)], &bytes[header(&bytes)..bytes.len() - 16], &[0; 16][..]].concat();
-    fs::write(folder.join("mixed.cert"), changed(&mixed, b"clause", b"clause")).expect("a file");
+    write(folder, "mixed.cert", changed(&mixed, b"clause", b"clause"));
     let mixed = printed(folder, &["check", "mixed.cert"], 1);
     assert!(mixed.starts_with("mixed.cert: refused: section 1, "), "{mixed}");
 }

@@ -15,9 +15,8 @@ fn a_chain_in_which_something_fails_is_told_of_in_text_json_trace_and_page() {
     assert_eq!((&told["faults"]["died"], &told["violations"]), (&12.into(), &Value::Array(vec![])));
     assert!(told["faults"]["lost_bytes"].as_u64() > Some(10), "{told}");
     printed(folder, &["replay", "run.jsonl"], 0);
-    let trace = fs::read_to_string(folder.join("run.jsonl")).expect("text");
-    assert!(trace.contains(r#""fail":{"robot":3,"move":12},"going":"one-by-one""#), "{trace}");
-    let page = fs::read_to_string(folder.join("run.html")).expect("text");
+    says(&read(folder, "run.jsonl"), &[r#""fail":{"robot":3,"move":12},"going":"one-by-one""#]);
+    let page = read(folder, "run.html");
     assert!(page.contains(" f:2") && page.contains("lost byte") && page.contains("--fail 3@12 --speeds"));
 }
 
@@ -77,7 +76,6 @@ fn a_failure_that_cannot_be_is_refused() {
         (&["--scheme", "kit", "--speeds"], "take the scheme chain"),
     ];
     for (arguments, why) in wrong {
-        let said = refused(folder, &[&["explore", "open:15x15"], arguments].concat());
-        assert!(said.contains(why), "{arguments:?}: {said}");
+        says(&refused(folder, &[&["explore", "open:15x15"], arguments].concat()), &[why]);
     }
 }

@@ -8,14 +8,6 @@ use super::*;
 /// A map of 4x3 cells as MovingAI has it.
 const MAP: &str = "type octile\nheight 3\nwidth 4\nmap\n....\n.@..\n....\n";
 
-fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) {
-    fs::write(folder.join(name), content).expect("a file");
-}
-
-pub(crate) fn read(folder: &Path, name: &str) -> String {
-    fs::read_to_string(folder.join(name)).expect("text")
-}
-
 /// Makes `pipe`, a pipe.
 #[cfg(unix)]
 fn make_pipe(folder: &Path) {
@@ -94,8 +86,7 @@ fn what_tautline_did_not_write_is_replaced_only_with_force() {
     for (arguments, option) in stored {
         let arguments = [arguments, &[option, "mine"]].concat();
         write(folder, "mine", "a thesis\n");
-        let said = refused(folder, &arguments);
-        assert!(said.contains("mine: tautline did not write this file"), "{said}");
+        says(&refused(folder, &arguments), &["mine: tautline did not write this file"]);
         assert_eq!(read(folder, "mine"), "a thesis\n");
         printed(folder, &[&arguments[..], &["--force"]].concat(), 0);
         let made = read(folder, "mine");
@@ -259,8 +250,7 @@ fn team_moves_that_a_run_does_not_have_are_refused_and_all_are_drawn_where_all_a
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let replay = ["replay", "run.jsonl", "--svg", "a.svg"];
     for (moves, why) in [("9..12", "the run has 8 team moves"), ("0..0", "counted from 1 on; write 1..1")] {
-        let said = refused(folder, &[&replay[..], &["--moves", moves]].concat());
-        assert!(said.contains(why), "{said}");
+        says(&refused(folder, &[&replay[..], &["--moves", moves]].concat()), &[why]);
     }
     assert_eq!(names(folder), ["run.jsonl"]);
     let drawn = |moves: &[&str]| {
@@ -401,8 +391,7 @@ fn a_stored_run_in_a_pipe_is_refused_and_a_drawing_in_one_is_read() {
     let folder = &folder();
     make_pipe(folder);
     for command in ["replay", "minimise"] {
-        let said = refused(folder, &[command, "pipe"]);
-        assert!(said.contains("pipe: this is a pipe or a device"), "{said}");
+        says(&refused(folder, &[command, "pipe"]), &["pipe: this is a pipe or a device"]);
     }
     refused(folder, &["minimise", "pipe", "--out", "new"]);
     assert!(!folder.join("new").exists(), "no folder is left of what was refused");

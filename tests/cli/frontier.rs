@@ -1,11 +1,10 @@
 //! Frontier cells on the command line: what is refused, with what would be right.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
-use super::{folder, json, names, printed, refused};
+use super::{folder, json, names, printed, read, refused, says, write};
 
 #[test]
 fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
@@ -52,11 +51,9 @@ fn what_no_team_of_frontier_cells_can_be_told_is_refused() {
         (&["hunt", "--error", "0.3"], "sixteenths from 0 to 1"),
         (&["hunt", "--robots", "2", "--error", "0.25"], "--robots 1, or --error 1"),
     ];
-    fs::write(folder.join("shut.txt"), "tautline layout 1\n+--+--+--+\n|      ##|\n+--+--+--+\n")
-        .expect("room");
+    write(folder, "shut.txt", "tautline layout 1\n+--+--+--+\n|      ##|\n+--+--+--+\n");
     for (arguments, right) in wrong {
-        let said = refused(folder, &[arguments, &["--scheme", "frontier"]].concat());
-        assert!(said.contains(right), "{arguments:?}: {said}");
+        says(&refused(folder, &[arguments, &["--scheme", "frontier"]].concat()), &[right]);
     }
     assert_eq!(names(folder), ["shut.txt"]);
 }
@@ -77,8 +74,7 @@ fn a_map_of_ros_is_read_again_as_far_as_it_was_explored() {
         ("open:3x3", "map.pgm", "name a file that ends in .yaml"),
         ("walls:5x5:0.3", "walls.yaml", "the layout has walls between cells"),
     ] {
-        let said = refused(folder, &["explore", layout, "--robots", "3", "--map", map]);
-        assert!(said.contains(what), "{said}");
+        says(&refused(folder, &["explore", layout, "--robots", "3", "--map", map]), &[what]);
     }
     assert_eq!(names(folder), ["map.pgm", "map.yaml"]);
 }
@@ -88,8 +84,8 @@ fn the_cells_of_a_map_of_ros_lie_where_those_of_the_layout_do() {
     let folder = &folder();
     let floor = "image: floor.pgm\nresolution: 0.1\norigin: [-1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
                  free_thresh: 0.196\n";
-    fs::write(folder.join("floor.yaml"), floor).expect("a file");
-    fs::write(folder.join("floor.pgm"), format!("P2\n4 5\n255\n{}", "254 ".repeat(20))).expect("a file");
+    write(folder, "floor.yaml", floor);
+    write(folder, "floor.pgm", format!("P2\n4 5\n255\n{}", "254 ".repeat(20)));
     // The lowest row of pixels is in no cell; of a floor of five cells a chain of two robots gets to the three in the
     // middle.
     let coarse = "explore floor.yaml --cell 0.2 --radius 0.05 --scheme frontier --robots 2 --map map.yaml";
@@ -98,7 +94,7 @@ fn the_cells_of_a_map_of_ros_lie_where_those_of_the_layout_do() {
         [(coarse, "resolution: 0.2\norigin: [-1, 2.1, 0]\n"), (inner, "resolution: 1\norigin: [1, 1, 0]\n")]
     {
         printed(folder, &run.split(' ').collect::<Vec<_>>(), 0);
-        let map = fs::read_to_string(folder.join("map.yaml")).expect("a map");
+        let map = read(folder, "map.yaml");
         assert!(map.contains(lies), "{run}: {map}");
     }
 }
@@ -108,14 +104,13 @@ fn the_objects_that_robots_find_are_told_with_their_errors_and_drawn_on_the_map(
     let folder = &folder();
     let run = ["explore", "open:4x3", "--scheme", "frontier", "--robots", "2", "--noise-db", "1"];
     let objects = ["--objects", "1.25:2,3:0.5", "--draw", "map", "--svg", "map.svg"];
-    let told = printed(folder, &[&run[..], &objects].concat(), 0);
-    assert!(told.contains("2 of 2 objects found; off by 0."), "{told}");
+    says(&printed(folder, &[&run[..], &objects].concat(), 0), &["2 of 2 objects found; off by 0."]);
     let found = json(folder, &[&run[..], &objects[..2]].concat(), 0)["objects"].clone();
     for (object, at) in found.as_array().expect("objects").iter().zip([[1.25, 2.0], [3.0, 0.5]]) {
         assert_eq!(object["at"], serde_json::json!(at));
         assert!(object["found"]["error"].as_f64().expect("an error") < 0.5, "{object}");
     }
-    let picture = fs::read_to_string(folder.join("map.svg")).expect("a picture");
+    let picture = read(folder, "map.svg");
     assert_eq!(picture.matches("<circle class=\"found\"").count(), 2);
     for meaning in ["a robot was here: free", "not known", "where an object is"] {
         assert!(picture.contains(meaning), "{meaning}");
@@ -124,7 +119,7 @@ fn the_objects_that_robots_find_are_told_with_their_errors_and_drawn_on_the_map(
 
 /// The options in the header of a stored run.
 fn options(folder: &Path, run: &str) -> Value {
-    let run = fs::read_to_string(folder.join(run)).expect("a run");
+    let run = read(folder, run);
     let header: Value = serde_json::from_str(run.lines().next().unwrap_or_default()).expect("a header");
     header["options"].clone()
 }

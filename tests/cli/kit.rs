@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{folder, json, names, printed, ran, refused};
+use super::{folder, json, names, printed, ran, refused, says};
 
 /// Whether the judge has accepted a counterexample.
 fn is_judged(replayed: &str, clause: &str) -> bool {
@@ -81,8 +81,7 @@ fn what_no_robots_that_keep_in_touch_can_be_told_is_refused() {
         (&["hunt", "--robots", "2", "--size", "1x1"], "--size at least 2 nodes"),
     ];
     for (arguments, right) in wrong {
-        let said = refused(folder, &[arguments, &["--scheme", "kit"]].concat());
-        assert!(said.contains(right), "{arguments:?}: {said}");
+        says(&refused(folder, &[arguments, &["--scheme", "kit"]].concat()), &[right]);
     }
     assert!(names(folder).is_empty());
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use insta::assert_snapshot;
 
-use super::{folder, json, names, printed, ran, refused};
+use super::{folder, json, names, printed, ran, read, refused, says, write};
 
 #[test]
 fn the_library_is_listed_with_what_comes_out() {
@@ -24,9 +24,9 @@ fn a_rule_of_the_library_is_decided_stored_and_played_again() {
     for line in story {
         assert!(played.contains(line), "{line}\n{played}");
     }
-    let text = fs::read_to_string(folder.join(stored)).expect("a file");
+    let text = read(folder, stored);
     let other = text.replace("\"taken\":0", "\"taken\":1");
-    fs::write(folder.join(stored), other).expect("a file");
+    write(folder, stored, other);
     assert_eq!(ran(folder, &["replay", stored]).status.code(), Some(2));
     let ledger = json(folder, &["library", "rmf-lane", "RMF-SWAP"], 0);
     assert_eq!(
@@ -128,8 +128,7 @@ fn a_search_larger_than_memory_goes_on_in_a_folder() {
     let spill = folder.join("states");
     let bounded = ["library", "ricart-agrawala", "--memory", "480KiB"];
     let spilling = [&bounded[..], &["--spill", "states"]].concat();
-    let said = refused(folder, &spilling);
-    assert!(said.contains("there is no such folder") && said.contains("make it"), "{said}");
+    says(&refused(folder, &spilling), &["there is no such folder", "make it"]);
     fs::create_dir(&spill).expect("a folder");
     let whole = printed(folder, &bounded[..2], 0);
     assert!(printed(folder, &bounded, 3).contains("give it a folder with --spill"));
@@ -139,18 +138,15 @@ fn a_search_larger_than_memory_goes_on_in_a_folder() {
     let said = printed(folder, &narrow, 3);
     assert!(said.contains("Give more with --memory") && !said.contains("--spill"), "{said}");
     // Of a search that was killed while it wrote.
-    fs::write(spill.join("0-0.part"), "tautline sta").expect("it is written");
+    write(&spill, "0-0.part", "tautline sta");
     assert_eq!(printed(folder, &spilling, 0), whole);
     assert_eq!(fs::read_dir(&spill).expect("a folder").count(), 0, "nothing is left");
     for (name, content) in [("notes.txt", "tautline states 1\n"), ("1-0.states", "mine")] {
-        fs::write(spill.join(name), content).expect("it is written");
-        let said = refused(folder, &spilling);
-        assert!(said.contains(name) && said.contains("name a folder that is empty"), "{said}");
+        write(&spill, name, content);
+        says(&refused(folder, &spilling), &[name, "name a folder that is empty"]);
         fs::remove_file(spill.join(name)).expect("it is there");
     }
-    fs::write(folder.join("file"), "").expect("it is written");
-    let said = refused(folder, &[&bounded[..], &["--spill", "file"]].concat());
-    assert!(said.contains("this is no folder"), "{said}");
-    let said = refused(folder, &[&bounded[..2], &["--spill", "states"]].concat());
-    assert!(said.contains("--memory"), "{said}");
+    write(folder, "file", "");
+    says(&refused(folder, &[&bounded[..], &["--spill", "file"]].concat()), &["this is no folder"]);
+    says(&refused(folder, &[&bounded[..2], &["--spill", "states"]].concat()), &["--memory"]);
 }

@@ -1,10 +1,8 @@
 //! `tautline locate`: positions, their errors, and what is refused.
 
-use std::fs;
-
 use insta::assert_snapshot;
 
-use super::{folder, json, names, printed, refusals, refused, says, with_threads};
+use super::{folder, json, names, on_any_threads, printed, read, refusals, refused, says, write};
 
 #[test]
 fn errors_are_those_that_theory_and_an_independent_program_expect() {
@@ -41,10 +39,7 @@ fn errors_are_those_that_theory_and_an_independent_program_expect() {
 fn the_report_is_the_same_on_any_number_of_threads() {
     let folder = &folder();
     let swarm = ["locate", "--solver", "pso", "--runs", "3000", "--advice"];
-    let printed = |threads| with_threads(folder, threads, &swarm);
-    let one = printed("1");
-    assert_eq!(one, printed("7"));
-    assert_snapshot!("positions_of_a_swarm", one);
+    assert_snapshot!("positions_of_a_swarm", on_any_threads(folder, &swarm));
 }
 
 #[test]
@@ -69,21 +64,21 @@ const MEASUREMENTS: &str = "fix,x_m,y_m,range_m\n\
 #[test]
 fn positions_of_measurements_are_found_and_drawn() {
     let folder = &folder();
-    fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
+    write(folder, "m.csv", MEASUREMENTS);
     assert_snapshot!(printed(folder, &["locate", "m.csv"], 0));
     let picture = ["locate", "m.csv", "--solver", "least-squares", "--svg", "m.svg", "--format", "json"];
     printed(folder, &picture, 0);
     let picture = ["locate", "--at", "5,5", "--runs", "10", "--svg", "at.svg"];
     printed(folder, &picture, 0);
     for (name, ellipses) in [("m.svg", 5), ("at.svg", 4)] {
-        let drawn = fs::read_to_string(folder.join(name)).expect("a picture");
+        let drawn = read(folder, name);
         assert_eq!(drawn.matches("<ellipse").count(), ellipses, "{name}");
         assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{name}");
         assert!(drawn.contains(">0 m</text>") && drawn.contains(">5 m</text>"), "{name}");
     }
     // The columns may stand in any order, with others between them, and a byte order mark before them.
     let other = "\u{feff}range_m,time,y_m,x_m,fix\r\n5,1,0,0,a\r\n17.5,2,0,20,a\r\n16.5,3,20,0,a\r\n";
-    fs::write(folder.join("other.csv"), other).expect("a file");
+    write(folder, "other.csv", other);
     let found = |file: &str| json(folder, &["locate", file], 0)["fixes"][0].clone();
     assert_eq!(found("m.csv"), found("other.csv"));
 }
@@ -96,8 +91,7 @@ fn levels_tell_the_distances_that_they_fall_over() {
     #[expect(clippy::disallowed_methods, reason = "printed with six decimals")]
     let level = |(x, y): (f64, f64)| -40.0 - 25.0 * (x - 3.0).hypot(y - 4.0).log10();
     let lines = at.map(|anchor| format!("a,{},{},{:.6}\n", anchor.0, anchor.1, level(anchor)));
-    fs::write(folder.join("levels.csv"), format!("fix,x_m,y_m,level_dbm\n{}", lines.concat()))
-        .expect("a file");
+    write(folder, "levels.csv", format!("fix,x_m,y_m,level_dbm\n{}", lines.concat()));
     let found = json(folder, &["locate", "levels.csv", "--power-dbm", "-40", "--exponent", "2.5"], 0);
     let place = &found["fixes"][0]["positions"][0];
     for (name, expected_m) in [("x_m", 3.0), ("y_m", 4.0)] {
@@ -162,11 +156,14 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
         format!("{head}1,0,0,2\n1,20,0,2\n1,0,20,19\n"),
         format!("{head}1,0,0,90\n1,20,0,17\n1,0,20,16\n"),
     ];
-    let said = contents.map(|content| {
-        fs::write(folder.join("m.csv"), &content).expect("a file");
-        format!("{content}\n{}\n", refused(folder, &["locate", "m.csv"]))
-    });
-    assert_snapshot!("wrong_measurements", said.join("\n"));
+    let said = |contents: &[String], more: &[&str]| {
+        let said = contents.iter().map(|content| {
+            write(folder, "m.csv", content);
+            format!("{content}\n{}\n", refused(folder, &[&["locate", "m.csv"], more].concat()))
+        });
+        said.collect::<Vec<_>>().join("\n")
+    };
+    assert_snapshot!("wrong_measurements", said(&contents, &[]));
     let head = "fix,x_m,y_m,level_dbm\n";
     let levels = [
         format!("{head}1,0,0,-50\n1,20,0,loud\n"),
@@ -175,19 +172,15 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
         format!("{head}1,0,0,-50\n1,20,0,-60\n"),
         "fix,x_m,y_m,range_m\n1,0,0,5\n".to_owned(),
     ];
-    let said = levels.map(|content| {
-        fs::write(folder.join("m.csv"), &content).expect("a file");
-        format!("{content}\n{}\n", refused(folder, &["locate", "m.csv", "--power-dbm", "-40"]))
-    });
-    assert_snapshot!("wrong_levels", said.join("\n"));
-    fs::write(folder.join("m.csv"), format!("{head}1,0,0,-50\n")).expect("a file");
+    assert_snapshot!("wrong_levels", said(&levels, &["--power-dbm", "-40"]));
+    write(folder, "m.csv", format!("{head}1,0,0,-50\n"));
     let remedy = "give --power-dbm, the level at one metre, and --exponent, how fast levels fall";
     assert!(refused(folder, &["locate", "m.csv"]).contains(remedy));
-    fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
+    write(folder, "m.csv", MEASUREMENTS);
     // The closed form knows no mirror images.
     assert!(refused(folder, &["locate", "m.csv", "--solver", "pso"]).contains("on one line"));
     let twice = "fix,x_m,y_m,range_m,range_m\na,0,0,5,5\na,20,0,20,5\na,0,20,20,5\n";
-    fs::write(folder.join("m.csv"), twice).expect("a file");
+    write(folder, "m.csv", twice);
     assert!(refused(folder, &["locate", "m.csv"]).contains("the column `range_m` is there twice"));
     assert_eq!(names(folder), ["m.csv"]);
 }
@@ -213,12 +206,11 @@ fn without_noise_the_bound_is_0() {
 #[test]
 fn the_rim_is_inside_and_numbers_are_written_as_people_do() {
     let folder = &folder();
-    let told = printed(folder, &["locate", "--inside", "--at", "20,5", "--runs", "1"], 0);
-    assert!(told.contains("; 1 trial, seed 0"), "{told}");
+    says(&printed(folder, &["locate", "--inside", "--at", "20,5", "--runs", "1"], 0), &["; 1 trial, seed 0"]);
     printed(folder, &["locate", "--advice", "--runs", "300"], 0);
     // A robot at the first anchor's corner, a hair to the west of it.
     let west = "fix,x_m,y_m,range_m\na,0,0,0.001\na,20,0,20.0001\na,0,20,20\n";
-    fs::write(folder.join("m.csv"), west).expect("a file");
+    write(folder, "m.csv", west);
     let told = printed(folder, &["locate", "m.csv"], 0);
     assert!(told.contains(" 0.000") && !told.contains("-0.000"), "{told}");
 }

@@ -44,16 +44,15 @@ fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
             let files = ["--html", "run.html", "--trace", "run.jsonl", "--max-moves", "30"];
             let output = ran(folder, &[&explore, rule, &told, &files].concat());
             assert!(matches!(output.status.code(), Some(0 | 1)), "{}, {told:?}: {output:?}", scheme.name);
-            let page = fs::read_to_string(folder.join("run.html")).expect("a page");
-            fs::write(folder.join("own.txt"), on_page(&page, "layout")).expect("room");
+            let page = read(folder, "run.html");
+            write(folder, "own.txt", on_page(&page, "layout"));
             let command = on_page(&page, "command");
             assert!(command.contains(" --seed 5 "), "{command}");
             let words = command.replace("LAYOUT", "own.txt").replace("run.html", "again.html");
             let words: Vec<&str> =
                 words.split_whitespace().skip(1).chain(["--trace", "again.jsonl"]).collect();
             assert_eq!(ran(folder, &words).status.code(), output.status.code(), "{command}");
-            let [run, same] = ["run.jsonl", "again.jsonl"]
-                .map(|name| fs::read_to_string(folder.join(name)).expect("a run"));
+            let [run, same] = ["run.jsonl", "again.jsonl"].map(|name| read(folder, name));
             assert_eq!(run, same, "{command}");
             again += 1;
         }

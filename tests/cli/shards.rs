@@ -1,6 +1,5 @@
 //! Work that is dealt out among shards, and put together again.
 
-use super::files::read;
 use super::*;
 
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "3"];
@@ -72,8 +71,7 @@ fn a_merge_replaces_neither_its_plan_nor_a_shard() {
     for file in ["plan.json", "plan-1.json"] {
         let kept = read(folder, file);
         for force in [&[][..], &["--force"]] {
-            let said = refused(folder, &[&["merge", "plan.json", "--csv", file], force].concat());
-            assert!(said.contains(file), "{said}");
+            says(&refused(folder, &[&["merge", "plan.json", "--csv", file], force].concat()), &[file]);
             assert_eq!(read(folder, file), kept);
         }
     }
@@ -165,9 +163,9 @@ fn a_shard_that_did_less_than_it_was_dealt_is_refused() {
         let mut value = serde_json::from_str(rest.lines().next().expect("a line")).expect("JSON");
         far(&mut value);
         let head = head.replace("\"done\":false", "\"done\":true");
-        fs::write(folder.join("plan-2.json"), sealed(&format!("{head}\n{value}\n"))).expect("room");
+        write(folder, "plan-2.json", sealed(&format!("{head}\n{value}\n")));
         let said = refused(folder, &["merge", "plan.json"]);
-        fs::write(folder.join("plan-2.json"), kept).expect("room");
+        write(folder, "plan-2.json", kept);
         says(&said, &["plan-2.json", "remove it, and run the shard again"]);
         said
     };
@@ -215,7 +213,7 @@ fn a_plan_with_numbers_that_contradict_each_other_is_refused_and_how_many_shards
         planned(folder, work, "2");
         let plan = read(folder, "plan.json");
         assert!(plan.contains(from), "{plan}");
-        fs::write(folder.join("plan.json"), sealed(&plan.replace(from, to))).expect("room");
+        write(folder, "plan.json", sealed(&plan.replace(from, to)));
     };
     for (work, from, to, words) in [
         (&layouts[..], "\"how\":null", "\"how\":2147483648", "plan anew"),
@@ -263,10 +261,10 @@ fn wrong_plans_and_shards() {
     printed(folder, &["hunt", "--plan", "other.json", "--shard", "2"], 0);
     let plan = read(folder, "plan.json");
     // What is not the same in every build is not shown.
-    fs::write(folder.join("foreign.json"), of_another_build(&plan)).expect("a file");
+    write(folder, "foreign.json", of_another_build(&plan));
     let old = plan.replace("\"version\":1", "\"version\":0");
-    fs::write(folder.join("old.json"), sealed(&old)).expect("a file");
-    fs::write(folder.join("damaged.json"), plan.replace("\"answers\":[0", "\"answers\":[1")).expect("a file");
+    write(folder, "old.json", sealed(&old));
+    write(folder, "damaged.json", plan.replace("\"answers\":[0", "\"answers\":[1"));
     // How the sum is drawn depends on its digits, and it is another one for each build.
     assert!(
         refused(folder, &["hunt", "--plan", "damaged.json", "--shard", "1"]).contains("the file is damaged")

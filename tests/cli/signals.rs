@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::{files, folder, names, ran, tautline};
+use super::{files, folder, names, ran, says, tautline};
 
 /// Far more threads than work takes, so that what is quick is not behind what is slow.
 const THREADS: &str = "16";
@@ -38,8 +38,7 @@ const CLAUSES: [&str; 3] = ["prove", "NOTICE-4", "MRC-1"];
 #[test]
 fn checks_that_are_decided_are_told_and_the_others_counted() {
     let folder = &folder();
-    let text = told(&ended(folder, &CLAUSES, 4));
-    assert!(text.contains("NOTICE-4  published") && text.contains("A signal ended the work: "), "{text}");
+    says(&told(&ended(folder, &CLAUSES, 4)), &["NOTICE-4  published", "A signal ended the work: "]);
     let json = value(&ended(folder, &[&CLAUSES[..], &["--format", "json"]].concat(), 4));
     let clauses = json["clauses"].as_array().expect("a list");
     assert!(clauses.iter().filter(|row| row["id"] == "NOTICE-4").count() == 2, "{json}");
@@ -97,8 +96,7 @@ fn trials_up_to_the_first_that_was_not_made_come_out_as_fewer_do() {
 fn of_a_part_of_a_table_no_figure_is_claimed() {
     let folder = &folder();
     let table = ["reproduce", "notice-fig5", "--runs", "100000", "--csv", "values.csv"];
-    let text = told(&ended(folder, &table, 2));
-    assert!(text.contains("of a part no figure is claimed"), "{text}");
+    says(&told(&ended(folder, &table, 2)), &["of a part no figure is claimed"]);
     let json = value(&ended(folder, &[&table[..], &["--format", "json"]].concat(), 2));
     assert_eq!((&json["id"], &json["complete"]), (&"notice-fig5".into(), &false.into()));
     assert!(json["parts_done"].as_u64() < json["parts"].as_u64(), "{json}");
