@@ -84,8 +84,15 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
     let (told, _) = judged(folder, "field.csv --clauses CHAIN-3 --map open:3x3", 3);
     assert!(!told.contains("millimetres") && told.contains("off the map, first in line 3"), "{told}");
     judged(folder, "units.csv --clauses CHAIN-3 --map open:12x3", 1);
-    let (told, _) = judged(folder, "field.csv --clauses FRONTIER-1 --map open:12x1", 1);
+    let arguments = "field.csv --clauses FRONTIER-1 --map open:12x1 --svg missed.svg";
+    let (told, _) = judged(folder, arguments, 1);
     assert!(told.contains("nobody was in 3 cells, the first is (9,0)"), "{told}");
+    // The picture frames each of them.
+    let picture = fs::read_to_string(folder.join("missed.svg")).expect("a picture");
+    let framed =
+        [9, 10, 11].map(|column| format!("<rect class=\"unseen\" x=\"{}\" y=\"3\"", 24 * column + 3));
+    assert!(framed.iter().all(|frame| picture.contains(frame)), "{picture}");
+    assert_eq!(picture.matches("class=\"unseen\"").count(), framed.len(), "{picture}");
     let wall = "tautline layout 1\n\
                 +--+--+--+--+--+--+--+--+--+--+--+--+\n\
                 |  |                                |\n\

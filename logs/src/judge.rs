@@ -81,8 +81,8 @@ pub struct Breach {
     pub measured: u32,
     /// The most or the least that the clause allows, without the tolerance.
     pub allowed: u32,
-    /// The cell, if the clause speaks of cells.
-    pub cell: Option<[i32; 2]>,
+    /// The cells that the clause speaks of: the one with too many robots, or all that nobody visited.
+    pub cells: Vec<[i32; 2]>,
     /// The last line or message of the log that has part in it.
     pub place: u32,
     /// The stamps at which the clause is broken.
@@ -142,7 +142,7 @@ struct Finding {
     /// In their order.
     robots: Vec<u32>,
     measured: u32,
-    cell: Option<[i32; 2]>,
+    cells: Vec<[i32; 2]>,
 }
 
 fn apart(one: [f64; 2], other: [f64; 2]) -> f64 {
@@ -202,7 +202,11 @@ fn joined(moment: &Moment<'_>, most_mm: f64) -> Option<Result<(), Finding>> {
         pairs.min_by(|a, b| apart(places[a.0], places[a.1]).total_cmp(&apart(places[b.0], places[b.1])));
     Some(nearest.map_or(Ok(()), |(one, other)| {
         let measured = apart(places[one], places[other]) as u32;
-        Err(Finding { robots: vec![one.min(other) as u32, one.max(other) as u32], measured, cell: None })
+        Err(Finding {
+            robots: vec![one.min(other) as u32, one.max(other) as u32],
+            measured,
+            cells: Vec::new(),
+        })
     }))
 }
 
@@ -233,7 +237,7 @@ fn crowded(
     let crowds =
         within.into_iter().filter(|(cell, robots)| Some(*cell) != base && robots.len() > most as usize);
     let (cell, robots) = crowds.max_by_key(|(_, robots)| robots.len())?;
-    Some(Finding { measured: robots.len() as u32, robots, cell: Some(cell) })
+    Some(Finding { measured: robots.len() as u32, robots, cells: vec![cell] })
 }
 
 /// Judges a clause.
@@ -308,7 +312,7 @@ fn look(
     let pair = |([one, other], far): ([u32; 2], f64)| Finding {
         robots: vec![one, other],
         measured: far as u32,
-        cell: None,
+        cells: Vec::new(),
     };
     let mut found = |moment: &Moment<'_>| match demand {
         Demand::Neighbours { range_mm } => {
@@ -352,11 +356,11 @@ fn look(
     let mut first: Option<Breach> = None;
     for fresh in stamps.chunk_by(|one, other| one.0 == other.0) {
         let moment = Moment { at_us: fresh[0].0, fresh, tracks, is_held };
-        let Some(Finding { robots, measured, cell }) = found(&moment) else { continue };
+        let Some(Finding { robots, measured, cells }) = found(&moment) else { continue };
         let place = fresh.iter().filter(|one| robots.binary_search(&one.1).is_ok()).map(|one| one.2).max();
         let place = place.unwrap_or_else(|| fresh.iter().map(|one| one.2).max().unwrap_or(0));
         let (at_us, allowed, moments) = (moment.at_us, allowed(demand), 0);
-        first.get_or_insert(Breach { at_us, robots, measured, allowed, cell, place, moments }).moments += 1;
+        first.get_or_insert(Breach { at_us, robots, measured, allowed, cells, place, moments }).moments += 1;
     }
     Seen { first, parted, in_doubt }
 }
@@ -393,11 +397,11 @@ fn visited(
         return Ok(Verdict::Unknown(Doubt::Cut));
     }
     let missed: Vec<_> = left.iter().copied().filter(|cell| !maybe.contains(cell)).collect();
-    let Some(&cell) = missed.first() else {
+    if missed.is_empty() {
         return Ok(Verdict::Unknown(Doubt::Cell(first, left.len())));
-    };
+    }
     let (robots, measured) = (Vec::new(), missed.len() as u32);
     let place = tracks.samples().map(|sample| sample.place).max().unwrap_or(0);
     let at_us = tracks.span_us()[1];
-    Ok(Verdict::Broken(Breach { at_us, robots, measured, allowed: 0, cell: Some(cell), place, moments: 1 }))
+    Ok(Verdict::Broken(Breach { at_us, robots, measured, allowed: 0, cells: missed, place, moments: 1 }))
 }

@@ -178,7 +178,7 @@ fn a_breach_says_who_when_how_far_and_where_in_the_log() {
         robots: vec![1, 2],
         measured: 3_000,
         allowed: 2_549,
-        cell: None,
+        cells: Vec::new(),
         place: 7,
         moments: 2,
     };
@@ -188,18 +188,18 @@ fn a_breach_says_who_when_how_far_and_where_in_the_log() {
 #[test]
 fn of_several_breaches_at_once_the_worst_is_told() {
     let told = |rows: &str, demand: Demand| match judge(&tracks(rows, &LIMITS), &LIMITS, &demand) {
-        Ok(Verdict::Broken(Breach { robots, measured, cell, .. })) => (robots, measured, cell),
+        Ok(Verdict::Broken(Breach { robots, measured, cells, .. })) => (robots, measured, cells),
         other => panic!("{other:?}"),
     };
-    assert_eq!(told("0 0 3000 6500 9500", RANGE), (vec![1, 2], 3_500, None));
+    assert_eq!(told("0 0 3000 6500 9500", RANGE), (vec![1, 2], 3_500, vec![]));
     let away = "0 0 20000 40000; 5 60000 61000 63000";
-    assert_eq!(told(away, APART), (vec![0, 1], 1_000, None), "not the 2 m between the others");
+    assert_eq!(told(away, APART), (vec![0, 1], 1_000, vec![]), "not the 2 m between the others");
     let crowds = "0 1500 1500 3500 3500 3500 5500 5500";
-    assert_eq!(told(crowds, FRONTIER_2), (vec![2, 3, 4], 3, Some([3, 0])));
+    assert_eq!(told(crowds, FRONTIER_2), (vec![2, 3, 4], 3, vec![[3, 0]]));
     assert_eq!(
         told("0 500; 9 1500", row(&[[0, 0], [2, 0], [3, 0]], true)),
-        (vec![], 2, Some([2, 0])),
-        "both cells are counted, and the first one is named"
+        (vec![], 2, vec![[2, 0], [3, 0]]),
+        "both cells are counted and named"
     );
 }
 

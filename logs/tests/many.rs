@@ -235,7 +235,7 @@ fn judged(logs: u64) -> [u64; 2] {
                 let verdict = verdict(&bytes, &demand);
                 let is_right = match (plant, &verdict) {
                     (None, Verdict::Kept) => true,
-                    (Some((Plant::End, _)), Verdict::Broken(breach)) => breach.cell.is_some(),
+                    (Some((Plant::End, _)), Verdict::Broken(breach)) => !breach.cells.is_empty(),
                     (Some(_), Verdict::Broken(breach)) => {
                         let at_us = breach.at_us - 1_700_000_000_000_000;
                         let near = from_us - PERIOD_US - NOISE_US..from_us + 3 * PERIOD_US + 3 * NOISE_US;

@@ -166,6 +166,11 @@ impl LogMap {
         Some(Cell::new(column.try_into().ok()?, row.try_into().ok()?))
     }
 
+    /// Those of these cells of the grid that are on the map, as the map has them.
+    pub(super) fn on_map(&self, cells: &[[i32; 2]]) -> Vec<Cell> {
+        cells.iter().filter_map(|&cell| self.southward(cell)).collect()
+    }
+
     /// A cell of the grid as people count it: as the map does, or as the grid does if there is none.
     pub(super) fn counted(&self, cell: [i32; 2]) -> [i32; 2] {
         match (&self.layout, self.southward(cell)) {

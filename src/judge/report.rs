@@ -200,9 +200,10 @@ impl LogReport<'_> {
     }
 
     fn breach(&self, demand: &Demand, breach: &Breach) -> String {
-        let Breach { at_us, robots, measured, allowed, cell, place, moments } = breach;
+        let Breach { at_us, robots, measured, allowed, cells, place, moments } = breach;
         let names: Vec<String> = robots.iter().take(SHOWN).map(|&robot| self.robot(robot)).collect();
-        let (who, cell) = (names.join(" and "), cell.map_or_else(String::new, |cell| self.cell(cell)));
+        let cell = cells.first().map_or_else(String::new, |&cell| self.cell(cell));
+        let who = names.join(" and ");
         let far = |mm: u32| metres(mm.into());
         let what = match demand {
             Demand::Neighbours { .. } => {
@@ -325,7 +326,7 @@ impl LogReport<'_> {
             robots: breach.robots.iter().map(|robot| robot + 1).collect(),
             measured: breach.measured,
             allowed: breach.allowed,
-            cell: breach.cell.map(|cell| self.given.counted(cell)),
+            cell: breach.cells.first().map(|&cell| self.given.counted(cell)),
             place: breach.place,
             moments: breach.moments,
         }
@@ -375,7 +376,15 @@ impl LogReport<'_> {
             || format!("{} s: nothing is broken; cells of {} m", seconds(at_us), metres(side)),
             |(id, _, _)| format!("{id} is broken at {} s; cells of {} m", seconds(at_us), metres(side)),
         );
-        Ok(Panel::picture(&self.title(), &[svg::moment(&layout, &caption, &robots, &marked)]))
+        let unvisited = first.map_or_else(Vec::new, |(_, demand, breach)| match demand {
+            Demand::Visited { .. } => self.given.on_map(&breach.cells),
+            Demand::Neighbours { .. }
+            | Demand::Joined { .. }
+            | Demand::Apart { .. }
+            | Demand::Crowd { .. } => Vec::new(),
+        });
+        let moment = svg::moment(&layout, &caption, (&robots, &marked), &unvisited);
+        Ok(Panel::picture(&self.title(), &[moment]))
     }
 
     /// The positions at the last stamps up to the first breach.

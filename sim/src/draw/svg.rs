@@ -280,7 +280,7 @@ fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
     format!("<rect class=\"{class}\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")
 }
 
-/// A frame inside the cell of a sensor that was missed.
+/// A frame inside a cell of which something was missed: its sensor, or the cell as a whole.
 fn unseen(frame: Frame, cell: Cell) -> String {
     let (x, y) = frame.corner(cell);
     let inner = CELL - 6;
@@ -424,7 +424,12 @@ fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
         | (Look::Tree { .. }, false, _)
         | (Look::Apart | Look::Robots, ..) => "robot",
     };
-    let radius = if all == 1 && !is_base { 9 } else { 6 };
+    let (radius, dx, dy) = match class {
+        // A wall that they met is as red as they are, and stays in sight beside them.
+        "crowded" => (5, dx.signum() * 5, dy.signum() * 5),
+        _ if all == 1 && !is_base => (9, dx, dy),
+        _ => (6, dx, dy),
+    };
     let at = (x + dx, y + dy);
     format!("<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", at.0, at.1)
         + &name(at, &(robot + 1).to_string())
