@@ -210,9 +210,15 @@ fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
 /// CHAIN-27: what a wall has brought together, a team move that is taken back brings together once more.
 #[test]
 fn two_robots_that_a_backtrack_brings_into_one_cell_are_judged_to_meet() {
+    for observed in [Subject::PUBLISHED, Subject::REPAIRED] {
+        meets_in_its_sixth_move(observed);
+    }
+}
+
+fn meets_in_its_sixth_move(observed: Subject) {
     let (area, base) = (Area::new(Cell::new(0, 0), Cell::new(3, 0)).expect("cells"), Cell::new(1, 0));
-    let mut chain = Chain::<_, 3>::new(Rule::PUBLISHED, 3, base, SmallGrid::new(area).expect("four cells"))
-        .expect("it fits");
+    let grid = SmallGrid::new(area).expect("four cells");
+    let mut chain = Chain::<_, 3>::new(observed.rule, 3, base, grid).expect("it fits");
     let wall = Edge::new(Cell::new(2, 0), Side::East);
     let (mut log, mut frames) = (Vec::new(), Vec::new());
     while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
@@ -221,7 +227,7 @@ fn two_robots_that_a_backtrack_brings_into_one_cell_are_judged_to_meet() {
         frames.push(frame(plan.kind, settled.messages(), chain.cells()));
     }
     frames.truncate(6);
-    let bounds = Bounds { area, base, ..Bounds::new(Subject::PUBLISHED, 3, 1) };
+    let bounds = Bounds { area, base, ..Bounds::new(observed, 3, 1) };
     let (broken, demand, answers) = (Invariant::Meets, "nothing", Vec::new());
     let found = Counterexample { broken, runs: 1, demand, frames, answers };
     let mut input = JudgeInput { width: 4, height: 1, ..input(&found, &bounds) };

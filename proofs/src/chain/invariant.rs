@@ -81,6 +81,16 @@ impl Invariant {
         Self::Ends,
     ];
 
+    /// Those that a hunt looks for in the runs of a chain that claims to follow `rule`. CHAIN-14 and CHAIN-27 no rule
+    /// keeps, so that every hunt would end with them; and of advances CHAIN-27 follows from CHAIN-5 in any layout.
+    pub fn of_hunts(rule: &Rule) -> Vec<Self> {
+        let of_reels = match rule.pursuit {
+            Pursuit::Reel(_) => Some(Self::Short),
+            Pursuit::Epochs => None,
+        };
+        Self::OF_RUNS.into_iter().chain(of_reels).collect()
+    }
+
     /// Those of plans and what is said of them.
     const OF_PLANS: [Self; 6] =
         [Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard, Self::Cheap];

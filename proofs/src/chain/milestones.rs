@@ -16,6 +16,8 @@ use super::subject::Subject;
 use super::whole_runs::{self, NO_MESSAGE};
 use crate::decide::{Context, Depiction, EveryAnswer, Method, MethodResult, RefutationPlay};
 use crate::engine::{Choices, Outcome, Replay, ScriptError, Stop, Until, require};
+use crate::judge::AnyCase;
+use crate::judge::chain::Sooner;
 
 /// A check that no chain has explored so many percent of the cells sooner than the rule.
 pub(super) struct Milestone<const PERCENT: u32>;
@@ -110,6 +112,16 @@ impl<const PERCENT: u32> Method<Subject> for Milestone<PERCENT> {
         Ok(answer)
     }
 
+    fn case(&self, observed: &Subject, choices: &Choices) -> Option<Box<dyn AnyCase>> {
+        let answers: Vec<u32> = choices.all().collect();
+        let reached = Self::reach(observed, &mut Replay::new(&answers)).ok()?;
+        let (teams, cells) = (reached.sooner?, reached.cells as usize);
+        let step = |(from, to): (&Cell, &Cell)| (i32::from(to.x - from.x), i32::from(to.y - from.y));
+        let steps = |pair: &[Vec<Cell>]| pair[0].iter().zip(&pair[1]).map(step).collect();
+        let robots = teams.first()?.len();
+        Some(Box::new(Sooner { robots, cells, moves: teams.windows(2).map(steps).collect() }))
+    }
+
     fn replay(&self, observed: &Subject, choices: &Choices) -> Result<RefutationPlay, ScriptError> {
         let mut play = Self::CASES.replay(observed, choices)?;
         play.evidence.seen = Self::story(observed, choices);
@@ -179,6 +191,7 @@ mod tests {
     use tautline_kernel::ground::{Side, Step};
 
     use super::*;
+    use crate::judge::Case;
 
     #[test]
     fn three_robots_take_a_team_move_more_than_they_must_to_half_and_to_three_quarters() {
@@ -205,6 +218,7 @@ mod tests {
         let mut grid = SmallGrid::new(area).expect("fifteen cells wide");
         let mut team = vec![base; 8];
         let mut explored = FxHashSet::from_iter([base]);
+        let mut sooner = Sooner { robots: 8, cells: 113, moves: Vec::new() };
         for steps in HALF_OF_225.split_whitespace() {
             let step = |digit: u8| match usize::from(digit - b'0') {
                 0 => Step::Stay,
@@ -212,11 +226,16 @@ mod tests {
             };
             let steps: Vec<Step> = std::iter::once(b'0').chain(steps.bytes()).map(step).collect();
             assert!(Rule::PUBLISHED.admits_plan(&mut grid, &team, &steps), "{team:?}");
+            let origin = Cell::new(0, 0);
+            let offset = |step: &Step| (origin.after(*step).x.into(), origin.after(*step).y.into());
+            sooner.moves.push(steps.iter().map(offset).collect());
             team.iter_mut().zip(steps).for_each(|(cell, step)| *cell = cell.after(step));
             assert!(team.iter().all(|&cell| area.contains(cell)), "{team:?}");
             explored.extend(team.iter().copied());
         }
         assert_eq!((explored.len(), HALF_OF_225.split_whitespace().count()), (113, 32));
         assert_eq!([112, 113].map(|cells| taken(&Subject::PUBLISHED, 8, cells)), [Ok(34), Ok(34)]);
+        // The judge, which follows the rule by itself, agrees.
+        assert_eq!(sooner.judge(), Ok(()));
     }
 }

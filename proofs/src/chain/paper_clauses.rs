@@ -3,13 +3,16 @@
 
 use tautline_kernel::chain::Condition::Distinct;
 
-use super::clauses::{AREAS, FOUR_FEWER_WALLS, PUBLISHED, lacking};
+use super::clauses::{AREAS, FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, lacking};
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::milestones::Milestone;
 use super::search::EveryLayout;
 use super::subject::Subject;
 use crate::clause::{Check, Clause};
+
+/// The reason why no repair of ours keeps CHAIN-27.
+const TAKEN_BACK: &str = "no repair yet: a backtrack repeats it";
 
 /// The clauses.
 pub const CLAUSES: [Clause; 2] = [
@@ -29,6 +32,18 @@ pub const CLAUSES: [Clause; 2] = [
                 PUBLISHED,
                 &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
                 &[lacking(Subject::PUBLISHED, Distinct)],
+            ),
+            &Check::refuted(REPAIRED, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
+            &Check::holds(
+                REPAIRED,
+                &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
+                &[lacking(Subject::REPAIRED, Distinct)],
+            ),
+            &Check::refuted(REEL, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
+            &Check::holds(
+                REEL,
+                &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
+                &[lacking(Subject::REEL, Distinct)],
             ),
         ],
     },

@@ -5,12 +5,14 @@
 mod court;
 mod duty;
 mod judge_input;
+mod milestone;
 mod place;
 mod violations;
 
 use court::Court;
 use duty::{Duty, MOST_LED};
 pub use judge_input::{JudgeInput, Move, Repairs};
+pub use milestone::Sooner;
 use violations::{Violation, broken};
 
 use super::Case;

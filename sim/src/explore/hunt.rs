@@ -445,13 +445,6 @@ pub enum Exhibit {
     Told(String),
 }
 
-impl Exhibit {
-    /// Of a run that breaks `clause`, or of one without end.
-    pub(super) fn of(clause: Option<ClauseId>) -> Self {
-        clause.map_or(Self::Endless, Self::Run)
-    }
-}
-
 /// The conclusion from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
 /// that it had `covered` by then, if any: what it has found beyond those need not be the smallest.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {

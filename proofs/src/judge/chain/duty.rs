@@ -80,7 +80,7 @@ impl Court<'_> {
             .filter(|&step| !self.is_shut(self.side(leader, step)))
             .filter_map(|step| {
                 let outward = step.0 * (at.0 - base.0) + step.1 * (at.1 - base.1);
-                Some((self.distance(add(at, step))?, -outward, step))
+                Some((self.distance(add(at, step), |side| self.is_shut(side))?, -outward, step))
             })
             .collect();
         // A stable sort: direction settles what is left.
@@ -131,8 +131,45 @@ impl Court<'_> {
         Ok(false)
     }
 
-    /// Steps from `from` to the nearest unexplored place, over sides that are not shut for the leader.
-    fn distance(&self, from: Place) -> Option<u32> {
+    /// The steps of all robots in the open, base first, if the leader makes `step`: followers stay where that is in E_N of
+    /// the planned place ahead, else go there, else nearer to what is unexplored, and then in direction order.
+    pub(super) fn plan(&self, step: Place) -> Option<Vec<Place>> {
+        let leader = self.places.len() - 1;
+        let mut tried = vec![(0, 0); leader + 1];
+        tried[leader] = step;
+        self.follow(&mut tried, leader).then_some(tried)
+    }
+
+    /// Whether the robots behind `robot` can follow, by the first of their steps that let the others follow.
+    fn follow(&self, tried: &mut [Place], robot: usize) -> bool {
+        let (behind, ahead) = (robot - 1, add(self.places[robot], tried[robot]));
+        if behind == 0 {
+            return self.admits_pair(robot, tried[robot], self.input.base).is_ok();
+        }
+        let mut steps: Vec<Place> = SIDES.into_iter().chain([(0, 0)]).collect();
+        steps.sort_by_key(|&step| {
+            let to = add(self.places[behind], step);
+            let is_high = (to.0 - ahead.0).abs() + (to.1 - ahead.1).abs() <= 1;
+            let distance = self.distance(to, |side| self.is_known_wall(side)).unwrap_or(u32::MAX);
+            (!(is_high && step == (0, 0)), !is_high, distance)
+        });
+        steps.into_iter().any(|step| {
+            let planned = add(self.places[behind], step);
+            let mut others = (robot..tried.len()).map(|other| add(self.places[other], tried[other]));
+            let is_taken = planned != self.input.base && others.any(|other| other == planned);
+            if is_taken
+                || self.admits_step(behind, step).is_err()
+                || self.admits_pair(robot, tried[robot], planned).is_err()
+            {
+                return false;
+            }
+            tried[behind] = step;
+            self.follow(tried, behind)
+        })
+    }
+
+    /// Steps from `from` to the nearest unexplored place, over sides that are not shut.
+    fn distance(&self, from: Place, is_shut: impl Fn((Place, Place)) -> bool) -> Option<u32> {
         let mut seen = BTreeSet::from([from]);
         let mut queue = VecDeque::from([(from, 0)]);
         while let Some((place, steps)) = queue.pop_front() {
@@ -141,7 +178,7 @@ impl Court<'_> {
             }
             for step in SIDES {
                 let next = add(place, step);
-                if !self.is_shut(side_between(place, next)) && seen.insert(next) {
+                if !is_shut(side_between(place, next)) && seen.insert(next) {
                     queue.push_back((next, steps + 1));
                 }
             }

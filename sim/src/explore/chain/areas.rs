@@ -5,10 +5,9 @@ use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::areas::{Areas, Findings, Smallest, most_edges, search};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{bounds, fault, team};
-use crate::explore::ClauseId;
+use super::hunt::{bounds, exhibit, fault, team};
 use crate::explore::hunt::{
-    CoveredBound, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
+    CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
 };
 
 /// Searches all areas of at most so many cells.
@@ -103,7 +102,7 @@ fn finding(asked: &HuntRequest<'_>, Smallest { bounds, found }: &Smallest) -> Re
         clause: found.broken.clause(),
         facts: RunSize::Area { columns, rows, walls, steps },
         title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
+        shown: exhibit(found, &setup.layout),
         setup,
-        shown: Exhibit::of(found.broken.breach().map(ClauseId::from)),
     })
 }

@@ -8,7 +8,10 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Subject;
-use tautline_proofs::chain::search::{Bounds, Deal as Walk, Findings, Position, Search, Unsearchable};
+use tautline_proofs::chain::invariant::Invariant;
+use tautline_proofs::chain::search::{
+    Bounds, Counterexample, Deal as Walk, Findings, Position, Search, Unsearchable,
+};
 use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
@@ -18,7 +21,7 @@ use crate::explore::hunt::{
     Hunter, OngoingHunt, RUN_AGAIN, RunSize, outcome, setup,
 };
 use crate::explore::{Catalogue, ClauseId};
-use tautline_grids::layout::Size;
+use tautline_grids::layout::{Layout, Size};
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;
@@ -165,6 +168,22 @@ impl Part for Waves {
     }
 }
 
+/// How a run that was found is shown: one that a file can tell by its last team move, one without end by its layout, and
+/// one that breaks what no file tells by its layout and the sentence that is not so.
+pub(super) fn exhibit(found: &Counterexample, layout: &Layout) -> Exhibit {
+    match (found.broken.breach(), found.broken) {
+        (Some(breach), _) => Exhibit::Run(ClauseId::from(breach)),
+        (None, Invariant::Ends) => Exhibit::Endless,
+        (None, _) => {
+            let moves = counted(found.frames.len(), "team move");
+            Exhibit::Told(format!(
+                "Not so: {}. The run of {moves} is in this layout:\n\n{layout}",
+                found.demand
+            ))
+        }
+    }
+}
+
 /// Robots and walls that are asked for.
 pub(super) fn team(asked: &HuntRequest<'_>) -> (u64, u32) {
     (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS))
@@ -175,6 +194,7 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
     let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
         let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
+        let setup = setup(asked.scheme, asked.rule, &run)?;
         Ok(Finding {
             clause: counterexample.broken.clause(),
             facts: RunSize::Runs { runs, walls, steps },
@@ -184,8 +204,8 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
                 counted(steps, "team move"),
                 counted(runs, "run")
             ),
-            setup: setup(asked.scheme, asked.rule, &run)?,
-            shown: Exhibit::of(counterexample.broken.breach().map(ClauseId::from)),
+            shown: exhibit(counterexample, &setup.layout),
+            setup,
         })
     });
     let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
@@ -255,7 +275,8 @@ pub fn bounds(
         let remedy = format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted");
         Diagnostic::of_field("robots", format_args!("{what} cannot be the team"), remedy)
     })?;
-    let mut bounds = Bounds::new(observed, count, max_walls);
+    let invariants = Invariant::of_hunts(&observed.intended);
+    let mut bounds = Bounds { invariants, ..Bounds::new(observed, count, max_walls) };
     if let Some(size) = size {
         bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
         bounds.area = size.area();
@@ -358,5 +379,53 @@ impl HuntTask {
             program: asked.resume.map_or_else(|| Ok(String::new()), |_| shards::program())?,
             known: Some(asked.scheme.among),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use tautline_kernel::chain::Rule;
+
+    use super::*;
+    use crate::explore::RuleId;
+    use crate::explore::chain::CHAIN;
+
+    struct Patient;
+
+    impl Hunter for Patient {
+        fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
+            ControlFlow::Continue(())
+        }
+
+        fn is_left_out(&mut self, fault: &Diagnostic) {
+            panic!("{fault:?}");
+        }
+    }
+
+    /// The clauses that a hunt finds broken, and the stories of those that no file tells.
+    fn found(observed: Subject) -> Vec<(&'static str, Option<String>)> {
+        let asked = HuntRequest {
+            robots: Some(3),
+            max_walls: Some(2),
+            ..HuntRequest::new(&CHAIN, RuleId::PUBLISHED)
+        };
+        let report = Walls(observed).hunt(&asked, &mut Patient).expect("it can be searched");
+        assert!(report.is_complete);
+        let told = |finding: Finding| match finding.shown {
+            Exhibit::Told(story) => (finding.clause, Some(story)),
+            Exhibit::Run(_) | Exhibit::Story(..) | Exhibit::Endless => (finding.clause, None),
+        };
+        report.found.into_iter().map(told).collect()
+    }
+
+    #[test]
+    fn a_reel_that_takes_longer_than_chain_24_allows_is_found_and_told() {
+        assert_eq!(found(Subject::REEL), []);
+        let slow = found(Subject::REEL.following(Rule::REPAIRED));
+        let told: Vec<_> = slow.iter().filter(|(clause, _)| *clause == "CHAIN-24").collect();
+        let [(_, Some(story))] = told[..] else { panic!("{slow:?}") };
+        assert!(story.starts_with("Not so: each wall that is met costs at most N² team moves."), "{story}");
     }
 }
