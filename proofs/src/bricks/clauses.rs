@@ -238,6 +238,7 @@ pub const CLAUSES: [Clause; 15] = [
                     Rule { precedence: Precedence::Nobody, ..Rule::ROBUST },
                 )],
             ),
+            &refuted(PUBLISHED, &Floors::shared(&HALF_BLIND, Connected)).under(REFUTED).of(&PAPER),
             &holds(ROBUST, &Floors::shared(&HALF_BLIND, Connected), &[TRUSTING, ONCE_OVER]),
             &holds(TREE, &Floors::shared(&TREES, Connected), &[parents_marked(TreeRule::TREE), WRAPPING]),
             &holds(HELPERS, &Floors::shared(&HELPING, Connected), &[parents_marked(TreeRule::HELPERS)]),

@@ -337,6 +337,7 @@ impl<D: Copy> Floors<D> {
     /// The clause about these floors that is refuted for some rule, if one is.
     fn clause(&self) -> Option<&'static str> {
         Some(match self.demand {
+            Demand::Connected if self.all().all(|series| series.turns == Turns::Whole) => "BRICKS-2",
             Demand::Connected => "BRICKS-3",
             Demand::Knowing => "BRICKS-4",
             Demand::Explores => "BRICKS-5",

@@ -1,5 +1,5 @@
 //! The judge of agents on a sensor floor, turn by turn, with what they write to the sensors where that matters:
-//! BRICKS-3 to BRICKS-6, BRICKS-11 and BRICKS-12. It knows the sentences of `SPEC.md` alone, and not which cells a rule
+//! BRICKS-2 to BRICKS-6, BRICKS-11 and BRICKS-12. It knows the sentences of `SPEC.md` alone, and not which cells a rule
 //! marks: whoever asks it plays the rule, too.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -205,7 +205,7 @@ impl Run {
     fn is_broken(&self, scene: &Scene, turn: &Turn, due: &BTreeSet<Place>) -> bool {
         let is_left = |cell: &Place| scene.marks.get(cell) != Some(&Mark::Visited);
         match self.clause {
-            "BRICKS-3" => {
+            "BRICKS-2" | "BRICKS-3" => {
                 let left: BTreeSet<Place> = due.iter().copied().filter(is_left).collect();
                 let first: Vec<Place> = left.first().copied().into_iter().collect();
                 self.connected(&first, |cell| left.contains(&cell)) != left
@@ -263,7 +263,7 @@ impl Case for Run {
         let is_left =
             self.has_marks() && due.iter().any(|cell| scene.marks.get(cell) != Some(&Mark::Visited));
         let is_broken = match (clause, round) {
-            ("BRICKS-3" | "BRICKS-4" | "BRICKS-12", 0) => {
+            ("BRICKS-2" | "BRICKS-3" | "BRICKS-4" | "BRICKS-12", 0) => {
                 self.is_broken(&scene, &turns[turns.len() - 1], &due)
             }
             ("BRICKS-5", 0) => is_over && is_unexplored,
@@ -275,7 +275,7 @@ impl Case for Run {
         must(is_broken, "the clause is not broken")?;
         // Marks are written down only where they matter.
         let matters = match clause {
-            "BRICKS-3" => true,
+            "BRICKS-2" | "BRICKS-3" => true,
             "BRICKS-4" | "BRICKS-6" | "BRICKS-11" => !is_unexplored && round == 0,
             _ => false,
         };
