@@ -131,8 +131,8 @@ impl Court<'_> {
         Ok(false)
     }
 
-    /// The steps of all robots in the open, base first, if the leader makes `step`: followers stay where that is in E_N of
-    /// the planned place ahead, else go there, else nearer to what is unexplored, and then in direction order.
+    /// The steps of all robots in the open, base first, if the leader makes `step`. Followers stay where that is in E_N
+    /// of the planned place ahead, else go there, else nearer to what is unexplored, and then in direction order.
     pub(super) fn plan(&self, step: Place) -> Option<Vec<Place>> {
         let leader = self.places.len() - 1;
         let mut tried = vec![(0, 0); leader + 1];

@@ -32,7 +32,7 @@ impl Case for Sooner {
         "team move"
     }
 
-    /// The moves are admitted as published, the last one, and none before, completes the cells, and the rule has explored
+    /// The moves are admitted as published, the last one and none before completes the cells, and the rule has explored
     /// fewer after as many team moves.
     fn judge(&self) -> Result<(), Objection> {
         let Self { robots, cells, ref moves } = *self;

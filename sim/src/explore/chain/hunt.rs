@@ -168,8 +168,8 @@ impl Part for Waves {
     }
 }
 
-/// How a run that was found is shown: one that a file can tell by its last team move, one without end by its layout, and
-/// one that breaks what no file tells by its layout and the sentence that is not so.
+/// How a run that was found is shown: one that a file can tell by its last team move, one without end by its layout,
+/// and one that breaks what no file tells by its layout and the sentence that is not so.
 pub(super) fn exhibit(found: &Counterexample, layout: &Layout) -> Exhibit {
     match (found.broken.breach(), found.broken) {
         (Some(breach), _) => Exhibit::Run(ClauseId::from(breach)),
