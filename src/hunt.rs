@@ -128,6 +128,10 @@ pub(super) struct HuntJson<'a> {
     /// Where the hunt is kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<String>,
+    /// The clauses whose run with the fewest walls was still looked for when the hunt was ended. Of a run that goes
+    /// round none may be found then.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    not_minimised: &'a [&'static str],
     counterexamples: Vec<CounterexampleJson<'a>>,
 }
 
@@ -305,6 +309,7 @@ impl Answer<'_> {
             done: hunted.done,
             verdict: verdict.word(),
             kept: asked.resume.map(shown),
+            not_minimised: &hunted.not_minimised,
             counterexamples: hunted.found.iter().zip(files).map(stored).collect(),
         }
     }

@@ -230,11 +230,11 @@ fn ants_and_the_robust_rule_are_not_trapped() {
     let folder = &folder();
     assert_snapshot!(printed(folder, &["hunt", "--scheme", "bricks-ants", "--max-misses", "2", "--size", "3x3"], 0),
         @r#"
-    bricks-ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 169999 states, 196963 team moves
+    bricks-ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 330 layouts, 169999 states, 196963 team moves
     No agent is trapped in any layout within this bound.
     "#);
     assert_snapshot!(printed(folder, &["hunt", "--scheme", "ants", "--max-misses", "2", "--size", "3x3"], 0), @r#"
-    ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 151247 states, 212690 team moves
+    ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 330 layouts, 151247 states, 212690 team moves
     No agent is trapped in any layout within this bound.
     "#);
     let all = json(folder, &["hunt", "--scheme", "helpers", "--max-misses", "255", "--size", "2x2"], 0);

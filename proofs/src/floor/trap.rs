@@ -51,7 +51,7 @@ const MAX_STEPS: u64 = 1 << 20;
 /// The outcome of a search.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct TrapReport {
-    /// Layouts that were looked at, anew for each number of misses.
+    /// Layouts that were looked at, each counted once, for whatever number of misses.
     pub layouts: u64,
     /// States of agents and floors.
     pub states: u64,
@@ -149,7 +149,7 @@ impl<S: Scheme> Cases for Bounds<S> {
     }
 
     fn add(&self, report: &mut TrapReport, _: &FloorPlan, outcome: LayoutOutcome) -> Result<(), Infallible> {
-        report.layouts += 1;
+        report.layouts += u64::from(report.levels == 0);
         report.states += outcome.states;
         report.steps += outcome.steps;
         let is_smaller =

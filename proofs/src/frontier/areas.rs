@@ -1,6 +1,8 @@
 //! Small areas: all obstacles, all starts, all orders of moves, lost messages and wrong fixes (FRONTIER-1 to
 //! FRONTIER-5). A counterexample has the fewest cells, of these the fewest obstacles, and of these the fewest steps.
 
+use std::ops::ControlFlow;
+
 use tautline_kernel::frontier::{Map, Rule, Sight, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell};
 
@@ -51,19 +53,22 @@ pub fn setting<const ROBOTS: usize>(rule: Rule, (width, height): Size) -> Option
     Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, max_small, demand, given })
 }
 
-/// The run with the fewest obstacles that breaks `demand` in the area of `setting`, in which it is broken by `run`.
+/// The run with the fewest obstacles that breaks what `run` breaks in the area of `setting`. It breaks off where `look`,
+/// which searches a setting, does.
 pub fn fewest<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     run: Run<Demand>,
-    limits: Limits<'_>,
-) -> Counterexample<ROBOTS> {
+    mut look: impl FnMut(&Setting<ROBOTS>) -> ControlFlow<(), Findings<Demand>>,
+) -> ControlFlow<Run<Demand>, Counterexample<ROBOTS>> {
     let most = setting.max_obstacles.min((setting.area.width() * setting.area.height()) as u8);
-    let fewer = (0..most).find_map(|max_obstacles| {
+    for max_obstacles in 0..most {
         let setting = Setting { max_obstacles, demand: Some(run.demand), ..setting };
-        let found = search(&setting, setting.starts(), limits);
-        found.broken.into_iter().next().map(|run| Counterexample { setting, run })
-    });
-    fewer.unwrap_or(Counterexample { setting, run })
+        let ControlFlow::Continue(found) = look(&setting) else { return ControlFlow::Break(run) };
+        if let Some(run) = found.broken.into_iter().next() {
+            return ControlFlow::Continue(Counterexample { setting, run });
+        }
+    }
+    ControlFlow::Continue(Counterexample { setting, run })
 }
 
 /// Steps, each with what comes of it.
@@ -298,7 +303,13 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         }
         let (found, number) = self.look(rule, Some(self.demand), limits)?;
         let Some(run) = found.broken.first() else { return Ok(answer(&found, None)) };
-        let fewest = fewest(self.setting(rule, self.sizes[number])?, run.clone(), limits);
+        let setting = self.setting(rule, self.sizes[number])?;
+        let look =
+            |setting: &Setting<ROBOTS>| ControlFlow::Continue(search(setting, setting.starts(), limits));
+        let fewest = match fewest(setting, run.clone(), look) {
+            ControlFlow::Continue(fewest) => fewest,
+            ControlFlow::Break(run) => Counterexample { setting, run },
+        };
         let first = [number as u32, fewest.setting.max_obstacles.into()];
         let evidence = Self::evidence(fewest.run.choices_after(&first), &fewest);
         Ok(answer(&found, Some(evidence)))

@@ -1,11 +1,14 @@
 //! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is
 //! given, and what happens in it.
 
+use std::ops::ControlFlow;
+
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
 use tautline_kernel::kit::{Next, Rule, Sight};
 
+use super::symmetry::SymmetricLattice;
 use super::world::{Demand, Event, Setting, Speeds, Successor, World};
-use crate::engine::states::{Limits, Run, search};
+use crate::engine::states::{self, Findings, Run, System};
 use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
 use crate::run::{self, Ending, ScriptedRun};
@@ -25,17 +28,49 @@ pub struct Counterexample<const ROBOTS: usize> {
 }
 
 /// The shortest run with the fewest walls that breaks `demand` on the lattice of `setting`; `None` if there is none
-/// within the walls of `setting` and the `limits`.
+/// within the walls of `setting`. It breaks off where `look`, which searches a setting, does.
 pub fn fewest<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     demand: Demand,
-    limits: Limits<'_>,
-) -> Option<Counterexample<ROBOTS>> {
-    (0..=setting.max_walls).find_map(|max_walls| {
+    mut look: impl FnMut(&Setting<ROBOTS>) -> ControlFlow<(), Findings<Demand>>,
+) -> ControlFlow<(), Option<Counterexample<ROBOTS>>> {
+    for max_walls in 0..=setting.max_walls {
         let setting = Setting { max_walls, demand: Some(demand), ..setting };
-        let found = search(&setting, setting.starts(), limits);
-        Some(Counterexample { setting, run: found.broken.into_iter().next()? })
-    })
+        if let Some(run) = look(&setting)?.broken.into_iter().next() {
+            return ControlFlow::Continue(Some(Counterexample { setting, run }));
+        }
+    }
+    ControlFlow::Continue(None)
+}
+
+impl Counterexample<2> {
+    /// The run on the lattice of `setting` whose image `run` is, a run on the [`SymmetricLattice`]; `None` if it goes
+    /// round, since there another robot may be bound to act.
+    pub fn of_image(setting: Setting<2>, run: &Run<Demand>) -> Option<Self> {
+        if matches!(run.ending, states::Ending::Round(_)) {
+            return None;
+        }
+        let lattice = SymmetricLattice::new(setting);
+        let canonical = |world: &World<2>| {
+            let mut least = *world;
+            lattice.make_canonical(&mut least);
+            least
+        };
+        let mut world = setting.starts().into_iter().nth(run.start)?;
+        let mut steps = Vec::new();
+        for (_, step) in run.played(&lattice, canonical(&world)) {
+            let is_last = steps.len() + 1 == run.steps.len() && run.ending == states::Ending::There;
+            let is_image = |turned: &Successor<2>| {
+                canonical(&turned.world) == canonical(&step.state)
+                    && (!is_last || turned.breaks.contains(&run.demand))
+            };
+            let mut turns = (0..).zip(setting.turns(&world));
+            let (number, turned) = turns.find(|(_, turned)| is_image(turned))?;
+            steps.push(number);
+            world = turned.world;
+        }
+        (steps.len() == run.steps.len()).then(|| Self { setting, run: Run { steps, ..run.clone() } })
+    }
 }
 
 impl<const ROBOTS: usize> Counterexample<ROBOTS> {

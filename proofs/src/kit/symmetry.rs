@@ -289,9 +289,10 @@ mod tests {
     use tautline_kernel::ground as kernel;
     use tautline_kernel::kit::{Next, Reach, Rule, Sight};
 
+    use super::super::counterexample::Counterexample;
     use super::super::world::Starts;
     use super::*;
-    use crate::engine::states::{Findings, Limits, search};
+    use crate::engine::states::{Findings, Limits, Run, search};
     use crate::engine::{SeededOracle, Tape};
 
     /// The events that can happen next, and where they lead, as it looks in this image.
@@ -407,6 +408,26 @@ mod tests {
             let all = demands(search(&setting, setting.starts(), Limits::NONE));
             let one = demands(search(&SymmetricLattice::new(setting), setting.starts(), Limits::NONE));
             assert!(all.is_subset(&one) && !one.is_empty(), "{lost:?}: {all:?}, {one:?}");
+        }
+    }
+
+    #[test]
+    fn a_run_of_images_is_one_of_the_lattice_itself() {
+        for rule in [Rule::PUBLISHED, Rule::AHEAD, Rule::REPAIRED.without(Condition::Apart)] {
+            let setting = Setting::new(rule, (5, 1)).expect("a lattice");
+            let lattice = SymmetricLattice::new(setting);
+            let broken = search(&lattice, setting.starts(), Limits::NONE).broken;
+            let ends = |run: &&Run<Demand>| run.round().is_empty();
+            for run in broken.iter().filter(ends) {
+                let unfolded = Counterexample::of_image(setting, run).expect("a run");
+                let start = setting.starts()[unfolded.run.start];
+                let steps: Vec<_> = unfolded.run.played(&setting, start).collect();
+                let (_, last) = steps.last().expect("a step");
+                let is_broken = last.breaks.contains(&run.demand)
+                    || setting.broken_at_end(&last.state, &[]).contains(&run.demand);
+                assert!(is_broken && steps.len() == run.steps.len(), "{rule:?}: {run:?}");
+            }
+            assert!(broken.iter().any(|run| run.round().is_empty()), "{rule:?}");
         }
     }
 

@@ -413,6 +413,9 @@ pub struct HuntReport {
     pub through: String,
     /// The conclusion: the second line for people.
     pub outcome: String,
+    /// The clauses whose run with the fewest walls was still looked for when the hunt was ended. Of a run that goes
+    /// round none may be found then.
+    pub not_minimised: Vec<&'static str>,
     /// A run that breaks each clause: the smallest one, unless the hunt was ended before.
     pub found: Vec<Finding>,
 }

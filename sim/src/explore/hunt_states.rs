@@ -147,6 +147,7 @@ impl<C: Crew> Each for Traps<C> {
                         .to_owned()
                 }
             },
+            not_minimised: Vec::new(),
             found,
         })
     }

@@ -156,6 +156,7 @@ impl<R: Rule + PartialEq + 'static> Hunt for OwnRule<R> {
             title: format!("{}: {}", Keeps(self.setting, 0).bound(), counted(cases, "case")),
             through: counted(cases, "case"),
             outcome: outcome(&found, is_complete, None),
+            not_minimised: Vec::new(),
             found,
         })
     }

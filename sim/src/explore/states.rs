@@ -91,6 +91,8 @@ pub(super) fn report(
     found: Vec<Finding>,
 ) -> HuntReport {
     let (states, steps) = (counted(count.states, "state"), counted(count.steps, "step"));
+    let outcome = outcome(&found, count.is_complete, covered);
+    let not_minimised = count.not_minimised.clone();
     HuntReport {
         robots,
         facts,
@@ -98,7 +100,11 @@ pub(super) fn report(
         done,
         title: format!("{}, layouts up to {size}{within}: {states}, {steps}", counted(robots, "robot")),
         through: format!("{states} and {steps}"),
-        outcome: outcome(&found, count.is_complete, covered),
+        outcome: match &not_minimised[..] {
+            [] => outcome,
+            clauses => format!("Not minimised, since the hunt was ended: {}. {outcome}", clauses.join(", ")),
+        },
+        not_minimised,
         found,
     }
 }
@@ -111,6 +117,10 @@ pub(super) struct Count {
     /// The cells up to which all areas were searched.
     pub(super) cells: Option<usize>,
     pub(super) is_complete: bool,
+    /// Steps that were made to find the fewest walls of what is broken, which are in the budget and not in `steps`.
+    pub(super) steps_to_minimise: u64,
+    /// Clauses of which the fewest walls were not found before the search was ended.
+    pub(super) not_minimised: Vec<&'static str>,
 }
 
 impl Count {
@@ -133,7 +143,37 @@ pub(super) fn watched<S: System>(
     count: &mut Count,
     hunter: &mut dyn Hunter,
 ) -> Findings<S::Demand> {
-    let most_steps = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
+    let found = looked(system, starts, what, asked, count, hunter);
+    count.states += found.states;
+    count.steps += found.steps;
+    found
+}
+
+/// Searches a system again, for a run with fewer walls. Breaks off where the budget or the work is at its end before.
+pub(super) fn minimised<S: System>(
+    system: &S,
+    starts: Vec<S::State>,
+    asked: &HuntRequest<'_>,
+    count: &mut Count,
+    hunter: &mut dyn Hunter,
+) -> ControlFlow<(), Findings<S::Demand>> {
+    let what = "the fewest walls of what is broken";
+    hunter.hears(Far::Words(what.to_owned()))?;
+    let found = looked(system, starts, what, asked, count, hunter);
+    count.steps_to_minimise += found.steps;
+    if found.is_whole { ControlFlow::Continue(found) } else { ControlFlow::Break(()) }
+}
+
+fn looked<S: System>(
+    system: &S,
+    starts: Vec<S::State>,
+    what: &str,
+    asked: &HuntRequest<'_>,
+    count: &Count,
+    hunter: &mut dyn Hunter,
+) -> Findings<S::Demand> {
+    let made = count.steps + count.steps_to_minimise;
+    let most_steps = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(made));
     let mut watch = |looked_at: u64| {
         let states = count.states + looked_at;
         if states.is_multiple_of(BETWEEN) {
@@ -141,10 +181,7 @@ pub(super) fn watched<S: System>(
         }
         ControlFlow::Continue(())
     };
-    let found = states::watched(system, starts, Limits { most_steps, ..Limits::NONE }, &mut watch);
-    count.states += found.states;
-    count.steps += found.steps;
-    found
+    states::watched(system, starts, Limits { most_steps, ..Limits::NONE }, &mut watch)
 }
 
 #[cfg(test)]

@@ -89,6 +89,7 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
         ),
         through: format!("{all_runs} and {all_moves}"),
         outcome: outcome(&findings, found.is_complete, covered),
+        not_minimised: Vec::new(),
         found: findings,
     })
 }

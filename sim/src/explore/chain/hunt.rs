@@ -226,6 +226,7 @@ fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<
         ),
         through: format!("{all_runs} and {all_moves}"),
         outcome: outcome(&findings, done == Some(max_walls) && found.given_up == 0, covered),
+        not_minimised: Vec::new(),
         found: findings,
     })
 }

@@ -4,11 +4,11 @@
 mod rivals;
 
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::Rule as Frontier;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::engine::states::Limits as Most;
 use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
 use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
@@ -19,7 +19,7 @@ pub(super) use self::rivals::RivalHunt;
 use crate::explore::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
-use crate::explore::states::{self, Count, Small, watched};
+use crate::explore::states::{self, Count, Small, minimised, watched};
 use crate::explore::{ClauseId, Setup};
 use tautline_grids::layout::{Layout, Size};
 
@@ -175,13 +175,25 @@ fn searched<const ROBOTS: usize>(
         let all = Setting { max_obstacles: most_obstacles(asked), max_losses, max_wrong, ..all };
         let what = format!("areas up to {}×{}", area.0, area.1);
         let looked = watched(&all, all.starts(), &what, asked, &mut count, hunter);
+        let mut is_ended = !looked.is_whole;
         for run in looked.broken {
             if found.iter().all(|(known, _)| *known != run.demand) {
+                let look = |setting: &Setting<ROBOTS>| {
+                    minimised(setting, setting.starts(), asked, &mut count, hunter)
+                };
                 let demand = run.demand;
-                found.push((demand, fewest(all, run, Most::NONE)));
+                let counterexample = match fewest(all, run, look) {
+                    ControlFlow::Continue(fewest) => fewest,
+                    ControlFlow::Break(run) => {
+                        count.not_minimised.push(demand.clause());
+                        is_ended = true;
+                        Counterexample { setting: all, run }
+                    }
+                };
+                found.push((demand, counterexample));
             }
         }
-        if !looked.is_whole {
+        if is_ended {
             count.is_complete = false;
             break;
         }

@@ -1,10 +1,13 @@
 //! Hunts of robots that keep in touch: all walls, all starts, and all orders of decisions and arrivals on all small
 //! lattices. Of two robots one image of each state is searched; what is broken there is searched again as it is, with
-//! as few walls as can be.
+//! as few walls as can be. Where that is ended, what was found is unfolded, unless it goes round: this need not be so
+//! of the lattice itself.
+
+use std::ops::ControlFlow;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::kit::Rule as Kit;
-use tautline_proofs::engine::states::{Findings, Limits as Most};
+use tautline_proofs::engine::states::{Findings, Run};
 use tautline_proofs::kit::counterexample::{Counterexample, fewest};
 use tautline_proofs::kit::symmetry::SymmetricLattice;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
@@ -15,7 +18,7 @@ use super::{EQUAL, reach};
 use crate::explore::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
-use crate::explore::states::{Count, Small, report, watched};
+use crate::explore::states::{Count, Small, minimised, report, watched};
 use crate::explore::{ClauseId, Setup};
 use tautline_grids::layout::Size;
 
@@ -83,6 +86,12 @@ struct BrokenClause<const ROBOTS: usize> {
 type SearchAll<const ROBOTS: usize> =
     fn(Setting<ROBOTS>, &HuntRequest<'_>, &mut Count, &mut dyn Hunter) -> Findings<Demand>;
 
+/// A run on a lattice, by one of how it is searched.
+type Unfold<const ROBOTS: usize> = fn(Setting<ROBOTS>, &Run<Demand>) -> Option<Counterexample<ROBOTS>>;
+
+/// How a lattice is searched: all its states, and what each of the runs is that are found so.
+type How<const ROBOTS: usize> = (SearchAll<ROBOTS>, Unfold<ROBOTS>);
+
 fn as_it_is<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     asked: &HuntRequest<'_>,
@@ -119,9 +128,20 @@ impl Hunt for KernelHunt {
         let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
         let mut count = Count { is_complete: true, ..Count::default() };
         let found = match robots {
-            1 => searched::<1>(rule, &[Pass::ALL], as_it_is, size, asked, &mut count, hunter),
-            2 => searched(rule, &[Pass::ALL, Pass::EQUAL], in_one_image, size, asked, &mut count, hunter),
-            _ => searched::<3>(rule, &[Pass::ALL, Pass::WHOLE], as_it_is, size, asked, &mut count, hunter),
+            1 => {
+                let how: How<1> =
+                    (as_it_is, |setting, run| Some(Counterexample { setting, run: run.clone() }));
+                searched(rule, &[Pass::ALL], how, size, asked, &mut count, hunter)
+            }
+            2 => {
+                let how: How<2> = (in_one_image, Counterexample::of_image);
+                searched(rule, &[Pass::ALL, Pass::EQUAL], how, size, asked, &mut count, hunter)
+            }
+            _ => {
+                let how: How<3> =
+                    (as_it_is, |setting, run| Some(Counterexample { setting, run: run.clone() }));
+                searched(rule, &[Pass::ALL, Pass::WHOLE], how, size, asked, &mut count, hunter)
+            }
         }?;
         let Count { states, steps, cells, .. } = count;
         let max_walls = asked.max_walls;
@@ -165,7 +185,7 @@ fn bounds(asked: &HuntRequest<'_>) -> Result<(Size, u64), Diagnostic> {
 fn searched<const ROBOTS: usize>(
     rule: Kit,
     passes: &[Pass],
-    search_all: SearchAll<ROBOTS>,
+    (search_all, unfold): How<ROBOTS>,
     size: Size,
     asked: &HuntRequest<'_>,
     count: &mut Count,
@@ -187,13 +207,25 @@ fn searched<const ROBOTS: usize>(
                 continue;
             }
             let looked = search_all(setting, asked, count, hunter);
-            let mut demands: Vec<Demand> = looked.broken.iter().map(|run| run.demand).collect();
-            demands.retain(|&demand| !is_known(pass.clause(demand, ROBOTS)));
-            all.extend(demands.into_iter().filter_map(|demand| {
-                let clause = pass.clause(demand, ROBOTS);
-                Some(BrokenClause { clause, demand, found: fewest(setting, demand, Most::NONE)? })
-            }));
-            if !looked.is_whole {
+            let mut is_ended = !looked.is_whole;
+            for run in &looked.broken {
+                let (demand, clause) = (run.demand, pass.clause(run.demand, ROBOTS));
+                if all.iter().any(|broken| broken.clause == clause) {
+                    continue;
+                }
+                let look =
+                    |setting: &Setting<ROBOTS>| minimised(setting, setting.starts(), asked, count, hunter);
+                let found = match fewest(setting, demand, look) {
+                    ControlFlow::Continue(found) => found,
+                    ControlFlow::Break(()) => {
+                        count.not_minimised.push(clause.as_str());
+                        is_ended = true;
+                        unfold(setting, run)
+                    }
+                };
+                all.extend(found.map(|found| BrokenClause { clause, demand, found }));
+            }
+            if is_ended {
                 count.is_complete = false;
                 break 'lattices;
             }
