@@ -7,6 +7,8 @@ use clap::{Args, ValueEnum};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::svg::escaped;
 
+use super::ascii;
+
 /// The format of a command that decides something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(super) enum Format {
@@ -110,14 +112,14 @@ pub(super) fn junit(command: &str, findings: &[Case]) -> String {
     let skipped = count(|outcome| matches!(outcome, Outcome::Unfinished(_)));
     let failures = count(|outcome| matches!(outcome, Outcome::Broken(..)));
     let cases: String = findings.iter().map(case).collect();
-    format!(
+    ascii::xml(format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <testsuites name="tautline" tests="{tests}" skipped="{skipped}" failures="{failures}" errors="0">
     <testsuite name="tautline {command}" tests="{tests}" skipped="{skipped}" errors="0" failures="{failures}">
 {cases}    </testsuite>
 </testsuites>
 "#
-    )
+    ))
 }
 
 /// As a test case of a JUnit file.

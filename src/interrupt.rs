@@ -4,12 +4,8 @@
 
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
-use std::panic::resume_unwind;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, SendError, channel};
-use std::thread;
-use std::time::Duration;
 
 use tautline_io::atomic_file;
 use tautline_io::diagnostic::Halt;
@@ -55,6 +51,14 @@ pub(super) fn defer() {
     DEFERRED.store(true, Ordering::Relaxed);
 }
 
+/// As [`defer`], for work that other threads do while this one hears of it. The one thread of a pool does the work itself,
+/// and hears nothing meanwhile: a signal ends the process then.
+pub(super) fn defer_for_pool() {
+    if rayon::current_thread_index().is_none() {
+        defer();
+    }
+}
+
 /// Whether the user wants the work to stop.
 pub(super) fn is_requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)
@@ -66,39 +70,6 @@ pub(super) fn is_requested() -> bool {
 /// [`Halt::Interrupted`] if the user wants it to stop.
 pub(super) fn check() -> Result<(), Halt> {
     if is_requested() { Err(Halt::Interrupted) } else { Ok(()) }
-}
-
-/// The time between two looks for a signal.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
-
-/// The stack of a main thread, which the work that is taken off it may need.
-const STACK_BYTES: usize = 8 << 20;
-
-/// The result of work that hears no signal itself; none if one comes first. Its thread is left behind then, and ends
-/// with the process.
-pub(super) fn unless_requested<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option<T> {
-    // The one thread of a pool has to do the work of the pool; a signal ends the process then.
-    if rayon::current_thread_index().is_some() {
-        return Some(work());
-    }
-    let ((give, take), (tell, told)) = (channel(), channel());
-    let worker = thread::Builder::new().stack_size(STACK_BYTES).spawn(move || {
-        // It tells that it ends, however it does.
-        let _tell = tell;
-        take.recv().ok().map(|work: Box<dyn FnOnce() -> T + Send>| work())
-    });
-    let Ok(worker) = worker else { return Some(work()) };
-    defer();
-    if let Err(SendError(work)) = give.send(Box::new(work)) {
-        return Some(work());
-    }
-    while told.recv_timeout(BETWEEN_LOOKS) == Err::<(), _>(RecvTimeoutError::Timeout) {
-        if is_requested() {
-            return None;
-        }
-    }
-    let result = worker.join().unwrap_or_else(|bug| resume_unwind(bug));
-    result.filter(|_| !is_requested())
 }
 
 #[cfg(unix)]

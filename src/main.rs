@@ -2,6 +2,7 @@
 //! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
+mod ascii;
 mod check;
 mod conform;
 #[cfg(test)]
@@ -153,6 +154,9 @@ struct Cli {
     /// End with 0 where a violation was found, for engines that try again what fails.
     #[arg(long, global = true)]
     exit_zero: bool,
+    /// Print ASCII alone: drawings, text and JSON. Files are stored as ever.
+    #[arg(long, global = true)]
+    ascii: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -306,11 +310,12 @@ fn positive<T: FromStr>(text: &str) -> Result<T, String> {
 
 /// Runs the program with the arguments of this process.
 fn main() -> ExitCode {
+    ascii::look_for(std::env::args_os());
     panic::set_hook(Box::new(|bug| {
         let arguments: Vec<String> = std::env::args().map(|argument| format!("{argument:?}")).collect();
         // Nobody may be there any more to read it.
         let _ = writeln!(
-            io::stderr(),
+            ascii::Stderr,
             "This is a bug of tautline {}: {bug}\nPlease report it at {}/issues with this command: {}",
             env!("CARGO_PKG_VERSION"),
             env!("CARGO_PKG_REPOSITORY"),
@@ -329,7 +334,12 @@ fn main() -> ExitCode {
 
 /// Prints the help, the version, or what is wrong with the command line.
 fn told(error: &clap::Error) -> Exit {
-    let printed = error.print().and_then(|()| io::stdout().flush());
+    let printed = match (ascii::is_asked(), error.use_stderr()) {
+        (false, _) => error.print(),
+        (true, true) => write!(ascii::Stderr, "{}", error.render()),
+        (true, false) => io::stdout().write_all(ascii::plain(&error.render().to_string()).as_bytes()),
+    };
+    let printed = printed.and_then(|()| io::stdout().flush());
     match printed {
         _ if error.use_stderr() => Exit::Diagnostic,
         Err(fault) if fault.kind() != io::ErrorKind::BrokenPipe => {
@@ -404,7 +414,7 @@ fn command(cli: &Cli, name: &str) -> Exit {
 
 /// Tells on stderr what went wrong, if anybody is there to read it.
 fn complain(fault: &Diagnostic) {
-    let _ = write!(io::stderr(), "{}", render(fault, colour()));
+    let _ = ascii::Stderr.write_all(render(fault, colour()).as_bytes());
 }
 
 impl Command {
@@ -441,6 +451,9 @@ impl Command {
 }
 
 fn colour() -> Colour {
+    if ascii::is_asked() {
+        return Colour::Ascii;
+    }
     let is_refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     if io::stderr().is_terminal() && !is_refused { Colour::Ansi } else { Colour::Plain }
 }
@@ -453,7 +466,7 @@ fn start_log(verbose: u8) {
     };
     let log = tracing_subscriber::fmt()
         .with_max_level(level)
-        .with_writer(io::stderr)
+        .with_writer(|| ascii::Stderr)
         .with_ansi(colour() == Colour::Ansi)
         .without_time()
         .with_target(false);

@@ -9,7 +9,11 @@ use tautline_io::atomic_file::{AtomicFile, MAN_HEAD};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::output::{self, Output};
+<<<<<<< HEAD
 use super::{EXIT_CODES, Exit, ForceArgs, hunt, program};
+=======
+use super::{EXIT_CODES, Exit, ForceArgs, ascii, hunt, needless, program};
+>>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,7 +55,9 @@ impl Manual {
         for name in &self.command {
             command = command.find_subcommand(name).ok_or_else(|| unknown(command, name))?;
         }
-        out.bytes(&page(&Man::new(command.clone()))?)?;
+        let page = page(&Man::new(command.clone()))?;
+        // A page is made of text.
+        out.bytes(ascii::roff(String::from_utf8_lossy(&page).into_owned()).as_bytes())?;
         Ok(Exit::Expected)
     }
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use tautline_io::atomic_file::{self, AtomicFile, FinishedFile};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
-use super::{SCHEMA_VERSION, complain};
+use super::{SCHEMA_VERSION, ascii, complain};
 
 pub(super) struct Output {
     /// Unless its reader has gone away.
@@ -31,6 +31,9 @@ pub(super) struct VersionedJson<'a, T> {
 
 /// `path` as an argument of a command that a person pastes into a shell.
 pub(super) fn argument(path: &str) -> String {
+    if ascii::is_asked() && !path.is_ascii() {
+        return ascii::quoted(path);
+    }
     let is_plain = |sign: char| sign.is_alphanumeric() || "/._-+,:=@%".contains(sign);
     let path = if path.starts_with('-') { format!("./{path}") } else { path.to_owned() };
     if path.chars().all(is_plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
@@ -96,9 +99,14 @@ impl Output {
         self.stdout.is_none()
     }
 
-    /// Prints `text` as it is.
+    /// Prints `text`, in signs of ASCII if that is asked for.
     pub(super) fn text(&mut self, text: impl fmt::Display) -> Result<(), Diagnostic> {
-        write!(self, "{text}").map_err(|error| unwritable(&error))
+        let written = if ascii::is_asked() {
+            self.write_all(ascii::plain(&text.to_string()).as_bytes())
+        } else {
+            write!(self, "{text}")
+        };
+        written.map_err(|error| unwritable(&error))
     }
 
     /// Prints bytes as they are.
@@ -109,7 +117,12 @@ impl Output {
     /// Prints `content` as one JSON object on one line.
     pub(super) fn json(&mut self, content: &impl Serialize) -> Result<(), Diagnostic> {
         let versioned = VersionedJson { schema_version: SCHEMA_VERSION, content };
-        let written = serde_json::to_writer(&mut *self, &versioned).map_err(io::Error::from);
+        let written = if ascii::is_asked() {
+            let json = serde_json::to_string(&versioned).map_err(io::Error::from);
+            json.and_then(|json| self.write_all(ascii::json(json).as_bytes()))
+        } else {
+            serde_json::to_writer(&mut *self, &versioned).map_err(io::Error::from)
+        };
         written.and_then(|()| writeln!(self)).map_err(|error| unwritable(&error))
     }
 

@@ -6,7 +6,6 @@ mod screen;
 
 use std::io::{self, Write as _};
 use std::num::NonZeroU32;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
@@ -20,14 +19,20 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::clause::{Clause, Variant};
 use tautline_proofs::decide::{Answer, Depiction, Verdict};
 use tautline_proofs::engine::states::{self, MemoryLimit};
-use tautline_proofs::ledger::{self, Hear, Indecision, Limits, News, PATIENCE_S, Row, table};
+use tautline_proofs::ledger::{self, Indecision, Limits, PATIENCE_S, Row, table};
+use tautline_proofs::plural::counted;
 
 pub(super) use self::decided::DecidedRows;
 use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Format, FormatArgs};
 use super::hunt::{clear, keep, make_folder};
 use super::output::{Output, replay_line};
+<<<<<<< HEAD
 use super::{Exit, ForceArgs, interrupt, positive, progress, refuse_needless, spill};
+=======
+use super::progress::Shown;
+use super::{Exit, ForceArgs, interrupt, needless, positive, progress, spill};
+>>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
 
@@ -285,33 +290,10 @@ impl DecisionArgs {
         let memory = &*limits.memory;
         let bar = progress::bar("proving", 1);
         let start = Instant::now();
-        let is_single = checks.len() == 1;
-        let (seen, patience) = (bar.clone(), self.patience);
-        let hear: Hear = Arc::new(move |heard: News<'_>| match heard {
-            News::Search(progress) => {
-                if is_single {
-                    // A search that a signal ends would be an answer; all of them are ended together.
-                    let _ = progress::show(&seen, progress);
-                }
-                ControlFlow::Continue(())
-            }
-            News::Second if interrupt::is_requested() => ControlFlow::Break(()),
-            News::Second => ControlFlow::Continue(()),
-            News::Done { clause, jobs, of } => {
-                seen.set_length(of as u64);
-                seen.set_position(jobs as u64);
-                seen.set_message(format!("{jobs} of {of}, the last of {clause}"));
-                ControlFlow::Continue(())
-            }
-            News::Unended { clause } => {
-                tracing::warn!("a step of {clause} has not ended within {patience} s");
-                ControlFlow::Continue(())
-            }
-        });
-        // The one thread of a pool does the work itself, and hears nothing meanwhile.
-        if rayon::current_thread_index().is_none() {
-            interrupt::defer();
-        }
+        let shown = if checks.len() == 1 { Shown::Search } else { Shown::Checks };
+        let hear = progress::hears(&bar, shown, self.patience.get());
+        interrupt::defer_for_pool();
+        tracing::debug!("proving: {}", counted(checks.len(), "check"));
         let mut rows = ledger::decide(&checks, &limits, &hear).map_err(|refused| {
             Diagnostic::usage(refused, "this is a bug in the registry: please report it")
         })?;

@@ -1,19 +1,21 @@
 //! A fault as a person sees it: one line, or the spot drawn.
 
-use ariadne::{Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
+use ariadne::{CharSet, Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
 use tautline_io::diagnostic::{Diagnostic, Excerpt, Place};
 use tautline_sim::options::Extra;
 
 /// Beyond this line the spot is not drawn: the drawing counts lines from the first.
 const MAX_DRAWN_LINE: usize = 1 << 20;
 
-/// Whether a report may use terminal colours.
+/// Whether a report may use terminal colours, and signs that are not ASCII.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Colour {
     /// ANSI escapes.
     Ansi,
     /// Plain characters.
     Plain,
+    /// Plain characters, of which the drawing of a spot is in ASCII.
+    Ascii,
 }
 
 /// The fields of a request that have a flag of the same name, besides those that are told by an [`Extra`].
@@ -75,9 +77,21 @@ pub(crate) fn render(fault: &Diagnostic, colour: Colour) -> String {
 fn headline(fault: &Diagnostic, colour: Colour) -> String {
     let (error, help) = match colour {
         Colour::Ansi => ("Error:".fg(Color::Red).to_string(), "Help:".fg(Color::Fixed(115)).to_string()),
-        Colour::Plain => ("Error:".to_owned(), "Help:".to_owned()),
+        Colour::Plain | Colour::Ascii => ("Error:".to_owned(), "Help:".to_owned()),
     };
     format!("{error} {}{}\n {help} {}\n", fault.place(), what(fault), with_flags(fault.remedy()))
+}
+
+/// The excerpt with one sign of ASCII for each, so that what points at it does so still.
+fn narrow(excerpt: &Excerpt) -> Excerpt {
+    let signs = |end: usize| excerpt.text[..end].chars().count();
+    let mark = signs(excerpt.mark.start)..signs(excerpt.mark.end);
+    let ascii = |sign: char| match sign {
+        _ if sign.is_ascii() => sign,
+        '…' => '~',
+        _ => '?',
+    };
+    Excerpt { text: excerpt.text.chars().map(ascii).collect(), mark }
 }
 
 /// Empty lines stand for those before the excerpt, so that the margin numbers are those of the file. The heading counts
@@ -90,11 +104,15 @@ fn draw(
     colour: Colour,
 ) -> Option<String> {
     let skipped = line - 1;
-    let mark = skipped + excerpt.mark.start..skipped + excerpt.mark.end;
     let config = Config::new().with_index_type(IndexType::Byte);
+    let (excerpt, config) = match colour {
+        Colour::Ascii => (&narrow(excerpt), config.with_char_set(CharSet::Ascii)),
+        Colour::Ansi | Colour::Plain => (excerpt, config),
+    };
+    let mark = skipped + excerpt.mark.start..skipped + excerpt.mark.end;
     let (config, label) = match colour {
         Colour::Ansi => (config, Label::new((file, mark.clone())).with_color(Color::Red)),
-        Colour::Plain => (config.with_color(false), Label::new((file, mark.clone()))),
+        Colour::Plain | Colour::Ascii => (config.with_color(false), Label::new((file, mark.clone()))),
     };
     let mut drawing = Vec::new();
     Report::build(ReportKind::Error, (file, mark))

@@ -21,7 +21,7 @@ use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, interrupt, progress, shards, whole};
+use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, ascii, interrupt, progress, shards, whole};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -208,7 +208,7 @@ pub(super) fn tell(made: &dyn Report, files: Files, format: Format, out: &mut Ou
     }
     out.store(files.csv, |file| file.draw(Ok(made.csv(SCHEMA_VERSION)?)))?;
     match format {
-        Format::Json => out.text(made.json(SCHEMA_VERSION)? + "\n")?,
+        Format::Json => out.text(ascii::json(made.json(SCHEMA_VERSION)?) + "\n")?,
         Format::Text => out.text(made.text()?)?,
     }
     Ok(if made.is_broken() { Exit::Violation } else { Exit::Expected })
@@ -341,6 +341,7 @@ impl Observer for Show {
 
     fn done(&self, parts: u64) -> Result<(), Halt> {
         let before = self.done.fetch_add(parts, Ordering::Relaxed);
+        progress::tell_of_part(self.doing, before + parts, self.parts.load(Ordering::Relaxed));
         // A search may have had the bar to itself.
         if self.bar.prefix() == self.doing {
             self.bar.inc(parts);

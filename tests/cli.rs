@@ -13,6 +13,8 @@ use crate::folder::{folder, read, write};
 
 #[path = "cli/areas.rs"]
 mod areas;
+#[path = "cli/ascii.rs"]
+mod ascii;
 #[path = "cli/certificates.rs"]
 mod certificates;
 #[path = "cli/faults.rs"]

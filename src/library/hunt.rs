@@ -1,21 +1,21 @@
 //! Random runs of the rules, for bounds with more states than a search can keep.
 
 use std::path::Path;
-use std::time::Instant;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::atomic_file::Replaceable;
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_proofs::clause::{Clause, Decision};
-use tautline_proofs::decide::{Answer, RandomRuns, Verdict};
-use tautline_proofs::ledger::{self, Row, indented};
+use tautline_proofs::clause::Clause;
+use tautline_proofs::decide::{RandomRuns, Verdict};
+use tautline_proofs::ledger::{self, Indecision, Limits, Row, indented};
 use tautline_proofs::plural::counted;
 
 use crate::evidence::{EvidenceJson, shown};
 use crate::findings::{self, Case, Format, Outcome};
 use crate::hunt::{clear, make_folder};
 use crate::output::{Output, replay_line};
+use crate::progress::Shown;
 use crate::prove::{stored, story};
 use crate::{Exit, interrupt, progress};
 
@@ -60,25 +60,15 @@ pub(super) fn hunt(
     out: &mut Output,
 ) -> Result<Exit, Halt> {
     let new = folder.map(make_folder).transpose()?.unwrap_or_default();
-    let spinner = progress::spinner("hunting");
-    let (checks, mut rows) = (ledger::checks(clauses), Vec::new());
-    for &(clause, number) in &checks {
-        let (check, start, runs) = (clause.checks[number], Instant::now(), *runs);
-        spinner.set_message(format!("{} as {}", clause.id, check.rule()));
-        let Some(answer) = interrupt::unless_requested(move || check.hunt(&runs)) else { break };
-        let answer = answer
-            .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
-        let decision = Decision::of(answer.unwrap_or_else(Answer::open));
-        rows.push(Row {
-            clause,
-            number,
-            check,
-            decision,
-            undecided: None,
-            seconds: start.elapsed().as_secs_f64(),
-        });
-    }
-    spinner.finish_and_clear();
+    let (checks, limits) = (ledger::checks(clauses), Limits::default());
+    let bar = progress::bar("hunting", 1);
+    let hear = progress::hears(&bar, Shown::Checks, limits.patience_s);
+    interrupt::defer_for_pool();
+    tracing::debug!("hunting: {}", counted(checks.len(), "check"));
+    let mut rows = ledger::hunt(&checks, runs, &limits, &hear)
+        .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
+    rows.retain(|row| row.undecided != Some(Indecision::Ended));
+    bar.finish_and_clear();
     let file = |row: &Row| folder.map_or(Ok(None), |folder| stored(row, folder, replaceable, &mut *out));
     let files = rows.iter().map(file).collect::<Result<Vec<_>, _>>()?;
     let left = (rows.len() < checks.len()).then(|| {
@@ -130,7 +120,9 @@ fn outcome(row: &Row, runs: &RandomRuns) -> String {
     let (cases, most) = (row.decision.cases, counted(runs.most_moves as usize, "move"));
     match row.decision.verdict {
         Verdict::Refuted => format!("refuted by run {cases} of {}", runs.runs),
-        Verdict::Open => "open, since there is no start".to_owned(),
+        Verdict::Open => {
+            row.undecided.map_or("open, since there is no start".to_owned(), |why| format!("open: {why}"))
+        }
         Verdict::Holds | Verdict::Unrefuted => format!("not refuted by {cases} runs of at most {most}"),
     }
 }

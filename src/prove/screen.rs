@@ -102,7 +102,8 @@ pub(super) fn slowest(rows: &[Row]) -> String {
     }
     let mut slowest: Vec<_> = by_check.into_iter().collect();
     slowest.sort_by_key(|&(_, seconds)| Reverse((seconds * 1000.0) as u64));
-    let mut text = String::from("Slowest, over all threads:");
+    let mut text =
+        String::from("Slowest, over all threads, a search that checks share counted for the first of them:");
     for ((id, rule), seconds) in slowest.into_iter().take(SLOWEST) {
         // Writing to a string cannot fail.
         let _ = write!(text, " {id} {rule} {seconds:.0} s,");

@@ -16,7 +16,7 @@ use rayon::Yield;
 
 use super::{Row, checks};
 use crate::clause::{Clause, Decision, Variant};
-use crate::decide::{Answer, Cache, Context, MethodError, MethodResult};
+use crate::decide::{Answer, Cache, Context, MethodError, MethodResult, RandomRuns};
 use crate::engine::Until;
 use crate::engine::states::MemoryLimit;
 use crate::engine::tree::Progress;
@@ -110,6 +110,22 @@ pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, MethodError> 
     decide(&checks(clauses), &Limits::default(), &(Arc::new(|_: News<'_>| ControlFlow::Continue(())) as Hear))
 }
 
+/// Makes random runs for each of `checks` in place of deciding it, on all cores, as [`decide`] does: a step that does
+/// not end, and a signal, are heard alike. Of variants none are made. A check without random runs is open.
+///
+/// # Errors
+/// [`MethodError`] if a method cannot begin.
+pub fn hunt(
+    checks: &[(&'static Clause, usize)],
+    runs: &RandomRuns,
+    limits: &Limits,
+    hear: &Hear,
+) -> Result<Vec<Row>, MethodError> {
+    let question = |place| Question { place, variant: None };
+    let job = |place| Job { questions: vec![question(place)], how: How::Drawn(*runs) };
+    done((0..checks.len()).map(job).collect(), checks, limits, hear)
+}
+
 /// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one
 /// thread, which forgets it after the last of them. Where a step does not end, its check is left open; others are
 /// decided as long as a thread is left for them, and open if none is. A thread that makes such a step is left behind:
@@ -122,7 +138,17 @@ pub fn decide(
     limits: &Limits,
     hear: &Hear,
 ) -> Result<Vec<Row>, MethodError> {
-    let (jobs, (tell, told)) = (Arc::new(jobs(checks)), channel());
+    done(jobs(checks), checks, limits, hear)
+}
+
+/// The rows that `jobs` make of `checks`.
+fn done(
+    jobs: Vec<Job>,
+    checks: &[(&'static Clause, usize)],
+    limits: &Limits,
+    hear: &Hear,
+) -> Result<Vec<Row>, MethodError> {
+    let (jobs, (tell, told)) = (Arc::new(jobs), channel());
     let tasks: Vec<Task> = Task::several(jobs.len()).collect();
     let shared = Arc::new(SharedState {
         checks: checks.to_vec(),
@@ -162,6 +188,15 @@ enum ThreadNews {
     Bug(Box<dyn Any + Send>),
     /// A job has ended.
     End,
+}
+
+impl ThreadNews {
+    fn answer(self) -> Option<Completion> {
+        match self {
+            Self::Done(answer) => Some(*answer),
+            Self::Refused(_) | Self::Bug(_) | Self::End => None,
+        }
+    }
 }
 
 impl SharedState {
@@ -236,6 +271,8 @@ impl Collector<'_> {
                 continue;
             }
             if (self.shared.hear)(News::Second).is_break() {
+                // Whatever was answered before is told.
+                done.extend(told.try_iter().filter_map(ThreadNews::answer));
                 return Ok(Collection { done, unended, rest: Indecision::Ended });
             }
             watchdog.look();
@@ -327,7 +364,16 @@ fn next(told: &Receiver<ThreadNews>, until: Instant) -> Option<ThreadNews> {
 /// Work that can be done beside other work: questions that share what is found, one after the other.
 struct Job {
     questions: Vec<Question>,
-    until: Until,
+    how: How,
+}
+
+/// How a question is answered.
+#[derive(Clone, Copy)]
+enum How {
+    /// By a search, or whatever else its method is.
+    Decided(Until),
+    /// By random runs.
+    Drawn(RandomRuns),
 }
 
 /// A question to decide: a check, by its place, or one of its variants, by its number.
@@ -387,7 +433,7 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
             let (family, question) = (of(place).family(variant), Question { place, variant });
             match joined(&mut families, family.as_deref()) {
                 Some(questions) => questions.push(question),
-                None => others.push(Job { questions: vec![question], until: Until::Violation }),
+                None => others.push(Job { questions: vec![question], how: How::Decided(Until::Violation) }),
             }
         }
     }
@@ -395,7 +441,7 @@ fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     for (_, questions) in families {
         let checks = questions.iter().filter(|question| question.variant.is_none());
         let places: Vec<usize> = checks.map(|question| question.place).collect();
-        jobs.push(Job { questions, until: Until::Exhausted });
+        jobs.push(Job { questions, how: How::Decided(Until::Exhausted) });
         jobs.extend(others.extract_if(.., |variant: &mut Job| places.contains(&variant.place())));
     }
     jobs
@@ -424,6 +470,9 @@ impl Job {
         context: &mut Context<'_, '_>,
     ) -> MethodResult {
         let (clause, number) = checks[question.place];
-        clause.checks[number].decide_rule(question.variant, self.until, context)
+        match self.how {
+            How::Decided(until) => clause.checks[number].decide_rule(question.variant, until, context),
+            How::Drawn(runs) => Ok(clause.checks[number].hunt(&runs)?.unwrap_or_else(Answer::open)),
+        }
     }
 }

@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 use tautline_kernel::choice::Oracle;
 
 use super::{Bits, Ending, Run, Step, System, steps};
+use crate::engine::watchdog::Steps;
 
 /// One run of `system` of at most so many steps from a start, in which `world` picks each step: up to where it breaks a
 /// demand, if it does.
@@ -18,7 +19,9 @@ pub fn walk<S: System>(
 ) -> Option<Run<S::Demand>> {
     let (mut made, mut round) = (Vec::new(), Round::default());
     let endless = system.broken_by_endless_runs();
+    let moves = Steps::begin();
     loop {
+        moves.next();
         let run = |made: &[u32], demand, ending| Run { demand, start, steps: made.to_vec(), ending };
         let mut all: Vec<Step<S>> = steps(system, &state).collect();
         if !all.iter().any(|step| step.is_bound)
