@@ -1,6 +1,6 @@
-//! ASCII alone, for terminals, logs and programs that show nothing else: what is printed with `--ascii`. Text is put into
-//! words of ASCII, and keeps its columns; JSON, JUnit and manual pages write a sign by its number, which is the same sign
-//! for whoever reads them. Files are not touched.
+//! ASCII alone, for terminals, logs and programs that show nothing else: what is printed with `--ascii`. Text is put
+//! into words of ASCII, and keeps its columns; JSON, JUnit and manual pages write a sign by its number, which is the
+//! same sign for whoever reads them. Files are not touched.
 
 use std::borrow::Cow;
 use std::ffi::OsString;

@@ -51,8 +51,8 @@ pub(super) fn defer() {
     DEFERRED.store(true, Ordering::Relaxed);
 }
 
-/// As [`defer`], for work that other threads do while this one hears of it. The one thread of a pool does the work itself,
-/// and hears nothing meanwhile: a signal ends the process then.
+/// As [`defer`], for work that other threads do while this one hears of it. The one thread of a pool does the work
+/// itself, and hears nothing meanwhile: a signal ends the process then.
 pub(super) fn defer_for_pool() {
     if rayon::current_thread_index().is_none() {
         defer();

@@ -1,4 +1,5 @@
-//! With `--ascii` nothing but ASCII is printed, on stdout and on stderr; drawings keep their columns, and JSON its values.
+//! With `--ascii` nothing but ASCII is printed, on stdout and on stderr; drawings keep their columns, and JSON its
+//! values.
 
 use std::fs;
 

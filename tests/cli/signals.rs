@@ -43,8 +43,8 @@ fn value(output: &Output) -> Value {
 /// A clause that is decided at once.
 const QUICK: &str = "NOTICE-4";
 
-/// Clauses that take long: in a test build, half a minute and more. They have fewer checks than there are threads, so that
-/// the quick one waits for none of them.
+/// Clauses that take long: in a test build, half a minute and more. They have fewer checks than there are threads, so
+/// that the quick one waits for none of them.
 const LONG: [&str; 3] = ["MRC-1", "ANTS-1", "BRICKS-11"];
 
 #[test]
