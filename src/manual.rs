@@ -9,11 +9,7 @@ use tautline_io::atomic_file::{AtomicFile, MAN_HEAD};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::output::{self, Output};
-<<<<<<< HEAD
-use super::{EXIT_CODES, Exit, ForceArgs, hunt, program};
-=======
-use super::{EXIT_CODES, Exit, ForceArgs, ascii, hunt, needless, program};
->>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
+use super::{EXIT_CODES, Exit, ForceArgs, ascii, hunt, program};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -27,12 +27,8 @@ use super::evidence::{self, EvidenceJson, shown};
 use super::findings::{self, Format, FormatArgs};
 use super::hunt::{clear, keep, make_folder};
 use super::output::{Output, replay_line};
-<<<<<<< HEAD
-use super::{Exit, ForceArgs, interrupt, positive, progress, refuse_needless, spill};
-=======
 use super::progress::Shown;
-use super::{Exit, ForceArgs, interrupt, needless, positive, progress, spill};
->>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
+use super::{Exit, ForceArgs, interrupt, positive, progress, refuse_needless, spill};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
 

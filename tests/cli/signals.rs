@@ -49,22 +49,16 @@ const LONG: [&str; 3] = ["MRC-1", "ANTS-1", "BRICKS-11"];
 
 #[test]
 fn checks_that_are_decided_are_told_and_the_others_counted() {
-<<<<<<< HEAD
     let folder = &folder();
-    says(&told(&ended(folder, &CLAUSES, 4)), &["NOTICE-4  published", "A signal ended the work: "]);
-    let json = value(&ended(folder, &[&CLAUSES[..], &["--format", "json"]].concat(), 4));
-=======
-    let folder = folder();
     // All of its checks, and of its mutants.
     let words = format!("the last of {QUICK}");
-    let alone = ran(folder.path(), &[LOG, &["prove", QUICK]].concat());
+    let alone = ran(folder, &[LOG, &["prove", QUICK]].concat());
     let jobs = String::from_utf8_lossy(&alone.stderr).lines().filter(|line| line.contains(&words)).count();
     assert!(jobs > 0, "{alone:?}");
     let clauses = [&["prove", QUICK][..], &LONG].concat();
-    let text = told(&ended(folder.path(), &clauses, (&words, jobs)));
-    assert!(text.contains("NOTICE-4  published") && text.contains("A signal ended the work: "), "{text}");
-    let json = value(&ended(folder.path(), &[&clauses[..], &["--format", "json"]].concat(), (&words, jobs)));
->>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
+    let text = told(&ended(folder, &clauses, (&words, jobs)));
+    says(&text, &["NOTICE-4  published", "A signal ended the work: "]);
+    let json = value(&ended(folder, &[&clauses[..], &["--format", "json"]].concat(), (&words, jobs)));
     let clauses = json["clauses"].as_array().expect("a list");
     assert!(clauses.iter().filter(|row| row["id"] == QUICK).count() == 2, "{json}");
     assert_eq!((&json["complete"], &json["as_registered"]), (&false.into(), &false.into()));
@@ -73,24 +67,14 @@ fn checks_that_are_decided_are_told_and_the_others_counted() {
 
 #[test]
 fn no_folder_stays_that_was_made_for_nothing() {
-<<<<<<< HEAD
     let folder = &folder();
-    ended(folder, &["prove", "MRC-1", "--out", "found/deep", "--certificate", "proofs"], 2);
-    // A counterexample may be found by then.
-    match names(folder)[..] {
-        [] => {}
-        [ref found] => assert!(found == "found" && !names(&folder.join("found/deep")).is_empty()),
-        ref others => panic!("{others:?}"),
-=======
-    let folder = folder();
     let files = ["--out", "found/deep", "--certificate", "proofs"];
-    ended(folder.path(), &[&["prove"][..], &LONG, &files].concat(), ("proving: ", 1));
+    ended(folder, &[&["prove"][..], &LONG, &files].concat(), ("proving: ", 1));
     // A counterexample may be found by then, or a check hold.
-    for found in names(folder.path()) {
+    for found in names(folder) {
         assert!(["found", "proofs"].contains(&found.as_str()), "{found}");
         let files = if found == "found" { "found/deep" } else { "proofs" };
-        assert!(!names(&folder.path().join(files)).is_empty(), "{files}");
->>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
+        assert!(!names(&folder.join(files)).is_empty(), "{files}");
     }
 }
 
@@ -98,26 +82,15 @@ fn no_folder_stays_that_was_made_for_nothing() {
 fn random_runs_of_the_library_end_with_the_checks_that_they_were_made_for() {
     let folder = &folder();
     let runs = ["library", "pibt", "--larger", "--runs", "9999999999", "--format", "json"];
-<<<<<<< HEAD
-    assert_eq!(value(&ended(folder, &runs, 2))["complete"], false);
-}
-
-/// Whether a campaign that was ended prints what one of as many runs prints, which `smaller` makes of its output.
-fn comes_out_as(arguments: &[&str], seconds: u64, smaller: impl Fn(&Value) -> [String; 2]) {
-    let folder = &folder();
-    let json = ["--format", "json"];
-    let mut part = value(&ended(folder, &[arguments, &json].concat(), seconds));
-=======
-    assert_eq!(value(&ended(folder.path(), &runs, ("hunting: ", 1)))["complete"], false);
+    assert_eq!(value(&ended(folder, &runs, ("hunting: ", 1)))["complete"], false);
 }
 
 /// Whether a campaign that was ended when its log says that so many parts are `begun`, and with them the first,
 /// prints what one of as many runs prints, which `smaller` makes of its output.
 fn comes_out_as(arguments: &[&str], begun: &str, smaller: impl Fn(&Value) -> [String; 2]) {
-    let folder = folder();
+    let folder = &folder();
     let json = ["--format", "json"];
-    let mut part = value(&ended(folder.path(), &[arguments, &json].concat(), (begun, 1)));
->>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
+    let mut part = value(&ended(folder, &[arguments, &json].concat(), (begun, 1)));
     assert_eq!(part["complete"], false);
     let smaller = smaller(&part);
     let smaller =
@@ -147,14 +120,9 @@ const BEGUN_TABLE: (&str, usize) = (": 1 of ", 1);
 fn of_a_part_of_a_table_no_figure_is_claimed() {
     let folder = &folder();
     let table = ["reproduce", "notice-fig5", "--runs", "100000", "--csv", "values.csv"];
-<<<<<<< HEAD
-    says(&told(&ended(folder, &table, 2)), &["of a part no figure is claimed"]);
-    let json = value(&ended(folder, &[&table[..], &["--format", "json"]].concat(), 2));
-=======
-    let text = told(&ended(folder.path(), &table, BEGUN_TABLE));
+    let text = told(&ended(folder, &table, BEGUN_TABLE));
     assert!(text.contains("of a part no figure is claimed"), "{text}");
-    let json = value(&ended(folder.path(), &[&table[..], &["--format", "json"]].concat(), BEGUN_TABLE));
->>>>>>> 0295b8b8 (With --ascii nothing but ASCII is printed, one way hears a signal in prove and library, and its tests wait for no clock)
+    let json = value(&ended(folder, &[&table[..], &["--format", "json"]].concat(), BEGUN_TABLE));
     assert_eq!((&json["id"], &json["complete"]), (&"notice-fig5".into(), &false.into()));
     assert!(json["parts_done"].as_u64() < json["parts"].as_u64(), "{json}");
     assert_eq!(names(folder), [""; 0]);

@@ -150,7 +150,7 @@ enum How {
     /// A little at a time.
     Begun(Box<dyn OngoingHunt>),
     /// With a budget for the next slice, and what the last one has found.
-    Again(u64, Option<HuntReport>),
+    Again(u64, Option<Box<HuntReport>>),
 }
 
 /// Hears nothing but how far it is.
@@ -264,7 +264,7 @@ impl RowHunt {
                     self.hunt.hunt(&HuntRequest { budget: Some(*budget), ..asked }, &mut Listener(far))?;
                 let more = !report.is_complete;
                 let made = *budget;
-                (*budget, *last) = (budget.saturating_mul(4), Some(report));
+                (*budget, *last) = (budget.saturating_mul(4), Some(Box::new(report)));
                 let words = (more && made >= MANY).then(|| too_many(made));
                 Ok(json!({
                     "more": more, "moves": made, "far": self.far, "large": words.is_some(), "words": words,
@@ -277,7 +277,7 @@ impl RowHunt {
     fn found(&self) -> Result<Value, Diagnostic> {
         let report = match &self.how {
             How::Begun(begun) => begun.report(&self.asked()?)?,
-            How::Again(_, Some(report)) => report.clone(),
+            How::Again(_, Some(report)) => (**report).clone(),
             How::Again(_, None) => return Ok(json!({ "found": [] })),
         };
         let HuntReport { title, outcome, is_complete, found, facts, .. } = &report;
