@@ -7,11 +7,7 @@ use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Edge, SmallGrid};
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::areas::{Areas, Findings, search};
-use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
-
-const CONTACT: Invariant = Invariant::Without(Breach::Contact);
-const CROWDING: Invariant = Invariant::Without(Breach::Crowding);
 
 /// Cells, walls and team moves.
 type Size = (usize, usize, usize);
@@ -89,8 +85,8 @@ fn the_smallest_areas_are_those_that_plain_runs_find() {
     assert_eq!(all[..8], [[None; 2]; 8]);
     assert_eq!(all[8], [Some((9, 4, 8)), None]);
     assert_eq!(plainly(10, 2)[1], Some((10, 2, 7)));
-    assert_eq!(smallest(&found, CONTACT), Some(([3, 3], (9, 4, 8))));
-    assert_eq!(smallest(&found, CROWDING), Some(([5, 2], (10, 2, 7))));
+    assert_eq!(smallest(&found, Invariant::CONTACT), Some(([3, 3], (9, 4, 8))));
+    assert_eq!(smallest(&found, Invariant::CROWDING), Some(([5, 2], (10, 2, 7))));
     assert_eq!((found.cells, found.is_complete), (Some(10), true));
 }
 
@@ -107,7 +103,7 @@ fn what_remains_is_broken_in_few_cells_too() {
 
 #[test]
 fn a_clause_is_looked_for_in_runs_that_break_another_one_too() {
-    let missed = Invariant::Without(Breach::Completeness);
+    let missed = Invariant::COMPLETENESS;
     let all = Areas { invariants: vec![missed, Invariant::Exhausts], ..areas(Subject::PUBLISHED, 3, 9, 12) };
     let found = found(&all);
     // One run breaks both.

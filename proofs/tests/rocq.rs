@@ -2,43 +2,24 @@
 //! and Rocq compares it with the definitions that the theorems speak of. Here the committed files are compared byte by
 //! byte with fresh ones. So neither the kernel nor the definitions can move alone.
 
-#[path = "rocq/ants.rs"]
 mod ants;
-#[path = "rocq/chain.rs"]
 mod chain;
-#[path = "rocq/epochs.rs"]
 mod epochs;
-#[path = "rocq/fixes.rs"]
 mod fixes;
-#[path = "rocq/frontier.rs"]
 mod frontier;
-#[path = "rocq/ground.rs"]
 mod ground;
-#[path = "rocq/joint.rs"]
 mod joint;
-#[path = "rocq/kit.rs"]
 mod kit;
-#[path = "rocq/machines.rs"]
 mod machines;
-#[path = "rocq/mrc.rs"]
 mod mrc;
-#[path = "rocq/notice.rs"]
 mod notice;
-#[path = "rocq/pack.rs"]
 mod pack;
-#[path = "rocq/plans.rs"]
 mod plans;
-#[path = "rocq/reel.rs"]
 mod reel;
-#[path = "rocq/runs.rs"]
 mod runs;
-#[path = "rocq/tan.rs"]
 mod tan;
-#[path = "rocq/term.rs"]
 mod term;
-#[path = "rocq/trees.rs"]
 mod trees;
-#[path = "rocq/turns.rs"]
 mod turns;
 
 use std::env;
@@ -71,94 +52,35 @@ fn is_up_to_date(name: &str, terms: &str) {
     );
 }
 
-#[test]
-fn the_chain_answers_as_the_proofs_have_it() {
-    is_up_to_date("ChainAnswers.v", &chain::terms());
+/// A test for each committed file: its name, and where its terms are written.
+macro_rules! ties {
+    ($($test:ident: $file:literal, $terms:path;)+) => {$(
+        #[test]
+        fn $test() {
+            is_up_to_date($file, &$terms());
+        }
+    )+};
 }
 
-#[test]
-fn chains_run_as_the_proofs_have_it() {
-    is_up_to_date("Runs.v", &runs::terms());
-}
-
-#[test]
-fn plans_are_accepted_as_the_proofs_have_it() {
-    is_up_to_date("PlanAnswers.v", &plans::terms());
-}
-
-#[test]
-fn reels_run_as_the_proofs_have_it() {
-    is_up_to_date("ReelRuns.v", &reel::terms());
-}
-
-#[test]
-fn epochs_end_as_the_proofs_have_it() {
-    is_up_to_date("EpochRuns.v", &epochs::terms());
-}
-
-#[test]
-fn nodes_answer_as_the_proofs_have_it() {
-    is_up_to_date("NoticeAnswers.v", &notice::terms());
-}
-
-#[test]
-fn robots_and_wfrs_answer_as_the_proofs_have_it() {
-    is_up_to_date("MrcAnswers.v", &mrc::terms());
-}
-
-#[test]
-fn machines_of_a_rescue_answer_as_the_proofs_have_it() {
-    is_up_to_date("MachineAnswers.v", &machines::terms());
-}
-
-#[test]
-fn robots_on_their_way_answer_as_the_proofs_have_it() {
-    is_up_to_date("HomingAnswers.v", &tan::terms());
-}
-
-#[test]
-fn robots_walk_as_the_proofs_have_it() {
-    is_up_to_date("PatienceRuns.v", &tan::walks());
-}
-
-#[test]
-fn robots_keep_in_touch_as_the_proofs_have_it() {
-    is_up_to_date("KitAnswers.v", &kit::terms());
-}
-
-#[test]
-fn robots_drive_paths_again_as_the_proofs_have_it() {
-    is_up_to_date("JointRuns.v", &joint::terms());
-}
-
-#[test]
-fn robots_explore_cells_as_the_proofs_have_it() {
-    is_up_to_date("FrontierRuns.v", &frontier::terms());
-}
-
-#[test]
-fn a_repaired_run_without_an_end_is_as_the_proofs_have_it() {
-    is_up_to_date("FrontierEndless.v", &frontier::without_end());
-}
-
-#[test]
-fn fixes_are_taken_as_the_proofs_have_it() {
-    is_up_to_date("FixAnswers.v", &fixes::terms());
-}
-
-#[test]
-fn ants_go_as_the_proofs_have_it() {
-    is_up_to_date("AntsAnswers.v", &ants::terms());
-}
-
-#[test]
-fn packs_stay_connected_as_the_proofs_have_it() {
-    is_up_to_date("PackAnswers.v", &pack::terms());
-}
-
-#[test]
-fn agents_search_in_trees_as_the_proofs_have_it() {
-    is_up_to_date("TreesAnswers.v", &trees::terms());
+ties! {
+    the_chain_answers_as_the_proofs_have_it: "ChainAnswers.v", chain::terms;
+    chains_run_as_the_proofs_have_it: "Runs.v", runs::terms;
+    plans_are_accepted_as_the_proofs_have_it: "PlanAnswers.v", plans::terms;
+    reels_run_as_the_proofs_have_it: "ReelRuns.v", reel::terms;
+    epochs_end_as_the_proofs_have_it: "EpochRuns.v", epochs::terms;
+    nodes_answer_as_the_proofs_have_it: "NoticeAnswers.v", notice::terms;
+    robots_and_wfrs_answer_as_the_proofs_have_it: "MrcAnswers.v", mrc::terms;
+    machines_of_a_rescue_answer_as_the_proofs_have_it: "MachineAnswers.v", machines::terms;
+    robots_on_their_way_answer_as_the_proofs_have_it: "HomingAnswers.v", tan::terms;
+    robots_walk_as_the_proofs_have_it: "PatienceRuns.v", tan::walks;
+    robots_keep_in_touch_as_the_proofs_have_it: "KitAnswers.v", kit::terms;
+    robots_drive_paths_again_as_the_proofs_have_it: "JointRuns.v", joint::terms;
+    robots_explore_cells_as_the_proofs_have_it: "FrontierRuns.v", frontier::terms;
+    a_repaired_run_without_an_end_is_as_the_proofs_have_it: "FrontierEndless.v", frontier::without_end;
+    fixes_are_taken_as_the_proofs_have_it: "FixAnswers.v", fixes::terms;
+    ants_go_as_the_proofs_have_it: "AntsAnswers.v", ants::terms;
+    packs_stay_connected_as_the_proofs_have_it: "PackAnswers.v", pack::terms;
+    agents_search_in_trees_as_the_proofs_have_it: "TreesAnswers.v", trees::terms;
 }
 
 #[test]

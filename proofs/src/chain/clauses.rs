@@ -7,7 +7,6 @@ use tautline_kernel::chain::Condition::{
 use tautline_kernel::chain::{Budget, Condition, Habit, Rule};
 use tautline_kernel::ground::Circle;
 
-use super::breach::Breach;
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact, Coverage, Crowd, OfThree};
@@ -29,6 +28,9 @@ pub(super) const REEL: NamedRule<Subject> = NamedRule::new("reel", Subject::REEL
 pub(super) const UNHELD: NamedRule<Subject> = NamedRule::new("unheld", Subject::UNHELD);
 const SPARING: NamedRule<Subject> = NamedRule::new("sparing", Subject::SPARING);
 
+/// The published rule as a mutant of another one.
+const AS_PUBLISHED: NamedRule<Subject> = NamedRule::new("as published", Subject::PUBLISHED);
+
 /// `subject` without one condition, under its name.
 pub(super) const fn lacking(subject: Subject, condition: Condition) -> NamedRule<Subject> {
     let name = match condition {
@@ -44,6 +46,26 @@ pub(super) const fn lacking(subject: Subject, condition: Condition) -> NamedRule
         Hold => "without hold",
     };
     NamedRule::new(name, subject.without(condition))
+}
+
+/// The contact of any number of robots that follow this rule; with faults, whichever of them go.
+pub(super) const fn in_contact<const FAULTS: bool>(named: NamedRule<Subject>) -> NamedRule<Contact<FAULTS>> {
+    NamedRule::new(named.name, Contact(named.rule.rule))
+}
+
+/// Any number of robots that follow this rule, at most two in a cell.
+const fn uncrowded(named: NamedRule<Subject>) -> NamedRule<Crowd<2>> {
+    NamedRule::new(named.name, Crowd::of(named.rule.rule))
+}
+
+/// The distance of any number of robots that follow this rule.
+const fn covered(named: NamedRule<Subject>) -> NamedRule<Coverage> {
+    NamedRule::new(named.name, Coverage(named.rule.rule))
+}
+
+/// Three robots that follow this rule.
+const fn of_three(named: NamedRule<Subject>) -> NamedRule<OfThree> {
+    NamedRule::new(named.name, OfThree(named.rule.rule))
 }
 
 step_checks! { Subject;
@@ -102,11 +124,15 @@ const READ: Most = Most { cells: 10, barriers: 2, robots: 3..=4 };
 /// As [`READ`], where two walls are too few.
 const READ_AMONG_FOUR_WALLS: Most = Most { cells: 10, barriers: 4, robots: 4..=4 };
 
-/// The bound of four robots in the paper's area.
-const FOUR_ROBOTS: (usize, u32) = (4, 4);
+/// The check of four robots in the paper's area.
+const fn four_robots(invariant: Invariant) -> EveryLayout {
+    EveryLayout(invariant, (4, 4))
+}
 
-/// The bound of the planner's clauses: four robots, too, but one wall fewer.
-pub(super) const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
+/// The check of the planner's clauses: of four robots, too, but with one wall fewer.
+pub(super) const fn fewer_walls(invariant: Invariant) -> EveryLayout {
+    EveryLayout(invariant, (4, 3))
+}
 
 /// Five robots, which may meet as many walls as are soon looked at.
 pub(super) const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
@@ -197,44 +223,30 @@ pub const CLAUSES: [Clause; 15] = [
         id: "CHAIN-1",
         sentence: "After every team move each robot MUST be in E_C of its neighbours in the chain.",
         checks: &[
-            &Check::refuted(
-                PUBLISHED,
-                &EveryArea(Invariant::Without(Breach::Contact), AREAS, READ_AMONG_FOUR_WALLS),
-            )
-            .under(&holding([LAST], []))
-            .of(&PAPER),
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::CONTACT, AREAS, READ_AMONG_FOUR_WALLS))
+                .under(&holding([LAST], []))
+                .of(&PAPER),
             &contact::CHECK,
             &Check::holds(
                 REPAIRED,
-                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_ROBOTS),
+                &four_robots(Invariant::CONTACT),
+                &[AS_PUBLISHED, lacking(Subject::REPAIRED, UnsureAhead)],
+            ),
+            &Check::holds(UNHELD, &fewer_walls(Invariant::CONTACT), &[lacking(Subject::UNHELD, UnsureAhead)]),
+            &Check::holds(REEL, &fewer_walls(Invariant::CONTACT), &[lacking(Subject::REEL, SafeAhead)]),
+            &Check::holds(
+                in_contact::<false>(REPAIRED),
+                &EveryNumber::DEFAULT,
                 &[
-                    NamedRule::new("as published", Subject::PUBLISHED),
-                    lacking(Subject::REPAIRED, UnsureAhead),
+                    in_contact(AS_PUBLISHED),
+                    in_contact(lacking(Subject::REPAIRED, SafeAhead)),
+                    in_contact(lacking(Subject::REPAIRED, CoveredBehind)),
                 ],
             ),
             &Check::holds(
-                UNHELD,
-                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
-                &[lacking(Subject::UNHELD, UnsureAhead)],
-            ),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
-                &[lacking(Subject::REEL, SafeAhead)],
-            ),
-            &Check::holds(
-                NamedRule::new("repaired", Contact::<false>(Rule::REPAIRED)),
+                in_contact::<false>(REEL),
                 &EveryNumber::DEFAULT,
-                &[
-                    NamedRule::new("as published", Contact(Rule::PUBLISHED)),
-                    NamedRule::new("without E_S ahead", Contact(Rule::REPAIRED.without(SafeAhead))),
-                    NamedRule::new("without E_C behind", Contact(Rule::REPAIRED.without(CoveredBehind))),
-                ],
-            ),
-            &Check::holds(
-                NamedRule::new("reel", Contact::<false>(Rule::REEL)),
-                &EveryNumber::DEFAULT,
-                &[NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind)))],
+                &[in_contact(lacking(Subject::REEL, CoveredBehind))],
             ),
         ],
     },
@@ -242,48 +254,35 @@ pub const CLAUSES: [Clause; 15] = [
         id: "CHAIN-2",
         sentence: "There MUST never be three robots or more in one cell other than the base.",
         checks: &[
-            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Without(Breach::Crowding), AREAS, READ))
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::CROWDING, AREAS, READ))
                 .under(&holding(READINGS, []))
                 .of(&PAPER),
             &crowding::CHECK,
             &Check::holds(
                 REPAIRED,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
-                &[
-                    NamedRule::new("as published", Subject::PUBLISHED),
-                    lacking(Subject::REPAIRED, FullForLeader),
-                ],
+                &four_robots(Invariant::CROWDING),
+                &[AS_PUBLISHED, lacking(Subject::REPAIRED, FullForLeader)],
             ),
-            &Check::holds(
-                UNHELD,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
-                &[lacking(Subject::UNHELD, Distinct)],
-            ),
+            &Check::holds(UNHELD, &fewer_walls(Invariant::CROWDING), &[lacking(Subject::UNHELD, Distinct)]),
             &Check::holds(
                 REEL,
-                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_ROBOTS),
+                &four_robots(Invariant::CROWDING),
                 &[lacking(Subject::REEL, Distinct), lacking(Subject::REEL, FullForLeader)],
             ),
             &Check::holds(
-                NamedRule::new("repaired", Crowd::of(Rule::REPAIRED)),
+                uncrowded(REPAIRED),
                 &EveryNumber::DEFAULT,
                 &[
-                    NamedRule::new("as published", Crowd::of(Rule::PUBLISHED)),
-                    NamedRule::new(
-                        "without full cell for followers",
-                        Crowd::of(Rule::REPAIRED.without(FullForFollower)),
-                    ),
-                    NamedRule::new(
-                        "without full cell for the leader",
-                        Crowd::of(Rule::REPAIRED.without(FullForLeader)),
-                    ),
-                    NamedRule::new("without distinctness", Crowd::of(Rule::REPAIRED.without(Distinct))),
+                    uncrowded(AS_PUBLISHED),
+                    uncrowded(lacking(Subject::REPAIRED, FullForFollower)),
+                    uncrowded(lacking(Subject::REPAIRED, FullForLeader)),
+                    uncrowded(lacking(Subject::REPAIRED, Distinct)),
                 ],
             ),
             &Check::holds(
-                NamedRule::new("reel", Crowd::of(Rule::REEL)),
+                uncrowded(REEL),
                 &EveryNumber::DEFAULT,
-                &[NamedRule::new("without distinctness", Crowd::of(Rule::REEL.without(Distinct)))],
+                &[uncrowded(lacking(Subject::REEL, Distinct))],
             ),
         ],
     },
@@ -295,7 +294,7 @@ pub const CLAUSES: [Clause; 15] = [
             &coverage::CHECK,
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_ROBOTS),
+                &four_robots(Invariant::COVERAGE),
                 &[lacking(Subject::PUBLISHED, SafeAhead)],
             ),
             &Check {
@@ -303,28 +302,21 @@ pub const CLAUSES: [Clause; 15] = [
                 mutants: &[lacking(Subject::UNCOVERED, SafeAhead), safe_too_wide(Subject::UNCOVERED)],
                 ..coverage::CHECK
             },
+            &Check::holds(REEL, &fewer_walls(Invariant::COVERAGE), &[lacking(Subject::REEL, SafeAhead)]),
             &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS),
-                &[lacking(Subject::REEL, SafeAhead)],
+                covered(PUBLISHED),
+                &EveryNumber::DEFAULT,
+                &[covered(lacking(Subject::PUBLISHED, SafeAhead))],
             ),
             &Check::holds(
-                NamedRule::new("published", Coverage(Rule::PUBLISHED)),
+                covered(UNCOVERED),
                 &EveryNumber::DEFAULT,
-                &[NamedRule::new("without E_S ahead", Coverage(Rule::PUBLISHED.without(SafeAhead)))],
+                &[covered(lacking(Subject::UNCOVERED, SafeAhead))],
             ),
             &Check::holds(
-                NamedRule::new("uncovered", Coverage(Rule::PUBLISHED.without(CoveredBehind))),
+                covered(REEL),
                 &EveryNumber::DEFAULT,
-                &[NamedRule::new(
-                    "without E_S ahead",
-                    Coverage(Rule::PUBLISHED.without(CoveredBehind).without(SafeAhead)),
-                )],
-            ),
-            &Check::holds(
-                NamedRule::new("reel", Coverage(Rule::REEL)),
-                &EveryNumber::DEFAULT,
-                &[NamedRule::new("without E_S ahead", Coverage(Rule::REEL.without(SafeAhead)))],
+                &[covered(lacking(Subject::REEL, SafeAhead))],
             ),
         ],
     },
@@ -334,12 +326,12 @@ pub const CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Admitted),
                 &[lacking(Subject::PUBLISHED, SafeAhead), lacking(Subject::PUBLISHED, CoveredBehind)],
             ),
             &Check::holds(
                 REPAIRED,
-                &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Admitted),
                 &[
                     lacking(Subject::REPAIRED, SafeAhead),
                     lacking(Subject::REPAIRED, CoveredBehind),
@@ -350,7 +342,7 @@ pub const CLAUSES: [Clause; 15] = [
             ),
             &Check::holds(
                 REEL,
-                &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Admitted),
                 &[lacking(Subject::REEL, SafeAhead), lacking(Subject::REEL, CoveredBehind)],
             ),
             &Check::holds(REEL, &EveryLayout(Invariant::Admitted, FIVE_TWO_WALLS), &[NOT_HELD]),
@@ -362,50 +354,38 @@ pub const CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Distinct),
                 &[lacking(Subject::PUBLISHED, Distinct)],
             ),
             &Check::holds(
                 REPAIRED,
-                &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Distinct),
                 &[lacking(Subject::REPAIRED, Distinct)],
             ),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS),
-                &[lacking(Subject::REEL, Distinct)],
-            ),
+            &Check::holds(REEL, &fewer_walls(Invariant::Distinct), &[lacking(Subject::REEL, Distinct)]),
         ],
     },
     Clause {
         id: "CHAIN-6",
         sentence: "The base MUST never plan to move, and never move.",
         checks: &[
-            &Check::holds(
-                REPAIRED,
-                &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
-                &[base_follows(Subject::REPAIRED)],
-            ),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS),
-                &[base_follows(Subject::REEL)],
-            ),
+            &Check::holds(REPAIRED, &fewer_walls(Invariant::BaseStays), &[base_follows(Subject::REPAIRED)]),
+            &Check::holds(REEL, &fewer_walls(Invariant::BaseStays), &[base_follows(Subject::REEL)]),
         ],
     },
     Clause {
         id: "CHAIN-7",
         sentence: "Every run MUST end.",
         checks: &[
-            &Check::holds(REPAIRED, &EveryLayout(Invariant::Progress, FOUR_FEWER_WALLS), &ENDLESS),
+            &Check::holds(REPAIRED, &fewer_walls(Invariant::Progress), &ENDLESS),
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::Ends, FOUR_ROBOTS),
+                &four_robots(Invariant::Ends),
                 &[lacking(Subject::PUBLISHED, RefusedIsVirtual)],
             )
             .under(&holding([("goes on", Subject::PUBLISHED.without(EpochMustGain))], [])),
-            &Check::holds(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), &ENDLESS),
-            &Check::holds(REEL, &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS), &[UNREHEARSED, FICKLE]),
+            &Check::holds(REPAIRED, &four_robots(Invariant::Ends), &ENDLESS),
+            &Check::holds(REEL, &fewer_walls(Invariant::Ends), &[UNREHEARSED, FICKLE]),
         ],
     },
     Clause {
@@ -413,16 +393,8 @@ pub const CLAUSES: [Clause; 15] = [
         sentence: "One byte for each robot and team move MUST be enough to know the state of the whole team.",
         checks: &[
             &message::CHECK,
-            &Check::holds(
-                REPAIRED,
-                &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS),
-                &[swapped_bits(Subject::REPAIRED)],
-            ),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS),
-                &[swapped_bits(Subject::REEL)],
-            ),
+            &Check::holds(REPAIRED, &fewer_walls(Invariant::Heard), &[swapped_bits(Subject::REPAIRED)]),
+            &Check::holds(REEL, &fewer_walls(Invariant::Heard), &[swapped_bits(Subject::REEL)]),
         ],
     },
     Clause {
@@ -466,35 +438,27 @@ pub const CLAUSES: [Clause; 15] = [
     Clause {
         id: "CHAIN-12",
         sentence: "A plan MUST look at no more candidates of followers than its budget of 100 for each robot.",
-        checks: &[
-            &DEAR,
-            &Check::holds(SPARING, &EveryLayout(Invariant::Cheap, FOUR_FEWER_WALLS), &[LAVISH]),
-            &CHEAP,
-        ],
+        checks: &[&DEAR, &Check::holds(SPARING, &fewer_walls(Invariant::Cheap), &[LAVISH]), &CHEAP],
     },
     Clause {
         id: "CHAIN-13",
         sentence: "When a run ends, every cell within reach of the chain MUST be explored.",
         checks: &[
-            &Check::refuted(PUBLISHED, &EveryArea(Invariant::Without(Breach::Completeness), AREAS, READ))
+            &Check::refuted(PUBLISHED, &EveryArea(Invariant::COMPLETENESS, AREAS, READ))
                 .under(&holding(READINGS, []))
                 .of(&PAPER),
             &unfolding::CHECK,
             &Check::holds(
                 REPAIRED,
-                &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_ROBOTS),
+                &four_robots(Invariant::COMPLETENESS),
                 &[lacking(Subject::REPAIRED, Unfold)],
             ),
             &Check::holds(
                 UNHELD,
-                &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::COMPLETENESS),
                 &[lacking(Subject::UNHELD, Distinct)],
             ),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
-                &[lacking(Subject::REEL, Distinct)],
-            ),
+            &Check::holds(REEL, &fewer_walls(Invariant::COMPLETENESS), &[lacking(Subject::REEL, Distinct)]),
         ],
     },
     Clause {
@@ -520,15 +484,15 @@ pub const CLAUSES: [Clause; 15] = [
             &contact_of_three::CHECK,
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::Without(Breach::Contact), THREE_ROBOTS),
+                &EveryLayout(Invariant::CONTACT, THREE_ROBOTS),
                 &[lacking(Subject::PUBLISHED, SafeAhead)],
             ),
             &Check::holds(
-                NamedRule::new("published", OfThree(Rule::PUBLISHED)),
+                of_three(PUBLISHED),
                 &local::THREE,
                 &[
-                    NamedRule::new("without E_S ahead", OfThree(Rule::PUBLISHED.without(SafeAhead))),
-                    NamedRule::new("without E_C behind", OfThree(Rule::PUBLISHED.without(CoveredBehind))),
+                    of_three(lacking(Subject::PUBLISHED, SafeAhead)),
+                    of_three(lacking(Subject::PUBLISHED, CoveredBehind)),
                 ],
             ),
         ],

@@ -7,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 use super::bounds::Bounds;
-use super::breach::{Breach, frame, is_harmless};
+use super::breach::{frame, is_harmless};
 use super::invariant::{Invariant, Moment};
 use super::links::within_reach;
 use super::reach::{CellSet, Ground};
@@ -210,7 +210,7 @@ pub(super) fn left_out(
 ) -> Vec<Invariant> {
     let Bounds { base, robots, ref invariants, ref observed, .. } = *bounds;
     let leaves = |demand: &Invariant| {
-        if *demand == Invariant::Without(Breach::Completeness) {
+        if *demand == Invariant::COMPLETENESS {
             within_reach(area, base, robots, is_open).into_iter().any(is_missed)
         } else if *demand == Invariant::Exhausts {
             let mut missed = CellSet::new(area);

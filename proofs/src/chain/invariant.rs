@@ -72,14 +72,18 @@ pub enum Invariant {
 }
 
 impl Invariant {
+    /// CHAIN-1.
+    pub const CONTACT: Self = Self::Without(Breach::Contact);
+    /// CHAIN-2.
+    pub const CROWDING: Self = Self::Without(Breach::Crowding);
+    /// CHAIN-3.
+    pub const COVERAGE: Self = Self::Without(Breach::Coverage);
+    /// CHAIN-13.
+    pub const COMPLETENESS: Self = Self::Without(Breach::Completeness);
+
     /// Those that a run can be seen to break from outside.
-    pub const OF_RUNS: [Self; 5] = [
-        Self::Without(Breach::Contact),
-        Self::Without(Breach::Crowding),
-        Self::Without(Breach::Coverage),
-        Self::Without(Breach::Completeness),
-        Self::Ends,
-    ];
+    pub const OF_RUNS: [Self; 5] =
+        [Self::CONTACT, Self::CROWDING, Self::COVERAGE, Self::COMPLETENESS, Self::Ends];
 
     /// Those that a hunt looks for in the runs of a chain that claims to follow `rule`. CHAIN-14 and CHAIN-27 no rule
     /// keeps, so that every hunt would end with them; and of advances CHAIN-27 follows from CHAIN-5 in any layout.
@@ -97,10 +101,10 @@ impl Invariant {
 
     /// Those of the reel.
     const OF_REELS: [Self; 14] = [
-        Self::Without(Breach::Contact),
-        Self::Without(Breach::Crowding),
-        Self::Without(Breach::Coverage),
-        Self::Without(Breach::Completeness),
+        Self::CONTACT,
+        Self::CROWDING,
+        Self::COVERAGE,
+        Self::COMPLETENESS,
         Self::Admitted,
         Self::Distinct,
         Self::BaseStays,
@@ -123,27 +127,22 @@ impl Invariant {
             (Self::Meets, ..) => &[Self::Meets],
             (Self::MeetsInAdvance, ..) => &[Self::MeetsInAdvance],
             (_, Pursuit::Reel(_), Some((Self::AnyOrder, others))) if !rule.has(Condition::Hold) => others,
-            (_, Pursuit::Reel(_), _) => &Self::OF_REELS,
-            (_, Pursuit::Epochs, _) => self.family(),
-        }
-    }
-
-    /// Those that are looked for in one search with this one.
-    const fn family(self) -> &'static [Self] {
-        match self {
-            Self::Without(_) | Self::Ends => &Self::OF_RUNS,
-            Self::Exhausts => &[Self::Exhausts],
-            Self::Certified => &[Self::Certified],
-            Self::Chosen => &[Self::Chosen],
-            Self::Meets => &[Self::Meets],
-            Self::MeetsInAdvance => &[Self::MeetsInAdvance],
-            Self::Falls | Self::Arrives | Self::AnyOrder | Self::Doubles | Self::Short => &Self::OF_REELS,
-            Self::Admitted
-            | Self::Distinct
-            | Self::BaseStays
-            | Self::Progress
-            | Self::Heard
-            | Self::Cheap => &Self::OF_PLANS,
+            (_, Pursuit::Reel(_), _)
+            | (Self::Falls | Self::Arrives | Self::Doubles | Self::Short, Pursuit::Epochs, _) => {
+                &Self::OF_REELS
+            }
+            (Self::Without(_) | Self::Ends, Pursuit::Epochs, _) => &Self::OF_RUNS,
+            (Self::Exhausts, Pursuit::Epochs, _) => &[Self::Exhausts],
+            (
+                Self::Admitted
+                | Self::Distinct
+                | Self::BaseStays
+                | Self::Progress
+                | Self::Heard
+                | Self::Cheap,
+                Pursuit::Epochs,
+                _,
+            ) => &Self::OF_PLANS,
         }
     }
 
@@ -154,26 +153,7 @@ impl Invariant {
 
     /// The breach that it forbids, if anyone sees one who watches the run.
     pub const fn breach(self) -> Option<Breach> {
-        match self {
-            Self::Without(breach) => Some(breach),
-            Self::Admitted
-            | Self::Distinct
-            | Self::BaseStays
-            | Self::Progress
-            | Self::Ends
-            | Self::Heard
-            | Self::Cheap
-            | Self::Exhausts
-            | Self::Certified
-            | Self::Falls
-            | Self::Arrives
-            | Self::AnyOrder
-            | Self::Doubles
-            | Self::Short
-            | Self::Chosen
-            | Self::Meets
-            | Self::MeetsInAdvance => None,
-        }
+        if let Self::Without(breach) = self { Some(breach) } else { None }
     }
 
     /// The id of its clause.

@@ -7,8 +7,8 @@ use tautline_kernel::chain::{Habit, Pursuit, Rule, Walls};
 use super::appearing_walls::{self, WallsCase};
 use super::barrier::{self, Reading};
 use super::clauses::{
-    AREAS, FICKLE, FIVE_TWO_WALLS, FOUR_FEWER_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD,
-    UNREHEARSED, lacking, unheld,
+    AREAS, FICKLE, FIVE_TWO_WALLS, NOT_HELD, PUBLISHED, REEL, REPAIRED, UNHELD, UNREHEARSED, fewer_walls,
+    in_contact, lacking, unheld,
 };
 use super::death::{self, Aftermath, DeathCase};
 use super::every_area::EveryArea;
@@ -60,11 +60,11 @@ const IN_EPOCHS: NamedRule<Subject> = NamedRule::new(
 );
 
 /// The contact of a reel of any number of robots, and what breaks it.
-const CONTACT: NamedRule<Contact<true>> = NamedRule::new("reel", Contact(Rule::REEL));
+const CONTACT: NamedRule<Contact<true>> = in_contact(REEL);
 const LOST_CONTACT: [NamedRule<Contact<true>>; 3] = [
-    NamedRule::new("without hold", Contact(Rule::REEL.without(Hold))),
-    NamedRule::new("without E_S ahead", Contact(Rule::REEL.without(SafeAhead))),
-    NamedRule::new("without E_C behind", Contact(Rule::REEL.without(CoveredBehind))),
+    in_contact(NOT_HELD),
+    in_contact(lacking(Subject::REEL, SafeAhead)),
+    in_contact(lacking(Subject::REEL, CoveredBehind)),
 ];
 
 const BARRIER: Check<Reading> = Check::holds(
@@ -179,22 +179,18 @@ pub const CLAUSES: [Clause; 10] = [
         checks: &[
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Certified),
                 &[lacking(Subject::PUBLISHED, SafeAhead), lacking(Subject::PUBLISHED, CoveredBehind)],
             ),
-            &Check::holds(
-                REPAIRED,
-                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                &[narrowed(Subject::REPAIRED)],
-            ),
+            &Check::holds(REPAIRED, &fewer_walls(Invariant::Certified), &[narrowed(Subject::REPAIRED)]),
             &Check::holds(
                 UNHELD,
-                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Certified),
                 &[unheld(NARROWED_UNREHEARSED), lacking(Subject::UNHELD, SafeAhead)],
             ),
             &Check::holds(
                 REEL,
-                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Certified),
                 &[NARROWED_UNREHEARSED, lacking(Subject::REEL, SafeAhead)],
             ),
         ],
@@ -205,19 +201,15 @@ pub const CLAUSES: [Clause; 10] = [
         checks: &[
             &Check::holds(
                 UNHELD,
-                &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Falls),
                 &[unheld(UNREHEARSED), unheld(FICKLE), unheld(NO_NEARER), unheld(TAKES_BACK_ONE)],
             ),
             &Check::holds(
                 REEL,
-                &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::Falls),
                 &[UNREHEARSED, FICKLE, NO_NEARER, TAKES_BACK_ONE],
             ),
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS),
-                &[UNREHEARSED, FICKLE, NO_NEARER],
-            ),
+            &Check::holds(REEL, &fewer_walls(Invariant::Ends), &[UNREHEARSED, FICKLE, NO_NEARER]),
         ],
     },
     Clause {
@@ -225,8 +217,8 @@ pub const CLAUSES: [Clause; 10] = [
         sentence: "A rehearsal of the reel that meets no surprise MUST explore a cell in exactly its number of team \
                    moves.",
         checks: &[
-            &Check::holds(UNHELD, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[unheld(UNREHEARSED)]),
-            &Check::holds(REEL, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), &[UNREHEARSED]),
+            &Check::holds(UNHELD, &fewer_walls(Invariant::Arrives), &[unheld(UNREHEARSED)]),
+            &Check::holds(REEL, &fewer_walls(Invariant::Arrives), &[UNREHEARSED]),
         ],
     },
     Clause {
@@ -238,11 +230,7 @@ pub const CLAUSES: [Clause; 10] = [
                 .because("all robots go at once; the reel keeps contact in any order"),
             &hold::CHECK,
             // Without hold four robots keep contact in any order among so few walls.
-            &Check::holds(
-                REEL,
-                &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS),
-                &[lacking(Subject::REEL, SafeAhead)],
-            ),
+            &Check::holds(REEL, &fewer_walls(Invariant::AnyOrder), &[lacking(Subject::REEL, SafeAhead)]),
             &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FIVE_TWO_WALLS), &[NOT_HELD]),
             &Check::new(
                 REEL,
@@ -282,12 +270,8 @@ pub const CLAUSES: [Clause; 10] = [
         sentence: "As long as nothing is gained, the reel MUST take back one team move, then two, then four, each \
                    time twice as many, as far as there are.",
         checks: &[
-            &Check::holds(
-                UNHELD,
-                &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS),
-                &[unheld(TAKES_BACK_ONE)],
-            ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), &[TAKES_BACK_ONE]),
+            &Check::holds(UNHELD, &fewer_walls(Invariant::Doubles), &[unheld(TAKES_BACK_ONE)]),
+            &Check::holds(REEL, &fewer_walls(Invariant::Doubles), &[TAKES_BACK_ONE]),
         ],
     },
     Clause {
@@ -295,12 +279,8 @@ pub const CLAUSES: [Clause; 10] = [
         sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, \
                    and N² more for each wall that it meets.",
         checks: &[
-            &Check::holds(
-                UNHELD,
-                &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
-                &[unheld(IN_EPOCHS), unheld(UNREHEARSED)],
-            ),
-            &Check::holds(REEL, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), &[IN_EPOCHS]),
+            &Check::holds(UNHELD, &fewer_walls(Invariant::Short), &[unheld(IN_EPOCHS), unheld(UNREHEARSED)]),
+            &Check::holds(REEL, &fewer_walls(Invariant::Short), &[IN_EPOCHS]),
             &Check::holds(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), &[IN_EPOCHS]),
             &Check::refuted(REEL, &EveryLayout(Invariant::Short, THREE_FIVE_WALLS))
                 .because("N² is no result of an argument, and not enough for five walls"),

@@ -3,11 +3,10 @@
 
 use tautline_kernel::chain::Condition::Distinct;
 
-use super::clauses::{AREAS, FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, lacking};
+use super::clauses::{AREAS, PUBLISHED, REEL, REPAIRED, fewer_walls, lacking};
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::milestones::Milestone;
-use super::search::EveryLayout;
 use super::subject::Subject;
 use crate::clause::{Check, Clause};
 
@@ -30,19 +29,19 @@ pub const CLAUSES: [Clause; 2] = [
             &Check::refuted(PUBLISHED, &EveryArea(Invariant::Meets, AREAS, AREAS)),
             &Check::holds(
                 PUBLISHED,
-                &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::MeetsInAdvance),
                 &[lacking(Subject::PUBLISHED, Distinct)],
             ),
             &Check::refuted(REPAIRED, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
             &Check::holds(
                 REPAIRED,
-                &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::MeetsInAdvance),
                 &[lacking(Subject::REPAIRED, Distinct)],
             ),
             &Check::refuted(REEL, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
             &Check::holds(
                 REEL,
-                &EveryLayout(Invariant::MeetsInAdvance, FOUR_FEWER_WALLS),
+                &fewer_walls(Invariant::MeetsInAdvance),
                 &[lacking(Subject::REEL, Distinct)],
             ),
         ],

@@ -327,7 +327,6 @@ mod tests {
     use rustc_hash::FxHashMap;
     use tautline_kernel::chain::{Budget, Rule};
 
-    use super::super::breach::Breach;
     use super::super::invariant::{Invariant, Moment};
     use super::super::links::has_explored;
     use super::*;
@@ -376,9 +375,9 @@ mod tests {
         Invariant::Progress,
         Invariant::Heard,
         Invariant::Cheap,
-        Invariant::Without(Breach::Contact),
-        Invariant::Without(Breach::Crowding),
-        Invariant::Without(Breach::Coverage),
+        Invariant::CONTACT,
+        Invariant::CROWDING,
+        Invariant::COVERAGE,
     ];
 
     #[test]
