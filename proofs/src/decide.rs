@@ -363,6 +363,13 @@ pub struct EveryAnswer<R> {
     pub covers: &'static [&'static str],
 }
 
+impl<R> EveryAnswer<R> {
+    /// Every answer to every choice of `body`.
+    pub const fn new(body: Body<R>, range: Range, covers: &'static [&'static str]) -> Self {
+        Self { body, range, covers }
+    }
+}
+
 /// Many random answers to the choices of a body.
 pub struct RandomAnswers<R> {
     /// The body.
@@ -373,6 +380,13 @@ pub struct RandomAnswers<R> {
     pub range: Range,
     /// The situations that must occur.
     pub covers: &'static [&'static str],
+}
+
+impl<R> RandomAnswers<R> {
+    /// The choices of `body`, drawn so many times.
+    pub const fn new(body: Body<R>, runs: u64, range: Range, covers: &'static [&'static str]) -> Self {
+        Self { body, runs, range, covers }
+    }
 }
 
 /// The seed of every sampled check.

@@ -88,13 +88,10 @@ const EXPLORES_APART: Floors<Infallible> =
     Floors::new(&[Series::missing(Area::blocked(3, 3), 1, 2)], Demand::Explores);
 
 const CHOOSES: EveryAnswer<Subject<Rule>> =
-    EveryAnswer { body: ties::ties, range: ties::counts, covers: &["a side", "no side"] };
+    EveryAnswer::new(ties::ties, ties::counts, &["a side", "no side"]);
 
-const KEEPS: EveryAnswer<Rule> = EveryAnswer {
-    body: replacement::keeps,
-    range: replacement::pairs,
-    covers: &["a missed sensor", "a sensor that is seen"],
-};
+const KEEPS: EveryAnswer<Rule> =
+    EveryAnswer::new(replacement::keeps, replacement::pairs, &["a missed sensor", "a sensor that is seen"]);
 
 /// The clauses.
 pub const CLAUSES: [Clause; 3] = [
@@ -134,11 +131,11 @@ pub const CLAUSES: [Clause; 3] = [
             &Check::holds(COUNTED, &KEEPS, LOST),
             &Check::holds(
                 NamedRule::new("apart", Pile::entered as EntryRule),
-                &EveryAnswer {
-                    body: apart::keeps,
-                    range: apart::piles,
-                    covers: &["both are missed", "both are seen", "one is missed"],
-                },
+                &EveryAnswer::new(
+                    apart::keeps,
+                    apart::piles,
+                    &["both are missed", "both are seen", "one is missed"],
+                ),
                 &[NamedRule::new("the missed sensor is lost", apart::losing)],
             ),
             &Check::refuted(NamedRule::new("repaired", Rule::Repaired), &KEEPS)

@@ -412,7 +412,7 @@ pub const CLAUSES: [Clause; 15] = [
         checks: &[
             &Check::holds(
                 choosing("tree", To::Ruled),
-                &EveryAnswer { body: children::next, range: children::views, covers: &children::COVERS },
+                &EveryAnswer::new(children::next, children::views, &children::COVERS),
                 &[
                     choosing("the first child", To::FirstChild),
                     choosing("the child entered most", To::MostEntered),

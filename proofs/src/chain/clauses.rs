@@ -161,18 +161,14 @@ pub(super) const NOT_HELD: NamedRule<Subject> = lacking(Subject::REEL, Hold);
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
 const SPIRALS: EveryAnswer<Subject> =
-    EveryAnswer { body: whole_runs::spiral, range: whole_runs::spirals, covers: &["an open area"] };
+    EveryAnswer::new(whole_runs::spiral, whole_runs::spirals, &["an open area"]);
 
 const SOLVED: EveryAnswer<Subject> =
-    EveryAnswer { body: optimum::least_in_the_open, range: optimum::solved, covers: &["an open area"] };
+    EveryAnswer::new(optimum::least_in_the_open, optimum::solved, &["an open area"]);
 
 const SAME_PLAN: Check<Subject> = Check::holds(
     REPAIRED,
-    &EveryAnswer {
-        body: whole_runs::same_plan_in_all_layouts,
-        range: whole_runs::layouts_with_few_walls,
-        covers: &ENDS,
-    },
+    &EveryAnswer::new(whole_runs::same_plan_in_all_layouts, whole_runs::layouts_with_few_walls, &ENDS),
     &[
         high_from_present(Subject::REPAIRED),
         lacking(Subject::REPAIRED, Distinct),
@@ -182,12 +178,8 @@ const SAME_PLAN: Check<Subject> = Check::holds(
     ],
 );
 
-const SAME_PLAN_AT_RANDOM: RandomAnswers<Subject> = RandomAnswers {
-    body: whole_runs::same_plan_in_random_layouts,
-    runs: 100,
-    range: whole_runs::random_layouts,
-    covers: &ENDS,
-};
+const SAME_PLAN_AT_RANDOM: RandomAnswers<Subject> =
+    RandomAnswers::new(whole_runs::same_plan_in_random_layouts, 100, whole_runs::random_layouts, &ENDS);
 
 /// A team that claims a budget and has none.
 const LAVISH: NamedRule<Subject> = NamedRule::new(
@@ -197,24 +189,19 @@ const LAVISH: NamedRule<Subject> = NamedRule::new(
 
 const CHEAP: Check<Subject> = Check::new(
     REPAIRED,
-    &RandomAnswers {
-        body: whole_runs::cheap,
-        runs: 44,
-        range: whole_runs::cheap_runs,
-        covers: &["a longer run"],
-    },
+    &RandomAnswers::new(whole_runs::cheap, 44, whole_runs::cheap_runs, &["a longer run"]),
     Verdict::Unrefuted,
     &[NamedRule::new("the plain recursion", Subject::REPAIRED.deceiving(Deception::PlainRecursion))],
 );
 
 const DEAR: Check<Subject> = Check::refuted(
     PUBLISHED,
-    &RandomAnswers {
-        body: whole_runs::cheap_among_few_walls,
-        runs: 100,
-        range: whole_runs::runs_among_few_walls,
-        covers: &["a longer run"],
-    },
+    &RandomAnswers::new(
+        whole_runs::cheap_among_few_walls,
+        100,
+        whole_runs::runs_among_few_walls,
+        &["a longer run"],
+    ),
 );
 
 /// The clauses.

@@ -44,8 +44,7 @@ struct Exploration {
 }
 
 impl<const PERCENT: u32> Milestone<PERCENT> {
-    const CASES: EveryAnswer<Subject> =
-        EveryAnswer { body: Self::body, range: Self::range, covers: &["an open area"] };
+    const CASES: EveryAnswer<Subject> = EveryAnswer::new(Self::body, Self::range, &["an open area"]);
 
     fn range() -> String {
         format!("{}, {PERCENT} % of the cells, rounded up and down", whole_runs::chains(&ROBOTS))

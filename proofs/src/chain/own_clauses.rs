@@ -69,16 +69,16 @@ const LOST_CONTACT: [NamedRule<Contact<true>>; 3] = [
 
 const BARRIER: Check<Reading> = Check::holds(
     NamedRule::new("reel", Reading::True),
-    &EveryAnswer {
-        body: barrier::barrier,
-        range: barrier::losses,
-        covers: &[
+    &EveryAnswer::new(
+        barrier::barrier,
+        barrier::losses,
+        &[
             "a byte is lost",
             "a byte of the team move before",
             "a byte of the team move after",
             "a byte that was missing",
         ],
-    },
+    ),
     &[
         NamedRule::new("team moves are not told apart", Reading::Present),
         NamedRule::new("one bit counts team moves", Reading::OneBit),
@@ -100,7 +100,7 @@ const DEATHS: [&str; 3] = [
 
 const DEATH: Check<DeathCase> = Check::holds(
     NamedRule::new("reel", dying(Subject::REEL, Aftermath::Reform)),
-    &EveryAnswer { body: death::in_few_walls, range: death::few_walls, covers: &DEATHS },
+    &EveryAnswer::new(death::in_few_walls, death::few_walls, &DEATHS),
     &[
         NamedRule::new("the robots ahead wait", dying(Subject::REEL, Aftermath::Wait)),
         NamedRule::new("two team moves are taken back at once", dying(Subject::REEL, Aftermath::Skip)),
@@ -111,11 +111,11 @@ const DEATH: Check<DeathCase> = Check::holds(
 
 const MEETING: Check<DeathCase> = Check::holds(
     DEATH.about,
-    &EveryAnswer {
-        body: death::whatever_the_log,
-        range: death::meetings,
-        covers: &["one chain", "one chain, the part ahead home", "three robots in one cell", "two parts"],
-    },
+    &EveryAnswer::new(
+        death::whatever_the_log,
+        death::meetings,
+        &["one chain", "one chain, the part ahead home", "three robots in one cell", "two parts"],
+    ),
     &[
         NamedRule::new("three robots go on in one cell", dying(Subject::REEL, Aftermath::Crowd)),
         NamedRule::new(
@@ -127,7 +127,7 @@ const MEETING: Check<DeathCase> = Check::holds(
 
 const DEATH_AT_RANDOM: Check<DeathCase> = Check::new(
     DEATH.about,
-    &RandomAnswers { body: death::at_random, runs: 200, range: death::random_layouts, covers: &DEATHS },
+    &RandomAnswers::new(death::at_random, 200, death::random_layouts, &DEATHS),
     Verdict::Unrefuted,
     &[
         NamedRule::new("without hold", dying(Subject::UNHELD, Aftermath::Reform)),
@@ -145,11 +145,11 @@ const UNTRIED: NamedRule<WallsCase> =
 
 const SHUT: Check<WallsCase> = Check::holds(
     NamedRule::new("reel", shut(Subject::REEL, Walls::Changing)),
-    &EveryAnswer {
-        body: appearing_walls::in_few_walls,
-        range: appearing_walls::few_walls,
-        covers: &["a wall appears", "no wall appears"],
-    },
+    &EveryAnswer::new(
+        appearing_walls::in_few_walls,
+        appearing_walls::few_walls,
+        &["a wall appears", "no wall appears"],
+    ),
     &[
         UNTRIED,
         NamedRule::new(
@@ -161,12 +161,12 @@ const SHUT: Check<WallsCase> = Check::holds(
 
 const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
     SHUT.about,
-    &RandomAnswers {
-        body: appearing_walls::at_random,
-        runs: 200,
-        range: appearing_walls::random_layouts,
-        covers: &["a wall appears"],
-    },
+    &RandomAnswers::new(
+        appearing_walls::at_random,
+        200,
+        appearing_walls::random_layouts,
+        &["a wall appears"],
+    ),
     Verdict::Unrefuted,
     &[UNTRIED],
 );
@@ -234,12 +234,7 @@ pub const CLAUSES: [Clause; 10] = [
             &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FIVE_TWO_WALLS), &[NOT_HELD]),
             &Check::new(
                 REEL,
-                &RandomAnswers {
-                    body: whole_runs::any_order,
-                    runs: 200,
-                    range: whole_runs::orders,
-                    covers: &["a whole run"],
-                },
+                &RandomAnswers::new(whole_runs::any_order, 200, whole_runs::orders, &["a whole run"]),
                 Verdict::Unrefuted,
                 &[NOT_HELD],
             ),

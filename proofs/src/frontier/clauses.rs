@@ -362,7 +362,7 @@ pub const CLAUSES: [Clause; 12] = [
                    that it has claimed, or than a nearest one if it has claimed none.",
         checks: &[&Check::holds(
             REPAIRED,
-            &EveryAnswer { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
+            &EveryAnswer::new(pairs::goes, pairs::teams, &pairs::COVERS),
             &[repaired(Nearer), repaired(Claim), repaired(Corner), repaired(Lapse), repaired(Keep)],
         )],
     },
@@ -372,11 +372,11 @@ pub const CLAUSES: [Clause; 12] = [
                    at least the share K of what a fix says, MUST be in the cell that it has counted if E + D/K < L/2.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", FusedBudget::FUSED),
-            &EveryAnswer {
-                body: fusion::stays,
-                range: fusion::errors,
-                covers: &["a fix that is believed", "a fix that is weighed"],
-            },
+            &EveryAnswer::new(
+                fusion::stays,
+                fusion::errors,
+                &["a fix that is believed", "a fix that is weighed"],
+            ),
             &[
                 NamedRule::new("E + D/K = L/2 is borne", FusedBudget::AT_MOST),
                 NamedRule::new("the share does not count", FusedBudget::WITHOUT_GAIN),
@@ -391,11 +391,7 @@ pub const CLAUSES: [Clause; 12] = [
                    cell, sure after finitely many.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", StandingRobot::REPAIRED),
-            &EveryAnswer {
-                body: fusion::is_sure_again,
-                range: fusion::stops,
-                covers: &["it moves on", "it stands"],
-            },
+            &EveryAnswer::new(fusion::is_sure_again, fusion::stops, &["it moves on", "it stands"]),
             &[
                 NamedRule::new(repaired(Sure).name, StandingRobot::UNSURE),
                 NamedRule::new("wheels alone", StandingRobot::WHEELS_ALONE),
@@ -409,11 +405,11 @@ pub const CLAUSES: [Clause; 12] = [
                    the side between both, and MUST pass the middle of that side at F/2 − (1 + F/L) E or more.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", Round::FIVE_STEPS),
-            &EveryAnswer {
-                body: detour::goes_round,
-                range: detour::errors,
-                covers: &["it passes an obstacle", "it may touch one"],
-            },
+            &EveryAnswer::new(
+                detour::goes_round,
+                detour::errors,
+                &["it passes an obstacle", "it may touch one"],
+            ),
             &[
                 NamedRule::new("E + F = L/2 is borne", Round::AT_MOST),
                 NamedRule::new("it does not turn", Round::STRAIGHT),

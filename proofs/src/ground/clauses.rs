@@ -42,20 +42,16 @@ pub const CLAUSES: [Clause; 2] = [
         checks: &[
             &Check::holds(
                 WHOLE,
-                &EveryAnswer {
-                    body: frontier::in_six_cells,
-                    range: frontier::small_maps,
-                    covers: &["a frontier", "no frontier"],
-                },
+                &EveryAnswer::new(
+                    frontier::in_six_cells,
+                    frontier::small_maps,
+                    &["a frontier", "no frontier"],
+                ),
                 &[NamedRule::new("virtual obstacles bind followers", Flooding::BindsFollowers)],
             ),
             &Check::holds(
                 WHOLE,
-                &EveryAnswer {
-                    body: frontier::along_every_line,
-                    range: frontier::lines,
-                    covers: &["a column", "a row"],
-                },
+                &EveryAnswer::new(frontier::along_every_line, frontier::lines, &["a column", "a row"]),
                 &[NamedRule::new("a line is not flooded", Flooding::SkipsALine)],
             ),
         ],

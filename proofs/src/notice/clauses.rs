@@ -54,7 +54,7 @@ const FINITE: [NamedRule<Subject>; 1] =
 
 /// Random networks in which this is tried.
 const fn at_random(body: Body<Subject>) -> RandomAnswers<Subject> {
-    RandomAnswers { body, runs: RUNS, range: random::random_networks, covers: &random::SPREADS }
+    RandomAnswers::new(body, RUNS, random::random_networks, &random::SPREADS)
 }
 
 step_checks! { Subject;
@@ -108,12 +108,12 @@ pub const CLAUSES: [Clause; 6] = [
             &Check::holds(PUBLISHED, &networks::FLOOD, &FINITE),
             &Check::new(
                 PUBLISHED,
-                &RandomAnswers {
-                    body: |subject, oracle| random::spread_at_random(subject, oracle, Demand::Floods),
-                    runs: RUNS,
-                    range: random::random_floods,
-                    covers: &["most nodes forward"],
-                },
+                &RandomAnswers::new(
+                    |subject, oracle| random::spread_at_random(subject, oracle, Demand::Floods),
+                    RUNS,
+                    random::random_floods,
+                    &["most nodes forward"],
+                ),
                 Verdict::Unrefuted,
                 &FINITE,
             ),

@@ -206,7 +206,7 @@ pub const CLAUSES: [Clause; 9] = [
         sentence: "A robot of a pack MUST see a cell within R_s if and only if a ray goes there.",
         checks: &[&Check::holds(
             NamedRule::new("published", Rays::Stopped),
-            &EveryAnswer { body: rays::sees, range: rays::views, covers: &rays::COVERS },
+            &EveryAnswer::new(rays::sees, rays::views, &rays::COVERS),
             &[
                 NamedRule::new("a ray passes between two obstacles", Rays::PassCorners),
                 NamedRule::new("one obstacle at a corner stops a ray", Rays::StopAtCorners),

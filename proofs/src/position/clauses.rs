@@ -58,11 +58,8 @@ const TRIPLES: u64 = 20_000;
 /// Random swarms.
 const SWARMS: u64 = 2_000;
 
-const EXACT: EveryAnswer<Way> = EveryAnswer {
-    body: lattice::is_exact,
-    range: lattice::places,
-    covers: &["four anchors", "three anchors"],
-};
+const EXACT: EveryAnswer<Way> =
+    EveryAnswer::new(lattice::is_exact, lattice::places, &["four anchors", "three anchors"]);
 
 /// Ways that are as this one but for one thing.
 macro_rules! wrong {
@@ -95,29 +92,22 @@ macro_rules! credulous {
     };
 }
 
-const REFUSES: EveryAnswer<Way> = EveryAnswer {
-    body: refusals::is_refused_or_told,
-    range: refusals::numbers,
-    covers: &["refused for want of anchors or numbers", "told"],
-};
+const REFUSES: EveryAnswer<Way> = EveryAnswer::new(
+    refusals::is_refused_or_told,
+    refusals::numbers,
+    &["refused for want of anchors or numbers", "told"],
+);
 
-const MIRRORED: EveryAnswer<Way> = EveryAnswer {
-    body: minima::tells_the_mirror_image,
-    range: minima::lines,
-    covers: &["a slanting line", "a straight line"],
-};
+const MIRRORED: EveryAnswer<Way> =
+    EveryAnswer::new(minima::tells_the_mirror_image, minima::lines, &["a slanting line", "a straight line"]);
 
-const FOLLOWS: EveryAnswer<Way> =
-    EveryAnswer { body: lattice::follows, range: lattice::moves, covers: &["one position"] };
+const FOLLOWS: EveryAnswer<Way> = EveryAnswer::new(lattice::follows, lattice::moves, &["one position"]);
 
 const FOLLOWS_TWO: EveryAnswer<Way> =
-    EveryAnswer { body: lattice::follows, range: lattice::moves, covers: &["one position", "two positions"] };
+    EveryAnswer::new(lattice::follows, lattice::moves, &["one position", "two positions"]);
 
-const COARSE: EveryAnswer<Conduct> = EveryAnswer {
-    body: swarm::never_worsens,
-    range: swarm::coarse_draws,
-    covers: &["it does not improve", "it improves"],
-};
+const COARSE: EveryAnswer<Conduct> =
+    EveryAnswer::new(swarm::never_worsens, swarm::coarse_draws, &["it does not improve", "it improves"]);
 
 /// Swarms that do not keep their best position.
 const fn forgetful(conduct: Conduct) -> [NamedRule<Conduct>; 2] {
@@ -127,11 +117,8 @@ const fn forgetful(conduct: Conduct) -> [NamedRule<Conduct>; 2] {
     ]
 }
 
-const INSIDE: EveryAnswer<Way> = EveryAnswer {
-    body: lattice::keeps_inside,
-    range: lattice::rectangles,
-    covers: &["inside", "on the rim"],
-};
+const INSIDE: EveryAnswer<Way> =
+    EveryAnswer::new(lattice::keeps_inside, lattice::rectangles, &["inside", "on the rim"]);
 
 /// The clauses.
 pub const CLAUSES: [Clause; 7] = [
@@ -142,22 +129,14 @@ pub const CLAUSES: [Clause; 7] = [
         checks: &[
             &Check::refuted(
                 PUBLISHED,
-                &EveryAnswer {
-                    body: lattice::is_exact_of_three,
-                    range: lattice::places_of_three,
-                    covers: &["three anchors"],
-                },
+                &EveryAnswer::new(lattice::is_exact_of_three, lattice::places_of_three, &["three anchors"]),
             )
             .under(&holding([("renamed", way::renamed as Way)], [0]))
             .of(&PAPER)
             .judged(lattice::exact),
             &Check::refuted(
                 STRONGEST,
-                &EveryAnswer {
-                    body: lattice::is_exact_of_four,
-                    range: lattice::places_of_four,
-                    covers: &["four anchors"],
-                },
+                &EveryAnswer::new(lattice::is_exact_of_four, lattice::places_of_four, &["four anchors"]),
             )
             .under(&holding(OF_FOUR, [2]))
             .of(&PAPER)
@@ -196,12 +175,12 @@ pub const CLAUSES: [Clause; 7] = [
             &Check::holds(DECIBELS, &MIRRORED, wrong!(way::decibels: "the better one alone" => better_alone)),
             &Check::refuted(
                 METRES,
-                &RandomAnswers {
-                    body: minima::tells_second_minima,
-                    runs: TRIPLES,
-                    range: minima::random_anchors,
-                    covers: &["one minimum", "two minima"],
-                },
+                &RandomAnswers::new(
+                    minima::tells_second_minima,
+                    TRIPLES,
+                    minima::random_anchors,
+                    &["one minimum", "two minima"],
+                ),
             )
             .because("with noise, rarely, the second is not told")
             .judged(minima::second),
@@ -237,12 +216,12 @@ pub const CLAUSES: [Clause; 7] = [
             ),
             &Check::new(
                 NamedRule::new("repaired", Conduct::REPAIRED),
-                &RandomAnswers {
-                    body: swarm::never_worsens_at_random,
-                    runs: SWARMS,
-                    range: swarm::random_swarms,
-                    covers: &["it improves"],
-                },
+                &RandomAnswers::new(
+                    swarm::never_worsens_at_random,
+                    SWARMS,
+                    swarm::random_swarms,
+                    &["it improves"],
+                ),
                 Verdict::Unrefuted,
                 &forgetful(Conduct::REPAIRED),
             ),
@@ -263,11 +242,7 @@ pub const CLAUSES: [Clause; 7] = [
                    leave out a fix that is as unlikely as one in a thousand.",
         checks: &[&Check::holds(
             NamedRule::new("repaired", belief::fused as Takes),
-            &EveryAnswer {
-                body: belief::is_mean,
-                range: belief::drives,
-                covers: &["a fix that counts", "an outlier"],
-            },
+            &EveryAnswer::new(belief::is_mean, belief::drives, &["a fix that counts", "an outlier"]),
             &[
                 NamedRule::new("fixes are believed without covariance", belief::believed),
                 NamedRule::new("wheels alone", belief::by_wheels_alone),

@@ -9,11 +9,7 @@ const REPAIRED: NamedRule<Reading> = NamedRule::new("repaired", Reading::True);
 
 const FOLLOWS: Check<Reading> = Check::holds(
     REPAIRED,
-    &EveryAnswer {
-        body: legs::follows,
-        range: legs::signals,
-        covers: &["a signal followed", "a signal ignored"],
-    },
+    &EveryAnswer::new(legs::follows, legs::signals, &["a signal followed", "a signal ignored"]),
     &[
         NamedRule::new("any nearer node", Reading::AnyNearer),
         NamedRule::new("any node", Reading::AnyNode),
@@ -23,21 +19,17 @@ const FOLLOWS: Check<Reading> = Check::holds(
 
 const GOES_ON: Check<Reading> = Check::holds(
     REPAIRED,
-    &EveryAnswer {
-        body: legs::goes_on,
-        range: legs::signals,
-        covers: &["at a node", "at the WFR", "no signal followed", "the signal lost"],
-    },
+    &EveryAnswer::new(
+        legs::goes_on,
+        legs::signals,
+        &["at a node", "at the WFR", "no signal followed", "the signal lost"],
+    ),
     &[NamedRule::new("a node is its own parent", Reading::NoParent)],
 );
 
 const WHOLE_WAY: Check<Patience> = Check::holds(
     NamedRule::new("repaired", TRUE),
-    &EveryAnswer {
-        body: way::whole_way,
-        range: way::events,
-        covers: &["at the WFR", "it asks", "lost", "on its way"],
-    },
+    &EveryAnswer::new(way::whole_way, way::events, &["at the WFR", "it asks", "lost", "on its way"]),
     &[
         NamedRule::new("asks three times", Patience { tries: 3, ..TRUE }),
         NamedRule::new("goes nearer twice", Patience { times: 2, ..TRUE }),
@@ -48,11 +40,7 @@ const WHOLE_WAY: Check<Patience> = Check::holds(
 
 const GUIDES: Check<bool> = Check::holds(
     NamedRule::new("repaired", true),
-    &EveryAnswer {
-        body: way::guides,
-        range: way::requests,
-        covers: &["idle", "it keeps silent", "it signals"],
-    },
+    &EveryAnswer::new(way::guides, way::requests, &["idle", "it keeps silent", "it signals"]),
     &[NamedRule::new("others do not count", false)],
 );
 
