@@ -37,10 +37,6 @@ impl Scheme for Rule {
     fn may_roam(&self, _: Sight) -> bool {
         true
     }
-
-    fn promises(&self, _: Sight) -> bool {
-        false
-    }
 }
 
 impl Demands for Rule {

@@ -144,6 +144,15 @@ impl<R> Check<R> {
         Self::new(about, method, Verdict::Holds, mutants)
     }
 
+    /// A check that is sampled, and not refuted.
+    pub const fn unrefuted(
+        about: NamedRule<R>,
+        method: &'static dyn Method<R>,
+        mutants: &'static [NamedRule<R>],
+    ) -> Self {
+        Self::new(about, method, Verdict::Unrefuted, mutants)
+    }
+
     /// A check that is refuted.
     pub const fn refuted(about: NamedRule<R>, method: &'static dyn Method<R>) -> Self {
         Self::new(about, method, Verdict::Refuted, &[])

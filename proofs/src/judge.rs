@@ -30,7 +30,7 @@ use change::Plain;
 #[cfg(feature = "rooms")]
 pub use ground::{Floor, Ground, Lattice, Place};
 #[cfg(feature = "rooms")]
-use ground::{SIDES, beside, must, path};
+use ground::{SIDES, beside, breaks_at_last, must, path};
 
 /// A counterexample, written down for the judge of its scheme.
 pub trait Case: fmt::Debug {

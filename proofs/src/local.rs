@@ -66,6 +66,18 @@ pub struct Act<S, A> {
     pub needs_open: bool,
 }
 
+impl<S: Copy> Act<S, Step> {
+    /// Every step, in which a robot goes unless a wall stands in its way, and keeps its state.
+    pub fn steps(state: S) -> Vec<Self> {
+        let act = |step| {
+            let (goes, stays) = ((true, state), (false, state));
+            let ends = if step == Step::Stay { vec![goes] } else { vec![goes, stays] };
+            Self { act: step, step, ends, needs_open: false }
+        };
+        Step::ALL.into_iter().map(act).collect()
+    }
+}
+
 impl<S> Robot<S> {
     /// A robot in a cell of colour 0.
     pub const fn new(at: Cell, state: S) -> Self {

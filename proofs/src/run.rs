@@ -75,6 +75,16 @@ pub const fn name_of(side: Side) -> &'static str {
     ["east", "south", "west", "north"][side as usize]
 }
 
+/// A cell as judges have it: its column and its row.
+pub fn place(cell: Cell) -> (i32, i32) {
+    (cell.x.into(), cell.y.into())
+}
+
+/// A wall as judges have it: the places on its two sides, the western or northern one first.
+pub fn sides(wall: Edge) -> ((i32, i32), (i32, i32)) {
+    (place(wall.cell()), place(wall.cell().beyond(wall.side())))
+}
+
 /// The walls that `frames` met, each once.
 pub fn walls(frames: &[Frame]) -> Vec<Edge> {
     let mut walls: Vec<Edge> = frames.iter().flat_map(Frame::bumps).collect();

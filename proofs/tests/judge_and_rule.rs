@@ -1,14 +1,14 @@
 //! The judge of chains and the kernel say the same thing twice: which team moves are admitted, and what the leader
 //! does. They share no code, so that one change to either of them shows here.
 
-use std::collections::BTreeSet;
-
-use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+use tautline_kernel::chain::{Chain, Kind, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, CompactGrid, Edge, EdgeMark, Grid, SmallGrid, Step};
-use tautline_proofs::chain::breach::frame;
-use tautline_proofs::judge::chain::{JudgeInput, Move, Objection, Place, Repairs, judge};
-use tautline_proofs::run::Frame;
+use tautline_proofs::chain::breach::written;
+use tautline_proofs::judge::chain::{JudgeInput, Move, Objection, Repairs, judge};
+use tautline_proofs::run::{Frame, place, sides};
+
+use crate::judge_of_chains::frames;
 
 /// Answers that a linear congruence makes of the ones before.
 struct Congruence(u64);
@@ -20,10 +20,6 @@ impl Oracle for Congruence {
     }
 }
 
-fn place(cell: Cell) -> Place {
-    (i32::from(cell.x), i32::from(cell.y))
-}
-
 fn input(
     clause: &'static str,
     rule: Rule,
@@ -32,29 +28,10 @@ fn input(
     base: Cell,
     robots: usize,
 ) -> JudgeInput {
-    JudgeInput {
-        clause,
-        repairs: if rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without },
-        width: i32::from(area.last().x) + 1,
-        height: i32::from(area.last().y) + 1,
-        walls: walls
-            .iter()
-            .map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side()))))
-            .collect(),
-        blocked: BTreeSet::new(),
-        base: place(base),
-        robots,
-        moves: Vec::new(),
-    }
-}
-
-fn written_down(frame: &Frame) -> Move {
-    Move {
-        is_backtrack: frame.kind == Kind::Backtrack,
-        tried: frame.steps.iter().map(|&step| place(Cell::new(0, 0).after(step))).collect(),
-        blocked: frame.blocked.clone(),
-        places: frame.cells.iter().copied().map(place).collect(),
-    }
+    let repairs = if rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without };
+    let (columns, rows) = place(area.last());
+    let walls = walls.iter().copied().map(sides).collect();
+    JudgeInput { walls, ..JudgeInput::open(clause, repairs, (columns + 1, rows + 1), place(base), robots) }
 }
 
 fn area(columns: i16, rows: i16) -> Area {
@@ -96,7 +73,7 @@ fn the_judge_admits_the_team_moves_that_the_rule_admits() {
                 if blocked[robot] { team[robot] } else { team[robot].after(steps[robot]) }
             });
             let frame = Frame { kind: Kind::Advance, steps: steps.to_vec(), blocked, cells: to.to_vec() };
-            input.moves.push(written_down(&frame));
+            input.moves.push(written(&frame));
             let is_admitted = rule.admits_plan(&mut grid, &team, &steps);
             let judgement = judge(&input);
             let objection = Objection { at: input.moves.len(), what: does_not_break };
@@ -120,14 +97,8 @@ fn the_judge_admits_the_team_moves_that_the_rule_admits() {
 /// The run of three robots in a layout.
 fn run(rule: Rule, area: Area, walls: &[Edge], base: Cell) -> Vec<Move> {
     let grid = SmallGrid::new(area).expect("three cells wide");
-    let mut chain = Chain::<_, 3>::new(rule, 3, base, grid).expect("it fits");
-    let (mut log, mut moves) = (Vec::new(), Vec::new());
-    while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
-        let settled = chain.settle(&plan, |edge| !walls.contains(&edge));
-        log.extend_from_slice(settled.messages());
-        moves.push(written_down(&frame(plan.kind, settled.messages(), chain.cells())));
-    }
-    moves
+    let chain = Chain::<_, 3>::new(rule, 3, base, grid).expect("it fits");
+    frames(chain, |edge| !walls.contains(&edge)).iter().map(written).collect()
 }
 
 /// In so few cells nothing within the reach of three robots is left out, by either rule, and walls shut cells off.

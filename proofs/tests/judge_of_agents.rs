@@ -2,16 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::ground::Cell;
 use tautline_proofs::decide::Depiction;
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::judge::floor::{JudgeInput, Judgement, Objection, Place, Turn, judge};
+use tautline_proofs::run::place;
 
 use crate::refuted::{Refutation, of};
-
-fn place(cell: Cell) -> Place {
-    (i32::from(cell.x), i32::from(cell.y))
-}
 
 fn written_down(clause: &'static str, course: &Course) -> JudgeInput {
     let turn = |turn: &tautline_proofs::floor_trace::Turn| Turn {
@@ -19,15 +15,12 @@ fn written_down(clause: &'static str, course: &Course) -> JudgeInput {
         to: place(turn.before.cells[turn.agent].after(turn.step)),
         is_done: turn.is_done,
     };
+    let starts = course.turns[0].before.cells.iter().copied().map(place).collect();
+    let turns = course.turns.iter().map(turn).collect();
     JudgeInput {
-        clause,
-        width: course.width.into(),
-        height: course.height.into(),
-        walls: BTreeSet::new(),
         blocked: course.blocked.iter().copied().map(place).collect(),
-        starts: course.turns[0].before.cells.iter().copied().map(place).collect(),
-        turns: course.turns.iter().map(turn).collect(),
         round: course.round,
+        ..JudgeInput::open(clause, (course.width.into(), course.height.into()), starts, turns)
     }
 }
 
@@ -82,16 +75,7 @@ fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
 #[test]
 fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
     let turn = |to, is_done| Turn { agent: 0, to, is_done };
-    let input = |turns: &[Turn]| JudgeInput {
-        clause: "BRICKS-4",
-        width: 3,
-        height: 1,
-        walls: BTreeSet::new(),
-        blocked: BTreeSet::new(),
-        starts: vec![(0, 0)],
-        turns: turns.to_vec(),
-        round: 0,
-    };
+    let input = |turns: &[Turn]| JudgeInput::open("BRICKS-4", (3, 1), vec![(0, 0)], turns.to_vec());
     let early = [turn((1, 0), false), turn((1, 0), true)];
     assert_eq!(judge(&input(&early)), Ok(Judgement::Broken));
     let late = [turn((1, 0), false), turn((2, 0), false), turn((2, 0), true)];
@@ -110,15 +94,9 @@ fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
 
 #[test]
 fn an_agent_alone_that_makes_more_than_two_moves_a_cell_breaks_bricks_12() {
-    let run = |moves: usize| JudgeInput {
-        clause: "BRICKS-12",
-        width: 2,
-        height: 1,
-        walls: BTreeSet::new(),
-        blocked: BTreeSet::new(),
-        starts: vec![(0, 0)],
-        turns: (1..=moves as i32).map(|to| Turn { agent: 0, to: (to % 2, 0), is_done: false }).collect(),
-        round: 0,
+    let run = |moves: usize| {
+        let turns = (1..=moves as i32).map(|to| Turn { agent: 0, to: (to % 2, 0), is_done: false });
+        JudgeInput::open("BRICKS-12", (2, 1), vec![(0, 0)], turns.collect())
     };
     assert_eq!(judge(&run(5)), Ok(Judgement::Broken));
     assert!(judge(&run(4)).is_err(), "two moves a cell");
@@ -148,16 +126,8 @@ fn in_the_middle(
     turns: &[(usize, Place, bool)],
     round: usize,
 ) -> JudgeInput {
-    JudgeInput {
-        clause,
-        width: 3,
-        height: 3,
-        walls: BTreeSet::new(),
-        blocked: BTreeSet::new(),
-        starts: vec![(1, 1); agents],
-        turns: turns.iter().map(|&(agent, to, is_done)| Turn { agent, to, is_done }).collect(),
-        round,
-    }
+    let turns = turns.iter().map(|&(agent, to, is_done)| Turn { agent, to, is_done }).collect();
+    JudgeInput { round, ..JudgeInput::open(clause, (3, 3), vec![MIDDLE; agents], turns) }
 }
 
 const MIDDLE: Place = (1, 1);

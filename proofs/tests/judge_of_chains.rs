@@ -2,46 +2,24 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
-use tautline_kernel::ground::{Area, Cell, Edge, Side, SmallGrid, Step};
+use tautline_kernel::chain::{Chain, Intent, Rule};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, SmallGrid};
 use tautline_proofs::chain::Subject;
-use tautline_proofs::chain::breach::frame;
+use tautline_proofs::chain::breach::{frame, written};
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::search::{Bounds, Counterexample, search};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::judge::chain::{JudgeInput, Move, Objection, Place, Repairs, judge};
-use tautline_proofs::run::walls;
-
-fn place(cell: Cell) -> Place {
-    (i32::from(cell.x), i32::from(cell.y))
-}
+use tautline_proofs::run::{Frame, place, sides, walls};
 
 fn input(found: &Counterexample, bounds: &Bounds) -> JudgeInput {
-    let tried = |step: &Step| place(Cell::new(0, 0).after(*step));
     let side = 2 * bounds.robots as i32 - 1;
     let repairs = if bounds.observed.rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without };
+    let (clause, base) = (found.broken.clause(), place(bounds.base));
     JudgeInput {
-        clause: found.broken.clause(),
-        repairs,
-        width: side,
-        height: side,
-        walls: walls(&found.frames)
-            .iter()
-            .map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side()))))
-            .collect(),
-        blocked: BTreeSet::new(),
-        base: place(bounds.base),
-        robots: bounds.robots,
-        moves: found
-            .frames
-            .iter()
-            .map(|frame| Move {
-                is_backtrack: frame.kind == Kind::Backtrack,
-                tried: frame.steps.iter().map(tried).collect(),
-                blocked: frame.blocked.clone(),
-                places: frame.cells.iter().copied().map(place).collect(),
-            })
-            .collect(),
+        walls: walls(&found.frames).into_iter().map(sides).collect(),
+        moves: found.frames.iter().map(written).collect(),
+        ..JudgeInput::open(clause, repairs, (side, side), base, bounds.robots)
     }
 }
 
@@ -81,17 +59,8 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
     let back = step([(0, 0), (-1, 0)], [(2, 2), (2, 2)], true);
     for clause in ["CHAIN-13", "CHAIN-14"] {
         for repairs in [Repairs::Without, Repairs::With] {
-            let mut input = JudgeInput {
-                clause,
-                repairs,
-                width: 5,
-                height: 5,
-                walls: BTreeSet::new(),
-                blocked: BTreeSet::new(),
-                base: (2, 2),
-                robots: 3,
-                moves: vec![out.clone()],
-            };
+            let mut input = JudgeInput::open(clause, repairs, (5, 5), (2, 2), 3);
+            input.moves.push(out.clone());
             let goes_on = Objection { at: 0, what: "the run goes on after the last move" };
             assert_eq!(judge(&input), Err(goes_on));
             input.moves.push(back.clone());
@@ -101,17 +70,23 @@ fn a_step_and_back_is_not_the_end_of_a_run() {
     }
 }
 
+/// The team moves of a chain up to its end.
+pub(crate) fn frames(mut chain: Chain<SmallGrid, 3>, is_open: impl Fn(Edge) -> bool) -> Vec<Frame> {
+    let (mut log, mut frames) = (Vec::new(), Vec::new());
+    while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
+        let settled = chain.settle(&plan, &is_open);
+        log.extend_from_slice(settled.messages());
+        frames.push(frame(plan.kind, settled.messages(), chain.cells()));
+    }
+    frames
+}
+
 /// The whole run of three robots in the open, as a counterexample to `clause`.
 fn open_run(observed: Subject, clause: &'static str) -> JudgeInput {
     let bounds = Bounds::new(observed, 3, 0);
     let grid = SmallGrid::new(bounds.area).expect("five cells wide");
-    let mut chain = Chain::<_, 3>::new(observed.rule, 3, bounds.base, grid).expect("it fits");
-    let (mut log, mut frames) = (Vec::new(), Vec::new());
-    while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
-        let settled = chain.settle(&plan, |_| true);
-        log.extend_from_slice(settled.messages());
-        frames.push(frame(plan.kind, settled.messages(), chain.cells()));
-    }
+    let chain = Chain::<_, 3>::new(observed.rule, 3, bounds.base, grid).expect("it fits");
+    let frames = frames(chain, |_| true);
     let (broken, demand, answers) = (Invariant::Exhausts, "nothing", Vec::new());
     let run = Counterexample { broken, runs: 1, demand, frames, answers };
     JudgeInput { clause, ..input(&run, &bounds) }
@@ -218,14 +193,9 @@ fn two_robots_that_a_backtrack_brings_into_one_cell_are_judged_to_meet() {
 fn meets_in_its_sixth_move(observed: Subject) {
     let (area, base) = (Area::new(Cell::new(0, 0), Cell::new(3, 0)).expect("cells"), Cell::new(1, 0));
     let grid = SmallGrid::new(area).expect("four cells");
-    let mut chain = Chain::<_, 3>::new(observed.rule, 3, base, grid).expect("it fits");
+    let chain = Chain::<_, 3>::new(observed.rule, 3, base, grid).expect("it fits");
     let wall = Edge::new(Cell::new(2, 0), Side::East);
-    let (mut log, mut frames) = (Vec::new(), Vec::new());
-    while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
-        let settled = chain.settle(&plan, |edge| edge != wall);
-        log.extend_from_slice(settled.messages());
-        frames.push(frame(plan.kind, settled.messages(), chain.cells()));
-    }
+    let mut frames = frames(chain, |edge| edge != wall);
     frames.truncate(6);
     let bounds = Bounds { area, base, ..Bounds::new(observed, 3, 1) };
     let (broken, demand, answers) = (Invariant::Meets, "nothing", Vec::new());

@@ -5,19 +5,14 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
-use tautline_proofs::decide::{Cache, Context, Depiction, Method, MethodResult, Verdict};
-use tautline_proofs::engine::states::MemoryLimit;
+use tautline_proofs::decide::{Cache, Depiction, Method, Verdict};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Until};
 use tautline_proofs::local::{
     Act, EveryNumber, Far, GuardedPlanner, Invariant, Local, Plan, Robot, all_tuples, chain, in_a_row,
 };
 
-pub(crate) fn decide<R: Local>(method: EveryNumber, rule: &R) -> MethodResult {
-    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut context = Context { cache, watch, memory: MemoryLimit::any() };
-    method.decide(rule, Until::Exhausted, &mut context)
-}
+use crate::refuted::decide;
 
 /// The answer about a rule, which is played again if it is refuted: the verdict, how many robots refute it in how many
 /// steps, and the drawing.
@@ -26,7 +21,7 @@ pub(crate) fn decided<R: Local>(rule: &R) -> (Verdict, Option<(u32, usize)>, Str
 }
 
 pub(crate) fn decided_by<R: Local>(method: EveryNumber, rule: &R) -> (Verdict, Option<(u32, usize)>, String) {
-    let answer = decide(method, rule).expect("a local rule");
+    let answer = decide(&method, rule, Until::Exhausted).expect("a local rule");
     let Some(evidence) = answer.counterexample else { return (answer.verdict, None, String::new()) };
     let choices: &Choices = &evidence.choices;
     let again = method.replay(rule, choices).expect("a run");
@@ -211,7 +206,8 @@ fn what_is_no_local_rule_is_refused_with_the_reason() {
 fn a_slip_of_the_pen_is_refused_with_what_would_be_right() {
     let refusal = |slip| {
         let rule = Leash { slip, ..LEASH };
-        let refusal = decide(EveryNumber::DEFAULT, &rule).expect_err("it is refused").to_string();
+        let refusal =
+            decide(&EveryNumber::DEFAULT, &rule, Until::Exhausted).expect_err("it is refused").to_string();
         let certificate = EveryNumber::DEFAULT.certificate(&rule).expect("an answer");
         assert_eq!(certificate.expect_err("no certificate either").to_string(), refusal);
         refusal
@@ -258,12 +254,7 @@ impl Local for FewAreBound {
     }
 
     fn acts(&self, (): ()) -> Vec<Act<(), Step>> {
-        let act = |step: Step| {
-            let goes = step != Step::Stay;
-            let ends = if goes { vec![(true, ()), (false, ())] } else { vec![(true, ())] };
-            Act { act: step, step, ends, needs_open: false }
-        };
-        Step::ALL.map(act).to_vec()
+        Act::steps(())
     }
 
     fn admits(&self, plans: &[Plan<(), Step>]) -> bool {
@@ -394,10 +385,8 @@ impl Local for ColouredLeash {
 
 #[test]
 fn a_team_that_starts_in_cells_without_a_colour_is_refused() {
-    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
-    let mut context = Context { cache, watch, memory: MemoryLimit::any() };
     assert_eq!(decided(&ColouredLeash(1)).0, Verdict::Refuted);
-    let refusal = EveryNumber::DEFAULT.decide(&ColouredLeash(2), Until::Exhausted, &mut context);
+    let refusal = decide(&EveryNumber::DEFAULT, &ColouredLeash(2), Until::Exhausted);
     insta::assert_snapshot!(
         refusal.expect_err("there is no such colour"),
         @"a team of 2 starts in cells that have no colour below 2, or two"

@@ -8,6 +8,7 @@ use tautline_kernel::kit::{Condition as KitCondition, Rule as KitRule};
 use tautline_proofs::chain::local::{Contact, Crowd};
 use tautline_proofs::clause::{AnyCheck, Check, NamedRule};
 use tautline_proofs::decide::{Cache, Method, Verdict};
+use tautline_proofs::engine::Until;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::frontier::local::Alone;
 use tautline_proofs::frontier::world::Rim;
@@ -16,7 +17,8 @@ use tautline_proofs::local::{
     Act, EveryNumber, Far, GuardedPlanner, Invariant, Local, Plan, Robot, all_tuples,
 };
 
-use crate::local::{decide, decided_by};
+use crate::local::decided_by;
+use crate::refuted;
 
 /// A line of the table.
 fn line<R: Local>(name: &str, rule: &R) -> String {
@@ -162,12 +164,13 @@ impl<const COLOURS: u8> Local for Own<COLOURS> {
     }
 
     fn acts(&self, (): ()) -> Vec<Act<(), Step>> {
-        let act = |step| {
-            let may_not = self.meets_walls && step != Step::Stay;
-            let ends = if may_not { vec![(true, ()), (false, ())] } else { vec![(true, ())] };
-            Act { act: step, step, ends, needs_open: false }
-        };
-        Step::ALL.into_iter().map(act).collect()
+        let mut acts = Act::steps(());
+        if !self.meets_walls {
+            for act in &mut acts {
+                act.ends.truncate(1);
+            }
+        }
+        acts
     }
 
     fn admits(&self, plans: Plans<'_>) -> bool {
@@ -276,7 +279,9 @@ fn a_team_that_starts_with_a_broken_promise_is_refused() {
     let right = leash(|plans| of_goals(plans) && of_cells_and_goals(plans));
     let wrong = Own { start: |_, _| Cell::new(0, 0), ..right };
     let certificate = EveryNumber::DEFAULT.certificate(&wrong).expect("an answer");
-    for error in [decide(EveryNumber::DEFAULT, &wrong).map(drop), certificate.map(drop)] {
+    for error in
+        [refuted::decide(&EveryNumber::DEFAULT, &wrong, Until::Exhausted).map(drop), certificate.map(drop)]
+    {
         let error = error.expect_err("two robots are in one cell").to_string();
         assert!(error.contains("a team of 2 may not start so"), "{error}");
     }

@@ -3,9 +3,8 @@
 //! fairness. Where a question can be asked of a tree and of the states, both say the same.
 
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_proofs::decide::{Answer, Cache as Known, Context, Depiction, Method, Verdict};
-use tautline_proofs::engine::states::{self, MemoryLimit};
-use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::decide::{Answer, Depiction, Method, Verdict};
+use tautline_proofs::engine::states;
 use tautline_proofs::engine::world::play;
 use tautline_proofs::engine::{Outcome, SeededOracle, Stop, Until};
 use tautline_proofs::run::Run;
@@ -15,16 +14,15 @@ use tautline_proofs::team::{
 };
 
 use crate::exhausted::certify;
+use crate::refuted::decide;
 
 fn decided<R: Rule + PartialEq + 'static>(
     rule: &R,
     setting: &'static Setting<'static, R>,
     demand: usize,
 ) -> Answer {
-    let mut context =
-        Context { cache: &mut Known::default(), watch: &mut unwatched, memory: MemoryLimit::any() };
     let keeps = Keeps(setting, demand);
-    let answer = keeps.decide(rule, Until::Exhausted, &mut context).expect("it can be decided");
+    let answer = decide(&keeps, rule, Until::Exhausted).expect("it can be decided");
     certify(&keeps, rule, answer.verdict);
     if let Some(found) = &answer.counterexample {
         let played = keeps.replay(rule, &found.choices).expect("it can be played again");

@@ -2,13 +2,13 @@
 //! occurs, a run that neither ends nor comes back, an area that is too large.
 
 use tautline_kernel::ground::{Cell, Side};
-use tautline_proofs::decide::{Answer, Cache, Context, Depiction, Method, MethodError, Verdict};
+use tautline_proofs::decide::{Answer, Depiction, Method, MethodError, Verdict};
 use tautline_proofs::engine::Until;
-use tautline_proofs::engine::states::MemoryLimit;
-use tautline_proofs::engine::tree::{Waves, unwatched};
+use tautline_proofs::engine::tree::Waves;
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Promise, Rule, Scene, Setting, View, Which};
 
 use crate::exhausted::certify;
+use crate::refuted::decide;
 
 /// A robot's walk: it goes east and back for ever, or counts, or goes east until it meets a wall.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -79,10 +79,9 @@ static STILL_AND_ENDS: Setting<'static, Walk> =
 type Question = (&'static Setting<'static, Walk>, usize);
 
 fn decided(rule: Walk, (layouts, demand): Question) -> Result<Answer, MethodError> {
-    let cache = &mut Cache::default();
-    let mut context = Context { cache, watch: &mut unwatched, memory: MemoryLimit::any() };
-    let answer = Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut context)?;
-    certify(&Keeps(layouts, demand), &rule, answer.verdict);
+    let keeps = Keeps(layouts, demand);
+    let answer = decide(&keeps, &rule, Until::Exhausted)?;
+    certify(&keeps, &rule, answer.verdict);
     Ok(answer)
 }
 

@@ -4,11 +4,17 @@ use std::sync::LazyLock;
 
 use rayon::prelude::*;
 use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::decide::{Cache, Context, Evidence, Verdict};
+use tautline_proofs::decide::{Cache, Context, Evidence, Method, MethodResult, Verdict};
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::ledger::{Room, rooms};
+
+/// The answer of `method` about `rule`, with nothing found before.
+pub(crate) fn decide<R>(method: &impl Method<R>, rule: &R, until: Until) -> MethodResult {
+    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+    method.decide(rule, until, &mut Context { cache, watch, memory: MemoryLimit::any() })
+}
 
 /// A check that is refuted.
 pub(crate) struct Refutation {

@@ -9,16 +9,17 @@ use tautline_proofs::decide::{
     Cache, Context, EveryAnswer, EveryState, Method, MethodResult, RandomAnswers, Verdict,
 };
 use tautline_proofs::engine::states::{self, MemoryLimit, System, Unsound, repeats};
-use tautline_proofs::engine::tree::{Progress, unwatched};
+use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::engine::{Outcome, Stop, Until};
 use tautline_proofs::team::{
     Act, Cover, Demand, Ground, Keeps, Places, Rule, Setting, Strategy, View, Which,
 };
 
+use crate::refuted;
+
 fn decide<R>(method: &impl Method<R>, rule: &R) -> MethodResult {
-    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
-    method.decide(rule, Until::Violation, &mut Context { cache, watch, memory: MemoryLimit::any() })
+    refuted::decide(method, rule, Until::Violation)
 }
 
 fn refusal<R>(method: &impl Method<R>, rule: &R) -> String {

@@ -136,10 +136,6 @@ impl Scheme for Apart {
     fn may_roam(&self, _: Sight) -> bool {
         true
     }
-
-    fn promises(&self, _: Sight) -> bool {
-        false
-    }
 }
 
 impl Demands for Apart {

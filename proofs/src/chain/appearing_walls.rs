@@ -10,8 +10,9 @@ use tautline_kernel::ground::{Cell, Edge, SmallGrid, Step};
 use super::breach::Breach;
 use super::environment::in_covered;
 use super::subject::Subject;
-use super::whole_runs::{MANY, NO_MESSAGE, key, listed, start};
+use super::whole_runs::{MANY, NO_MESSAGE, is_one_of, key, start};
 use crate::engine::{Outcome, Stop, require};
+use crate::plural::listed;
 
 /// Robots, most walls, and most walls that appear, of [`in_few_walls`].
 const FEW_WALLS: [(usize, u32, u32); 3] = [(3, 2, 2), (4, 1, 1), (5, 0, 2)];
@@ -51,14 +52,9 @@ pub(super) struct WallsCase {
 /// [`Stop`] if it is no case, or breaks the clause.
 pub(super) fn in_few_walls(shut: &WallsCase, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, mut walls, mut appear) = one_of(oracle, &FEW_WALLS);
-    runs(shut, robots, &mut |known| {
-        let left = match known {
-            SideKnowledge::No => &mut walls,
-            SideKnowledge::Open => &mut appear,
-        };
-        let is_wall = *left > 0 && oracle.flip();
-        *left -= u32::from(is_wall);
-        is_wall
+    runs(shut, robots, &mut |known| match known {
+        SideKnowledge::No => is_one_of(&mut walls, oracle),
+        SideKnowledge::Open => is_one_of(&mut appear, oracle),
     })
 }
 

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Kind, Message, Outcome};
 use tautline_kernel::ground::{Cell, Circle, Step};
 
-use crate::run::Frame;
+use crate::judge::chain::Move;
+use crate::run::{Frame, place};
 
 /// The frame of a team move after which the messages of R_2 … R_N were sent and the team was in `cells`.
 pub fn frame(kind: Kind, messages: &[u8], cells: &[Cell]) -> Frame {
@@ -18,6 +19,16 @@ pub fn frame(kind: Kind, messages: &[u8], cells: &[Cell]) -> Frame {
         .map(|message| (message.step, message.outcome == Outcome::Blocked))
         .unzip();
     Frame { kind, steps, blocked, cells: cells.to_vec() }
+}
+
+/// The team move of `frame` as the judge reads it.
+pub fn written(frame: &Frame) -> Move {
+    Move {
+        is_backtrack: frame.kind == Kind::Backtrack,
+        tried: frame.steps.iter().map(|&step| place(Cell::new(0, 0).after(step))).collect(),
+        blocked: frame.blocked.clone(),
+        places: frame.cells.iter().copied().map(place).collect(),
+    }
 }
 
 /// A violation that no chain may commit, whatever the layout.

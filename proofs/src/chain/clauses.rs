@@ -187,10 +187,9 @@ const LAVISH: NamedRule<Subject> = NamedRule::new(
     Subject::SPARING.following(Rule { budget: Budget::Unlimited, ..Rule::REPAIRED }),
 );
 
-const CHEAP: Check<Subject> = Check::new(
+const CHEAP: Check<Subject> = Check::unrefuted(
     REPAIRED,
     &RandomAnswers::new(whole_runs::cheap, 44, whole_runs::cheap_runs, &["a longer run"]),
-    Verdict::Unrefuted,
     &[NamedRule::new("the plain recursion", Subject::REPAIRED.deceiving(Deception::PlainRecursion))],
 );
 

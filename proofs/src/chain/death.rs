@@ -11,8 +11,9 @@ use super::breach::Breach;
 use super::environment::in_covered;
 use super::links::has_explored;
 use super::subject::Subject;
-use super::whole_runs::{MANY, NO_MESSAGE, key, listed, start};
+use super::whole_runs::{MANY, NO_MESSAGE, is_one_of, key, start};
 use crate::engine::{Outcome, Stop, require};
+use crate::plural::listed;
 
 /// Robots, and most walls, of [`in_few_walls`].
 const FEW_WALLS: [(usize, u32); 3] = [(3, 1), (4, 1), (5, 0)];
@@ -73,12 +74,7 @@ pub(super) enum Aftermath {
 pub(super) fn in_few_walls(dying: &DeathCase, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, mut walls) = one_of(oracle, &FEW_WALLS);
     let (moment, robot) = (oracle.pick(MOMENTS), 1 + oracle.pick(robots as u32 - 1) as usize);
-    let mut is_open = || {
-        let is_wall = walls > 0 && oracle.flip();
-        walls -= u32::from(is_wall);
-        !is_wall
-    };
-    Death { dying, moment, robot }.happens(robots, &mut is_open)
+    Death { dying, moment, robot }.happens(robots, &mut || !is_one_of(&mut walls, oracle))
 }
 
 /// CHAIN-21 in a random layout.

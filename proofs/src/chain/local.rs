@@ -174,12 +174,7 @@ impl<const COLOURS: u8> Local for Crowd<COLOURS> {
     }
 
     fn acts(&self, role: Role) -> Vec<Act<Role, Step>> {
-        let act = |step| {
-            let ends =
-                if step == Step::Stay { vec![(true, role)] } else { vec![(true, role), (false, role)] };
-            Act { act: step, step, ends, needs_open: false }
-        };
-        Step::ALL.into_iter().map(act).collect()
+        Act::steps(role)
     }
 
     fn admits(&self, plans: &[Plan<Role, Step>]) -> bool {

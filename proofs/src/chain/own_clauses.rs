@@ -18,7 +18,7 @@ use super::search::EveryLayout;
 use super::subject::Subject;
 use super::{pair, whole_runs};
 use crate::clause::{Check, Clause, NamedRule};
-use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
+use crate::decide::{EveryAnswer, RandomAnswers};
 use crate::ground::clauses::NARROWER;
 use crate::local::EveryNumber;
 use crate::step_checks;
@@ -125,10 +125,9 @@ const MEETING: Check<DeathCase> = Check::holds(
     ],
 );
 
-const DEATH_AT_RANDOM: Check<DeathCase> = Check::new(
+const DEATH_AT_RANDOM: Check<DeathCase> = Check::unrefuted(
     DEATH.about,
     &RandomAnswers::new(death::at_random, 200, death::random_layouts, &DEATHS),
-    Verdict::Unrefuted,
     &[
         NamedRule::new("without hold", dying(Subject::UNHELD, Aftermath::Reform)),
         NamedRule::new("without E_S ahead", dying(Subject::REEL.without(SafeAhead), Aftermath::Reform)),
@@ -159,7 +158,7 @@ const SHUT: Check<WallsCase> = Check::holds(
     ],
 );
 
-const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
+const SHUT_AT_RANDOM: Check<WallsCase> = Check::unrefuted(
     SHUT.about,
     &RandomAnswers::new(
         appearing_walls::at_random,
@@ -167,7 +166,6 @@ const SHUT_AT_RANDOM: Check<WallsCase> = Check::new(
         appearing_walls::random_layouts,
         &["a wall appears"],
     ),
-    Verdict::Unrefuted,
     &[UNTRIED],
 );
 
@@ -232,10 +230,9 @@ pub const CLAUSES: [Clause; 10] = [
             // Without hold four robots keep contact in any order among so few walls.
             &Check::holds(REEL, &fewer_walls(Invariant::AnyOrder), &[lacking(Subject::REEL, SafeAhead)]),
             &Check::holds(REEL, &EveryLayout(Invariant::AnyOrder, FIVE_TWO_WALLS), &[NOT_HELD]),
-            &Check::new(
+            &Check::unrefuted(
                 REEL,
                 &RandomAnswers::new(whole_runs::any_order, 200, whole_runs::orders, &["a whole run"]),
-                Verdict::Unrefuted,
                 &[NOT_HELD],
             ),
             &Check::holds(CONTACT, &EveryNumber::DEFAULT, &LOST_CONTACT),

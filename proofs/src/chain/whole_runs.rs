@@ -13,6 +13,7 @@ use super::breach::CHEAP_LOOKS;
 use super::plain::{PlainChain, PlainIntent, TooMany};
 use super::subject::{Deception, Subject};
 use crate::engine::{Outcome, Stop, require};
+use crate::plural::listed;
 
 /// The area of the paper for `robots`: (2N−1)² cells with the base in the middle.
 pub(crate) fn area(robots: usize) -> (Area, Cell) {
@@ -40,11 +41,6 @@ pub(crate) fn chains(range: &RangeInclusive<u32>) -> String {
     format!("N = {} … {}", range.start(), range.end())
 }
 
-/// Numbers in words.
-pub(super) fn listed<N: ToString>(numbers: impl IntoIterator<Item = N>) -> String {
-    numbers.into_iter().map(|number| number.to_string()).collect::<Vec<_>>().join(", ")
-}
-
 pub(super) const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
 
 /// More team moves than any run has in which something fails.
@@ -53,6 +49,13 @@ pub(super) const MANY: u32 = 20_000;
 /// The key by which an edge is looked up.
 pub(super) fn key(edge: Edge) -> (i16, i16, u8) {
     (edge.cell().x, edge.cell().y, edge.side() as u8)
+}
+
+/// Whether there is one of the few that are `left` here.
+pub(super) fn is_one_of(left: &mut u32, oracle: &mut dyn Oracle) -> bool {
+    let is_here = *left > 0 && oracle.flip();
+    *left -= u32::from(is_here);
+    is_here
 }
 
 /// The chains of [`spiral`].
@@ -150,11 +153,7 @@ pub(super) fn layouts_with_few_walls() -> String {
 /// [`Stop::Violated`] if the plans differ.
 pub(super) fn same_plan_in_all_layouts(observed: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let (robots, mut walls) = one_of(oracle, &FEW_WALLS);
-    same_plan(observed, robots, &mut |_| {
-        let is_wall = walls > 0 && oracle.flip();
-        walls -= u32::from(is_wall);
-        !is_wall
-    })
+    same_plan(observed, robots, &mut |_| !is_one_of(&mut walls, oracle))
 }
 
 /// Candidates that the plain recursion may look at in one plan before a comparison is given up.

@@ -7,7 +7,7 @@ use std::slice;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Mark, Ring, Scan};
-use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_kernel::ground::{Cell, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View};
 use super::plans::{Area, FloorPlan};
@@ -17,6 +17,7 @@ use crate::engine::states::{Bits, Places, Run, Step as Made, System};
 use crate::engine::world::{self, World, any_of, picked};
 use crate::floor_trace::{Course, Scene, Turn};
 use crate::judge::{Floor, marks as judge};
+use crate::run::{place, sides};
 
 /// How the actions of two agents may overlap.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -241,7 +242,6 @@ impl<S: Demands> Team<S> {
         run: &Run<&str>,
         has_marks: bool,
     ) -> judge::Run {
-        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
         let mark = |state: &StateOf<S>, cell| {
             let at = self.plan.place(cell)?;
             match state.sensors.all[at].mark() {
@@ -272,10 +272,6 @@ impl<S: Demands> Team<S> {
             judge::Turn { agent, side, fate, writes, is_missed }
         };
         let Course { width, height, blocked, walls, round, .. } = self.course(start.clone(), run);
-        let ends = |wall: Edge| {
-            let (one, other) = (place(wall.cell()), place(wall.cell().beyond(wall.side())));
-            (one.min(other), one.max(other))
-        };
         judge::Run {
             clause,
             floor: Floor {
@@ -283,7 +279,7 @@ impl<S: Demands> Team<S> {
                 rows: height.into(),
                 barred: blocked.into_iter().map(place).collect(),
             },
-            walls: walls.into_iter().map(ends).collect(),
+            walls: walls.into_iter().map(sides).collect(),
             starts: start.bodies.iter().map(|body| place(body.cell)).collect(),
             turns: run.played(self, start).map(turn).collect(),
             round,

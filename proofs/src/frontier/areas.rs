@@ -17,8 +17,8 @@ use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::states::{AnySystem, Findings, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, Floor, frontier as judge};
-use crate::plural::counted;
-use crate::run::{self, Ending, ScriptedRun};
+use crate::plural::{counted, listed};
+use crate::run::{self, Ending, ScriptedRun, place};
 
 /// Columns and rows.
 pub type Size = (i16, i16);
@@ -144,7 +144,6 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         };
         let (start, steps, once) = self.steps()?;
         let area = self.setting.area;
-        let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
         let truth = steps.last().map_or(start.truth(), |(_, world)| world.truth());
         let barred = area.cells().filter(|&cell| truth.status(cell) == Status::Obstacle).map(place).collect();
         let floor = Floor { columns: area.width() as i32, rows: area.height() as i32, barred };
@@ -161,7 +160,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         let mut lines = format!("{}×{} cells\n", area.width(), area.height());
         let Some((start, steps, once)) = self.steps() else { return lines };
         let starts = (1..).zip(start.cells()).map(|(robot, cell)| format!("R{robot} starts in {cell}"));
-        lines += &starts.collect::<Vec<_>>().join(", ");
+        lines += &listed(starts);
         lines.push('\n');
         for (number, (event, world)) in steps.iter().enumerate() {
             if number == once {
@@ -182,9 +181,7 @@ fn written(event: &Event) -> Option<judge::Step> {
         Event::Decides(robot, side, _, 0) => (robot, judge::What::Decides, Some(side as usize), None),
         Event::Looks(robot, _, Sight::Open, ..) => (robot, judge::What::Enters, None, None),
         Event::Looks(robot, _, Sight::Obstacle, 0, _) => (robot, judge::What::IsBarred, None, None),
-        Event::Arrives(robot, fix, 0) => {
-            (robot, judge::What::Arrives, None, Some((fix.x.into(), fix.y.into())))
-        }
+        Event::Arrives(robot, fix, 0) => (robot, judge::What::Arrives, None, Some(place(fix))),
         Event::Decides(..) | Event::Looks(..) | Event::Arrives(..) | Event::Ticks => return None,
     };
     Some(judge::Step { robot, what, side, fix })
@@ -257,8 +254,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
     }
 
     fn bound(&self) -> String {
-        let sizes: Vec<String> =
-            self.sizes.iter().map(|(width, height)| format!("{width}×{height}")).collect();
+        let sizes = listed(self.sizes.iter().map(|(width, height)| format!("{width}×{height}")));
         let lost = match self.max_losses {
             0 => String::new(),
             lost => format!(", at most {} lost", counted(lost, "message")),
@@ -273,10 +269,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
             small => format!(", at most {} smaller than a cell", counted(small, "obstacle")),
         };
         let robots = counted(ROBOTS as u64, "robot");
-        format!(
-            "all obstacles in {} cells, all starts, {robots}, every order{lost}{wrong}{small}",
-            sizes.join(", ")
-        )
+        format!("all obstacles in {sizes} cells, all starts, {robots}, every order{lost}{wrong}{small}")
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {

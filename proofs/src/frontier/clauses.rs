@@ -18,6 +18,7 @@ use super::world::Demand;
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::{EveryAnswer, EveryState};
 use crate::local::EveryNumber;
+use crate::plural::listed;
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
@@ -159,8 +160,7 @@ const fn drifting(range: fn() -> String) -> EveryState<Drift, Drift> {
 
 /// The bound with fixes that are off by so many sixteenths, in words.
 fn off_by(error: u8) -> String {
-    let sizes: Vec<String> = SMALLEST.iter().map(|(width, height)| format!("{width}×{height}")).collect();
-    let sizes = sizes.join(", ");
+    let sizes = listed(SMALLEST.map(|(width, height)| format!("{width}×{height}")));
     format!(
         "all obstacles in {sizes} cells, all starts, 1 robot, each fix off by 0 or {error}/{PARTS} of a cell"
     )

@@ -17,6 +17,7 @@ use crate::engine::world::{Turn, World, any_of, bit, picked};
 use crate::engine::{Choices, Replay, outcomes};
 use crate::judge::frontier::{Drift as Written, Move};
 use crate::judge::{AnyCase, Floor};
+use crate::run::place;
 
 /// The parts of a cell's side in which an error is told.
 pub const PARTS: i32 = 16;
@@ -118,7 +119,7 @@ impl Drift {
             let off = is_arrival.then(|| sixteenths(state.fix, state.place));
             moves.push(Move { side: side as usize, off });
         }
-        let (area, place) = (state.truth.area(), |cell: Cell| (i32::from(cell.x), i32::from(cell.y)));
+        let area = state.truth.area();
         let is_barred = |cell: &Cell| state.truth.status(*cell) == Status::Obstacle;
         let barred = area.cells().filter(is_barred).map(place).collect();
         Some(Box::new(Written {

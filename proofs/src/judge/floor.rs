@@ -129,6 +129,17 @@ impl Case for JudgeInput {
 }
 
 impl JudgeInput {
+    /// A run without a round in a layout of so many columns and rows without walls.
+    pub fn open(
+        clause: &'static str,
+        (width, height): (i32, i32),
+        starts: Vec<Place>,
+        turns: Vec<Turn>,
+    ) -> Self {
+        let (walls, blocked) = (BTreeSet::new(), BTreeSet::new());
+        Self { clause, width, height, walls, blocked, starts, turns, round: 0 }
+    }
+
     fn is_free(&self, place: Place) -> bool {
         let (x, y) = place;
         (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&place)

@@ -7,7 +7,7 @@ mod drift;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::change::plain;
-use super::{Case, Floor, Objection, Place, beside, must};
+use super::{Case, Floor, Objection, Place, beside, breaks_at_last, must};
 pub use drift::{Distance, Drift, Move, Occupancy};
 
 /// A run of robots that explore cells.
@@ -140,8 +140,7 @@ impl Case for Run {
             self.step(&mut team, step).map_err(object)?;
             if let "FRONTIER-2" | "FRONTIER-5" = self.clause {
                 let breaks = if self.clause == "FRONTIER-2" { meets(&team) } else { self.is_wrong(&team) };
-                let what = if breaks { "the clause is broken before" } else { "the clause is not broken" };
-                must(breaks == (number == steps.len()), what).map_err(object)?;
+                breaks_at_last(breaks, number == steps.len()).map_err(object)?;
             }
         }
         must(floor.barred.is_subset(&team.met), "an obstacle was never met")?;

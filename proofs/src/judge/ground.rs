@@ -20,6 +20,11 @@ pub(super) fn must(is_so: bool, what: &'static str) -> Result<(), &'static str> 
     if is_so { Ok(()) } else { Err(what) }
 }
 
+/// An objection unless a step breaks the clause if it is the last one, and not before.
+pub(super) fn breaks_at_last(breaks: bool, is_last: bool) -> Result<(), &'static str> {
+    must(breaks == is_last, if breaks { "the clause is broken before" } else { "the clause is not broken" })
+}
+
 /// A lattice of nodes, or a floor of cells: how many columns and rows it has, and what bars the way.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Ground<B: Ord> {

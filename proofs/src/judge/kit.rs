@@ -9,7 +9,7 @@ mod wire;
 use std::collections::BTreeSet;
 
 use super::change::plain;
-use super::{Case, Lattice, Objection, Place, beside, must, path};
+use super::{Case, Lattice, Objection, Place, beside, breaks_at_last, must, path};
 pub use party::Party;
 pub use talk::{Act, Talk, TalkEvent, Word};
 pub use wire::{Wire, WireMessage};
@@ -158,11 +158,7 @@ impl Case for Run {
             let breaks = self.step(&mut team, step).map_err(object)?;
             let is_last = number == self.steps.len();
             if BY_STEP.contains(&self.clause) {
-                must(
-                    breaks == is_last,
-                    if breaks { "the clause is broken before" } else { "the clause is not broken" },
-                )
-                .map_err(object)?;
+                breaks_at_last(breaks, is_last).map_err(object)?;
             }
         }
         must(self.lattice.barred.iter().all(|wall| team.seen.contains(wall)), "a wall was never met")?;

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::change::plain;
-use super::{Case, Objection, must};
+use super::{Case, Objection, breaks_at_last, must};
 
 /// A run of robots and WFRs.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -143,8 +143,7 @@ impl Case for Run {
             court.close_windows();
             if self.clause != "MRC-5" {
                 let breaks = court.is_broken(happened).map_err(object)?;
-                let what = if breaks { "the clause is broken before" } else { "the clause is not broken" };
-                must(breaks == (number == self.steps.len()), what).map_err(object)?;
+                breaks_at_last(breaks, number == self.steps.len()).map_err(object)?;
             }
         }
         must(!self.steps.is_empty(), "nothing happens")?;

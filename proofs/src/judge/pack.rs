@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use super::change::plain;
-use super::{Case, Floor, Objection, Place, SIDES, beside, must};
+use super::{Case, Floor, Objection, Place, SIDES, beside, breaks_at_last, must};
 
 /// The metric gain of a frontier cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -107,8 +107,7 @@ impl Case for Run {
             self.look(&mut team);
             let breaks = self.clause == "PACK-1" && !self.is_joined(made);
             let is_last = number == moves.len() && self.clause == "PACK-1";
-            let what = if breaks { "the clause is broken before" } else { "the clause is not broken" };
-            must(breaks == is_last, what).map_err(object)?;
+            breaks_at_last(breaks, is_last).map_err(object)?;
         }
         let is_seen = floor.barred.iter().all(|cell| team.seen.contains_key(cell));
         must(is_seen, "an obstacle was never seen")?;

@@ -18,6 +18,7 @@ use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::EveryState;
 use crate::local::EveryNumber;
+use crate::plural::counted;
 use crate::step_checks;
 
 const PUBLISHED: NamedRule<Rule> = NamedRule::new("published", Rule::PUBLISHED);
@@ -82,6 +83,11 @@ const STAYING: &[Reading<Rule>] = {
     let [a, b, c, d, e, f, g, stays, ahead, _, other] = READINGS;
     &holding([a, b, c, d, e, f, g, stays, ahead, other], [7])
 };
+
+/// The contact of two robots that follow this rule.
+const fn in_contact(named: NamedRule<Rule>) -> NamedRule<Two> {
+    NamedRule::new(named.name, Two::in_contact(named.rule))
+}
 
 /// The ambiguities that these readings are about. Under *every* two robots have the paper's 78 % and keep its contact
 /// more often, so that it is the more charitable one, though *ahead* is closer to the words.
@@ -266,8 +272,8 @@ const FRESH_THOUGH_DOUBLED: EveryState<Hearing, Talks> =
 
 /// The bound when so many messages are lost, and so many come twice, in words.
 fn words(lost: u8, doubled: u8) -> String {
-    let messages = |count: u8| if count == 1 { "1 message".to_owned() } else { format!("{count} messages") };
-    format!("2 robots, every order of messages, {} lost, {} twice", messages(lost), messages(doubled))
+    let [lost, doubled] = [lost, doubled].map(|count| counted(count, "message"));
+    format!("2 robots, every order of messages, {lost} lost, {doubled} twice")
 }
 
 /// The clauses.
@@ -281,14 +287,7 @@ pub const CLAUSES: [Clause; 14] = [
             &Check::refuted(NamedRule::new("ahead", Rule::AHEAD), &published(Demand::Contact))
                 .because("another reading of the paper"),
             &Check::holds(REPAIRED, &repaired(Demand::Contact), &[NO_NEXT, NO_FROM, NO_STAY, OLD_PATHS]),
-            &Check::holds(
-                NamedRule::new("repaired", Two::in_contact(Rule::REPAIRED)),
-                &local::TWO,
-                &[
-                    NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule)),
-                    NamedRule::new(NO_FROM.name, Two::in_contact(NO_FROM.rule)),
-                ],
-            ),
+            &Check::holds(in_contact(REPAIRED), &local::TWO, &[in_contact(NO_NEXT), in_contact(NO_FROM)]),
             &Check::refuted(PUBLISHED, &AT_NODES).under(STAYING).of(&PAPER),
             &Check::holds(
                 NamedRule::new("at-nodes", Two::at_nodes(Rule::PUBLISHED)),
@@ -312,11 +311,7 @@ pub const CLAUSES: [Clause; 14] = [
                 &repaired_at_equal_speeds(Demand::Contact),
                 &[NO_NEXT, NO_STAY, OLD_PATHS],
             ),
-            &Check::holds(
-                NamedRule::new("repaired", Two::in_contact(Rule::REPAIRED)),
-                &local::TWO,
-                &[NamedRule::new(NO_NEXT.name, Two::in_contact(NO_NEXT.rule))],
-            ),
+            &Check::holds(in_contact(REPAIRED), &local::TWO, &[in_contact(NO_NEXT)]),
         ],
     },
     Clause {
@@ -364,11 +359,8 @@ pub const CLAUSES: [Clause; 14] = [
                 keeping(PUBLISHED.name, PUBLISHED.rule),
                 &FRESH_AS_PUBLISHED,
                 &[
-                    keeping("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
-                    keeping(
-                        "the first goes first",
-                        Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED },
-                    ),
+                    keeping(ANSWERING[0].0, ANSWERING[0].1),
+                    keeping(ANSWERING[1].0, ANSWERING[1].1),
                     forgetting(Rule::PUBLISHED),
                 ],
             ),

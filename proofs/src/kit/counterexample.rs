@@ -11,7 +11,8 @@ use super::world::{Demand, Event, Setting, Speeds, Successor, World};
 use crate::engine::states::{self, Findings, Run, System};
 use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
-use crate::run::{self, Ending, ScriptedRun};
+use crate::plural::listed;
+use crate::run::{self, Ending, ScriptedRun, place, sides};
 
 /// The first choice of runs at any speeds, and of those at equal ones.
 pub const ANY_SPEEDS: u32 = 0;
@@ -155,8 +156,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         let mut lines = format!("{width}×{height} nodes, 3 m apart\n");
         let Some((start, steps)) = self.steps() else { return lines };
         let starts = (0..ROBOTS).filter_map(|robot| Some((robot + 1, start.team.stance(robot)?.to())));
-        let starts: Vec<String> = starts.map(|(robot, node)| format!("R{robot} starts at {node}")).collect();
-        lines += &starts.join(", ");
+        lines += &listed(starts.map(|(robot, node)| format!("R{robot} starts at {node}")));
         lines.push('\n');
         for (number, turned) in steps.iter().enumerate() {
             if number == self.run.steps.len() {
@@ -182,9 +182,7 @@ pub fn case<const ROBOTS: usize>(
     round: usize,
 ) -> Option<Box<dyn AnyCase>> {
     let Setting { rule, area, speeds, demand, .. } = *setting;
-    let place = |cell: Cell| (i32::from(cell.x), i32::from(cell.y));
-    let barred =
-        walls.iter().map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side())))).collect();
+    let barred = walls.iter().copied().map(sides).collect();
     let lattice = Lattice { columns: area.width() as i32, rows: area.height() as i32, barred };
     let starts = start.team.robots().iter().map(|robot| place(robot.stance.to())).collect();
     let events = steps.into_iter().flat_map(|turned| turned.events);

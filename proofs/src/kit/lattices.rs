@@ -15,6 +15,7 @@ use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::states::{AnySystem, END, Findings, Limits, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::AnyCase;
+use crate::plural::counted;
 use crate::run::ScriptedRun;
 
 /// Columns, rows, and the most walls that one run meets.
@@ -119,12 +120,11 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
                 let edges = width * (height - 1) + height * (width - 1);
                 match i16::from(walls) {
                     walls if walls == edges => format!("{width}×{height}"),
-                    1 => format!("{width}×{height} (at most 1 wall)"),
-                    walls => format!("{width}×{height} (at most {walls} walls)"),
+                    walls => format!("{width}×{height} (at most {})", counted(walls, "wall")),
                 }
             })
             .collect();
-        let robots = if ROBOTS == 1 { "1 robot".to_owned() } else { format!("{ROBOTS} robots") };
+        let robots = counted(ROBOTS as u64, "robot");
         let speeds = match self.speeds {
             Speeds::Any => "any speeds",
             Speeds::Equal => "equal speeds",

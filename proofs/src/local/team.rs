@@ -11,6 +11,7 @@ use super::{Act, NumberedRule, Robot};
 use crate::decide::{Depiction, MethodError};
 use crate::engine::states::{Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};
+use crate::plural::listed;
 use crate::protocol::{beside, combinations};
 
 /// The demand.
@@ -245,8 +246,7 @@ impl World for Team<'_> {
         let acts: Vec<_> = state.0.iter().map(|robot| self.rule.acts(robot.state)).collect();
         let mut all = Vec::new();
         for plan in self.plans(state, &acts) {
-            let words: Vec<String> = plan.iter().map(|(act, _)| self.rule.act_words(act.act)).collect();
-            let words = words.join(", ");
+            let words = listed(plan.iter().map(|(act, _)| self.rule.act_words(act.act)));
             all.extend(self.outcomes(state, &plan).into_iter().map(|next| (words.clone(), next)));
         }
         any_of(all)

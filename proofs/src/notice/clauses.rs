@@ -75,10 +75,9 @@ pub const CLAUSES: [Clause; 6] = [
                    farther from it than its parent.",
         checks: &[
             &Check::holds(PUBLISHED, &networks::TREE, &UNFROZEN),
-            &Check::new(
+            &Check::unrefuted(
                 PUBLISHED,
                 &at_random(|subject, oracle| random::spread_at_random(subject, oracle, Demand::Tree)),
-                Verdict::Unrefuted,
                 &UNFROZEN,
             )
             .under(UNREFUTED)
@@ -90,10 +89,9 @@ pub const CLAUSES: [Clause; 6] = [
         sentence: "A node MUST forward an event at most once.",
         checks: &[
             &Check::holds(PUBLISHED, &networks::ONCE, &FORGETFUL),
-            &Check::new(
+            &Check::unrefuted(
                 PUBLISHED,
                 &at_random(|subject, oracle| random::spread_at_random(subject, oracle, Demand::Once)),
-                Verdict::Unrefuted,
                 &FORGETFUL,
             )
             .under(UNREFUTED)
@@ -106,7 +104,7 @@ pub const CLAUSES: [Clause; 6] = [
                    under flooding.",
         checks: &[
             &Check::holds(PUBLISHED, &networks::FLOOD, &FINITE),
-            &Check::new(
+            &Check::unrefuted(
                 PUBLISHED,
                 &RandomAnswers::new(
                     |subject, oracle| random::spread_at_random(subject, oracle, Demand::Floods),
@@ -114,7 +112,6 @@ pub const CLAUSES: [Clause; 6] = [
                     random::random_floods,
                     &["most nodes forward"],
                 ),
-                Verdict::Unrefuted,
                 &FINITE,
             ),
         ],
@@ -143,12 +140,11 @@ pub const CLAUSES: [Clause; 6] = [
                    with the least hop count, and of several the first heard.",
         checks: &[
             &Check::holds(PUBLISHED, &networks::NEAREST_PARENT, &ANOTHER_PARENT),
-            &Check::new(
+            &Check::unrefuted(
                 PUBLISHED,
                 &at_random(|subject, oracle| {
                     random::spread_at_random(subject, oracle, Demand::NearestParent)
                 }),
-                Verdict::Unrefuted,
                 &ANOTHER_PARENT,
             )
             .under(UNREFUTED)

@@ -42,6 +42,15 @@ const TWO_AT_ONCE: NamedRule<Subject> = NamedRule::new(
     Subject { flaw: Some(Flaw::TwoAtOnce), ..Subject::of(Rule::PUBLISHED) },
 );
 
+/// The published rule without the condition that keeps robots in cells of their own.
+const SHARED: NamedRule<Subject> =
+    NamedRule::new(NO_SINGLE.name, Subject::of(Rule::PUBLISHED.without(Single)));
+
+/// Any number of robots that follow this rule, each in a cell of its own.
+const fn of_any_number(named: NamedRule<Subject>) -> NamedRule<local::Single> {
+    NamedRule::new(named.name, local::Single(named.rule.rule))
+}
+
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
 
@@ -138,24 +147,12 @@ pub const CLAUSES: [Clause; 9] = [
         id: "PACK-2",
         sentence: "Two robots of a pack MUST never be in one cell.",
         checks: &[
-            &Check::holds(
-                PUBLISHED,
-                &demand(OF_FEW, Demand::Single),
-                &[NamedRule::new(NO_SINGLE.name, Subject::of(Rule::PUBLISHED.without(Single)))],
-            ),
+            &Check::holds(PUBLISHED, &demand(OF_FEW, Demand::Single), &[SHARED]),
             &Check::holds(REPAIRED, &wholly(SMALLEST, Demand::Single), &[NO_SINGLE]),
             &Check::holds(REPAIRED, &far(Demand::Single), &[NO_SINGLE]),
             &Check::holds(REPAIRED, &wholly(OF_THREE, Demand::Single), &[NO_SINGLE]),
-            &Check::holds(
-                NamedRule::new("published", local::Single(Rule::PUBLISHED)),
-                &EveryNumber::DEFAULT,
-                &[NamedRule::new(NO_SINGLE.name, local::Single(Rule::PUBLISHED.without(Single)))],
-            ),
-            &Check::holds(
-                NamedRule::new("repaired", local::Single(Rule::REPAIRED)),
-                &EveryNumber::DEFAULT,
-                &[NamedRule::new(NO_SINGLE.name, local::Single(Rule::REPAIRED.without(Single)))],
-            ),
+            &Check::holds(of_any_number(PUBLISHED), &EveryNumber::DEFAULT, &[of_any_number(SHARED)]),
+            &Check::holds(of_any_number(REPAIRED), &EveryNumber::DEFAULT, &[of_any_number(NO_SINGLE)]),
         ],
     },
     Clause {

@@ -5,7 +5,7 @@
 use tautline_kernel::ground::{Area, Cell, neighbours};
 
 use super::gains::Gains;
-use super::readings::{Subject, place};
+use super::readings::Subject;
 use super::run::{Demand, Floor, RunOutcome, play, story};
 use crate::decide::{
     self, Answer, Context, Depiction, DrawnCertificate, Evidence, Method, MethodError, MethodResult,
@@ -15,8 +15,9 @@ use crate::engine::smallest::{Class, ClassFindings, Most, smallest};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, ScriptError, Until, cover};
 use crate::judge::{AnyCase, pack as judge};
-use crate::plural::counted;
+use crate::plural::{counted, listed};
 use crate::protocol::arrangements;
+use crate::run::place;
 
 /// Columns and rows.
 pub(super) type Size = (i16, i16);
@@ -250,9 +251,8 @@ impl Method<Subject> for Floors {
                     (_, 0) => "no obstacles".to_owned(),
                     (_, most) => format!("at most {}", counted(most, "obstacle")),
                 };
-                let sizes: Vec<String> =
-                    sizes.iter().map(|((width, height), _)| format!("{width}×{height}")).collect();
-                format!("{obstacles} in {} cells", sizes.join(", "))
+                let sizes = listed(sizes.iter().map(|((width, height), _)| format!("{width}×{height}")));
+                format!("{obstacles} in {sizes} cells")
             })
             .chain(drawn)
             .collect();

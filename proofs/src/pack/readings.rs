@@ -1,14 +1,14 @@
 //! The readings of what Jasmine Xavier and Shantha Selva Kumari 2013 leave open. The judge's plain words follow them,
 //! so that the kernel has the published one alone.
 
-use tautline_kernel::ground::Cell;
 use tautline_kernel::pack::Rule;
 
 use super::run::Floor;
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
+use crate::judge::Floor as Written;
 use crate::judge::pack::{Metric, Run};
-use crate::judge::{Floor as Written, Place};
+use crate::run::place;
 
 /// A pack as a check looks at it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -52,11 +52,6 @@ impl Subject {
             moves: Vec::new(),
         }
     }
-}
-
-/// A cell as the judge has it.
-pub(super) fn place(cell: Cell) -> Place {
-    (cell.x.into(), cell.y.into())
 }
 
 /// The published pack that compares this.

@@ -6,11 +6,11 @@ use std::ops::ControlFlow;
 use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Team};
 
-use super::gains::{self, Gains, are_best};
+use super::gains::{Gains, Outlook};
 use super::readings::{Flaw, Subject};
 use crate::judge::Place;
 use crate::judge::pack::Metric;
-use crate::plural::counted;
+use crate::plural::{counted, listed};
 
 /// Team moves at which a run on a small floor counts as endless.
 pub(super) const MOST_MOVES: usize = 1000;
@@ -247,12 +247,13 @@ pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<R
             let has_spread = played.moves.last().is_none_or(|&(last, _)| last == MoveKind::Spread);
             let is_kept = |&aim: &Cell| has_spread && chart.is_frontier(aim);
             let kept: Vec<Option<Cell>> = aims.into_iter().map(|aim| aim.filter(is_kept)).collect();
+            let outlook = Outlook { rule, chart: &chart };
             let chosen: Vec<Option<Cell>> = if subject.flaw == Some(Flaw::HeedsNoWay) {
-                gains::most_seen(rule, &chart, &before, &kept)
+                outlook.most_seen(&before, &kept)
             } else {
                 team.aims().collect()
             };
-            played.judge(Demand::Best, !are_best(rule, &chart, &before, &kept, &chosen));
+            played.judge(Demand::Best, !outlook.are_best(&before, &kept, &chosen));
         }
         let situation = SITUATIONS[match made {
             MoveKind::Spread => 0,
@@ -302,9 +303,9 @@ pub(super) fn story(rule: &Rule, floor: &Floor, played: &RunOutcome, demand: Dem
             MoveKind::TakenBack => "a move is taken back".to_owned(),
             MoveKind::Marched => "a caterpillar".to_owned(),
         };
-        let cells: Vec<String> = (1..).zip(cells).map(|(robot, cell)| format!("R{robot} {cell}")).collect();
+        let cells = listed((1..).zip(cells).map(|(robot, cell)| format!("R{robot} {cell}")));
         // Writing to a string cannot fail.
-        let _ = writeln!(lines, "{what}: {}", cells.join(", "));
+        let _ = writeln!(lines, "{what}: {cells}");
     }
     if let Some(more) = moves.checked_sub(MOST_TOLD).filter(|&more| more > 0) {
         let _ = writeln!(lines, "and {} more", counted(more as u64, "team move"));

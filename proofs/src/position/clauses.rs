@@ -10,7 +10,7 @@ use super::wrong_ways;
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, holding};
-use crate::decide::{EveryAnswer, RandomAnswers, Verdict};
+use crate::decide::{EveryAnswer, RandomAnswers};
 
 const PUBLISHED: NamedRule<Way> = NamedRule::new("published", way::published);
 /// The three that are heard strongest.
@@ -214,7 +214,7 @@ pub const CLAUSES: [Clause; 7] = [
                 &COARSE,
                 &forgetful(Conduct::REPAIRED),
             ),
-            &Check::new(
+            &Check::unrefuted(
                 NamedRule::new("repaired", Conduct::REPAIRED),
                 &RandomAnswers::new(
                     swarm::never_worsens_at_random,
@@ -222,7 +222,6 @@ pub const CLAUSES: [Clause; 7] = [
                     swarm::random_swarms,
                     &["it improves"],
                 ),
-                Verdict::Unrefuted,
                 &forgetful(Conduct::REPAIRED),
             ),
         ],

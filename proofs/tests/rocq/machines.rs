@@ -10,13 +10,10 @@ use std::hash::Hash;
 use tautline_kernel::mrc::{
     Bid, Downward, Hop, Mail, Phase, Relay, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word,
 };
-use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
+use tautline_kernel::net::{Call, NodeId, Notice};
 
-use super::term::{definition, list};
-
-const ME: RobotId = RobotId(1);
-const OTHER: RobotId = RobotId(2);
-const LAST: Epoch = Epoch(2);
+use super::mrc::{LAST, ME, OTHER, call, of, robot_id};
+use super::term::{definition, list, option};
 
 /// More repeats than the rule's own.
 const PATIENT: u8 = 2;
@@ -24,27 +21,11 @@ const PATIENT: u8 = 2;
 /// A message heard, the state in which it leaves a machine, and what the machine sends.
 type Answer<S> = (String, S, String);
 
-const fn call(wfr: u32, epoch: u32) -> Call {
-    Call { wfr: NodeId(wfr), epoch: Epoch(epoch) }
-}
-
 /// The calls that a robot hears of, and those that a WFR hears MOVEs for.
 const HEARD: [Call; 3] = [call(1, 1), call(2, 1), call(2, 2)];
 /// WFRs of which a robot has not room for all.
 const TOO_MANY: [Call; 3] = [call(1, 1), call(2, 1), call(3, 1)];
 const ANSWERED: [Call; 3] = [call(1, 1), call(1, 2), call(2, 1)];
-
-fn of(call: Call) -> String {
-    format!("{} {}", call.wfr.0, call.epoch.0)
-}
-
-fn option(term: Option<String>) -> String {
-    term.map_or("None".to_owned(), |term| format!("(Some {term})"))
-}
-
-fn robot_id(robot: Option<RobotId>) -> String {
-    option(robot.map(|robot| robot.0.to_string()))
-}
 
 fn word(word: Word) -> String {
     match word {

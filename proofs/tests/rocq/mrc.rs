@@ -8,13 +8,13 @@ use std::hash::Hash;
 use tautline_kernel::mrc::{Downward, Mail, Phase, Resb, Robot, Rule, ServiceBit, Task, Upward, Wfr, Word};
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
-use super::term::{definition, list};
+use super::term::{definition, list, option};
 
-const ME: RobotId = RobotId(1);
-const OTHER: RobotId = RobotId(2);
-const LAST: Epoch = Epoch(2);
+pub(super) const ME: RobotId = RobotId(1);
+pub(super) const OTHER: RobotId = RobotId(2);
+pub(super) const LAST: Epoch = Epoch(2);
 
-const fn call(wfr: u32, epoch: u32) -> Call {
+pub(super) const fn call(wfr: u32, epoch: u32) -> Call {
     Call { wfr: NodeId(wfr), epoch: Epoch(epoch) }
 }
 
@@ -22,12 +22,12 @@ fn calls() -> impl Iterator<Item = Call> {
     [1, 2].into_iter().flat_map(|wfr| [1, 2].map(|epoch| call(wfr, epoch)))
 }
 
-fn of(call: Call) -> String {
+pub(super) fn of(call: Call) -> String {
     format!("{} {}", call.wfr.0, call.epoch.0)
 }
 
-fn option(robot: Option<RobotId>) -> String {
-    robot.map_or("None".to_owned(), |robot| format!("(Some {})", robot.0))
+pub(super) fn robot_id(robot: Option<RobotId>) -> String {
+    option(robot.map(|robot| robot.0.to_string()))
 }
 
 fn notice(notice: Notice) -> String {
@@ -35,7 +35,7 @@ fn notice(notice: Notice) -> String {
 }
 
 fn resb(resb: Resb) -> String {
-    format!("Resb {} {} {}", of(resb.call), resb.robot.0, option(resb.chosen))
+    format!("Resb {} {} {}", of(resb.call), resb.robot.0, robot_id(resb.chosen))
 }
 
 fn upward(message: Upward) -> String {
@@ -108,7 +108,7 @@ fn robot_inputs<const CALLS: usize>(robot: &Robot<CALLS>) -> Vec<(String, Robot<
 fn wfr_term(wfr: &Wfr<2>) -> String {
     let phase = match wfr.phase() {
         Phase::Idle => "Idle".to_owned(),
-        Phase::Collecting { best } => format!("(Collecting {})", option(best.map(|best| best.robot))),
+        Phase::Collecting { best } => format!("(Collecting {})", robot_id(best.map(|best| best.robot))),
         Phase::Offered { choice, .. } => format!("(Offered {})", choice.robot.0),
         Phase::Leased { choice } => format!("(CountsOn {})", choice.robot.0),
         Phase::Rescued { .. } => "Rescued".to_owned(),

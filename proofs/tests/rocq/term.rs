@@ -10,6 +10,11 @@ pub(super) fn definition(name: &str, kind: &str, value: &str) -> String {
     format!("Definition {name} : {kind} := {value}.\n")
 }
 
+/// A term that there may be.
+pub(super) fn option(term: Option<String>) -> String {
+    term.map_or("None".to_owned(), |term| format!("(Some {term})"))
+}
+
 /// Bits as one hexadecimal number, the first in the lowest place.
 pub(super) fn bits(bits: &[bool]) -> String {
     let digit = |four: &[bool]| {

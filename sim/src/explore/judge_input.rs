@@ -1,10 +1,9 @@
 //! A run written down for the judges of counterexamples, who share no code with what made the run.
 
-use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::judge::chain::{JudgeInput, Move, Place, Repairs};
+use tautline_proofs::chain::breach::written;
+use tautline_proofs::judge::chain::{JudgeInput, Repairs};
 use tautline_proofs::judge::floor;
-use tautline_proofs::run::Frame;
+use tautline_proofs::run::{Frame, place, sides};
 
 use super::{ClauseId, RuleId, Setup};
 
@@ -20,7 +19,7 @@ pub fn judge_input(setup: &Setup, clause: &'static str, frames: &[Frame]) -> Jud
         blocked: layout.cells().filter(|&cell| !layout.is_free(cell)).map(place).collect(),
         base: place(setup.base),
         robots: setup.robots.into(),
-        moves: frames.iter().map(written_down).collect(),
+        moves: frames.iter().map(written).collect(),
     }
 }
 
@@ -38,33 +37,8 @@ pub fn of_agent(setup: &Setup, clause: ClauseId, frames: &[Frame]) -> floor::Jud
         height: layout.height().into(),
         walls: layout.walls().map(sides).collect(),
         blocked: layout.cells().filter(|&cell| !layout.is_free(cell)).map(place).collect(),
-        starts: places(&setup.starts()),
+        starts: setup.starts().into_iter().map(place).collect(),
         turns: (1..).zip(frames).map(turn).collect(),
         round: 0,
     }
-}
-
-fn sides(wall: Edge) -> (Place, Place) {
-    (place(wall.cell()), place(wall.cell().beyond(wall.side())))
-}
-
-fn places(cells: &[Cell]) -> Vec<Place> {
-    cells.iter().copied().map(place).collect()
-}
-
-/// A team move of a chain as the judge reads it.
-fn written_down(frame: &Frame) -> Move {
-    Move {
-        is_backtrack: match frame.kind {
-            Kind::Advance => false,
-            Kind::Backtrack => true,
-        },
-        tried: frame.steps.iter().map(|&step| place(Cell::new(0, 0).after(step))).collect(),
-        blocked: frame.blocked.clone(),
-        places: frame.cells.iter().copied().map(place).collect(),
-    }
-}
-
-fn place(cell: Cell) -> Place {
-    (cell.x.into(), cell.y.into())
 }

@@ -165,17 +165,7 @@ mod tests {
     use super::*;
 
     fn input(repairs: Repairs) -> JudgeInput {
-        JudgeInput {
-            clause: "",
-            repairs,
-            width: 7,
-            height: 7,
-            walls: BTreeSet::new(),
-            blocked: BTreeSet::new(),
-            base: (3, 3),
-            robots: 4,
-            moves: Vec::new(),
-        }
+        JudgeInput::open("", repairs, (7, 7), (3, 3), 4)
     }
 
     #[test]

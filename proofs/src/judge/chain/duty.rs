@@ -199,17 +199,7 @@ mod tests {
 
     #[test]
     fn a_chain_unfolds_until_it_has_gained_as_long_as_there_is_something_within_reach() {
-        let mut input = JudgeInput {
-            clause: "",
-            repairs: Repairs::With,
-            width: 5,
-            height: 5,
-            walls: BTreeSet::new(),
-            blocked: BTreeSet::new(),
-            base: (2, 2),
-            robots: 3,
-            moves: Vec::new(),
-        };
+        let mut input = JudgeInput::open("", Repairs::With, (5, 5), (2, 2), 3);
         for repairs in [Repairs::With, Repairs::Without] {
             input.repairs = repairs;
             for (unfolds, gained) in [(false, false), (false, true), (true, false), (true, true)] {

@@ -51,6 +51,18 @@ pub struct Move {
 }
 
 impl JudgeInput {
+    /// A run in a layout of so many columns and rows without walls, before its first move.
+    pub fn open(
+        clause: &'static str,
+        repairs: Repairs,
+        (width, height): (i32, i32),
+        base: Place,
+        robots: usize,
+    ) -> Self {
+        let (walls, blocked) = (BTreeSet::new(), BTreeSet::new());
+        Self { clause, repairs, width, height, walls, blocked, base, robots, moves: Vec::new() }
+    }
+
     pub(super) fn is_free(&self, (x, y): Place) -> bool {
         (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&(x, y))
     }
@@ -114,17 +126,8 @@ mod tests {
     fn the_area_is_what_is_in_the_layout_and_at_most_n_minus_1_columns_and_rows_from_the_base() {
         for (robots, base) in [(2, (0, 0)), (2, (3, 1)), (3, (2, 2)), (4, (1, 3)), (9, (4, 0))] {
             let blocked = BTreeSet::from([(1, 1), (4, 3), (-1, 2)]);
-            let input = JudgeInput {
-                clause: "",
-                repairs: Repairs::With,
-                width: 6,
-                height: 4,
-                walls: BTreeSet::new(),
-                blocked: blocked.clone(),
-                base,
-                robots,
-                moves: Vec::new(),
-            };
+            let mut input = JudgeInput::open("", Repairs::With, (6, 4), base, robots);
+            input.blocked.clone_from(&blocked);
             let range = i32::try_from(robots).expect("few") - 1;
             let mut area = BTreeSet::new();
             for place in (-2..=8).flat_map(|x| (-2..=8).map(move |y| (x, y))) {

@@ -143,17 +143,7 @@ mod tests {
 
     /// A layout without walls, its base in the middle.
     fn input(width: i32, height: i32, robots: usize) -> JudgeInput {
-        JudgeInput {
-            clause: "",
-            repairs: Repairs::With,
-            width,
-            height,
-            walls: BTreeSet::new(),
-            blocked: BTreeSet::new(),
-            base: (width / 2, height / 2),
-            robots,
-            moves: Vec::new(),
-        }
+        JudgeInput::open("", Repairs::With, (width, height), (width / 2, height / 2), robots)
     }
 
     #[test]

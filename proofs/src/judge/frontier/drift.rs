@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::change::plain;
-use super::super::{Case, Floor, Objection, Place, beside, must};
+use super::super::{Case, Floor, Objection, Place, beside, breaks_at_last, must};
 use super::BY_NUMBER;
 
 /// The side of a cell, and half of it.
@@ -87,8 +87,7 @@ impl Case for Drift {
                 if *is_explored { entered.contains(cell) } else { !self.floor.is_free(*cell) }
             };
             let breaks = !known.iter().all(is_so);
-            let what = if breaks { "the clause is broken before" } else { "the clause is not broken" };
-            must(breaks == (number == self.moves.len()), what).map_err(object)?;
+            breaks_at_last(breaks, number == self.moves.len()).map_err(object)?;
         }
         must(!self.moves.is_empty(), "nothing happens")?;
         Ok(must(self.floor.barred.is_subset(&met), "an obstacle was never met")?)
