@@ -39,11 +39,7 @@ pub const CLAUSES: [Clause; 2] = [
                 &[lacking(Subject::REPAIRED, Distinct)],
             ),
             &Check::refuted(REEL, &EveryArea(Invariant::Meets, AREAS, AREAS)).because(TAKEN_BACK),
-            &Check::holds(
-                REEL,
-                &fewer_walls(Invariant::MeetsInAdvance),
-                &[lacking(Subject::REEL, Distinct)],
-            ),
+            &Check::holds(REEL, &fewer_walls(Invariant::MeetsInAdvance), &[lacking(Subject::REEL, Distinct)]),
         ],
     },
 ];
