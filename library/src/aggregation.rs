@@ -83,7 +83,7 @@ impl Protocol for Rule {
     }
 
     fn moves(&self, arena: &Arena, robots: &Vec<Robot>) -> Vec<Move<Vec<Robot>>> {
-        let act = |actors: Bits| Move { actors, words: "act", to: self.after(arena, robots, actors) };
+        let act = |actors: Bits| Move::of_set(actors, "act", self.after(arena, robots, actors));
         arena.moves.sets(robots.len()).map(act).collect()
     }
 

@@ -109,7 +109,7 @@ impl Protocol for Conditions {
                 _ => vec![robot],
             };
             let all = combinations(robots.iter().enumerate().map(acted).collect::<Vec<_>>());
-            all.map(move |to| Move { actors, words: "go", to: swarm.seen(&to) })
+            all.map(move |to| Move::of_set(actors, "go", swarm.seen(&to)))
         };
         swarm.moves.sets(robots.len()).flat_map(act).collect()
     }

@@ -3,6 +3,7 @@
 
 mod bodies;
 mod portion;
+mod reasons;
 
 use std::any::Any;
 use std::fmt;
@@ -13,7 +14,7 @@ use crate::engine::model::StatesModel;
 use crate::engine::smallest::Certificate;
 use crate::engine::states::{self, AnySystem, Limits, Memory, Step, System};
 use crate::engine::tree::Watch;
-use crate::engine::{Choices, Script, ScriptError, Tally, Until};
+use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::floor_trace::Course;
 use crate::judge::AnyCase;
 use crate::plural::counted;
@@ -127,19 +128,6 @@ impl Answer {
     /// Nothing was looked at.
     pub const fn open() -> Self {
         Self { verdict: Verdict::Open, cases: 0, given_up: 0, counterexample: None, note: None }
-    }
-
-    /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
-    /// gives no verdict, nor does one that is to hold of every case and has given some up.
-    pub fn of_tally(tally: Tally, covers: &[&str], shown: Verdict) -> Self {
-        let is_covered = covers.iter().all(|situation| tally.covered.contains(situation));
-        let is_whole = is_covered && (tally.given_up == 0 || shown != Verdict::Holds);
-        let evidence = tally.violation.map(|(once, demand)| Evidence {
-            choices: Choices { once, again: Vec::new() },
-            demand,
-            seen: Depiction::Choices,
-        });
-        Self { given_up: tally.given_up, ..Self::new(evidence, is_whole, shown, tally.cases) }
     }
 }
 
@@ -400,8 +388,7 @@ where
             demand: run.demand,
             seen: self.story(&system, run),
         });
-        let is_covered = self.covers.iter().all(|situation| found.covered.contains(situation));
-        Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
+        Ok(Answer::of_states(evidence, &found, self.covers.iter().copied(), self.shows()))
     }
 
     fn systems(&self, rule: &R) -> Result<Systems, MethodError> {

@@ -76,30 +76,34 @@ pub struct Move<S> {
     pub words: &'static str,
     /// The state to which it leads.
     pub to: S,
+    /// A number that no actor can have, for which a check is refused.
+    no_actor: Option<usize>,
 }
 
 impl<S> Move<S> {
-    /// A move of one actor.
-    ///
-    /// # Panics
-    /// If its number is above 15.
+    /// A move of one actor, which has a number from 0 to 15: else a check is refused.
     pub const fn of(actor: usize, words: &'static str, to: S) -> Self {
-        assert!(actor < Bits::BITS as usize, "the actors of a protocol have the numbers 0 to 15");
-        Self { actors: 1 << actor, words, to }
+        let is_one = actor < Bits::BITS as usize;
+        let (actors, no_actor) = if is_one { (1 << actor, None) } else { (0, Some(actor)) };
+        Self { actors, words, to, no_actor }
     }
 
-    /// A move of so many actors at once.
-    ///
-    /// # Panics
-    /// If they are more than 16.
+    /// A move of so many actors at once, at most 16: else a check is refused.
     pub const fn of_all(actors: usize, words: &'static str, to: S) -> Self {
-        assert!(actors <= Bits::BITS as usize, "a protocol has at most 16 actors");
-        Self { actors: ((1_u32 << actors) - 1) as Bits, words, to }
+        let are_few = actors <= Bits::BITS as usize;
+        let (actors, no_actor) =
+            if are_few { (((1_u32 << actors) - 1) as Bits, None) } else { (0, Some(actors - 1)) };
+        Self { actors, words, to, no_actor }
+    }
+
+    /// A move of these actors at once, a bit for each: see [`set`].
+    pub const fn of_set(actors: Bits, words: &'static str, to: S) -> Self {
+        Self { actors, words, to, no_actor: None }
     }
 
     /// A fault.
     pub const fn fault(words: &'static str, to: S) -> Self {
-        Self { actors: 0, words, to }
+        Self::of_set(0, words, to)
     }
 
     /// The move, if it is possible.

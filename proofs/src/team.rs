@@ -21,13 +21,14 @@ use tautline_kernel::ground::Cell;
 
 pub use self::check::Keeps;
 pub use self::graph::{Crew, Deployment, Graph, Graphs, Kind, KnownGraph, Task, Teams, conflicts};
-pub use self::ground::{Ground, Map, Which};
+pub use self::ground::{Assumption, Ground, Map, Which};
 pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep, View};
 pub use self::world::{Event, Part, TeamWorld};
 use crate::decide::MethodError;
 use crate::engine::Until;
 use crate::engine::states::Bits;
 use crate::engine::tree::{Limits, Tree};
+use crate::plural::counted;
 use crate::protocol::arrangements;
 
 /// Where robots start, or where they are to go.
@@ -59,6 +60,21 @@ impl Senses {
     pub const TEAM: Self = Self { ground: 0, robots: u16::MAX };
     /// A robot sees everything.
     pub const ALL: Self = Self { ground: u16::MAX, robots: u16::MAX };
+}
+
+impl fmt::Display for Senses {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seen = |far: u16, what: &str| match far {
+            0 => None,
+            u16::MAX => Some(format!("all {what}")),
+            _ => Some(format!("{what} within {}", counted(far, "step"))),
+        };
+        match (seen(self.ground, "walls"), seen(self.robots, "robots")) {
+            (None, None) => f.write_str("sight of nothing"),
+            (Some(seen), None) | (None, Some(seen)) => write!(f, "sight of {seen}"),
+            (Some(ground), Some(robots)) => write!(f, "sight of {ground} and {robots}"),
+        }
+    }
 }
 
 /// Which robots act in a step.
@@ -161,7 +177,8 @@ impl<'a, R: Rule> Setting<'a, R> {
         }
     }
 
-    /// How it is searched: as a tree if there is one start and the layout alone is open; else as states.
+    /// How it is searched: as a tree if there is one start and the layout alone is open, and every demand but that no
+    /// run is endless is one on steps and ends; else as states.
     pub const fn strategy(&self) -> Strategy {
         let has_one_layout =
             !matches!(self.ground.walls, Which::Any(_)) && !matches!(self.ground.obstacles, Which::Any(_));
@@ -178,7 +195,7 @@ impl<'a, R: Rule> Setting<'a, R> {
     const fn has_eventually(&self) -> bool {
         let mut number = 0;
         while number < self.demands.len() {
-            if matches!(self.demands[number].when, rule::When::Eventually(_)) {
+            if matches!(self.demands[number].when, rule::When::Eventually(_) | rule::When::AgainAndAgain(_)) {
                 return true;
             }
             number += 1;

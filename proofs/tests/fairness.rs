@@ -64,7 +64,7 @@ impl Random {
             let count = any.pick(4);
             let mut one = |_| {
                 let actors = [0, 1, 2, 4, 1, 2, 4, 3][any.pick(8) as usize];
-                Move { actors, words: "goes", to: any.pick(states) as u8 }
+                Move::of_set(actors, "goes", any.pick(states) as u8)
             };
             (0..count).map(&mut one).collect()
         };
@@ -202,8 +202,8 @@ impl<const TURNED: bool> Protocol for ColouredSystem<TURNED> {
 
     fn moves(&self, system: &Random, &(state, colour): &(u8, u8)) -> Vec<Move<(u8, u8)>> {
         let coloured = |(next, by): (&Move<u8>, u8)| {
-            let &Move { actors, words, to } = next;
-            Move { actors, words, to: (to, (colour + by + to) % 3) }
+            let &Move { actors, words, to, .. } = next;
+            Move::of_set(actors, words, (to, (colour + by + to) % 3))
         };
         system.moves[usize::from(state)].iter().zip(0..).map(coloured).collect()
     }
@@ -247,5 +247,6 @@ fn states_that_are_not_alike_are_not_taken_for_one() {
     };
     assert_eq!(marked(None), Ok(true));
     let refused = marked(Some(2)).expect_err("a demand tells them apart").to_string();
-    assert_eq!(refused, "the states (0, 1) and (0, 2) are taken for one, and are not alike");
+    let words = "the states (0, 1) and (0, 2) are taken for one, and are not alike";
+    assert_eq!(refused, format!("{words}: the move \"goes\" breaks the demand in one of them"));
 }

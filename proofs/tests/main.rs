@@ -19,6 +19,7 @@ mod local_rules;
 mod log;
 mod own_parts;
 mod own_rule;
+mod own_settings;
 mod plans;
 mod readings;
 mod refuted;

@@ -131,12 +131,14 @@ fn polite_robots_do_not_pass_each_other_in_a_lane() {
 /// A passing place: a row of three with one cell beside it, in every layout of 3×2 cells with two blocked cells that is
 /// connected.
 static BAYS: Setting<'static, Walk> = {
-    let ground = Ground::open(3, 2).obstacles(Which::Any(2)).assume(Map::is_connected);
+    let ground =
+        Ground::open(3, 2).obstacles(Which::Any(2)).assume("all cells are connected", Map::is_connected);
     Setting { ground, ..to_goals(3, 2, Moves::OneAtATime) }
 };
 
 static LOOPS: Setting<'static, Walk> = {
-    let ground = Ground::open(3, 3).obstacles(Which::Any(1)).assume(Map::is_biconnected);
+    let ground =
+        Ground::open(3, 3).obstacles(Which::Any(1)).assume("all cells are biconnected", Map::is_biconnected);
     Setting { ground, ..to_goals(3, 3, Moves::OneAtATime) }
 };
 
@@ -157,8 +159,10 @@ fn blocked_cells_are_a_quantifier_and_so_are_layouts_of_a_kind() {
     assert_eq!(layouts.len(), (9 * 8) * (9 * 8) + 5 * (8 * 7) * (8 * 7));
 }
 
-static NOWHERE: Setting<'static, Walk> =
-    Setting { ground: Ground::open(2, 1).assume(|_| false), ..to_goals(2, 1, Moves::OneAtATime) };
+static NOWHERE: Setting<'static, Walk> = Setting {
+    ground: Ground::open(2, 1).assume("there is none", |_| false),
+    ..to_goals(2, 1, Moves::OneAtATime)
+};
 
 #[test]
 fn a_quantifier_over_nothing_is_open() {
@@ -376,7 +380,9 @@ fn what_is_decided_as_it_is_met_is_what_is_decided_before() {
         ..to_goals(3, 2, Moves::OneAtATime)
     };
     static ANY: Setting<'static, Walk> = Setting {
-        ground: Ground::open(3, 2).obstacles(Which::Any(1)).assume(Map::is_connected),
+        ground: Ground::open(3, 2)
+            .obstacles(Which::Any(1))
+            .assume("all cells are connected", Map::is_connected),
         starts: Places::At(|_: &Walk| vec![Cell::new(0, 0), Cell::new(0, 1)]),
         goals: Places::None,
         ..to_goals(3, 2, Moves::OneAtATime)

@@ -372,6 +372,14 @@ impl<D> Findings<D> {
         broken: Vec::new(),
     };
 
+    /// These findings, with other words for the demands.
+    pub(crate) fn told<E>(self, words: impl Fn(D) -> E) -> Findings<E> {
+        let Self { states, looked_at, steps, bytes, is_whole, covered, broken, is_shortest } = self;
+        let told = |Run { demand, start, steps, ending }| Run { demand: words(demand), start, steps, ending };
+        let broken = broken.into_iter().map(told).collect();
+        Findings { states, looked_at, steps, bytes, is_whole, covered, broken, is_shortest }
+    }
+
     /// Adds what was found of another system; of the bytes the larger number counts.
     pub(crate) fn add(&mut self, other: Self) {
         self.states += other.states;

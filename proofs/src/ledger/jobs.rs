@@ -215,7 +215,9 @@ impl SharedState {
             for &question in &job.questions {
                 let words = question.words(&self.checks);
                 let mut context = Context { cache, watch, memory: self.limits.memory.asked(&words) };
-                match job.answer(question, &self.checks, &mut context) {
+                let answer = || job.answer(question, &self.checks, &mut context);
+                let answer = panic::catch_unwind(AssertUnwindSafe(answer));
+                match answer.unwrap_or_else(|bug| Err(question.panicked(&self.checks, &*bug))) {
                     Ok(answer) => {
                         let (variant, seconds) = (question.variant(&self.checks), task.spent().as_secs_f64());
                         let done = Completion { question, variant, seconds, answer, undecided: None };
@@ -388,6 +390,15 @@ impl Question {
     fn variant(self, checks: &[(&'static Clause, usize)]) -> Option<Variant> {
         let (clause, number) = checks[self.place];
         self.variant.and_then(|variant| clause.checks[number].variants().get(variant).copied())
+    }
+
+    /// The error that deciding it ends in where the rule, a demand on it or the engine panics.
+    fn panicked(self, checks: &[(&'static Clause, usize)], bug: &(dyn Any + Send)) -> MethodError {
+        let (clause, number) = checks[self.place];
+        let rule = self.variant(checks).map_or(clause.checks[number].rule(), Variant::name);
+        let of = bug.downcast_ref::<&str>().copied().or_else(|| bug.downcast_ref().map(String::as_str));
+        let why = of.unwrap_or("no words");
+        MethodError::new(format_args!("{} panics for the rule {rule:?}: {why}", clause.id))
     }
 
     /// The words that stand for it alone.

@@ -184,6 +184,12 @@ impl fmt::Display for Invariant {
             _ => format!("at most {window} cells apart in columns and rows"),
         };
         match kept.len() {
+            // Where no place keeps it, none is ever entered: "0 of 1" would read as if the promise were broken.
+            0 if *safe == 0 && self.holds() => {
+                let (which, breaks) =
+                    if *all == 1 { ("the only place", "breaks") } else { ("any of the places", "break") };
+                write!(f, "the promise is an invariant, as nobody comes to {which} that {breaks} it, {far}")
+            }
             kept if kept == *safe => {
                 write!(f, "the promise is an invariant: {safe} of {all} places keep it, {far}")
             }

@@ -13,7 +13,7 @@ pub(super) struct StateBytes {
     pub(super) bytes: Vec<u8>,
     /// The bytes of the one that stands for those like it, if that is another one.
     pub(super) canonical: Option<Vec<u8>>,
-    /// Whether another state is read from the bytes, as far as that was tried.
+    /// Whether another state is read from the bytes, as far as that was tried, or no actor leads to it.
     pub(super) is_lost: bool,
 }
 
@@ -67,11 +67,12 @@ pub(super) trait AnyProtocol: Sync {
     /// The words for a state.
     fn words(&self, state: &[u8]) -> String;
 
-    /// The words for the first state that does not come back from its bytes, of those to which moves from a state lead.
+    /// Why the first state is refused that does not come back from its bytes, of those to which moves from a state
+    /// lead.
     fn lost_after(&self, state: &[u8]) -> Option<String>;
 
-    /// The words for one that was tried and does not.
-    fn lost(&self) -> Option<&str>;
+    /// Why a state that was tried does not come back from its bytes, or a move that was made has an actor that is none.
+    fn fault(&self) -> Option<&str>;
 }
 
 /// A protocol in its surroundings, of whose demands one is looked at.
@@ -81,8 +82,9 @@ pub(super) struct TypedProtocol<P: Protocol> {
     pub(super) demand: &'static Demand<P>,
     /// Whether every state that is met is read again from its bytes, and not only the first one to which a state leads.
     pub(super) tries_all: bool,
-    /// The words for a state that was met and does not come back from its bytes.
-    pub(super) lost: OnceLock<String>,
+    /// Why the protocol is refused: a state that was met does not come back from its bytes, or a move has an actor that
+    /// is none.
+    pub(super) fault: OnceLock<String>,
 }
 
 impl<P: Protocol> TypedProtocol<P> {
@@ -104,8 +106,12 @@ impl<P: Protocol> TypedProtocol<P> {
     fn try_to_read(&self, state: &P::State, packed: &mut StateBytes) {
         packed.is_lost = read::<P>(&packed.bytes) != *state;
         if packed.is_lost {
-            self.lost.get_or_init(|| self.rule.words(state));
+            self.fault.get_or_init(|| self.lost(state));
         }
+    }
+
+    fn lost(&self, state: &P::State) -> String {
+        format!("the state {} does not come back from its bytes", self.rule.words(state))
     }
 }
 
@@ -145,6 +151,12 @@ impl<P: Protocol> AnyProtocol for TypedProtocol<P> {
             self.pack(&made.to, to);
             if number == 0 || self.tries_all {
                 self.try_to_read(&made.to, to);
+            }
+            if let Some(none) = made.no_actor {
+                let why = "the actors of a protocol have the numbers 0 to 15, not";
+                let from = || self.rule.words(before);
+                self.fault.get_or_init(|| format!("{why} {none}: {:?} in the state {}", made.words, from()));
+                to.is_lost = true;
             }
             let is_broken = match self.demand.when {
                 When::Always(is_kept) => !is_kept(&self.rule, here, before, &made.to),
@@ -191,11 +203,11 @@ impl<P: Protocol> AnyProtocol for TypedProtocol<P> {
     fn lost_after(&self, state: &[u8]) -> Option<String> {
         let moves = self.rule.moves(&self.here, &read::<P>(state));
         let lost = moves.iter().find(|made| read::<P>(&bytes(&made.to)) != made.to);
-        lost.map(|made| self.rule.words(&made.to))
+        lost.map(|made| self.lost(&made.to))
     }
 
-    fn lost(&self) -> Option<&str> {
-        self.lost.get().map(String::as_str)
+    fn fault(&self) -> Option<&str> {
+        self.fault.get().map(String::as_str)
     }
 }
 

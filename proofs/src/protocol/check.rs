@@ -116,15 +116,14 @@ fn play(all: &[ErasedProtocol], choices: &Choices) -> Result<(Vec<u32>, Run), Sc
 
 /// The answer of a search to a check that is to show `shown` and meet each of `covers`.
 fn answered(
-    (all, covers): (&[ErasedProtocol], &[&str]),
+    (all, covers): (&[ErasedProtocol], &[&'static str]),
     portion: Portion,
     (until, limits): (Until, Limits<'_>),
     shown: Verdict,
 ) -> MethodResult {
     let found = searched(all, portion, until, limits)?;
     let evidence = found.broken.first().and_then(|run| evidence(all, run));
-    let is_covered = covers.iter().all(|words| found.covered.contains(words));
-    Ok(Answer::new(evidence, found.is_whole && is_covered, shown, found.states))
+    Ok(Answer::of_states(evidence, &found, covers.iter().copied(), shown))
 }
 
 fn replayed(all: &[ErasedProtocol], choices: &Choices) -> Result<RefutationPlay, ScriptError> {
@@ -151,7 +150,7 @@ fn hunted(all: &[ErasedProtocol], runs: &RandomRuns) -> Result<Answer, MethodErr
     is_sound(all)?;
     let starts: Vec<_> = starts(all).collect();
     if starts.is_empty() {
-        return Ok(Answer::open());
+        return Ok(Answer::startless());
     }
     let made = |oracle: &mut dyn Oracle| {
         let number = oracle.pick(starts.len() as u32) as usize;

@@ -143,7 +143,7 @@ impl ErasedProtocol {
         here: Surroundings<P>,
         (demand, tries_all): (&'static Demand<P>, bool),
     ) -> Self {
-        Self(Box::new(TypedProtocol { rule, here, demand, tries_all, lost: OnceLock::new() }))
+        Self(Box::new(TypedProtocol { rule, here, demand, tries_all, fault: OnceLock::new() }))
     }
 
     fn broken(&self, is_broken: bool) -> Vec<&'static str> {
@@ -156,12 +156,11 @@ impl ErasedProtocol {
     }
 
     /// All that must be the same of states that are taken for one: what their moves are and lead to, and what is owed.
-    fn outlook(&self, state: &StateBytes) -> impl Eq + use<> {
+    fn outlook(&self, state: &StateBytes) -> Outlook {
         let of = |step: Step<Self>| (step.event, self.canonical(step.state).bytes);
-        let mut moves: Vec<_> = states::steps(self, state).map(of).collect();
-        moves.sort_unstable();
+        let moves = states::steps(self, state).map(of).collect();
         let home = self.canonical(state.clone()).bytes;
-        (home, moves, self.0.owed(&state.bytes), self.is_broken_at_end(&state.bytes))
+        Outlook { home, moves, owed: self.0.owed(&state.bytes), ends: self.is_broken_at_end(&state.bytes) }
     }
 
     /// Whether the first few states and those that they are taken for one with are alike.
@@ -170,12 +169,15 @@ impl ErasedProtocol {
     /// [`MethodError`] with two that are not.
     fn is_symmetric(&self) -> Result<(), MethodError> {
         for state in states::first_states(self, self.starts()) {
-            let mut others = self.alike(&state.bytes).into_iter();
-            if let Some(other) = others.find(|other| self.outlook(other) != self.outlook(&state)) {
-                let [state, other] = [&state, &other].map(|state| self.words(&state.bytes));
-                let reason =
-                    format_args!("the states {state} and {other} are taken for one, and are not alike");
-                return Err(MethodError::new(reason));
+            let own = self.outlook(&state);
+            for other in self.alike(&state.bytes) {
+                if let Some(what) = own.difference(&self.outlook(&other)) {
+                    let [state, other] = [&state, &other].map(|state| self.words(&state.bytes));
+                    let reason = format_args!(
+                        "the states {state} and {other} are taken for one, and are not alike: {what}"
+                    );
+                    return Err(MethodError::new(reason));
+                }
             }
         }
         Ok(())
@@ -212,7 +214,7 @@ impl ErasedProtocol {
             // Which states do not come back, or are not alike, is said in the words of the rule.
             self.states_came_back()?;
             let mut first = states::first_states(self, self.starts());
-            came_back(first.find_map(|state| self.lost_after(&state.bytes)))?;
+            refused(first.find_map(|state| self.lost_after(&state.bytes)))?;
             self.is_symmetric()?;
         }
         sound.map_err(MethodError::new)
@@ -242,12 +244,12 @@ impl ErasedProtocol {
         self.states_came_back()
     }
 
-    /// Whether all states that were met and tried came back from their bytes.
+    /// Whether all states that were met and tried came back from their bytes, and all moves were made by actors.
     ///
     /// # Errors
-    /// [`MethodError`] if one did not: another one was gone on from in its place.
+    /// [`MethodError`] if a state did not, and another one was gone on from in its place, or if a move was not.
     pub(super) fn states_came_back(&self) -> Result<(), MethodError> {
-        came_back(self.lost().map(str::to_owned))
+        refused(self.fault().map(str::to_owned))
     }
 
     pub(super) fn evidence(&self, start: &StateBytes, run: &Run<&'static str>) -> Evidence {
@@ -277,8 +279,57 @@ impl ErasedProtocol {
 }
 
 /// # Errors
-/// [`MethodError`] if a state did not come back from its bytes: these are the words for it.
-fn came_back(lost: Option<String>) -> Result<(), MethodError> {
-    let why = |state| MethodError::new(format_args!("the state {state} does not come back from its bytes"));
-    lost.map_or(Ok(()), |state| Err(why(state)))
+/// [`MethodError`] if there is a fault.
+fn refused(fault: Option<String>) -> Result<(), MethodError> {
+    fault.map_or(Ok(()), |why| Err(MethodError::new(why)))
+}
+
+/// All that must be the same of states that are taken for one.
+struct Outlook {
+    /// The bytes of the state that stands for it.
+    home: Vec<u8>,
+    /// Its moves, each with the bytes of the state that stands for the one to which it leads.
+    moves: Vec<(MoveWords, Vec<u8>)>,
+    owed: Bits,
+    /// Whether a run breaks the demand that ends here.
+    ends: bool,
+}
+
+/// All that a move may differ in, from one list of moves to another; the first differences leave out the others.
+const DIFFERENCES: [&str; 4] = [
+    "is not possible as often in both",
+    "has other actors",
+    "leads to states that are not taken for one",
+    "breaks the demand in one of them",
+];
+
+impl Outlook {
+    /// What this one and another one have not in common, in words.
+    fn difference(&self, other: &Self) -> Option<String> {
+        if self.home != other.home {
+            return Some("another state stands for each of them".to_owned());
+        }
+        for (depth, what) in DIFFERENCES.into_iter().enumerate() {
+            let keys = |outlook: &Self| {
+                let key = |(made, to): &(MoveWords, Vec<u8>)| {
+                    let actors = if depth > 0 { made.actors } else { 0 };
+                    let to = if depth > 1 { to.clone() } else { Vec::new() };
+                    (made.words, actors, to, depth > 2 && made.is_broken)
+                };
+                let mut keys: Vec<_> = outlook.moves.iter().map(key).collect();
+                keys.sort_unstable();
+                keys
+            };
+            let (own, others) = (keys(self), keys(other));
+            let place = (0..own.len().max(others.len())).find(|&place| own.get(place) != others.get(place));
+            let first = place.and_then(|place| own.get(place).into_iter().chain(others.get(place)).min());
+            if let Some((words, ..)) = first {
+                return Some(format!("the move {words:?} {what}"));
+            }
+        }
+        if self.owed != other.owed {
+            return Some("they owe different things".to_owned());
+        }
+        (self.ends != other.ends).then(|| "a run that ends there breaks the demand in one of them".to_owned())
+    }
 }

@@ -90,7 +90,7 @@ impl Ring {
                 None if actors.is_power_of_two() => "goes",
                 None => "all go",
             };
-            Move { actors, words, to: robots.iter().enumerate().map(acted).collect() }
+            Move::of_set(actors, words, robots.iter().enumerate().map(acted).collect())
         };
         self.moves.sets(robots.len()).map(go).filter(|next| next.to != robots).collect()
     }

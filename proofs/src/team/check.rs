@@ -4,14 +4,14 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::ground::{Area, Cell};
 
-use super::ground::{Map, words};
+use super::ground::Map;
 use super::rule::{Rule, Scene, When};
 use super::{Moves, Places, Promise, Setting, Strategy, TeamWorld};
 use crate::decide::{
     Answer, Context, Depiction, Evidence, Method, MethodError, MethodResult, RefutationPlay, Systems, Verdict,
 };
 use crate::engine::model::StatesModel;
-use crate::engine::states;
+use crate::engine::states::{self, Findings};
 use crate::engine::tree::{self, AllRuns, Progress, Waves};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::plural::counted;
@@ -29,9 +29,14 @@ pub struct Keeps<'a, R: Rule>(
 const BETWEEN: u64 = 1 << 10;
 
 /// The findings of a tree: the frames, and the layout as far as it was known in each.
-type Findings = tree::Findings<Promise, (Frame, Option<Map>)>;
+type TreeFindings = tree::Findings<Promise, (Frame, Option<Map>)>;
 
 impl<R: Rule> Setting<'_, R> {
+    /// The situations that must occur.
+    fn situations(&self) -> impl Iterator<Item = &'static str> {
+        self.covers.iter().map(|&(name, _)| name)
+    }
+
     /// The run with these frames, the last of them in this layout.
     fn run_of(
         &self,
@@ -60,7 +65,7 @@ impl<R: Rule> Setting<'_, R> {
         let ending = match self.demands[found.broken.0].when {
             When::Always(_) => Ending::Move,
             When::AtTheEnd(_) => Ending::Over,
-            When::NeverEndless | When::Eventually(_) => Ending::Endless,
+            When::NeverEndless | When::Eventually(_) | When::AgainAndAgain(_) => Ending::Endless,
         };
         self.run_of(starts, frames, map.as_ref(), (found.broken, ending))
     }
@@ -103,6 +108,34 @@ impl<R: Rule> TeamWorld<'_, R> {
     }
 }
 
+impl<R: Rule> Keeps<'_, R> {
+    /// The states, and a run that breaks the demand if there is one: a shortest one, if [`Findings::is_shortest`]. The
+    /// states are searched whatever the [strategy](Setting::strategy) of a check is, and the setting may be made while
+    /// the program runs.
+    ///
+    /// # Errors
+    /// [`MethodError`] as of [`Setting::playing`], or if the steps are not a function of the state. Without a start
+    /// nothing is found.
+    pub fn search(
+        &self,
+        rule: &R,
+        limits: states::Limits<'_>,
+    ) -> Result<Findings<&'static str>, MethodError> {
+        let Some((playing, starts)) = self.states(rule)? else { return Ok(Findings::NONE) };
+        Ok(states::search(&playing, starts, limits).told(|promise| playing.demand(promise).words))
+    }
+
+    /// The team whose states are searched, with its starts; `None` without one.
+    #[expect(clippy::type_complexity, reason = "a team and its starts")]
+    fn states(&self, rule: &R) -> Result<Option<(TeamWorld<'_, R>, Vec<Scene<R>>)>, MethodError> {
+        let starts = self.0.starts(rule)?;
+        let Some(start) = starts.first().cloned() else { return Ok(None) };
+        let playing = self.0.playing_from(rule, &[Promise(self.1)], start)?;
+        states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
+        Ok(Some((playing, starts)))
+    }
+}
+
 impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
     /// The findings of a search as a tree, which is made only once.
     fn found<'d>(
@@ -110,7 +143,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         rule: &R,
         until: Until,
         context: &'d mut Context<'_, '_>,
-    ) -> Result<&'d Findings, MethodError> {
+    ) -> Result<&'d TreeFindings, MethodError> {
         // A search that goes on for each demand answers for all of them.
         let wanted = match until {
             Until::Exhausted => Vec::new(),
@@ -131,20 +164,15 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         states::repeats(&playing, [start.clone()]).map_err(MethodError::new)?;
         let found = self.found(rule, until, context)?;
         let broken = found.counterexamples.iter().find(|found| found.broken.0 == self.1);
-        let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
         let evidence = broken.map(|found| self.0.evidence(&start, found));
-        let is_whole = found.complete && found.given_up == 0 && is_covered;
+        let is_whole = found.complete && found.given_up == 0;
         let answer = Answer::new(evidence, is_whole, Verdict::Holds, found.runs - found.given_up);
+        let answer = answer.covering(self.0.situations(), &found.covered);
         Ok(Answer { given_up: found.given_up, ..answer })
     }
 
     fn in_states(&self, rule: &R, context: &mut Context<'_, '_>) -> MethodResult {
-        let starts = self.0.starts(rule)?;
-        let Some(start) = starts.first().cloned() else {
-            return Ok(Answer::new(None, false, Verdict::Holds, 0));
-        };
-        let playing = self.0.playing_from(rule, &[Promise(self.1)], start)?;
-        states::repeats(&playing, starts.iter().cloned()).map_err(MethodError::new)?;
+        let Some((playing, starts)) = self.states(rule)? else { return Ok(Answer::startless()) };
         let limits = states::Limits { memory: context.memory, ..states::Limits::NONE };
         let mut hears = |looked_at| match looked_at % BETWEEN {
             0 => (context.watch)(&Progress::of_states(looked_at)),
@@ -152,8 +180,7 @@ impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
         };
         let found = states::watched(&playing, starts.iter().cloned(), limits, &mut hears);
         let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
-        let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
-        Ok(Answer::new(evidence, found.is_whole && is_covered, Verdict::Holds, found.states))
+        Ok(Answer::of_states(evidence, &found, self.0.situations(), Verdict::Holds))
     }
 }
 
@@ -166,9 +193,11 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
     }
 
     fn bound(&self) -> String {
-        let Setting { ground, robots, starts, goals, moves, losses, deaths, longest_run, .. } = self.0;
+        let Setting { ground, robots, starts, goals, senses, moves, losses, deaths, longest_run, .. } =
+            self.0;
         let placed = |places: &Places<R>, what: &str| match places {
-            Places::None | Places::At(_) => None,
+            Places::None => None,
+            Places::At(_) => Some(format!("given {what}")),
             Places::Any => Some(format!("any {what}")),
             Places::Distinct => Some(format!("any {what} apart")),
         };
@@ -176,10 +205,9 @@ impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
         let parts = [
             Some(ground.to_string()),
             Some(counted(*robots as u32, "robot")),
-            words(&ground.walls, "wall"),
-            words(&ground.obstacles, "blocked cell"),
             placed(starts, "starts"),
             placed(goals, "goals"),
+            Some(senses.to_string()),
             (*moves != Moves::Together).then(|| moves.to_string()),
             most(*losses, "lost message"),
             most(*deaths, "death"),

@@ -29,6 +29,11 @@ impl<T> Which<T> {
             Self::None | Self::These(_) | Self::Any(_) => 0,
         }
     }
+
+    /// Whether they are the same in every run.
+    const fn is_known(&self) -> bool {
+        matches!(self, Self::None | Self::These(_))
+    }
 }
 
 /// The layouts in which a team moves.
@@ -40,14 +45,17 @@ pub struct Ground {
     pub walls: Which<Edge>,
     /// Blocked cells.
     pub obstacles: Which<Cell>,
-    /// Only layouts of which this is so; it sees them before the run begins.
-    pub assume: fn(&Map) -> bool,
+    /// Only layouts of which this is so, in words and as a question, which is asked before the run begins.
+    pub assume: Option<Assumption>,
 }
+
+/// A kind of layouts: the words that stand in the bound, and whether a layout is of that kind.
+pub type Assumption = (&'static str, fn(&Map) -> bool);
 
 impl Ground {
     /// So many columns and rows without walls and blocked cells.
     pub const fn open(width: i16, height: i16) -> Self {
-        Self { size: (width, height), walls: Which::None, obstacles: Which::None, assume: |_| true }
+        Self { size: (width, height), walls: Which::None, obstacles: Which::None, assume: None }
     }
 
     /// This ground with these walls.
@@ -62,10 +70,10 @@ impl Ground {
         Self { obstacles, ..self }
     }
 
-    /// This ground, only in layouts of which this is so.
+    /// This ground, only in layouts of which this is so. The words stand in the bound, behind "where".
     #[must_use]
-    pub const fn assume(self, assume: fn(&Map) -> bool) -> Self {
-        Self { assume, ..self }
+    pub const fn assume(self, words: &'static str, is_so: fn(&Map) -> bool) -> Self {
+        Self { assume: Some((words, is_so)), ..self }
     }
 
     /// The cells.
@@ -117,7 +125,8 @@ impl Ground {
                     map.note_cell(cell, false);
                 }
                 (map.walls, map.obstacles) = (0, 0);
-                if (self.assume)(&map) {
+                map.note_rest(self);
+                if self.assume.is_none_or(|(_, is_so)| is_so(&map)) {
                     maps.push(map);
                 }
             }
@@ -128,13 +137,19 @@ impl Ground {
 
 impl fmt::Display for Ground {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (width, height) = self.size;
-        write!(f, "all layouts of {width}×{height} cells")
+        let Self { size: (width, height), walls, obstacles, assume } = self;
+        let which = if walls.is_known() && obstacles.is_known() { "" } else { "all layouts of " };
+        write!(f, "{which}{width}×{height} cells")?;
+        f.write_str(if matches!(walls, Which::None) { " without walls" } else { "" })?;
+        for words in [words(walls, "wall"), words(obstacles, "blocked cell")].into_iter().flatten() {
+            write!(f, ", {words}")?;
+        }
+        assume.map_or(Ok(()), |(words, _)| write!(f, ", where {words}"))
     }
 }
 
 /// The words of a bound for walls or blocked cells.
-pub(super) fn words<T>(which: &Which<T>, one: &str) -> Option<String> {
+fn words<T>(which: &Which<T>, one: &str) -> Option<String> {
     match *which {
         Which::None => None,
         Which::These(these) => Some(format!("{} given", counted(these.len() as u32, one))),
@@ -171,7 +186,8 @@ fn sets<T: Copy>(all: &[T], which: Which<T>) -> Result<Vec<Vec<T>>, MethodError>
     Ok(sets)
 }
 
-/// A layout as far as it is known.
+/// A layout as far as it is decided: all of it, once a run can meet no more walls and blocked cells. So the ways by
+/// which robots came to where they are differ in no map if they met the same walls.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Map {
     grid: SmallGrid,
@@ -194,7 +210,7 @@ impl Map {
         self.grid.area()
     }
 
-    /// Whether robots can cross `edge`; `None` if nobody has met it.
+    /// Whether robots can cross `edge`; `None` if that is decided when somebody meets it.
     pub fn edge(&self, edge: Edge) -> Option<bool> {
         if self.grid.edge_has(EdgeMark::Wall, edge) {
             return Some(false);
@@ -202,7 +218,7 @@ impl Map {
         self.grid.edge_has(EdgeMark::Open, edge).then_some(true)
     }
 
-    /// Whether robots can be in `cell`; `None` if nobody has met it.
+    /// Whether robots can be in `cell`; `None` if that is decided when somebody meets it.
     pub fn cell(&self, cell: Cell) -> Option<bool> {
         let Some((column, row)) = self.area().locate(cell) else { return Some(false) };
         let has = |rows: &[u16; 16]| rows[row] >> column & 1 == 1;
@@ -277,20 +293,44 @@ impl Map {
         }
     }
 
-    /// Whether robots can cross `edge`, which is decided now if nobody has met it.
+    /// What nobody can meet any more is open and free.
+    fn note_rest(&mut self, ground: &Ground) {
+        if self.walls >= ground.walls.most_met() {
+            for edge in self.area().edges() {
+                if self.edge(edge).is_none() {
+                    self.grid.put_edge(EdgeMark::Open, edge);
+                }
+            }
+        }
+        if self.obstacles >= ground.obstacles.most_met() {
+            for cell in self.area().cells() {
+                if self.cell(cell).is_none() {
+                    self.note_cell(cell, true);
+                }
+            }
+        }
+    }
+
+    /// Whether robots can cross `edge`, which is decided now if it was not before.
     pub(super) fn meet_edge(&mut self, ground: &Ground, edge: Edge, world: &mut dyn Oracle) -> bool {
         self.edge(edge).unwrap_or_else(|| {
-            let is_open = self.walls >= ground.walls.most_met() || world.is_open(edge);
+            let is_open = world.is_open(edge);
             self.note_edge(edge, is_open);
+            if !is_open {
+                self.note_rest(ground);
+            }
             is_open
         })
     }
 
-    /// Whether robots can be in `cell`, which is decided now if nobody has met it.
+    /// Whether robots can be in `cell`, which is decided now if it was not before.
     pub(super) fn meet_cell(&mut self, ground: &Ground, cell: Cell, world: &mut dyn Oracle) -> bool {
         self.cell(cell).unwrap_or_else(|| {
-            let is_free = self.obstacles >= ground.obstacles.most_met() || world.is_free(cell);
+            let is_free = world.is_free(cell);
             self.note_cell(cell, is_free);
+            if !is_free {
+                self.note_rest(ground);
+            }
             is_free
         })
     }

@@ -8,6 +8,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::Setting;
 use super::ground::Map;
+use crate::engine::states::Bits;
 
 /// A robot's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -67,7 +68,7 @@ pub type Scene<R> = TeamState<<R as Rule>::Memory, <R as Rule>::Message>;
 pub struct TeamState<M, T> {
     pub(super) bodies: Vec<Body<M, T>>,
     pub(super) goals: Vec<Cell>,
-    /// The layout as far as it was met; `None` in a layout that answers for itself.
+    /// The layout as far as it is decided; `None` in a layout that answers for itself.
     pub(super) map: Option<Map>,
     pub(super) losses: u32,
     pub(super) deaths: u32,
@@ -109,7 +110,9 @@ impl<M, T> TeamState<M, T> {
         self.bodies[robot].is_dead
     }
 
-    /// The layout, as far as anybody has met it; `None` in a layout that answers for itself.
+    /// The layout as far as it is decided: what robots have met, and all of it where nothing is left to be met. Robots
+    /// need not know as much: what a rule or a demand is to tell of what they know stands in their memory. `None` in a
+    /// layout that answers for itself.
     pub const fn map(&self) -> Option<&Map> {
         self.map.as_ref()
     }
@@ -126,7 +129,7 @@ pub struct View<'a, R: Rule> {
     pub(super) setting: &'a Setting<'a, R>,
     pub(super) robot: usize,
     pub(super) scene: &'a Scene<R>,
-    /// The layout as far as it is known by now.
+    /// The layout as far as it is decided by now.
     pub(super) map: &'a mut Option<Map>,
     pub(super) world: &'a mut dyn Oracle,
     pub(super) sent: &'a mut Vec<(usize, R::Message)>,
@@ -199,7 +202,7 @@ impl<R: Rule> View<'_, R> {
     }
 }
 
-/// Whether robots can go from a cell through a side, which is decided now if nobody has met it.
+/// Whether robots can go from a cell through a side, which is decided now if it was not before.
 pub(super) fn passes<R: Rule>(
     setting: &Setting<'_, R>,
     map: &mut Option<Map>,
@@ -233,6 +236,8 @@ impl<R: Rule> TeamStep<'_, R> {
 type StepQuestion<'a, R> = &'a (dyn Fn(&TeamStep<'_, R>) -> bool + Sync);
 /// A question about a team.
 type SceneQuestion<'a, R> = &'a (dyn Fn(&Scene<R>) -> bool + Sync);
+/// The obligations of a team, a bit for each.
+type Obligations<'a, R> = &'a (dyn Fn(&Scene<R>) -> Bits + Sync);
 
 /// When a demand is looked at.
 pub(super) enum When<'a, R: Rule> {
@@ -240,6 +245,7 @@ pub(super) enum When<'a, R: Rule> {
     AtTheEnd(SceneQuestion<'a, R>),
     NeverEndless,
     Eventually(SceneQuestion<'a, R>),
+    AgainAndAgain(Obligations<'a, R>),
 }
 
 /// A demand on a team.
@@ -274,6 +280,12 @@ impl<'a, R: Rule> Demand<'a, R> {
         Self { id, words, when: When::Eventually(is_so) }
     }
 
+    /// That no run in which every robot acts again and again that has something left to do comes to owe one of these, a
+    /// bit for each, from some time on for ever. A patrol owes a visit to each cell in which no robot is.
+    pub const fn again_and_again(id: &'static str, words: &'static str, owed: Obligations<'a, R>) -> Self {
+        Self { id, words, when: When::AgainAndAgain(owed) }
+    }
+
     /// Whether a step breaks it.
     pub fn is_broken_by(&self, moved: &TeamStep<'_, R>) -> bool {
         matches!(self.when, When::Always(is_kept) if !is_kept(moved))
@@ -281,12 +293,24 @@ impl<'a, R: Rule> Demand<'a, R> {
 
     /// Whether a run breaks it that ends so.
     pub fn is_broken_at_end(&self, scene: &Scene<R>) -> bool {
-        matches!(self.when, When::AtTheEnd(is_kept) | When::Eventually(is_kept) if !is_kept(scene))
+        match self.when {
+            When::Always(_) | When::NeverEndless => false,
+            When::AtTheEnd(is_kept) | When::Eventually(is_kept) => !is_kept(scene),
+            When::AgainAndAgain(owed) => owed(scene) != 0,
+        }
     }
 
-    /// Whether a run breaks it that never ends.
+    /// Whether a run may break it that never ends.
     pub const fn is_broken_by_endless_runs(&self) -> bool {
-        matches!(self.when, When::NeverEndless | When::Eventually(_))
+        matches!(self.when, When::NeverEndless | When::Eventually(_) | When::AgainAndAgain(_))
+    }
+
+    /// The obligations that a run must not owe for ever: the same one always, unless the demand is one of them.
+    pub(super) fn owed(&self, scene: &Scene<R>) -> Bits {
+        match self.when {
+            When::AgainAndAgain(owed) => owed(scene),
+            When::Always(_) | When::AtTheEnd(_) | When::NeverEndless | When::Eventually(_) => 1,
+        }
     }
 
     /// Whether nothing more is demanded of a run that has come to this.

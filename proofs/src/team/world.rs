@@ -97,9 +97,21 @@ impl<'a, R: Rule> TeamWorld<'a, R> {
         self.wanted.iter().copied().filter(is_broken).collect()
     }
 
-    /// The demands that a run breaks by never ending.
+    /// The demands that a run may break by never ending.
     pub fn broken_by_never_ending(&self) -> Vec<Promise> {
         self.broken(is_endless)
+    }
+
+    /// The obligations of those demands that are wanted and may be broken by never ending: a run that goes round breaks
+    /// the ones of which it owes something throughout.
+    pub fn obligations(&self, scene: &Scene<R>) -> Vec<(Promise, Bits)> {
+        let owed = |promise: Promise| (promise, self.demand(promise).owed(scene));
+        self.broken_by_never_ending().into_iter().map(owed).collect()
+    }
+
+    /// The demands that are wanted and are met for good in a run that has come to this.
+    pub fn met(&self, scene: &Scene<R>) -> Vec<Promise> {
+        self.broken(|demand| demand.is_met_by(scene))
     }
 
     /// This team, of whose demands only these are looked at.
@@ -223,7 +235,7 @@ impl<R: Rule> Game for TeamWorld<'_, R> {
         self.setting.demands[demand].words
     }
 
-    /// The map takes part: it grows without an answer, too, where a side is met that can only be open.
+    /// The layout as far as it is decided takes part: a team that comes back and has met more is not where it was.
     fn recurs(&self, then: &Scene<R>, _: usize, now: &Scene<R>, _: &[u8]) -> ControlFlow<Vec<Promise>> {
         if (&then.bodies, then.map) != (&now.bodies, now.map) {
             return ControlFlow::Continue(());
@@ -254,7 +266,7 @@ pub enum Part<M, T> {
     Rest {
         /// Where robots are to go.
         goals: Vec<Cell>,
-        /// The layout as far as it is known.
+        /// The layout as far as it is decided.
         map: Option<Box<Map>>,
         /// Messages that were lost.
         losses: u32,
@@ -304,6 +316,10 @@ impl<R: Rule> System for TeamWorld<'_, R> {
 
     fn broken_by_endless_runs(&self) -> Option<Promise> {
         self.broken_by_never_ending().first().copied()
+    }
+
+    fn owed(&self, scene: &Scene<R>) -> Bits {
+        self.obligations(scene).first().map_or(0, |&(_, owed)| owed)
     }
 
     fn awake(&self, scene: &Scene<R>) -> Bits {

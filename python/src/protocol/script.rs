@@ -129,7 +129,7 @@ impl StateScript {
             return Err(wrong());
         }
         let actors = set(actors.into_iter().map(|actor| actor as usize));
-        Ok(Move { actors, words: self.met(py, &words)?, to: self.script.number(py, "moves", &to)? })
+        Ok(Move::of_set(actors, self.met(py, &words)?, self.script.number(py, "moves", &to)?))
     }
 
     /// The words of a move, which are met.

@@ -1,15 +1,16 @@
 //! A rule of one's own ([`tautline_proofs::team`]), as a run plays it: in one layout, with what it breaks.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{HashMap, VecDeque};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::SeededOracle;
+use tautline_proofs::engine::states::Bits;
 use tautline_proofs::engine::tree::Game;
 use tautline_proofs::engine::world::World;
 use tautline_proofs::run::Frame;
-use tautline_proofs::team::{self, Rule, TeamStep, TeamWorld};
+use tautline_proofs::team::{self, Promise, Rule, TeamStep, TeamWorld};
 
 use super::clause::ClauseId;
 use super::run::{End, Surroundings, Survey, Team};
@@ -25,8 +26,12 @@ pub struct Own<'a, R: Rule> {
     /// The answers of a search that has found the run; by lot is answered what they leave open.
     script: VecDeque<u32>,
     dice: SeededOracle,
-    /// The scenes in which it was since the last draw, by 128 bits of each.
-    been: HashSet<[u64; 2]>,
+    /// The scenes in which it was since the last draw, by 128 bits of each, with the number of each among them.
+    been: HashMap<[u64; 2], usize>,
+    /// The obligations in each of these scenes.
+    owed: Vec<Vec<(Promise, Bits)>>,
+    /// The demands that are met for good.
+    met: Vec<Promise>,
 }
 
 /// A digest that stands for a scene: its hashes behind two different first bytes. Two scenes with the same 128 bits
@@ -108,14 +113,24 @@ impl<'a, R: Rule> Own<'a, R> {
     pub fn new(playing: TeamWorld<'a, R>, seed: u64) -> Self {
         let scene = playing.start();
         let (cells, dice) = (scene.cells().collect(), SeededOracle::new(seed, 0));
-        let (script, been) = (VecDeque::new(), HashSet::new());
-        Self { playing, before: scene.clone(), scene, cells, script, dice, been }
+        let met = playing.met(&scene);
+        let (script, been, owed) = (VecDeque::new(), HashMap::new(), Vec::new());
+        Self { playing, before: scene.clone(), scene, cells, script, dice, been, owed, met }
     }
 
     /// This team, of which a search has found these answers to what no layout knows.
     #[must_use]
     pub fn choosing(self, choices: &[u32]) -> Self {
         Self { script: choices.iter().copied().collect(), ..self }
+    }
+
+    /// The demands of which something is owed in every scene of the round that it goes.
+    fn owed_throughout(&self) -> Vec<Promise> {
+        let mut owed = self.owed.first().cloned().unwrap_or_default();
+        for later in &self.owed {
+            owed.iter_mut().zip(later).for_each(|((_, owed), (_, later))| *owed &= later);
+        }
+        owed.into_iter().filter(|&(_, owed)| owed != 0).map(|(promise, _)| promise).collect()
     }
 
     fn clauses(&self, broken: Vec<<TeamWorld<'a, R> as World>::Demand>) -> Vec<ClauseId> {
@@ -133,16 +148,23 @@ impl<R: Rule> Team for Own<'_, R> {
         let Some(plan) = self.playing.plan(&mut self.scene, &[]) else { return Err(End::Exhausted) };
         // A search that goes round says so by the end of its answers.
         let is_scripted = !self.script.is_empty();
-        if !self.been.insert(digest(&self.before)) && !is_scripted {
+        if let Some(first) = self.been.insert(digest(&self.before), self.owed.len())
+            && !is_scripted
+        {
+            self.owed.drain(..first);
             return Err(End::Endless);
         }
+        self.owed.push(self.playing.obligations(&self.before));
         let awake = (0..self.cells.len()).filter(|robot| plan >> robot & 1 == 1).collect();
         let Self { script, dice, .. } = self;
         let mut world = InLayout { world, script, dice, awake, fails: false, has_drawn: false };
         let event = self.playing.settle(&mut self.scene, &plan, &mut Vec::new(), &mut world);
         if world.has_drawn && !is_scripted {
             self.been.clear();
+            self.owed.clear();
         }
+        self.met.extend(self.playing.met(&self.scene));
+        self.met.dedup();
         self.cells = self.scene.cells().collect();
         Ok(event.frame(&self.scene))
     }
@@ -161,12 +183,14 @@ impl<R: Rule> Team for Own<'_, R> {
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
-        self.clauses(match end {
+        let mut broken = match end {
             End::Explored | End::Exhausted | End::Silent | End::Refused => {
                 self.playing.broken_at_end(&self.scene, &[])
             }
-            End::Endless => self.playing.broken_by_never_ending(),
+            End::Endless => self.owed_throughout(),
             End::Idle => Vec::new(),
-        })
+        };
+        broken.retain(|demand| !self.met.contains(demand));
+        self.clauses(broken)
     }
 }

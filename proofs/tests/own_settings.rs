@@ -1,0 +1,300 @@
+//! Surroundings of one's own are told, searched and refused in words: the bound says all that a setting fixes, what is
+//! known of the layout is no part of the way to it, and a check that is open or refused says why.
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_proofs::clause::{Check, Clause, NamedRule};
+use tautline_proofs::decide::{Answer, Cache, Context, EveryAnswer, Method, Verdict};
+use tautline_proofs::engine::states::{Limits, MemoryLimit};
+use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::engine::{Outcome, Until};
+use tautline_proofs::protocol::{self, Move, Protocol};
+use tautline_proofs::team::{
+    Act, Demand, Ground, Keeps, Map, Moves, Places, Rule, Scene, Senses, Setting, Strategy, View, Which,
+};
+use tautline_proofs::{bound, demands, ledger};
+
+fn decided<R>(method: &impl Method<R>, rule: &R) -> Answer {
+    let (cache, watch) = (&mut Cache::default(), &mut unwatched);
+    let mut context = Context { cache, watch, memory: MemoryLimit::any() };
+    method.decide(rule, Until::Exhausted, &mut context).expect("it can be decided")
+}
+
+/// A robot's walk.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Walk {
+    /// A step east, a step west, for ever.
+    ToAndFro,
+    /// Round the cells, turning right at a wall.
+    Round,
+    /// Nowhere.
+    Waits,
+}
+
+impl Rule for Walk {
+    type Memory = Side;
+    type Message = ();
+
+    fn start(&self, _: usize, _: &[Cell]) -> Side {
+        Side::East
+    }
+
+    fn act(&self, view: &mut View<'_, Self>, heading: &mut Side) -> Act {
+        let side = *heading;
+        match self {
+            Self::ToAndFro => *heading = heading.opposite(),
+            Self::Round if view.was_blocked() => {
+                *heading = heading.turned_right();
+                return Act::Go(*heading);
+            }
+            Self::Round => {}
+            Self::Waits => return Act::Wait,
+        }
+        Act::Go(side)
+    }
+}
+
+const CORNER: Places<Walk> = Places::At(|_| vec![Cell::new(0, 0)]);
+const ENDS: Demand<'static, Walk> = Demand::never_endless("W-1", "it ends");
+
+const fn walking(ground: Ground, starts: Places<Walk>) -> Setting<'static, Walk> {
+    Setting { demands: &[ENDS], ..Setting::new("walk", ground, 1, starts) }
+}
+
+/// Before, every ground was "all layouts", and nothing else of it was told.
+#[test]
+fn the_bound_says_which_layouts_starts_and_senses() {
+    const WALL: &[Edge] = &[Edge::new(Cell::new(0, 0), Side::East)];
+    const OPEN: Ground = Ground::open(3, 3);
+    static SETTINGS: [(Setting<'static, Walk>, &str); 6] = [
+        (walking(OPEN, CORNER), "3×3 cells without walls, 1 robot, given starts, sight of nothing"),
+        (
+            walking(OPEN.walls(Which::Any(1)).assume("no wall stands", |map| map.walls().is_empty()), CORNER),
+            "all layouts of 3×3 cells, any 1 wall at most, where no wall stands, 1 robot, given starts, \
+             sight of nothing",
+        ),
+        (
+            walking(OPEN.walls(Which::These(WALL)), Places::Any),
+            "3×3 cells, 1 wall given, 1 robot, any starts, sight of nothing",
+        ),
+        (
+            Setting { senses: Senses::TEAM, ..walking(OPEN.walls(Which::Met(2)), CORNER) },
+            "all layouts of 3×3 cells, at most 2 walls, 1 robot, given starts, sight of all robots",
+        ),
+        (
+            Setting {
+                senses: Senses { ground: 1, robots: 2 },
+                ..walking(
+                    OPEN.obstacles(Which::Any(1)).assume("the free cells are connected", Map::is_connected),
+                    CORNER,
+                )
+            },
+            "all layouts of 3×3 cells without walls, any 1 blocked cell at most, where the free cells are \
+             connected, 1 robot, given starts, sight of walls within 1 step and robots within 2 steps",
+        ),
+        (
+            Setting {
+                senses: Senses::ALL,
+                goals: Places::Distinct,
+                moves: Moves::OneAtATime,
+                ..walking(OPEN, Places::Distinct)
+            },
+            "3×3 cells without walls, 1 robot, any starts apart, any goals apart, sight of all walls and all \
+             robots, one at a time",
+        ),
+    ];
+    for (setting, words) in &SETTINGS {
+        assert_eq!(Keeps(setting, 0).bound(), *words);
+    }
+}
+
+/// Two robots that go anywhere.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Chase;
+
+impl Rule for Chase {
+    type Memory = ();
+    type Message = ();
+
+    fn start(&self, _: usize, _: &[Cell]) {}
+
+    fn act(&self, view: &mut View<'_, Self>, (): &mut ()) -> Act {
+        let (own, other) = (view.cell(), view.sees(1 - view.me()).expect("it sees all robots"));
+        match (other.x - own.x, other.y - own.y) {
+            (0, 0) => Act::Wait,
+            (1.., _) => Act::Go(Side::East),
+            (..0, _) => Act::Go(Side::West),
+            (0, 1..) => Act::Go(Side::South),
+            (0, ..0) => Act::Go(Side::North),
+        }
+    }
+}
+
+/// Before, the sides that robots had met were told apart though nothing can stand there, so that one team in the same
+/// cells was in many states, and a round began only once all of its sides were met.
+#[test]
+fn what_is_known_of_the_layout_from_the_start_makes_no_states() {
+    static PURSUIT: Setting<'static, Chase> = Setting {
+        senses: Senses::TEAM,
+        moves: Moves::OneAtATime,
+        demands: &[Demand::always("C-1", "they are in the area", &|_| true)],
+        ..Setting::new("chase", Ground::open(3, 3), 2, Places::Any)
+    };
+    let found = Keeps(&PURSUIT, 0).search(&Chase, Limits::NONE).expect("it can be searched");
+    assert_eq!((found.states, found.is_whole), (9 * 9, true));
+    static LANE: Setting<'static, Walk> = walking(Ground::open(4, 1), CORNER);
+    let found = Keeps(&LANE, 0).search(&Walk::ToAndFro, Limits::NONE).expect("it can be searched");
+    let run = found.broken.first().expect("it goes on for ever");
+    assert_eq!((run.steps.len(), run.round().len(), found.states, found.is_shortest), (0, 2, 2, true));
+}
+
+#[test]
+fn a_run_that_has_met_its_most_walls_knows_the_layout() {
+    const KNOWS: Demand<'static, Walk> =
+        Demand::always("W-2", "with its wall the layout is decided", &|moved| {
+            let map = moved.after.map().expect("a layout that is searched");
+            map.walls().is_empty() || map.area().edges().all(|edge| map.edge(edge).is_some())
+        });
+    static MET: Setting<'static, Walk> = Setting {
+        demands: &[KNOWS, ENDS],
+        longest_run: 200,
+        ..walking(Ground::open(3, 2).walls(Which::Met(1)), CORNER)
+    };
+    static STATES: Setting<'static, Walk> = Setting { moves: Moves::OneAtATime, ..MET };
+    assert_eq!((MET.strategy(), STATES.strategy()), (Strategy::Tree, Strategy::States));
+    for setting in [&MET, &STATES] {
+        assert_eq!(decided(&Keeps(setting, 0), &Walk::Round).verdict, Verdict::Holds);
+        assert_eq!(decided(&Keeps(setting, 1), &Walk::Round).verdict, Verdict::Refuted);
+    }
+}
+
+/// The cells in which no robot is, a bit for each.
+fn unvisited(scene: &Scene<Walk>) -> u16 {
+    let number = |cell: Cell| (cell.y * 2 + cell.x) as u16;
+    scene.cells().fold(0b1111, |left, cell| left & !(1 << number(cell)))
+}
+
+#[test]
+fn a_patrol_comes_to_every_cell_again_and_again() {
+    static PATROL: Setting<'static, Walk> = Setting {
+        demands: &[Demand::again_and_again("W-3", "every cell is visited again and again", &unvisited)],
+        ..Setting::new("patrol", Ground::open(2, 2), 1, CORNER)
+    };
+    static TURNS: Setting<'static, Walk> =
+        Setting { moves: Moves::OneAtATime, robots: 2, starts: Places::Any, ..PATROL };
+    static WALLS: Setting<'static, Walk> =
+        Setting { ground: Ground::open(2, 2).walls(Which::Met(1)), ..PATROL };
+    assert_eq!(PATROL.strategy(), Strategy::States);
+    for setting in [&PATROL, &TURNS] {
+        assert_eq!(decided(&Keeps(setting, 0), &Walk::Round).verdict, Verdict::Holds);
+    }
+    assert_eq!(decided(&Keeps(&WALLS, 0), &Walk::Round).verdict, Verdict::Refuted, "a wall is in its way");
+    for (rule, round) in [(Walk::ToAndFro, 2), (Walk::Waits, 1)] {
+        let keeps = Keeps(&PATROL, 0);
+        let found = decided(&keeps, &rule).counterexample.expect("cells that are left out");
+        assert_eq!((found.choices.once.len(), found.choices.again.len()), (1, round), "{rule:?}");
+        assert_eq!(keeps.replay(&rule, &found.choices).expect("it can be played").evidence, found);
+    }
+}
+
+#[test]
+fn a_setting_that_is_made_while_the_program_runs_is_searched() {
+    let states = [3, 4].map(|side| {
+        let demands = [ENDS];
+        let setting =
+            Setting { demands: &demands, ..Setting::new("walk", Ground::open(side, side), 1, CORNER) };
+        let found = Keeps(&setting, 0).search(&Walk::Round, Limits::NONE).expect("it can be searched");
+        assert_eq!(found.broken.first().map(|run| run.demand), Some("it ends"));
+        found.states
+    });
+    // The start, each step round, and each wall at which it turns.
+    assert_eq!(states, [1 + 4 * 2 + 4, 1 + 4 * 3 + 4]);
+}
+
+#[test]
+fn an_open_check_says_why() {
+    static UNCOVERED: Setting<'static, Walk> = Setting {
+        demands: &[Demand::always("W-4", "it is there", &|_| true)],
+        covers: &[
+            ("a step", &|moved| moved.has_moved(0)),
+            ("a step south", &|moved| moved.after.cell(0).y > 0),
+        ],
+        ..walking(Ground::open(3, 1), CORNER)
+    };
+    static AS_STATES: Setting<'static, Walk> = Setting { moves: Moves::OneAtATime, ..UNCOVERED };
+    static NOWHERE: Setting<'static, Walk> = Setting {
+        ground: Ground::open(3, 1).assume("there is no layout", |_| false),
+        covers: &[],
+        ..AS_STATES
+    };
+    for (setting, why) in [
+        (&UNCOVERED, "never occurred: a step south"),
+        (&AS_STATES, "never occurred: a step south"),
+        (&NOWHERE, "there is no start"),
+    ] {
+        let answer = decided(&Keeps(setting, 0), &Walk::ToAndFro);
+        assert_eq!((answer.verdict, answer.note.as_deref()), (Verdict::Open, Some(why)));
+    }
+    let answer = decided(&protocol::Keeps::<Steps>(Numbers { actor: 0, starts: 1 }, 0), &Steps);
+    assert_eq!(answer.note.as_deref(), Some("never occurred: stops"));
+    let answer = decided(&protocol::Keeps::<Steps>(Numbers { actor: 0, starts: 0 }, 0), &Steps);
+    assert_eq!((answer.verdict, answer.note.as_deref()), (Verdict::Open, Some("there is no start")));
+}
+
+bound! { Numbers { actor: usize, starts: u8 } "actor {actor}, {starts} starts" }
+
+/// An actor that takes a step.
+#[derive(Clone, Copy)]
+struct Steps;
+
+impl Protocol for Steps {
+    type Bound = Numbers;
+    type State = u8;
+    const COVERS: &'static [&'static str] = &["goes", "stops"];
+    demands! {
+        always "it goes on", |_, _, before, after| after > before;
+    }
+
+    fn starts(&self, numbers: &Numbers) -> impl IntoIterator<Item = u8> {
+        0..numbers.starts
+    }
+
+    fn moves(&self, numbers: &Numbers, &state: &u8) -> Vec<Move<u8>> {
+        Move::of(numbers.actor, "goes", 9).when(state < 9).into_iter().collect()
+    }
+}
+
+#[test]
+fn an_actor_that_there_cannot_be_is_refused_with_its_move() {
+    for actor in [16, 20] {
+        let keeps = protocol::Keeps::<Steps>(Numbers { actor, starts: 1 }, 0);
+        let refused = keeps.search(&Steps, Limits::NONE).expect_err("it is refused").to_string();
+        let words = "the actors of a protocol have the numbers 0 to 15, not";
+        assert_eq!(refused, format!("{words} {actor}: \"goes\" in the state 0"));
+    }
+    let all = [16, 17].map(|actors| Move::of_all(actors, "go", ()));
+    assert_eq!((all[0].actors, all[1].actors), (u16::MAX, 0));
+}
+
+/// A body that panics for one rule.
+fn careful(rule: &bool, _: &mut dyn Oracle) -> Outcome {
+    assert!(*rule, "the map has no cell 7");
+    Ok("an end")
+}
+
+#[test]
+fn a_panic_names_the_clause_and_the_rule() {
+    static CAREFUL: EveryAnswer<bool> =
+        EveryAnswer { body: careful, range: || "once".to_owned(), covers: &[] };
+    static CLAUSE: Clause = Clause {
+        id: "CARE-1",
+        sentence: "A rule MUST not panic.",
+        checks: &[&Check::holds(
+            NamedRule::new("careful", true),
+            &CAREFUL,
+            &[NamedRule::new("careless", false)],
+        )],
+    };
+    let refused = ledger::decide_all(&[&CLAUSE]).expect_err("a mutant panics").to_string();
+    assert_eq!(refused, "CARE-1 panics for the rule \"careless\": the map has no cell 7");
+}
