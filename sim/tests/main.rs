@@ -15,5 +15,6 @@ mod kit;
 mod laps;
 mod minimise;
 mod noticed;
+mod own_round;
 mod own_team;
 mod pack;
