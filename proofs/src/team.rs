@@ -177,8 +177,8 @@ impl<'a, R: Rule> Setting<'a, R> {
         }
     }
 
-    /// How it is searched: as a tree if there is one start and the layout alone is open, and every demand but that no
-    /// run is endless is one on steps and ends; else as states.
+    /// How it is searched: as a tree if there is one start, the layout alone is open, and nothing is demanded to be so
+    /// eventually, or again and again; else as states.
     pub const fn strategy(&self) -> Strategy {
         let has_one_layout =
             !matches!(self.ground.walls, Which::Any(_)) && !matches!(self.ground.obstacles, Which::Any(_));

@@ -314,7 +314,7 @@ const fn touring(moves: Moves) -> Setting<'static, Tour> {
 static TOUR: Setting<'static, Tour> = touring(Moves::Together);
 static TOUR_AS_STATES: Setting<'static, Tour> = touring(Moves::OneAtATime);
 
-/// A way that can only be open is known from when it is met. Before, a search of the tree took the robot that came back
+/// A team that comes back and has met more of the layout is not where it was. Before, a search of the tree took the robot that came back
 /// for one that goes on for ever, although it knew more than when it was there first.
 #[test]
 fn a_robot_that_comes_back_and_knows_more_of_the_layout_does_not_go_round() {

@@ -14,10 +14,14 @@ use tautline_proofs::team::{
 };
 use tautline_proofs::{bound, demands, ledger};
 
+use crate::exhausted::certify;
+
 fn decided<R>(method: &impl Method<R>, rule: &R) -> Answer {
     let (cache, watch) = (&mut Cache::default(), &mut unwatched);
     let mut context = Context { cache, watch, memory: MemoryLimit::any() };
-    method.decide(rule, Until::Exhausted, &mut context).expect("it can be decided")
+    let answer = method.decide(rule, Until::Exhausted, &mut context).expect("it can be decided");
+    certify(method, rule, answer.verdict);
+    answer
 }
 
 /// A robot's walk.

@@ -163,8 +163,11 @@ impl<R: Rule> Team for Own<'_, R> {
             self.been.clear();
             self.owed.clear();
         }
-        self.met.extend(self.playing.met(&self.scene));
-        self.met.dedup();
+        for demand in self.playing.met(&self.scene) {
+            if !self.met.contains(&demand) {
+                self.met.push(demand);
+            }
+        }
         self.cells = self.scene.cells().collect();
         Ok(event.frame(&self.scene))
     }
