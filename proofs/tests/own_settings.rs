@@ -7,7 +7,7 @@ use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::{Answer, Cache, Context, EveryAnswer, Method, Verdict};
 use tautline_proofs::engine::states::{Limits, MemoryLimit};
 use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::engine::{Outcome, Until};
+use tautline_proofs::engine::{Outcome, Until, assume};
 use tautline_proofs::protocol::{self, Move, Protocol};
 use tautline_proofs::team::{
     Act, Demand, Ground, Keeps, Map, Moves, Places, Rule, Scene, Senses, Setting, Strategy, View, Which,
@@ -146,6 +146,10 @@ fn what_is_known_of_the_layout_from_the_start_makes_no_states() {
     };
     let found = Keeps(&PURSUIT, 0).search(&Chase, Limits::NONE).expect("it can be searched");
     assert_eq!((found.states, found.is_whole), (9 * 9, true));
+}
+
+#[test]
+fn a_round_in_a_known_layout_begins_at_once() {
     static LANE: Setting<'static, Walk> = walking(Ground::open(4, 1), CORNER);
     let found = Keeps(&LANE, 0).search(&Walk::ToAndFro, Limits::NONE).expect("it can be searched");
     let run = found.broken.first().expect("it goes on for ever");
@@ -281,7 +285,8 @@ fn an_actor_that_there_cannot_be_is_refused_with_its_move() {
 }
 
 /// A body that panics for one rule.
-fn careful(rule: &bool, _: &mut dyn Oracle) -> Outcome {
+fn careful(rule: &bool, oracle: &mut dyn Oracle) -> Outcome {
+    assume(oracle.flip())?;
     assert!(*rule, "the map has no cell 7");
     Ok("an end")
 }
