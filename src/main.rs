@@ -54,6 +54,7 @@ use tautline_io::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::value_parser::{number, real, whole};
 use tautline_kernel::ground::Cell;
+use tautline_proofs::decide::MethodError;
 use terminal_size::{Width, terminal_size};
 
 use crate::report::{Colour, render};
@@ -362,6 +363,11 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
         arg.allow_negative_numbers(takes_values)
     };
     command.mut_args(takes).mut_subcommands(with_negative_numbers)
+}
+
+/// The answer about a check that is registered. One that cannot be decided, or panics, is a bug of ours.
+fn registered<T>(answer: Result<T, MethodError>) -> T {
+    answer.unwrap_or_else(|refused| panic!("a registered check is not decided: {refused}"))
 }
 
 /// Does `work`; a panic, of which the hook has told, is a bug.

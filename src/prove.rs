@@ -28,7 +28,7 @@ use super::findings::{self, Format, FormatArgs};
 use super::hunt::{clear, keep, make_folder};
 use super::output::{Output, replay_line};
 use super::progress::Shown;
-use super::{Exit, ForceArgs, interrupt, positive, progress, refuse_needless, spill};
+use super::{Exit, ForceArgs, interrupt, positive, progress, refuse_needless, registered, spill};
 use tautline_sim::counterexample::refutation;
 use tautline_sim::trace;
 
@@ -290,9 +290,7 @@ impl DecisionArgs {
         let hear = progress::hears(&bar, shown, self.patience.get());
         interrupt::defer_for_pool();
         tracing::debug!("proving: {}", counted(checks.len(), "check"));
-        let mut rows = ledger::decide(&checks, &limits, &hear).map_err(|refused| {
-            Diagnostic::usage(refused, "this is a bug in the registry: please report it")
-        })?;
+        let mut rows = registered(ledger::decide(&checks, &limits, &hear));
         rows.retain(|row| row.undecided != Some(Indecision::Ended));
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());

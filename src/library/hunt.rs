@@ -5,7 +5,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_io::atomic_file::Replaceable;
-use tautline_io::diagnostic::{Diagnostic, Halt};
+use tautline_io::diagnostic::Halt;
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::{RandomRuns, Verdict};
 use tautline_proofs::ledger::{self, Indecision, Limits, Row, indented};
@@ -17,7 +17,7 @@ use crate::hunt::{clear, make_folder};
 use crate::output::{Output, replay_line};
 use crate::progress::Shown;
 use crate::prove::{stored, story};
-use crate::{Exit, interrupt, progress};
+use crate::{Exit, interrupt, progress, registered};
 
 /// Moves of a run that is drawn as it is found.
 const DRAWN: usize = 24;
@@ -65,8 +65,7 @@ pub(super) fn hunt(
     let hear = progress::hears(&bar, Shown::Checks, limits.patience_s);
     interrupt::defer_for_pool();
     tracing::debug!("hunting: {}", counted(checks.len(), "check"));
-    let mut rows = ledger::hunt(&checks, runs, &limits, &hear)
-        .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
+    let mut rows = registered(ledger::hunt(&checks, runs, &limits, &hear));
     rows.retain(|row| row.undecided != Some(Indecision::Ended));
     bar.finish_and_clear();
     let file = |row: &Row| folder.map_or(Ok(None), |folder| stored(row, folder, replaceable, &mut *out));

@@ -20,7 +20,7 @@ use tautline_proofs::plural::counted;
 
 use super::{chosen, clauses};
 use crate::output::Output;
-use crate::{Exit, ForceArgs, Format, shards};
+use crate::{Exit, ForceArgs, Format, registered, shards};
 
 /// The remedy for a plan or a shard that says no such thing.
 const AS_WRITTEN: &str = "take it as tautline wrote it";
@@ -134,9 +134,7 @@ impl Part for Shard<'_> {
         let (check, start) = (clause.checks[number], Instant::now());
         let watch = &mut |_: &Progress<'_>| std::ops::ControlFlow::Continue(());
         let mut context = Context { cache: &mut Cache::default(), watch, memory: MemoryLimit::any() };
-        let answer = check.decide_portion(variant, portion, &mut context);
-        let answer = answer
-            .map_err(|why| Diagnostic::usage(why, "this is a bug in the registry: please report it"))?;
+        let answer = registered(check.decide_portion(variant, portion, &mut context));
         self.answers.push(JobAnswer::of(answer, start.elapsed().as_secs_f64()));
         Ok(!self.is_done())
     }
