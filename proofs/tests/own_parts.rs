@@ -314,8 +314,8 @@ const fn touring(moves: Moves) -> Setting<'static, Tour> {
 static TOUR: Setting<'static, Tour> = touring(Moves::Together);
 static TOUR_AS_STATES: Setting<'static, Tour> = touring(Moves::OneAtATime);
 
-/// A team that comes back and has met more of the layout is not where it was. Before, a search of the tree took the robot that came back
-/// for one that goes on for ever, although it knew more than when it was there first.
+/// A team that comes back and has met more of the layout is not where it was. Before, a search of the tree took the
+/// robot that came back for one that goes on for ever, although it knew more than when it was there first.
 #[test]
 fn a_robot_that_comes_back_and_knows_more_of_the_layout_does_not_go_round() {
     assert_eq!((TOUR.strategy(), TOUR_AS_STATES.strategy()), (Strategy::Tree, Strategy::States));
