@@ -19,6 +19,12 @@ pub(crate) fn scheme() -> impl TypedValueParser<Value = Scheme> {
     one_of(CATALOGUE.schemes().map(|scheme| (scheme, scheme.name, scheme.about)))
 }
 
+/// Reads the name of a scheme of which something is hunted.
+pub(crate) fn hunted_scheme() -> impl TypedValueParser<Value = Scheme> {
+    let hunted = CATALOGUE.schemes().filter(|scheme| scheme.is_hunted());
+    one_of(hunted.map(|scheme| (scheme, scheme.name, scheme.about)))
+}
+
 /// Reads the name of a rule. Whether its scheme offers it is for the scheme to say, which knows what it offers.
 pub(crate) fn rule() -> impl TypedValueParser<Value = RuleId> {
     AnyRule

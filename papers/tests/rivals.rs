@@ -149,7 +149,8 @@ fn what_does_not_fit_is_refused_with_its_reason() {
     };
     let fault = |setup: &Setup| team(setup).expect_err("it does not fit").to_string();
     assert!(fault(&setup("full-search", RuleId::PUBLISHED, 8)).contains("7 robots cannot leave"));
-    assert!(fault(&setup("full-search", RuleId::REPAIRED, 12)).contains("48828125"));
+    assert!(fault(&setup("full-search", RuleId::REPAIRED, 11)).contains("2 to 10 robots"));
+    assert!(Parameters::FULL.check(12).expect_err("it does not fit").to_string().contains("48828125"));
     assert!(fault(&setup("rooker-birk", RuleId::PUBLISHED, 8)).contains("four sides"));
     assert!(fault(&setup("chain", COVERED, 8)).contains("chain has no rule covered"));
 }

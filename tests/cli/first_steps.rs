@@ -43,6 +43,26 @@ fn each_scheme_is_listed_and_runs_by_its_own_rule() {
 }
 
 #[test]
+fn hunt_offers_the_schemes_of_which_something_is_hunted_and_no_others() {
+    let folder = &folder();
+    let (listed, help) = (json(folder, &["schemes"], 0), printed(folder, &["hunt", "--help"], 0));
+    let schemes = listed["schemes"].as_array().expect("a list");
+    let mut refused_ones = 0;
+    for scheme in schemes {
+        let (name, rules) =
+            (scheme["name"].as_str().expect("text"), scheme["rules"].as_array().expect("a list"));
+        let is_hunted = rules.iter().any(|rule| rule["hunt"] == true);
+        assert_eq!(help.contains(&format!("- {name}:")), is_hunted, "{name}");
+        if !is_hunted {
+            let fault = refused(folder, &["hunt", "--scheme", name]);
+            assert!(fault.contains("possible values") && fault.contains("bricks-ants"), "{fault}");
+            refused_ones += 1;
+        }
+    }
+    assert!((1..schemes.len()).contains(&refused_ones), "some are hunted, and some are not");
+}
+
+#[test]
 fn a_run_that_is_found_is_tried_with_another_rule() {
     let folder = &folder();
     let found = printed(folder, &["hunt", "--rule", "published", "--max-walls", "3", "--out", "found"], 1);

@@ -170,8 +170,7 @@ impl Hunter for Listener<'_> {
 impl RowHunt {
     fn begin(settings: &Settings, bounds: HuntBounds) -> Result<(Self, Value), Diagnostic> {
         let (scheme, rule) = (settings.scheme()?, settings.rule()?);
-        let nothing =
-            || Diagnostic::usage(format!("nothing is hunted of {}", scheme.name), "hunt another scheme");
+        let nothing = || scheme.not_hunted();
         let hunt = match (settings.switched(), rule.switches) {
             (Some(on), Some(switches)) => switches.hunt(on).ok_or_else(nothing)?,
             _ => Box::new(CatalogueHunt(rule.hunt.ok_or_else(nothing)?)),

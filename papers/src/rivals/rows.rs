@@ -13,6 +13,7 @@ use tautline_sim::explore::{
     Surroundings, Team, Zone,
 };
 
+use super::parameters::MOST_SEARCHED;
 use super::{Cells, Deadlock, Links, Moves, ParameterError, Parameters, Standstill};
 
 /// Links by E_C.
@@ -27,9 +28,9 @@ pub const SCATTER: RuleId = RuleId::new("scatter");
 /// How a stuck team scatters.
 const SCATTERING: Deadlock = Deadlock::Scatter { after: 20, moves: 5 };
 
-/// The row of a rival.
+/// The row of a rival that has at most so many robots.
 macro_rules! rival {
-    ($name:literal, $about:literal, $parameters:expr) => {
+    ($name:literal, $team:literal, $about:literal, $parameters:expr, $most_robots:expr) => {
         Profile {
             about: $about,
             rules: &[
@@ -62,8 +63,8 @@ macro_rules! rival {
                     },
                 ),
             ],
-            team: "team of rivals",
-            robots: 2..=MAX_ROBOTS,
+            team: $team,
+            robots: 2..=$most_robots,
             starts: Starts::Base,
             look: Look::Tree { is_linked: |one, other| Circle::COVERED.covers(one, other) },
             drawn: &[RandomPart { what: "which of the team moves is made that are as good", by: By::Every }],
@@ -75,15 +76,19 @@ macro_rules! rival {
 /// The best of all team moves.
 pub static FULL_SEARCH: Profile = rival!(
     "full-search",
+    "team of full search",
     "A rival of the chain: links are a tree, and each team move is the best of all",
-    Parameters::FULL
+    Parameters::FULL,
+    MOST_SEARCHED
 );
 
 /// The best of a pool of team moves.
 pub static ROOKER_BIRK: Profile = rival!(
     "rooker-birk",
+    "team of rivals",
     "A rival of the chain: links are a tree, and each team move is the best of 1000 drawn at random",
-    Parameters::POOL
+    Parameters::POOL,
+    MAX_ROBOTS
 );
 
 /// The rivals.

@@ -18,7 +18,7 @@ use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
 
-use super::catalogue::Scheme;
+use super::catalogue::{Profile, Scheme};
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
@@ -78,14 +78,22 @@ pub trait OngoingHunt {
 }
 
 impl Scheme {
+    /// The fault of a rule that is not hunted.
+    pub fn not_hunted(self) -> Diagnostic {
+        let what = format!("nothing is hunted of {}", self.name);
+        let remedy = match self.among.names(Profile::is_hunted) {
+            hunted if hunted.is_empty() => "hunt another scheme".to_owned(),
+            hunted => format!("hunt {}", hunted.join(", ")),
+        };
+        Diagnostic::usage(what, remedy)
+    }
+
     /// How a rule is hunted.
     ///
     /// # Errors
     /// A [`Diagnostic`] if the scheme does not offer it, or it is not hunted.
     pub fn hunt(self, rule: RuleId) -> Result<&'static dyn Hunt, Diagnostic> {
-        self.find_rule(rule)?.hunt.ok_or_else(|| {
-            Diagnostic::usage(format_args!("nothing is hunted of {}", self.name), "hunt another scheme")
-        })
+        self.find_rule(rule)?.hunt.ok_or_else(|| self.not_hunted())
     }
 }
 
