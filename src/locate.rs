@@ -46,7 +46,8 @@ distances put outside the rectangle, and of which the steps did not end; advice 
 Advice: a robot may believe each fix if its error is below a quarter of a cell, and correct its place within a cell \
 that it counts by moves if the error is below half a cell. It is about the 99th percentile of the errors.";
 
-/// Tell how exact positions are that the strength of anchors' signals tells, or find the positions of measurements.
+/// Measure how exact positions are that come from the strength of anchors' signals, or find the positions of
+/// measurements.
 ///
 /// Anchors are radios at known places. A robot hears each with a strength (the level, in dB) that falls with the
 /// distance and has noise, takes these levels for distances, and finds its position from three distances or more. This

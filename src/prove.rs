@@ -67,6 +67,7 @@ const PATIENCE: NonZeroU32 = NonZeroU32::new(PATIENCE_S).expect("it is above 0")
 
 /// Decide the clauses of SPEC.md within their bounds, and print the verdicts.
 ///
+/// A clause is a promise of a published rule, such as CHAIN-1: no robot leaves the radio coverage of its neighbours.
 /// Without a clause one screen tells how many verdicts there are of each kind. With one, or with `--verbose`, each
 /// check has its line in a ledger, and each counterexample is drawn.
 #[derive(Debug, Args)]

@@ -25,7 +25,10 @@ Examples:
 /// The word that stands for the environments of a cell, in place of a layout.
 const ENVIRONMENTS: &str = "environments";
 
-/// Draw a layout, or with `environments` E_N, E_S and E_C of a cell.
+/// Draw a layout, or with `environments` the three sets of cells round a cell that the rules of chains speak of.
+///
+/// They are E_N, E_S and E_C: the cells to which a robot can go from the cell in one team move, those in which its
+/// neighbours in the chain plan to be, and those that lie wholly within its radio coverage. SPEC.md explains them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Show {

@@ -244,7 +244,8 @@ impl Extra {
     pub const LOSS: &'static Self = &Self {
         alias: Some("lose"),
         takes: Takes::Real("PROBABILITY"),
-        about: "How likely it is that such a message, or a byte of a chain, is lost, from 0 to 1. Without it 0",
+        about: "How likely it is that a message of robots that explore cells, or a byte of a chain, is lost, from 0 to \
+                1. Without it 0",
         read: |text, options| put(text.parse(), &mut options.loss),
         typed: |options| words(Some(options.loss).filter(|loss| !loss.is_never())),
         ..Self::new("loss")
