@@ -88,7 +88,7 @@ fn a_log_of_another_map_or_in_other_units_is_said() {
     let (told, _) = judged(folder, arguments, 1);
     assert!(told.contains("nobody was in 3 cells, the first is (9,0)"), "{told}");
     // The picture frames each of them.
-    let picture = fs::read_to_string(folder.join("missed.svg")).expect("a picture");
+    let picture = read(folder, "missed.svg");
     let framed =
         [9, 10, 11].map(|column| format!("<rect class=\"unseen\" x=\"{}\" y=\"3\"", 24 * column + 3));
     assert!(framed.iter().all(|frame| picture.contains(frame)), "{picture}");

@@ -29,8 +29,7 @@ const COMMANDS: [&str; 16] = [
 
 #[test]
 fn nothing_but_ascii_is_printed_in_as_many_lines() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     fs::write(folder.join("f\u{fc}r.txt"), "tautline layout 1\n+--+\n|\u{e4}\u{2026} |\n+--+\n")
         .expect("a file");
     for command in COMMANDS {
@@ -51,8 +50,7 @@ fn nothing_but_ascii_is_printed_in_as_many_lines() {
 
 #[test]
 fn a_drawing_has_its_columns_and_a_file_its_signs() {
-    let folder = folder();
-    let folder = folder.path();
+    let folder = &folder();
     let explore = ["explore", "open:4x3", "--scheme", "bricks", "--robots", "1", "--draw", "moves"];
     let drawn = |more: &[&str]| {
         let output = ran(folder, &[&explore[..], more].concat());
@@ -71,13 +69,13 @@ fn a_drawing_has_its_columns_and_a_file_its_signs() {
 
 #[test]
 fn json_means_what_it_meant() {
-    let folder = folder();
+    let folder = &folder();
     for command in
         ["prove KIT-4 CHAIN-20 --format json", "schemes --format json", "library --format json rmf-lane"]
     {
         let words: Vec<&str> = command.split(' ').collect();
         let value = |option: &[&str]| -> Value {
-            let output = ran(folder.path(), &[option, &words].concat());
+            let output = ran(folder, &[option, &words].concat());
             assert!(option.is_empty() || output.stdout.is_ascii(), "{command}");
             let mut value: Value = serde_json::from_slice(&output.stdout).expect("JSON");
             // A measurement.
@@ -92,7 +90,7 @@ fn json_means_what_it_meant() {
 
 #[test]
 fn what_a_program_of_ones_own_is_given_is_not_ours() {
-    let folder = folder();
-    let said = ran(folder.path(), &["conform", "f\u{fc}r.jsonl", "--", "robots", "--ascii"]);
+    let folder = &folder();
+    let said = ran(folder, &["conform", "f\u{fc}r.jsonl", "--", "robots", "--ascii"]);
     assert!(String::from_utf8(said.stderr).expect("text").contains("f\u{fc}r.jsonl"));
 }
