@@ -399,6 +399,11 @@ impl Profile {
         repaired.map_or(RuleId::REPAIRED, |rule| rule.name)
     }
 
+    /// Whether one of its rules is hunted.
+    pub fn is_hunted(&self) -> bool {
+        self.rules.iter().any(|rule| rule.hunt.is_some())
+    }
+
     /// Whether a run of it draws anything: whether its seed has an effect.
     pub fn draws(&self, setup: &Setup) -> bool {
         self.drawn.iter().any(|drawn| drawn.is_in(setup))
