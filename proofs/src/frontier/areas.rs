@@ -53,8 +53,8 @@ pub fn setting<const ROBOTS: usize>(rule: Rule, (width, height): Size) -> Option
     Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, max_small, demand, given })
 }
 
-/// The run with the fewest obstacles that breaks what `run` breaks in the area of `setting`. It breaks off where `look`,
-/// which searches a setting, does.
+/// The run with the fewest obstacles that breaks what `run` breaks in the area of `setting`. It breaks off where
+/// `look`, which searches a setting, does.
 pub fn fewest<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     run: Run<Demand>,
