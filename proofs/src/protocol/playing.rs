@@ -304,7 +304,7 @@ const DIFFERENCES: [&str; 4] = [
 ];
 
 impl Outlook {
-    /// What this one and another one have not in common, in words.
+    /// The first thing that this one and another one have not in common, in words.
     fn difference(&self, other: &Self) -> Option<String> {
         if self.home != other.home {
             return Some("another state stands for each of them".to_owned());

@@ -293,7 +293,7 @@ impl Map {
         }
     }
 
-    /// What nobody can meet any more is open and free.
+    /// Makes open and free whatever nobody can meet any more.
     fn note_rest(&mut self, ground: &Ground) {
         if self.walls >= ground.walls.most_met() {
             for edge in self.area().edges() {
