@@ -51,9 +51,9 @@ Examples:
 /// Of agents on a sensor floor, search all layouts with few cells for the fewest missed sensors that trap them: one of
 /// them is done, or all go round for ever, before every cell is explored.
 ///
-/// Of `kit`, search all walls, starts and orders on small lattices for runs in which robots lose contact, come too near,
-/// wait for each other for ever, or leave a path out. Of `frontier`, search all obstacles, starts and orders in small
-/// areas for runs in which robots come into one cell, leave cells unexplored, or go on for ever.
+/// Of `kit`, search all walls, starts and orders on small lattices for runs in which robots lose contact, come too
+/// near, wait for each other for ever, or leave a path out. Of `frontier`, search all obstacles, starts and orders in
+/// small areas for runs in which robots come into one cell, leave cells unexplored, or go on for ever.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Hunt {
