@@ -46,6 +46,11 @@ pub type Bits = u16;
 /// A set of the parts' places, one bit each. Whatever it says, places from 64 on are among them.
 pub type Places = u64;
 
+/// Whether a place is among these.
+fn has(places: Places, place: usize) -> bool {
+    place >= Places::BITS as usize || places >> place & 1 == 1
+}
+
 /// The places that differ, by whether each does.
 pub fn places(differing: impl IntoIterator<Item = bool>) -> Places {
     (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
@@ -312,9 +317,8 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
         let of_own = made(&own);
         for after in of_own.iter().map(|step| canonical(&step.state)) {
             let differing = system.differing(&own, &after);
-            let is_kept = |&place: &usize| place < Places::BITS as usize && differing >> place & 1 == 0;
             let differs = |place| system.part(&own, place) != system.part(&after, place);
-            if (0..system.places(&own)).filter(is_kept).any(differs) {
+            if (0..system.places(&own)).any(|place| !has(differing, place) && differs(place)) {
                 return Err(Unsound::Undeclared);
             }
         }

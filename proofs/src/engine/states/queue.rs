@@ -9,7 +9,7 @@ use std::mem;
 use super::code::{Code, HashOfState, hash_of, hash_of_part, number};
 use super::spill::Lookup;
 use super::state_table::{Parts, StateTable};
-use super::{Places, System};
+use super::{Places, System, has};
 
 /// Of so many states that are met in a debug build one is compared as a whole with what is told to differ.
 const COMPARED: HashOfState = 32;
@@ -111,8 +111,9 @@ impl<P: Clone + Eq + Hash> Queue<P> {
             (0..*places).for_each(|place| made.push(number(place)));
         } else {
             made.set_to(shown);
-            let differs = |place: usize| place >= Places::BITS as usize || differing >> place & 1 == 1;
-            (0..*places).filter(|&place| differs(place)).for_each(|place| made.put(place, number(place)));
+            (0..*places)
+                .filter(|&place| has(differing, place))
+                .for_each(|place| made.put(place, number(place)));
         }
         debug_assert!(
             !made.hash.is_multiple_of(COMPARED)

@@ -92,6 +92,14 @@ type Unfold<const ROBOTS: usize> = fn(Setting<ROBOTS>, &Run<Demand>) -> Option<C
 /// How a lattice is searched: all its states, and what each of the runs is that are found so.
 type How<const ROBOTS: usize> = (SearchAll<ROBOTS>, Unfold<ROBOTS>);
 
+/// A lattice itself, whose runs are what they are.
+fn itself<const ROBOTS: usize>() -> How<ROBOTS> {
+    (as_it_is, |setting, run| Some(Counterexample { setting, run: run.clone() }))
+}
+
+/// One image of all lattices that are alike, whose runs are unfolded.
+const IN_ONE_IMAGE: How<2> = (in_one_image, Counterexample::of_image);
+
 fn as_it_is<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     asked: &HuntRequest<'_>,
@@ -128,20 +136,9 @@ impl Hunt for KernelHunt {
         let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
         let mut count = Count { is_complete: true, ..Count::default() };
         let found = match robots {
-            1 => {
-                let how: How<1> =
-                    (as_it_is, |setting, run| Some(Counterexample { setting, run: run.clone() }));
-                searched(rule, &[Pass::ALL], how, size, asked, &mut count, hunter)
-            }
-            2 => {
-                let how: How<2> = (in_one_image, Counterexample::of_image);
-                searched(rule, &[Pass::ALL, Pass::EQUAL], how, size, asked, &mut count, hunter)
-            }
-            _ => {
-                let how: How<3> =
-                    (as_it_is, |setting, run| Some(Counterexample { setting, run: run.clone() }));
-                searched(rule, &[Pass::ALL, Pass::WHOLE], how, size, asked, &mut count, hunter)
-            }
+            1 => searched::<1>(rule, &[Pass::ALL], itself(), size, asked, &mut count, hunter),
+            2 => searched(rule, &[Pass::ALL, Pass::EQUAL], IN_ONE_IMAGE, size, asked, &mut count, hunter),
+            _ => searched::<3>(rule, &[Pass::ALL, Pass::WHOLE], itself(), size, asked, &mut count, hunter),
         }?;
         let Count { states, steps, cells, .. } = count;
         let max_walls = asked.max_walls;
