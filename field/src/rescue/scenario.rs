@@ -243,6 +243,7 @@ impl Scenario {
 
     /// A node as a robot hears it that was last at `place`: with the shadow between the two, if they are linked.
     /// Otherwise, and before it was at a node, without shadow.
+    #[inline]
     pub(super) fn signal(&self, node: NodeId, place: Option<NodeId>) -> Signal {
         match (self.radio.model(), place) {
             (Model::Shadowed { .. }, Some(place)) => Signal::near(&self.field, &self.network, node, place),
@@ -253,6 +254,7 @@ impl Scenario {
     }
 
     /// The link of a robot with another station; `None` if they do not hear each other.
+    #[inline]
     pub(super) fn link(&self, to: NodeId, signal: Signal, robot: Point) -> Option<Link> {
         let is_heard = self.equipment.ear.hears(&self.field, signal, robot);
         is_heard.then(|| Link { to, distance_um: (signal.seems_m(robot) * 1e6 + 0.5) as u32 })

@@ -74,6 +74,7 @@ impl Ear {
     }
 
     /// Whether a robot and a node hear each other's messages.
+    #[inline]
     pub fn hears(&self, field: &Field, signal: Signal, from: Point) -> bool {
         signal.seems_m(from) <= self.reach_m && field.has_way(signal.at, from)
     }
