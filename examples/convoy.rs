@@ -2,6 +2,7 @@
 //! number of robots and every layout. And a rule that looks as local and is not: it knows where a fence is.
 
 use std::error::Error;
+use std::{env, fs};
 
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
@@ -72,18 +73,27 @@ pub static CLAUSES: [Clause; 1] = [Clause {
     )],
 }];
 
-/// Prints the ledger, and the answer to the rule that is not local.
+/// The theorem that CONVOY-1 holds for every number of robots, as a file that Rocq checks.
+fn theorem() -> Result<String, Box<dyn Error>> {
+    let found = CLAUSES[0].checks[0].certificate().ok_or("the promise does not hold")?;
+    Ok(found?)
+}
+
+/// Prints the ledger, and the answer to the rule that is not local; stores the theorem in the file that is named, if
+/// one is.
 fn main() -> Result<(), Box<dyn Error>> {
     print!("{}", ledger::table(&ledger::decide_all(&ledger::register(&[&CLAUSES])?)?));
     if let Err(refusal) = Invariant::of(&FENCED) {
         println!("\nwith a fence: {refusal}");
+    }
+    if let Some(path) = env::args().nth(1) {
+        fs::write(path, theorem()?)?;
     }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
     use std::path::Path;
 
     use super::*;
@@ -96,6 +106,7 @@ mod tests {
         let tutorial = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/own-rule.md");
         let page = fs::read_to_string(tutorial).expect("a page");
         assert!(page.contains(&ledger::table(&rows)), "{}", ledger::table(&rows));
+        assert!(theorem().expect("it holds").contains("Theorem"));
         let refusal = Invariant::of(&FENCED).expect_err("it knows a place").to_string();
         assert!(page.contains(&refusal), "{refusal}");
     }

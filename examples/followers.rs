@@ -4,12 +4,14 @@
 
 use std::env;
 use std::error::Error;
+use std::fs;
 use std::path::Path;
 
 use tautline_io::atomic_file::Replaceable;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::Depiction;
+use tautline_proofs::engine::states::Limits;
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
@@ -108,7 +110,17 @@ fn counterexample(rows: &[Row]) -> Option<&Run> {
     })
 }
 
-/// Prints the ledger, and stores the counterexample in the file that is named, if one is.
+/// The certificate of the repaired rule's check of FOLLOW-1, once a checker
+/// has accepted it that shares no code with the search.
+fn certificate() -> Result<Vec<u8>, Box<dyn Error>> {
+    let bytes = ledger::certificate(&CLAUSES[0], 1, Limits::NONE)?;
+    let examined = ledger::examine(&bytes, &CLAUSES)?;
+    let counts = examined.outcome.map_err(|(section, why)| format!("section {section}: {why}"))?;
+    println!("accepted: {} runs", counts.ends);
+    Ok(bytes)
+}
+
+/// Prints the ledger, and stores the counterexample in the first file that is named, and the certificate in the second.
 fn main() -> Result<(), Box<dyn Error>> {
     let rows = ledger::decide_all(&ledger::register(&[&CLAUSES])?)?;
     print!("{}", ledger::table(&rows));
@@ -118,14 +130,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         file.keep()?;
         println!("\nplay the counterexample with: tautline replay {path}");
     }
+    if let Some(path) = env::args().nth(2) {
+        fs::write(path, certificate()?)?;
+    }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
+
+    #[test]
+    fn the_certificate_of_a_rule_of_ones_own_is_accepted_and_one_that_is_changed_is_refused() {
+        let mut bytes = certificate().expect("it holds");
+        *bytes.last_mut().expect("a digest") ^= 1;
+        assert!(ledger::examine(&bytes, &CLAUSES).is_err());
+        assert!(ledger::certificate(&CLAUSES[0], 0, Limits::NONE).is_err(), "what is refuted has none");
+    }
 
     #[test]
     fn every_check_comes_out_as_it_is_registered_and_what_is_found_is_what_the_tutorial_draws() {
@@ -145,5 +166,7 @@ mod tests {
         let read = |path: &Path| fs::read_to_string(path).expect("a file");
         let drawn = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/follow-1-written.jsonl");
         assert_eq!(read(&path), read(&drawn));
+        // The numbers of robots in the file are those that the rule knows.
+        assert!(read(&path).contains("\"numbered_from\":0") && read(&path).contains(run.words.demand));
     }
 }

@@ -26,7 +26,7 @@ use tautline_io::text_blocks::{Block, beside};
 use tautline_sim::draw::{self, Pose};
 use tautline_sim::explore::{Completeness, Play, Report, Senses, Setup, StopReason, Survey, TeamMove};
 use tautline_sim::options::Options;
-use tautline_sim::trace::{self, StoredMove, StoredRun, steps};
+use tautline_sim::trace::{self, StoredRun, steps};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -348,7 +348,7 @@ impl Trial<'_> {
 
 impl StoredPlan {
     fn of(frame: &Frame) -> Self {
-        Self { tried: StoredMove::new(0, frame).tried().to_owned(), kind: frame.kind }
+        Self { tried: frame.steps.iter().map(|&step| trace::letter(step)).collect(), kind: frame.kind }
     }
 
     /// Of a robot, what it tries.

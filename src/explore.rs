@@ -372,18 +372,10 @@ pub(super) fn draw_moves(
     Ok(moves)
 }
 
-/// The outcome of a run, in a few lines.
-pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
-    let percent = report.explored * 100 / report.cells;
-    let mut text = format!(
-        "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
-        run.setup().title(),
-        place(run.setup()),
-        counted(report.steps, "team move"),
-        report.stopped.words(),
-        report.explored,
-        counted(report.cells, "cell"),
-    );
+/// How much is explored, and since when; nothing of a team that is not to explore.
+fn explored(report: &Report) -> String {
+    let Some(percent) = (report.explored * 100).checked_div(report.cells) else { return String::new() };
+    let mut text = format!("{} of {} explored ({percent} %)", report.explored, counted(report.cells, "cell"));
     for milestone in Milestone::ALL {
         // Writing to a string cannot fail.
         let _ = match report.reached(milestone) {
@@ -391,7 +383,19 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
             None => write!(text, ", {} % never", milestone.percent()),
         };
     }
-    text.push('\n');
+    text + "\n"
+}
+
+/// The outcome of a run, in a few lines.
+pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
+    let mut text = format!(
+        "{}, {}: {layout}\n{}: {}\n",
+        run.setup().title(),
+        place(run.setup()),
+        counted(report.steps, "team move"),
+        report.stop_words(),
+    );
+    text += &explored(report);
     text += &reach(run.setup());
     if let Some(milliseconds) = report.milliseconds {
         let robot = run.setup().scheme.look.robot();
@@ -431,7 +435,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
             text.push_str(&components(report, words));
         }
     }
-    text + &violations(run.setup().scheme, report) + &excuse(run.setup(), report)
+    text + &violations(run, report) + &excuse(run.setup(), report)
 }
 
 /// How far the team comes, if there is more than that.
@@ -514,7 +518,7 @@ fn components(report: &Report, words: impl Fn(&Component) -> String) -> String {
 /// Violations that are listed, the first of each clause among them; the others are counted.
 const LISTED: usize = 10;
 
-fn violations(scheme: Scheme, report: &Report) -> String {
+fn violations(run: &dyn Play, report: &Report) -> String {
     let mut text = String::new();
     let mut known = BTreeSet::new();
     let (mut listed, again): (Vec<_>, Vec<_>) =
@@ -523,14 +527,14 @@ fn violations(scheme: Scheme, report: &Report) -> String {
     listed.truncate(LISTED);
     listed.sort_by_key(|&(place, _)| place);
     for (_, &Violation { clause, step }) in listed {
-        let _ = match draw::story::sentence(clause) {
+        let _ = match run.sentence(clause) {
             Some(sentence) => writeln!(text, "{clause} is broken in team move {step}: {sentence}"),
             None => writeln!(text, "{clause} is broken in team move {step}"),
         };
     }
     match report.violations.len() {
         0 => {
-            let _ = writeln!(text, "{}", scheme.unbroken());
+            let _ = writeln!(text, "{}", run.setup().scheme.unbroken());
         }
         1..=LISTED => {}
         more => {

@@ -132,7 +132,7 @@ impl Serialize for MovesJson<'_> {
         self.run
             .among(self.moves, &mut |made| {
                 if written.is_ok() {
-                    written = list.serialize_element(&StoredMove::new(made.step, made.frame));
+                    written = list.serialize_element(&StoredMove::new(made, self.run.setup().scheme.look));
                 }
                 Ok(())
             })

@@ -558,7 +558,7 @@ function sentence() {
   else {
     parts.push(`${capital(board.unit)} ${at} of ${frames.length - 1}${frame.back ? ", taken back" : ""}`);
     if (frame.words) parts.push(frame.words);
-    const moves = [...frame.tried].map((letter, robot) => letter === "." ? "" : `${robot + 1} ${letter === letter.toLowerCase() ? "meets a wall in the" : "goes"} ${WAYS[letter.toUpperCase()]}`).filter(move => move);
+    const moves = [...frame.tried].map((letter, robot) => letter === "." ? "" : `${nameOf(robot)} ${letter === letter.toLowerCase() ? "meets a wall in the" : "goes"} ${WAYS[letter.toUpperCase()]}`).filter(move => move);
     if (moves.length && moves.length <= 6) parts.push(moves.join(", "));
     if (isSilent) parts.push("nothing was asked: the robots know or see all that this step depends on, as it is drawn");
   }
@@ -583,7 +583,7 @@ function reasons() {
     const by = new Map();
     for (const { robot, to, by: names } of refused.refused) {
       const name = names.join(" and ") || "a known wall";
-      by.set(name, [...by.get(name) ?? [], `${board.robot} ${robot + 1} to ${cellName(to)}`]);
+      by.set(name, [...by.get(name) ?? [], `${board.robot} ${nameOf(robot)} to ${cellName(to)}`]);
     }
     for (const [name, steps] of by) all.push(make("p", {}, make("b", { textContent: name }), ` refuses, as the others plan: ${steps.slice(0, 12).join("; ")}${steps.length > 12 ? " …" : ""}`));
   }
@@ -594,7 +594,7 @@ function renderQuestion() {
   const box = find("ask");
   box.hidden = !question;
   if (!question) return;
-  const outcome = one => one?.over ? `the end: ${one.over.words}` : one?.made ? [...one.made.tried].map((letter, robot) => letter === "." ? "" : `${robot + 1}${letter === letter.toLowerCase() ? " bumps" : ""} ${WAYS[letter.toUpperCase()]}`).filter(part => part).join(", ") || one.made.words || "nobody moves" : "";
+  const outcome = one => one?.over ? `the end: ${one.over.words}` : one?.made ? [...one.made.tried].map((letter, robot) => letter === "." ? "" : `${nameOf(robot)}${letter === letter.toLowerCase() ? " bumps" : ""} ${WAYS[letter.toUpperCase()]}`).filter(part => part).join(", ") || one.made.words || "nobody moves" : "";
   const buttons = question.options.map((option, number) => {
     const broken = [...would[number]?.made?.broken ?? [], ...would[number]?.over?.broken ?? []].map(({ clause }) => clause);
     const words = `${capital(option)}${number === question.usual && !settings.world ? " (as it is)" : ""}${settings.world ? "" : `: ${outcome(would[number])}`}${broken.length ? `, breaks ${broken.join(", ")}` : ""}`;
@@ -714,7 +714,7 @@ function told() {
     const side = 2 * cell + (y & 1);
     return `${capital(sideName(side))}: ${walls[side] ? "a wall" : "open"}.`;
   }
-  const robots = (frames[at]?.cells ?? []).flatMap((at, robot) => at === cell ? [`${board.robot} ${robot + 1}`] : []);
+  const robots = (frames[at]?.cells ?? []).flatMap((at, robot) => at === cell ? [`${board.robot} ${nameOf(robot)}`] : []);
   return `Cell ${cellName(cell)}: ${blocked[cell] ? "blocked" : explored?.[cell] ? "explored" : "free"}${robots.length ? `, ${robots.join(", ")}` : ""}.`;
 }
 

@@ -47,6 +47,19 @@ pub struct Run {
     pub breaks: Option<&'static str>,
     /// How it breaks a clause.
     pub ending: Ending,
+    /// The words that frames cannot show.
+    pub words: Words,
+}
+
+/// The words about a run that its frames cannot show; none for runs of which a frame shows all.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Words {
+    /// The demand that is broken.
+    pub demand: &'static str,
+    /// Of each team move what happened in it, such as that a robot died; none, or one for each.
+    pub titles: Vec<String>,
+    /// How many of the last team moves come again and again, if the run goes round for ever.
+    pub round: usize,
 }
 
 /// A run that a search has made by its choices: the layout that it met, without frames, and the choices that make it

@@ -12,6 +12,7 @@ mod check;
 mod graph;
 mod ground;
 mod rule;
+mod titles;
 mod world;
 
 use std::fmt;

@@ -193,7 +193,7 @@ fn stored(
     let setup = Setup::named(written.scheme, written.script.name, layout.clone(), written.starts());
     let setup = Setup { limits, ..setup };
     let file = AtomicFile::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(file, &setup, Some(clause))?;
+    let mut writer = Writer::of_demand(file, &setup, Some(clause), written.demands[demand].words)?;
     // The move that breaks the demand may be the last one of a longest run.
     let mut left = written.longest_run.saturating_add(1);
     let team = setting.in_layout(rule, written.starts(), Vec::new()).wanting(&[Promise(demand)]);

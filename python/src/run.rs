@@ -307,7 +307,8 @@ impl Run {
     fn moves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let mut lines = Vec::new();
         let mut wrong = None;
-        self.each(py, |made| match serde_json::to_string(&trace::StoredMove::new(made.step, made.frame)) {
+        let look = self.play().setup().scheme.look;
+        self.each(py, |made| match serde_json::to_string(&trace::StoredMove::new(made, look)) {
             Ok(line) => lines.push(line),
             Err(error) => wrong = Some(error),
         })?;

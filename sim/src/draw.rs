@@ -36,6 +36,10 @@ pub const fn legend(look: Look) -> &'static str {
             "1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; \
              x stands where a robot met a wall."
         }
+        Look::Own => {
+            "0, 1, … are the robots, K× stands for K of them in one cell; · is a cell where a robot was, ## blocked; \
+             x stands where a robot met a wall."
+        }
     }
 }
 
@@ -190,9 +194,15 @@ fn title(made: &TeamMove<'_>) -> String {
         Kind::Advance => "",
         Kind::Backtrack => " (back)",
     };
+    let again = if made.team.comes_again() { " (again)" } else { "" };
+    let (said, joined) = match made.team.title() {
+        None => (String::new(), " "),
+        Some(title) => (format!(": {title}"), "; "),
+    };
     let broken: Vec<&str> = made.broken.iter().map(|clause| clause.as_str()).collect();
-    let broken = if broken.is_empty() { String::new() } else { format!(" breaks {}", broken.join(", ")) };
-    format!("move {}{kind}{broken}", made.step)
+    let broken =
+        if broken.is_empty() { String::new() } else { format!("{joined}breaks {}", broken.join(", ")) };
+    format!("move {}{kind}{again}{said}{broken}", made.step)
 }
 
 /// The place of the first robot that is drawn as one: a base is drawn for itself.
@@ -237,10 +247,10 @@ impl Labels<'_> {
                 Mark::Visited => "░░░".to_owned(),
                 Mark::Sealed => "▒▒▒".to_owned(),
             },
-            (Look::Apart | Look::Robots, here) if self.unseen.contains(&cell) => {
+            (Look::Apart | Look::Robots | Look::Own, here) if self.unseen.contains(&cell) => {
                 format!("{}?", self.team(here))
             }
-            (Look::Apart | Look::Robots, here) => self.team(here),
+            (Look::Apart | Look::Robots | Look::Own, here) => self.team(here),
             (Look::Linked { .. } | Look::Tree { .. }, here) => self.names(here),
         }
     }
@@ -257,7 +267,7 @@ impl Labels<'_> {
 
     fn name(&self, robot: usize) -> String {
         let arrow = self.steps.map_or("", |steps| arrow(steps[robot]));
-        format!("{}{arrow}", robot + 1)
+        format!("{}{arrow}", robot + self.look.first_number())
     }
 
     /// Columns of the widest label.
@@ -284,11 +294,11 @@ const fn arrow(step: Step) -> &'static str {
 }
 
 /// Digits and letters: the robots that have a character of their own.
-const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
+const SYMBOLS: &str = "0123456789abcdefghijklmnopqrstuvwxyz";
 
 /// Whether one character for each cell is enough to draw the run: nothing is in the way.
 fn is_bare(setup: &Setup, area: Area) -> bool {
-    usize::from(setup.robots) <= SYMBOLS.len() && area.edges().all(|edge| setup.layout.is_open(edge))
+    usize::from(setup.robots) < SYMBOLS.len() && area.edges().all(|edge| setup.layout.is_open(edge))
 }
 
 /// A drawing with one character for each cell, of a team in an area with nothing in the way.
@@ -297,7 +307,7 @@ fn bare(look: Look, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
         let mut here = (first_drawn(look)..team.len()).filter(|&robot| team[robot] == cell);
         match (here.next(), here.next(), mark(cell)) {
             _ if look.has_base() && cell == team[0] => 'B',
-            (Some(robot), None, _) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
+            (Some(robot), None, _) => SYMBOLS.chars().nth(robot + look.first_number()).unwrap_or('*'),
             (Some(_), Some(_), _) => '*',
             (None, _, Mark::Unexplored) => ' ',
             (None, _, Mark::Explored) => '·',

@@ -11,6 +11,7 @@
 
 mod foreign;
 mod summary;
+mod team_move;
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -20,21 +21,22 @@ use serde::{Deserialize, Serialize};
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::json_lines::{Lines, MAX_FILE_BYTES, line_of};
-use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Edge, Side, Step};
-use tautline_proofs::run::Frame;
+use tautline_kernel::ground::Cell;
 
 use crate::explore::{
-    Catalogue, ClauseId, Limits, OnViolation, Play, Report, RuleId, Scheme, Setup, StopReason, TeamMove,
-    Violation, Watcher, explore,
+    Catalogue, ClauseId, Limits, Look, OnViolation, Play, Report, RuleId, Scheme, Setup, StopReason,
+    TeamMove, Violation, Watcher, explore,
 };
 use crate::options::Options;
 use tautline_grids::chance::Probability;
-use tautline_grids::layout::{ColumnRow, Layout};
+use tautline_grids::layout::Layout;
 
 pub use foreign::ForeignRun;
 pub(crate) use foreign::Player;
 pub use summary::Summary;
+pub(crate) use team_move::numbered_from;
+use team_move::one_line;
+pub use team_move::{StoredMove, letter, step, steps};
 
 /// The header of a run that this program can make again.
 type KnownHeader = Header<Limits>;
@@ -86,6 +88,8 @@ pub struct Trace {
     pub setup: Setup,
     /// The clause that its last move breaks, if it is a counterexample.
     pub clause: Option<ClauseId>,
+    /// The number of the first robot, if robots do not count from 1.
+    numbered_from: Option<usize>,
     lines: Lines,
 }
 
@@ -129,13 +133,13 @@ impl Trace {
             catalogue.clause(id).map_err(wrong)
         });
         let clause = clause.transpose()?;
-        let limits = header.limits;
+        let (limits, numbered_from) = (header.limits, header.numbered_from);
         let setup = Setup { limits, ..header.setup(scheme, rule, layout) };
         setup.check().map_err(|fault| {
             let field = fault.field().unwrap_or_default();
             lines.fault(text, field, fault.what(), fault.remedy())
         })?;
-        Ok(Self { setup, clause, lines })
+        Ok(Self { setup, clause, numbered_from, lines })
     }
 
     /// Makes the run again and compares every line. `watch` sees the team moves that are as stored.
@@ -145,7 +149,7 @@ impl Trace {
     pub fn replay(mut self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
         let lines = &mut self.lines;
         let report = self.setup.play(&mut |made| {
-            lines.expect(&Line::Move(StoredMove::new(made.step, made.frame)))?;
+            lines.expect(&Line::Move(StoredMove::numbered(made, self.numbered_from)))?;
             watch(made)
         })?;
         lines.expect(&Line::End((&report).into()))?;
@@ -228,11 +232,23 @@ struct Header<L> {
     limits: L,
     /// The clause that the last move breaks, in a counterexample.
     clause: Option<String>,
+    /// The demand of a rule of one's own that is broken, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    demand: Option<String>,
+    /// The number of the first robot, which is 0 of a rule of one's own; without it robots count from 1, and team moves
+    /// have no titles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    numbered_from: Option<usize>,
     /// The drawing, with the base.
     layout: String,
 }
 
 impl<L> Header<L> {
+    /// The number of the first robot.
+    fn first_number(&self) -> usize {
+        self.numbered_from.unwrap_or(1)
+    }
+
     /// The run that it makes, without limits.
     fn setup(self, scheme: Scheme, rule: RuleId, layout: Layout) -> Setup {
         let Self { robots, seed, base, starts, miss, missed, options, choices, .. } = self;
@@ -248,23 +264,6 @@ impl<L> Header<L> {
 enum Line {
     Move(StoredMove),
     End(StoredEnd),
-}
-
-/// One team move, in the order of the robots, as it is stored.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StoredMove {
-    /// Its number, counted from 1.
-    step: u32,
-    #[schemars(with = "String")]
-    kind: Kind,
-    /// One letter a robot: E, S, W, N, or `.` for a robot that stays.
-    tried: String,
-    /// The numbers of the robots that met a wall; the base of a chain is 1.
-    blocked: Vec<usize>,
-    /// Where the robots are now.
-    #[schemars(with = "Vec<ColumnRow>")]
-    cells: Vec<Cell>,
 }
 
 /// The last line.
@@ -284,110 +283,6 @@ struct StoredEnd {
 pub struct StoredViolation {
     clause: String,
     step: u32,
-}
-
-impl StoredMove {
-    /// Team move number `step`.
-    pub fn new(step: u32, frame: &Frame) -> Self {
-        Self {
-            step,
-            kind: frame.kind,
-            tried: frame.steps.iter().map(|&step| letter(step)).collect(),
-            blocked: (1..)
-                .zip(&frame.blocked)
-                .filter(|&(_, &blocked)| blocked)
-                .map(|(robot, _)| robot)
-                .collect(),
-            cells: frame.cells.clone(),
-        }
-    }
-
-    /// Whether it seeks new cells or takes a move back, in a word.
-    pub const fn kind(&self) -> &'static str {
-        match self.kind {
-            Kind::Advance => "advance",
-            Kind::Backtrack => "backtrack",
-        }
-    }
-
-    /// One letter a robot.
-    pub fn tried(&self) -> &str {
-        &self.tried
-    }
-
-    /// The team move that it tells of robots in the cells `before`.
-    ///
-    /// # Errors
-    /// The field that contradicts the others or `layout`, and what is wrong with it.
-    fn frame(self, before: &[Cell], layout: &Layout) -> Result<Frame, (&'static str, String)> {
-        let Self { step: _, kind, tried, blocked, cells } = self;
-        let robots = before.len();
-        let steps = steps(&tried, robots).map_err(|what| ("tried", what))?;
-        if !blocked.is_sorted_by(|one, other| one < other)
-            || blocked.iter().any(|robot| !(1..=robots).contains(robot))
-        {
-            return Err(("blocked", format!("name robots from 1 to {robots}, in order, each once")));
-        }
-        if cells.len() != robots {
-            return Err(("cells", format!("there are {} cells of {robots} robots", cells.len())));
-        }
-        let mut is_blocked = vec![false; robots];
-        for robot in blocked {
-            is_blocked[robot - 1] = true;
-        }
-        for (robot, (&from, &to)) in before.iter().zip(&cells).enumerate() {
-            let name = robot + 1;
-            let is_open = |side| layout.is_open(Edge::new(from, side));
-            let wrong = match (steps[robot], is_blocked[robot]) {
-                (Step::Stay, true) => Some(("blocked", format!("robot {name} has tried to go nowhere"))),
-                (Step::Cross(side), true) if is_open(side) => {
-                    Some(("blocked", format!("nothing is in the way of robot {name} at {from}")))
-                }
-                (Step::Stay, false) | (Step::Cross(_), true) => {
-                    (to != from).then(|| ("cells", format!("robot {name} stays in {from}")))
-                }
-                (Step::Cross(side), false) if !is_open(side) => {
-                    Some(("tried", format!("robot {name} at {from} cannot cross a wall")))
-                }
-                (Step::Cross(side), false) => {
-                    let due = from.beyond(side);
-                    (to != due).then(|| ("cells", format!("robot {name} goes from {from} to {due}")))
-                }
-            };
-            if let Some(wrong) = wrong {
-                return Err(wrong);
-            }
-        }
-        let blocked = is_blocked;
-        Ok(Frame { kind, steps, blocked, cells })
-    }
-}
-
-/// The letter of what a robot tries: E, S, W, N, or `.` for one that stays.
-pub const fn letter(step: Step) -> char {
-    match step {
-        Step::Cross(Side::East) => 'E',
-        Step::Cross(Side::South) => 'S',
-        Step::Cross(Side::West) => 'W',
-        Step::Cross(Side::North) => 'N',
-        Step::Stay => '.',
-    }
-}
-
-/// The step that has this letter.
-pub fn step(of: char) -> Option<Step> {
-    Step::ALL.into_iter().find(|&step| letter(step) == of)
-}
-
-/// The steps of so many robots, of which `tried` has a letter for each.
-///
-/// # Errors
-/// The words for what is to be written instead.
-pub fn steps(tried: &str, robots: usize) -> Result<Vec<Step>, String> {
-    let steps: Option<Vec<Step>> = tried.chars().map(step).collect();
-    steps
-        .filter(|steps| steps.len() == robots)
-        .ok_or_else(|| format!("write one letter of E, S, W, N or . for each of {robots} robots"))
 }
 
 impl From<&Violation> for StoredViolation {
@@ -410,32 +305,49 @@ impl From<&Report> for StoredEnd {
 
 /// A trace in the making.
 #[derive(Debug)]
-pub struct Writer(AtomicFile);
+pub struct Writer {
+    file: AtomicFile,
+    look: Look,
+}
 
 impl Writer {
     /// The trace of the run of `setup` in `aside`, of any team. A counterexample names the clause that it breaks.
     ///
     /// # Errors
     /// [`Diagnostic`] if the base is not a free cell.
-    pub fn new(mut file: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Diagnostic> {
-        file.append(header(setup, clause)?);
-        Ok(Self(file))
+    pub fn new(file: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Diagnostic> {
+        Self::of_demand(file, setup, clause, "")
+    }
+
+    /// As [`Self::new`], of a rule of one's own that breaks a demand with these words; none if they are empty.
+    ///
+    /// # Errors
+    /// [`Diagnostic`] if the base is not a free cell.
+    pub fn of_demand(
+        mut file: AtomicFile,
+        setup: &Setup,
+        clause: Option<ClauseId>,
+        demand: &str,
+    ) -> Result<Self, Diagnostic> {
+        file.append(header(setup, clause, demand)?);
+        Ok(Self { file, look: setup.scheme.look })
     }
 
     /// Adds a team move.
     pub fn add(&mut self, made: &TeamMove<'_>) {
-        self.0.append(line(made));
+        self.file.append(line(made, self.look));
     }
 
     /// Adds the end. The file has yet to be put in its place.
     pub fn end(mut self, report: &Report) -> AtomicFile {
-        self.0.append(line_of(&Line::End(report.into())));
-        self.0
+        self.file.append(line_of(&Line::End(report.into())));
+        self.file
     }
 }
 
-/// The header of the run of `setup`. A counterexample names the clause that it breaks.
-fn header(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Diagnostic> {
+/// The header of the run of `setup`. A counterexample names the clause that it breaks, and of a rule of one's own the
+/// demand in words.
+fn header(setup: &Setup, clause: Option<ClauseId>, demand: &str) -> Result<String, Diagnostic> {
     let mut layout = Cow::Borrowed(&setup.layout);
     if layout.base() != Some(setup.base) {
         layout.to_mut().place_base(setup.base)?;
@@ -455,13 +367,15 @@ fn header(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Diagnostic>
         choices: setup.choices.clone(),
         limits: setup.limits,
         clause: clause.map(|clause| clause.to_string()),
+        demand: Some(one_line(demand)).filter(|demand| !demand.is_empty()),
+        numbered_from: numbered_from(setup.scheme.look),
         layout: layout.to_string(),
     }))
 }
 
 /// The line of a team move.
-fn line(made: &TeamMove<'_>) -> String {
-    line_of(&Line::Move(StoredMove::new(made.step, made.frame)))
+fn line(made: &TeamMove<'_>, look: Look) -> String {
+    line_of(&Line::Move(StoredMove::new(made, look)))
 }
 
 /// The run of `setup` as a stored run. A counterexample names the clause that it breaks.
@@ -469,9 +383,9 @@ fn line(made: &TeamMove<'_>) -> String {
 /// # Errors
 /// [`Halt`] if the setup does not fit its scheme.
 pub fn text(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Halt> {
-    let mut text = header(setup, clause)?;
+    let mut text = header(setup, clause, "")?;
     let report = explore(setup, &mut |made| {
-        text += &line(made);
+        text += &line(made, setup.scheme.look);
         Ok(())
     })?;
     Ok(text + &line_of(&Line::End((&report).into())))

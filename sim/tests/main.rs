@@ -16,5 +16,6 @@ mod laps;
 mod minimise;
 mod noticed;
 mod own_round;
+mod own_run;
 mod own_team;
 mod pack;

@@ -153,12 +153,12 @@ fn a_stored_run_of_a_team_of_ones_own_is_drawn() {
     assert_snapshot!(story::last_move(&read).expect("a run"), @r"
     Team move 2 breaks PAIR-1.
 
-      Robot 1 at 1,0 tries to go east, meets a wall and stays.
-      Robot 2 at 0,0 goes east to 1,0.
+      Robot 0 at 1,0 tries to go east, meets a wall and stays.
+      Robot 1 at 0,0 goes east to 1,0.
 
     before, with what each tries   after
     +---+---+---+                  +---+---+---+
-    |2→  1→ x   |                  | ·  12 x   |
+    |1→  0→ x   |                  | ·  01 x   |
     +---+---+---+                  +---+---+---+
     ");
     let mut panels = 0;
@@ -221,9 +221,9 @@ fn a_stored_run_that_contradicts_itself_is_refused_with_its_place() {
     store(&path, &layout, Cell::new(0, 0), STOP);
     let whole = fs::read_to_string(&path).expect("text");
     assert_snapshot!(whole, @r#"
-    {"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"go-on"},"clause":"PAIR-1","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
+    {"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"go-on"},"clause":"PAIR-1","numbered_from":0,"layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
     {"move":{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]}}
-    {"move":{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}}
+    {"move":{"step":2,"kind":"advance","tried":"EE","blocked":[0],"cells":[[1,0],[1,0]]}}
     {"end":{"stopped":"violation","steps":2,"explored":2,"cells":3,"violations":[{"clause":"PAIR-1","step":2}]}}
     "#);
     let second = whole.lines().nth(2).expect("a second team move");
@@ -244,19 +244,20 @@ fn a_stored_run_that_contradicts_itself_is_refused_with_its_place() {
         ("another number", whole.replacen("\"step\":2", "\"step\":3", 1)),
         ("an unknown letter", whole.replacen("\"EE\"", "\"EX\"", 1)),
         ("a step that was not made", whole.replacen("\"EE\"", "\"E.\"", 1)),
+        ("robots that count from 7", whole.replacen("\"numbered_from\":0", "\"numbered_from\":7", 1)),
+        ("an empty demand", whole.replacen("\"numbered_from\"", "\"demand\":\"\",\"numbered_from\"", 1)),
+        ("a title of two lines", whole.replacen("[0,0]]}", "[0,0]],\"title\":\"a\\nb\"}", 1)),
+        ("once again and not again", whole.replacen("[0,0]]}", "[0,0]],\"again\":true}", 1)),
         ("a jump", whole.replacen("[[1,0],[1,0]]", "[[1,0],[2,0]]", 1)),
         ("a cell too few", whole.replacen("[[1,0],[1,0]]", "[[1,0]]", 1)),
-        ("through a wall", whole.replacen("\"blocked\":[1]", "\"blocked\":[]", 1)),
-        ("stopped by nothing", whole.replacen("\"blocked\":[1]", "\"blocked\":[1,2]", 1)),
-        ("a third robot", whole.replacen("\"blocked\":[1]", "\"blocked\":[3]", 1)),
+        ("through a wall", whole.replacen("\"blocked\":[0]", "\"blocked\":[]", 1)),
+        ("stopped by nothing", whole.replacen("\"blocked\":[0]", "\"blocked\":[0,1]", 1)),
+        ("a third robot", whole.replacen("\"blocked\":[0]", "\"blocked\":[2]", 1)),
         ("another count of moves", whole.replacen("\"steps\":2", "\"steps\":1", 1)),
         ("another count of cells", whole.replacen("\"explored\":2", "\"explored\":3", 1)),
         ("more than there is", whole.replacen("\"cells\":3,", "\"cells\":4,", 1)),
         ("a clause in no team move", whole.replacen("\"step\":2}]", "\"step\":9}]", 1)),
-        (
-            "another clause",
-            whole.replacen("\"clause\":\"PAIR-1\",\"layout\"", "\"clause\":\"PAIR-2\",\"layout\"", 1),
-        ),
+        ("another clause", whole.replacen("\"clause\":\"PAIR-1\",\"n", "\"clause\":\"PAIR-2\",\"n", 1)),
         ("a team move left out", whole.replacen(&format!("{second}\n"), "", 1)),
         ("no end", whole.split_inclusive('\n').take(3).collect()),
         ("a line after the end", whole.clone() + "{}\n"),

@@ -8,7 +8,7 @@ use tautline_kernel::ground::Cell;
 
 use tautline_io::atomic_file::{AtomicFile, ITF_HEAD};
 use tautline_io::diagnostic::Halt;
-use tautline_sim::explore::{ClauseId, Play, TeamMove};
+use tautline_sim::explore::{ClauseId, Look, Play, TeamMove};
 use tautline_sim::trace::StoredMove;
 
 /// The variables of a state, with their types.
@@ -47,8 +47,8 @@ impl State {
     }
 
     /// After a team move.
-    fn after(made: &TeamMove<'_>) -> Self {
-        let stored = StoredMove::new(made.step, made.frame);
+    fn after(made: &TeamMove<'_>, look: Look) -> Self {
+        let stored = StoredMove::new(made, look);
         Self {
             step: made.step,
             kind: stored.kind(),
@@ -93,9 +93,9 @@ pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
     file.append(ITF_HEAD);
     file.append(meta.to_string().trim_start_matches('{'));
     file.append(format!(",\n\"vars\":{},\n\"states\":[\n", json!(names)));
-    let mut last = State::start(setup.starts());
+    let (look, mut last) = (setup.scheme.look, State::start(setup.starts()));
     let report = run.play(&mut |made| {
-        let before = replace(&mut last, State::after(made));
+        let before = replace(&mut last, State::after(made, look));
         file.append(format!("{},\n", before.json()));
         Ok(())
     })?;

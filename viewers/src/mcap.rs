@@ -14,7 +14,7 @@ use self::file::{BLUE, Drawing, File, Ink, ORANGE, PURPLE, headed, stamp};
 use self::points::{Points, Rectangle};
 use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::{Joins, Layer, Play, Report, Scene, Setup, Shape, TeamMove, Zone};
+use tautline_sim::explore::{Joins, Layer, Look, Play, Report, Scene, Setup, Shape, TeamMove, Zone};
 use tautline_sim::trace::StoredMove;
 
 /// The points of a map are so many metres wide, of cells of one metre. The first is a post, whose middle is at 0, 0.
@@ -46,6 +46,7 @@ pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
 /// A file in the making.
 struct Recording<'f> {
     file: File<'f>,
+    look: Look,
     rows: i16,
     known: Points,
     /// Bytes of what has changed in a large map since the whole was sent.
@@ -65,7 +66,8 @@ impl<'f> Recording<'f> {
         ];
         let (file, starts) = (File::begin(file, &facts)?, setup.starts());
         let known = Points::at_start(&setup.layout, &starts);
-        let mut recording = Self { file, rows: setup.layout.height(), known, sent: 0, links: None };
+        let mut recording =
+            Self { file, look: setup.scheme.look, rows: setup.layout.height(), known, sent: 0, links: None };
         recording.send("/layout", "nav_msgs/OccupancyGrid", 0, &grid(&Points::whole(&setup.layout), 0))?;
         recording.known.changed();
         recording.map(0)?;
@@ -86,7 +88,7 @@ impl<'f> Recording<'f> {
             self.links = links(&made.team.layers());
             self.links(0, made.before)?;
         }
-        let stored = StoredMove::new(made.step, made.frame);
+        let stored = StoredMove::new(made, self.look);
         let mut message = headed(at_ns(made.step));
         message.u32(made.step);
         message.string(stored.kind());

@@ -69,6 +69,7 @@ impl Run {
                 .collect(),
             unseen: team_move.unseen.iter().filter_map(|&cell| number(cell)).collect(),
             walls: walls.into_iter().filter_map(|(edge, is)| Some((side_of(area, edge)?, is))).collect(),
+            words: self.team.title().unwrap_or_default().to_owned(),
             broken,
             lost: self.setup.scheme.look.lost(&made.before, &made.frame.cells),
             ..Delta::default()
@@ -177,6 +178,12 @@ fn question(layout: &Layout, edge: Edge, usual: u32) -> Question {
     }
 }
 
+/// The names of so many robots, if they do not count from 1.
+fn names(look: Look, robots: usize) -> Vec<String> {
+    let first = look.first_number();
+    if first == 1 { Vec::new() } else { (first..first + robots).map(|robot| robot.to_string()).collect() }
+}
+
 impl Play for Run {
     fn board(&self) -> Board {
         let area = self.area();
@@ -191,7 +198,7 @@ impl Play for Run {
             robot: setup.scheme.look.robot(),
             unit: "team move",
             squares: usize::from(setup.scheme.look.has_base()),
-            names: Vec::new(),
+            names: names(setup.scheme.look, cells.len()),
             has_leader: matches!(setup.scheme.look, Look::Linked { .. }),
             sees: setup.scheme.knowledge.is_some(),
             due: course.report.cells,
@@ -235,7 +242,7 @@ impl Play for Run {
             }
             broken
         });
-        Step::Over(Over { words: report.stopped.words().to_owned(), broken: broken.collect() })
+        Step::Over(Over { words: report.stop_words().to_owned(), broken: broken.collect() })
     }
 
     fn refusals(&self) -> Vec<Refusal> {

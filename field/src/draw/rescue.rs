@@ -13,7 +13,6 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_io::named_values::NamedValues;
 use tautline_sim::draw::page::film::{self, Again, Board, Film, Share};
 use tautline_sim::draw::page::{base36, is_too_large, too_large, word};
-use tautline_sim::draw::story;
 use tautline_sim::explore::{ClauseId, Kind, Layer, Shape};
 
 /// The map of a rescue: the nodes, the WFRs, and where each robot went. The place where one failed is marked.
@@ -78,7 +77,7 @@ fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Repo
         Shape::Circle((setting.range_m * 1000.0) as u32),
     );
     let clauses = report.violations.iter().map(|broken| broken.demand.clause());
-    let sentence = |id: &'static str| (id, story::sentence(ClauseId::new(id)).unwrap_or_default());
+    let sentence = |id: &'static str| (id, ClauseId::new(id).sentence().unwrap_or_default().to_owned());
     Film {
         title: title.to_owned(),
         outcome: outcome.to_owned(),
@@ -87,6 +86,7 @@ fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Repo
         robots: report.paths.len(),
         has_base: false,
         has_leader: false,
+        numbered_from: None,
         first: 0,
         of: report.log.len() as u32,
         share: Share { of: events, what: "events served" },

@@ -11,7 +11,7 @@ use super::whole_runs;
 use crate::decide::{Depiction, Evidence};
 use crate::engine::tree::{self, Limits};
 use crate::engine::{Choices, Until};
-use crate::run::{Ending, Frame, Run, walls};
+use crate::run::{Ending, Frame, Run, Words, walls};
 
 /// A run that breaks an invariant.
 pub type Counterexample = tree::Counterexample<Invariant, Frame>;
@@ -65,6 +65,7 @@ impl Bounds {
             frames: found.frames.clone(),
             breaks: found.broken.breach().map(Breach::clause),
             ending: if found.broken.is_of_the_end() { Ending::Over } else { Ending::Move },
+            words: Words::default(),
         }
     }
 

@@ -18,7 +18,7 @@ use crate::engine::states::{AnySystem, Findings, Limits, Run, search};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::judge::{AnyCase, Floor, frontier as judge};
 use crate::plural::{counted, listed};
-use crate::run::{self, Ending, ScriptedRun, place};
+use crate::run::{self, Ending, ScriptedRun, Words, place};
 
 /// Columns and rows.
 pub type Size = (i16, i16);
@@ -128,6 +128,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
             frames,
             breaks,
             ending,
+            words: Words::default(),
         };
         Some(ScriptedRun { run, choices: [&bounds[..], &steps].concat() })
     }

@@ -12,7 +12,7 @@ use crate::engine::states::{self, Findings, Run, System};
 use crate::judge::kit::Contact;
 use crate::judge::{AnyCase, Lattice, kit as judge};
 use crate::plural::listed;
-use crate::run::{self, Ending, ScriptedRun, place, sides};
+use crate::run::{self, Ending, ScriptedRun, Words, place, sides};
 
 /// The first choice of runs at any speeds, and of those at equal ones.
 pub const ANY_SPEEDS: u32 = 0;
@@ -126,8 +126,18 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         let starts = self.starts()?.to_vec();
         let ending = if run.round().is_empty() { Ending::Move } else { Ending::Endless };
         let (frames, obstacles, breaks) = (Vec::new(), Vec::new(), Some(clause));
-        let run =
-            run::Run { scheme: "kit", area: setting.area, starts, walls, obstacles, frames, breaks, ending };
+        let words = Words::default();
+        let run = run::Run {
+            scheme: "kit",
+            area: setting.area,
+            starts,
+            walls,
+            obstacles,
+            frames,
+            breaks,
+            ending,
+            words,
+        };
         Some(ScriptedRun { run, choices: [&[speeds], &steps[..]].concat() })
     }
 

@@ -15,7 +15,7 @@ use crate::engine::states::{self, Findings};
 use crate::engine::tree::{self, AllRuns, Progress, Waves};
 use crate::engine::{Choices, Script, ScriptError, Until};
 use crate::plural::counted;
-use crate::run::{Ending, Frame, Run};
+use crate::run::{Ending, Frame, Run, Words};
 
 /// A check that no team breaks the demand with this number, in its setting.
 pub struct Keeps<'a, R: Rule>(
@@ -44,7 +44,9 @@ impl<R: Rule> Setting<'_, R> {
         frames: Vec<Frame>,
         map: Option<&Map>,
         (broken, ending): (Promise, Ending),
+        (titles, round): (Vec<String>, usize),
     ) -> Run {
+        let demand = self.demands.get(broken.0);
         Run {
             scheme: self.scheme,
             area: self.ground.area().unwrap_or(Area::of(Cell::new(0, 0))),
@@ -52,8 +54,9 @@ impl<R: Rule> Setting<'_, R> {
             walls: map.map_or_else(Vec::new, Map::walls),
             obstacles: map.map_or_else(Vec::new, Map::obstacles),
             frames,
-            breaks: self.demands.get(broken.0).map(|demand| demand.id),
+            breaks: demand.map(|demand| demand.id),
             ending,
+            words: Words { demand: demand.map_or("", |demand| demand.words), titles, round },
         }
     }
 
@@ -67,7 +70,7 @@ impl<R: Rule> Setting<'_, R> {
             When::AtTheEnd(_) => Ending::Over,
             When::NeverEndless | When::Eventually(_) | When::AgainAndAgain(_) => Ending::Endless,
         };
-        self.run_of(starts, frames, map.as_ref(), (found.broken, ending))
+        self.run_of(starts, frames, map.as_ref(), (found.broken, ending), (Vec::new(), 0))
     }
 
     fn evidence(
@@ -82,11 +85,11 @@ impl<R: Rule> Setting<'_, R> {
 }
 
 impl<R: Rule> TeamWorld<'_, R> {
-    /// The frames of a run that was found among the states, and its last scene.
-    fn played(&self, mut scene: Scene<R>, run: &states::Run<Promise>) -> (Vec<Frame>, Scene<R>) {
+    /// The frames of a run that was found among the states with their titles, and its last scene.
+    fn played(&self, mut scene: Scene<R>, run: &states::Run<Promise>) -> (Vec<(Frame, String)>, Scene<R>) {
         let mut frames = Vec::new();
         for (_, step) in run.played(self, scene.clone()) {
-            frames.push(step.event.frame(&step.state));
+            frames.push((step.event.frame(&step.state), self.title(&step.event)));
             scene = step.state;
         }
         (frames, scene)
@@ -95,14 +98,20 @@ impl<R: Rule> TeamWorld<'_, R> {
     /// The evidence of a run that was found among the states.
     fn evidence(&self, starts: &[Scene<R>], run: &states::Run<Promise>) -> Option<Evidence> {
         let start = starts.get(run.start)?;
-        let (frames, last) = self.played(start.clone(), run);
+        let (played, last) = self.played(start.clone(), run);
+        let (frames, titles) = played.into_iter().unzip();
         let ending = match run.ending {
             states::Ending::There => Ending::Move,
             states::Ending::Still => Ending::Over,
             states::Ending::Round(_) => Ending::Endless,
         };
-        let found =
-            self.setting.run_of(start.cells().collect(), frames, last.map.as_ref(), (run.demand, ending));
+        let found = self.setting.run_of(
+            start.cells().collect(),
+            frames,
+            last.map.as_ref(),
+            (run.demand, ending),
+            (titles, run.round().len()),
+        );
         let demand = self.demand(run.demand).words;
         Some(Evidence { choices: run.choices(), demand, seen: Depiction::Robots(Box::new(found)) })
     }

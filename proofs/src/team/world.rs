@@ -28,8 +28,14 @@ pub struct TeamWorld<'a, R: Rule> {
 #[derive(Clone, Debug)]
 pub struct Event {
     /// The robots that acted, a bit for each; none if one died.
-    acted: Bits,
-    steps: Vec<Step>,
+    pub(super) acted: Bits,
+    /// Those of them that looked, and did not just carry out what they had decided before.
+    pub(super) looked: Bits,
+    /// The robot that died.
+    pub(super) died: Option<usize>,
+    /// The sender and the receiver of each message that was lost.
+    pub(super) lost: Vec<(usize, usize)>,
+    pub(super) steps: Vec<Step>,
     blocked: Vec<bool>,
 }
 
@@ -59,10 +65,10 @@ impl<'a, R: Rule> TeamWorld<'a, R> {
         }
     }
 
-    /// One robot dies, if one may and the world is against it.
-    fn dies(&self, scene: &mut Scene<R>, awake: Bits, world: &mut impl Oracle) -> bool {
+    /// The robot that dies, if one may and the world is against it.
+    fn dies(&self, scene: &mut Scene<R>, awake: Bits, world: &mut impl Oracle) -> Option<usize> {
         if scene.deaths >= self.setting.deaths || !world.mishap() {
-            return false;
+            return None;
         }
         let ready: Vec<usize> = (0..scene.robots()).filter(|robot| awake >> robot & 1 == 1).collect();
         let robot = ready[world.pick(ready.len() as u32) as usize];
@@ -70,11 +76,17 @@ impl<'a, R: Rule> TeamWorld<'a, R> {
         scene.bodies[robot].pending = None;
         scene.bodies[robot].heard.clear();
         scene.deaths += 1;
-        true
+        Some(robot)
     }
 
-    /// The messages that were sent arrive, or are lost.
-    fn deliver(&self, scene: &mut Scene<R>, sent: Vec<(usize, R::Message)>, world: &mut impl Oracle) {
+    /// The messages that were sent arrive, or are lost; the sender and the receiver of each that is.
+    fn deliver(
+        &self,
+        scene: &mut Scene<R>,
+        sent: Vec<(usize, R::Message)>,
+        world: &mut impl Oracle,
+    ) -> Vec<(usize, usize)> {
+        let mut lost = Vec::new();
         for (from, message) in sent {
             for to in (0..scene.robots()).filter(|&to| to != from) {
                 if scene.is_dead(to) {
@@ -82,6 +94,7 @@ impl<'a, R: Rule> TeamWorld<'a, R> {
                 }
                 if scene.losses < self.setting.losses && !world.arrives(from, to) {
                     scene.losses += 1;
+                    lost.push((from, to));
                     continue;
                 }
                 let heard = &mut scene.bodies[to].heard;
@@ -89,6 +102,7 @@ impl<'a, R: Rule> TeamWorld<'a, R> {
                 heard.push((from, message.clone()));
             }
         }
+        lost
     }
 
     /// The demands that are wanted and of which this is so.
@@ -152,8 +166,10 @@ impl<R: Rule> World for TeamWorld<'_, R> {
 
     fn settle(&self, scene: &mut Scene<R>, &awake: &Bits, _: &mut Vec<u8>, world: &mut impl Oracle) -> Event {
         let robots = scene.robots();
-        let mut event = Event { acted: 0, steps: vec![Step::Stay; robots], blocked: vec![false; robots] };
-        if self.dies(scene, awake, world) {
+        let (steps, blocked) = (vec![Step::Stay; robots], vec![false; robots]);
+        let mut event = Event { acted: 0, looked: 0, died: None, lost: Vec::new(), steps, blocked };
+        event.died = self.dies(scene, awake, world);
+        if event.died.is_some() {
             return event;
         }
         event.acted = self.acting(awake, world);
@@ -164,6 +180,7 @@ impl<R: Rule> World for TeamWorld<'_, R> {
             let act = if let Some(act) = scene.bodies[robot].pending.take() {
                 act
             } else {
+                event.looked |= 1 << robot;
                 let map = &mut scene.map;
                 let mut view =
                     View { setting: self.setting, robot, scene: &before, map, world, sent: &mut sent };
@@ -192,7 +209,7 @@ impl<R: Rule> World for TeamWorld<'_, R> {
                 body.cell = cell.after(step);
             }
         }
-        self.deliver(scene, sent, world);
+        event.lost = self.deliver(scene, sent, world);
         event
     }
 

@@ -34,7 +34,7 @@ impl<R: Rule> OwnRun<'_, R> {
         let (layout, starts) = layout_of(self.run)?;
         let setup = Setup { limits, ..Setup::named(self.setting.scheme, self.rule.0, layout, &starts) };
         let file = AtomicFile::new(path, replaceable)?;
-        let mut writer = Writer::new(file, &setup, clause)?;
+        let mut writer = Writer::of_demand(file, &setup, clause, self.run.words.demand)?;
         let mut add = |made: &TeamMove<'_>| {
             writer.add(made);
             Ok(())
@@ -42,17 +42,19 @@ impl<R: Rule> OwnRun<'_, R> {
         let is_alone = self.setting.strategy() == Strategy::Tree && self.run.ending != Ending::Endless;
         let report = if is_alone {
             let playing = self.setting.in_layout(self.rule.1, &starts, Vec::new());
-            run(&mut Own::new(playing, 0), &setup.layout, limits, &mut add)?
+            run(&mut Own::new(playing, 0).not_exploring(), &setup.layout, limits, &mut add)?
         } else {
-            let Run { frames, ending, .. } = self.run;
+            let Run { frames, ending, words, .. } = self.run;
             let last = clause.map(|clause| Violation { clause, step: frames.len() as u32 });
             let last: Vec<Violation> = last.into_iter().filter(|_| *ending == Ending::Move).collect();
             let mut player = Player {
                 frames,
+                titles: &words.titles,
+                round: words.round,
                 end: if *ending == Ending::Endless { End::Endless } else { End::Exhausted },
                 broken: &last,
                 broken_at_end: clause.into_iter().collect(),
-                due: setup.layout.free_cells() as u32,
+                due: 0,
                 cells: starts,
                 made: 0,
             };

@@ -18,10 +18,11 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
 pub use self::film::in_words;
-use self::film::{Board, EndBreach, Film, Share, again, notes, outcome};
-use super::story;
-use crate::explore::{Change, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove};
-use crate::trace::letter;
+use self::film::{Board, EndBreach, Film, Share, Told, again, notes, outcome};
+use crate::explore::{
+    Change, ClauseId, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove,
+};
+use crate::trace::{letter, numbered_from};
 
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
@@ -71,7 +72,7 @@ struct Page<'a> {
     /// The clauses that the last of the team moves so far breaks.
     broken: Vec<&'static str>,
     /// By clause, what it says.
-    clauses: BTreeMap<&'static str, &'static str>,
+    clauses: BTreeMap<&'static str, &'a str>,
 }
 
 impl<'a> Page<'a> {
@@ -127,16 +128,17 @@ impl<'a> Page<'a> {
         self.begin(made.before);
         let mut text = self.line.of(self.run.setup().scheme.look, made, &scene);
         self.broken = made.broken.iter().map(|clause| clause.as_str()).collect();
-        if !made.broken.is_empty() {
-            let told: Vec<(&str, Vec<String>)> = made
-                .broken
-                .iter()
-                .map(|&clause| (clause.as_str(), self.run.lines(clause, &self.report.chart, made)))
-                .collect();
-            for &clause in made.broken {
-                self.clauses.insert(clause.as_str(), story::sentence(clause).unwrap_or_default());
-            }
-            text += &film::told(&BTreeMap::from([("broken", told)]));
+        for &clause in made.broken {
+            self.clauses.insert(clause.as_str(), self.run.sentence(clause).unwrap_or_default());
+        }
+        let lines = |&clause| (ClauseId::as_str(clause), self.run.lines(clause, &self.report.chart, made));
+        let told = Told {
+            broken: made.broken.iter().map(lines).collect(),
+            title: made.team.title().unwrap_or_default(),
+            again: made.team.comes_again(),
+        };
+        if !(told.broken.is_empty() && told.title.is_empty() && !told.again) {
+            text += &film::told(&told);
         }
         self.put(&(text + "\n"));
     }
@@ -172,12 +174,13 @@ impl<'a> Page<'a> {
             robots: start.len(),
             has_base: scheme.look.has_base(),
             has_leader: matches!(scheme.look, Look::Linked { .. }),
+            numbered_from: numbered_from(scheme.look),
             first: self.first(),
             of: report.steps,
-            share: Share { of: report.cells, what: "cells explored" },
+            share: Share::of(report, &setup.layout),
             board: Board::cells(&setup.layout, area, &start, scheme.knowledge.is_some()),
             layers: self.layers.iter().map(film::layer).collect(),
-            clauses: self.clauses.iter().map(|(&id, &says)| (id, says)).collect(),
+            clauses: self.clauses.iter().map(|(&id, &says)| (id, says.to_owned())).collect(),
             ends,
             notes: notes(report),
             again: again(setup),
@@ -198,7 +201,7 @@ impl<'a> Page<'a> {
                 left.remove(place);
                 continue;
             }
-            self.clauses.insert(clause.as_str(), story::sentence(clause).unwrap_or_default());
+            self.clauses.insert(clause.as_str(), self.run.sentence(clause).unwrap_or_default());
             let (what, cells) = self.run.missed(clause, &report.chart).unwrap_or(("", Vec::new()));
             let cells = cells.iter().filter_map(|&cell| place_of(report.chart.area(), cell)).collect();
             ends.push(EndBreach { clause: clause.as_str(), what, cells });

@@ -7,22 +7,32 @@ use tautline_io::text_blocks::{Block, beside};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::floor_trace::Course;
-use tautline_proofs::ledger;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run, name_of};
 
 use super::{Pose, agents, first_drawn, legend, outcome, team_move};
-use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
+use crate::explore::{ClauseId, Look, Play, Report, StopReason, Survey, TeamMove, Violation};
 use tautline_grids::layout::Layout;
 
-/// The sentence of the clause `id`, if it is one of this program.
-pub fn sentence(id: ClauseId) -> Option<&'static str> {
-    ledger::clauses().find(|clause| clause.id == id.as_str()).map(|clause| clause.sentence)
+/// The id of a clause, with its sentence where `run` knows it.
+fn with_sentence(run: &dyn Play, id: ClauseId) -> String {
+    run.sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}: {sentence}"))
 }
 
-/// The id of a clause, with its sentence where that is known.
-fn with_sentence(id: ClauseId) -> String {
-    sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}: {sentence}"))
+/// The words that begin the story of a run whose end breaks `clause` after team move number `step`.
+fn end_breaks(run: &dyn Play, report: &Report, step: u32, clause: ClauseId) -> String {
+    let broken = with_sentence(run, clause);
+    if report.stopped != StopReason::Endless || !matches!(run.setup().scheme.look, Look::Own) {
+        return format!("The end after team move {step} breaks {broken}");
+    }
+    match run.round() {
+        0 => format!("The run goes on for ever, and breaks {broken}"),
+        1 => format!("Team move {step} comes again and again. Such a run breaks {broken}"),
+        round => {
+            let first = step as usize + 1 - round;
+            format!("Team moves {first} to {step} come again and again. Such a run breaks {broken}")
+        }
+    }
 }
 
 /// How the team move `made` breaks its clauses: the sentences, what each robot did, and the move drawn.
@@ -30,17 +40,21 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
     let mut text = String::new();
     for &clause in made.broken {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(clause));
+        let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(run, clause));
     }
     text.push('\n');
     let look = run.setup().scheme.look;
     let who = match look {
         Look::Linked { .. } | Look::Tree { .. } => "R_",
-        Look::Robots => "Robot ",
+        Look::Robots | Look::Own => "Robot ",
         Look::Apart => "Agent ",
     };
+    let mut title = made.team.title().unwrap_or_default().chars();
+    if let Some(first) = title.next() {
+        let _ = writeln!(text, "  {}{}.", first.to_uppercase(), title.as_str());
+    }
     for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(look)) {
-        let _ = writeln!(text, "  {who}{} at {from} {}.", robot + 1, did(made, robot));
+        let _ = writeln!(text, "  {who}{} at {from} {}.", robot + look.first_number(), did(made, robot));
     }
     for &clause in made.broken {
         for line in run.lines(clause, chart, made) {
@@ -67,7 +81,7 @@ pub fn of_end(run: &dyn Play, report: &Report) -> String {
     let missed = |broken: &Violation| Some((*broken, run.missed(broken.clause, &report.chart)?));
     let found = report.violations.iter().find_map(missed);
     found.map_or_else(String::new, |(Violation { clause, step }, (what, cells))| {
-        let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+        let head = end_breaks(run, report, step, clause);
         unexplored(run, report, &head, what, &cells)
     })
 }
@@ -167,12 +181,12 @@ pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
         return Ok(end);
     }
     let Some(&Violation { clause, step }) = report.violations.last() else {
-        let head = format!("The run ends after team move {}: {}.", report.steps, report.stopped.words());
+        let head = format!("The run ends after team move {}: {}.", report.steps, report.stop_words());
         let (what, cells) = left(&report);
         return Ok(unexplored(run, &report, &head, what, &cells));
     };
     // An end that misses no cell is drawn as it is.
-    let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+    let head = end_breaks(run, &report, step, clause);
     let mut story = unexplored(run, &report, &head, "", &[]);
     run.play(&mut |made| {
         if made.step == report.steps && !made.broken.is_empty() {
@@ -192,7 +206,7 @@ pub fn of_found(run: &dyn Play, clause: ClauseId, found: &Run) -> Result<String,
     let (step, mut story) = (found.frames.len() as u32, String::new());
     let report = run.play(&mut |_| Ok(()))?;
     if found.ending == Ending::Over {
-        let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+        let head = end_breaks(run, &report, step, clause);
         let (what, cells) = run.missed(clause, &report.chart).unwrap_or_else(|| left(&report));
         return Ok(unexplored(run, &report, &head, what, &cells));
     }

@@ -318,7 +318,7 @@ fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
     body += &match look {
         Look::Linked { is_lost } => links(frame, is_lost, before, after) + &base_with(frame, after),
         Look::Tree { is_linked } => tree(frame, is_linked, after) + &base_with(frame, after),
-        Look::Apart | Look::Robots => String::new(),
+        Look::Apart | Look::Robots | Look::Own => String::new(),
     };
     for (robot, &from) in before.iter().enumerate().skip(first_drawn(look)) {
         if let Step::Cross(side) = made.frame.steps[robot] {
@@ -422,7 +422,7 @@ fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
         (Look::Linked { .. }, false, true) => "leader",
         (Look::Linked { .. }, false, false)
         | (Look::Tree { .. }, false, _)
-        | (Look::Apart | Look::Robots, ..) => "robot",
+        | (Look::Apart | Look::Robots | Look::Own, ..) => "robot",
     };
     let (radius, dx, dy) = match class {
         // A wall that they met is as red as they are, and stays in sight beside them.
@@ -432,5 +432,5 @@ fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
     };
     let at = (x + dx, y + dy);
     format!("<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", at.0, at.1)
-        + &name(at, &(robot + 1).to_string())
+        + &name(at, &(robot + look.first_number()).to_string())
 }

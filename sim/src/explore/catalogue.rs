@@ -333,6 +333,8 @@ pub enum Look {
     Apart,
     /// Every robot is an agent for itself, and is called a robot.
     Robots,
+    /// The robots of a rule of one's own, which have the numbers that the rule gives them: from 0.
+    Own,
 }
 
 impl Look {
@@ -340,7 +342,15 @@ impl Look {
     pub const fn has_base(self) -> bool {
         match self {
             Self::Linked { .. } | Self::Tree { .. } => true,
-            Self::Apart | Self::Robots => false,
+            Self::Apart | Self::Robots | Self::Own => false,
+        }
+    }
+
+    /// The number of the first robot.
+    pub const fn first_number(self) -> usize {
+        match self {
+            Self::Linked { .. } | Self::Tree { .. } | Self::Apart | Self::Robots => 1,
+            Self::Own => 0,
         }
     }
 
@@ -354,7 +364,7 @@ impl Look {
     /// The noun for a robot.
     pub const fn robot(self) -> &'static str {
         match self {
-            Self::Linked { .. } | Self::Tree { .. } | Self::Robots => "robot",
+            Self::Linked { .. } | Self::Tree { .. } | Self::Robots | Self::Own => "robot",
             Self::Apart => "agent",
         }
     }
@@ -443,7 +453,7 @@ impl Profile {
             needless: |_, _| None,
             told: Completeness::Part,
             drawn: &[],
-            look: Look::Robots,
+            look: Look::Own,
             knowledge: None,
             clauses: &[],
             case: |_, _, _| None,

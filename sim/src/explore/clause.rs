@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::{Deserialize, Deserializer, Serialize};
 use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::ledger;
 
 use super::run::{Survey, TeamMove};
 use super::setup::Setup;
@@ -40,6 +41,11 @@ impl ClauseId {
     /// The id as it is printed and stored.
     pub const fn as_str(self) -> &'static str {
         self.0
+    }
+
+    /// The sentence of the clause, if it is one of this program.
+    pub fn sentence(self) -> Option<&'static str> {
+        ledger::clauses().find(|clause| clause.id == self.0).map(|clause| clause.sentence)
     }
 
     /// The clause with the id that stands in a file.

@@ -26,6 +26,10 @@ pub struct Own<'a, R: Rule> {
     /// The answers of a search that has found the run; by lot is answered what they leave open.
     script: VecDeque<u32>,
     dice: SeededOracle,
+    /// The words for its last step.
+    title: String,
+    /// Whether its robots are to explore the layout.
+    is_exploring: bool,
     /// The scenes in which it was since the last draw, by 128 bits of each, with the number of each among them.
     been: HashMap<[u64; 2], usize>,
     /// The obligations in each of these scenes.
@@ -81,7 +85,7 @@ impl Oracle for InLayout<'_> {
             };
             let names = |number: u32| {
                 let acting = awake.iter().enumerate().filter(|&(bit, _)| acts(number, bit));
-                acting.map(|(_, robot)| format!("robot {}", robot + 1)).collect::<Vec<_>>().join(" and ")
+                acting.map(|(_, robot)| format!("robot {robot}")).collect::<Vec<_>>().join(" and ")
             };
             (0..below).map(names).collect()
         };
@@ -104,7 +108,7 @@ impl Oracle for InLayout<'_> {
     }
 
     fn arrives(&mut self, from: usize, to: usize) -> bool {
-        !self.is_so(&format!("Is the message of robot {} to robot {} lost?", from + 1, to + 1))
+        !self.is_so(&format!("Is the message of robot {from} to robot {to} lost?"))
     }
 }
 
@@ -115,7 +119,14 @@ impl<'a, R: Rule> Own<'a, R> {
         let (cells, dice) = (scene.cells().collect(), SeededOracle::new(seed, 0));
         let met = playing.met(&scene);
         let (script, been, owed) = (VecDeque::new(), HashMap::new(), Vec::new());
-        Self { playing, before: scene.clone(), scene, cells, script, dice, been, owed, met }
+        let (title, is_exploring) = (String::new(), true);
+        Self { playing, before: scene.clone(), scene, cells, script, dice, title, is_exploring, been, owed, met }
+    }
+
+    /// This team, of which nobody asks how much of the layout it explores.
+    #[must_use]
+    pub fn not_exploring(self) -> Self {
+        Self { is_exploring: false, ..self }
     }
 
     /// This team, of which a search has found these answers to what no layout knows.
@@ -168,8 +179,17 @@ impl<R: Rule> Team for Own<'_, R> {
                 self.met.push(demand);
             }
         }
+        self.title = self.playing.title(&event);
         self.cells = self.scene.cells().collect();
         Ok(event.frame(&self.scene))
+    }
+
+    fn due(&self, layout: &Layout) -> u32 {
+        if self.is_exploring { layout.free_cells() as u32 } else { 0 }
+    }
+
+    fn title(&self) -> Option<&str> {
+        Some(self.title.as_str()).filter(|title| !title.is_empty())
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {

@@ -57,6 +57,16 @@ pub trait Team {
         Vec::new()
     }
 
+    /// The words for the last team move that its steps cannot show, such as that a robot has died.
+    fn title(&self) -> Option<&str> {
+        None
+    }
+
+    /// Whether the last team move is one of those that come again and again in a run that goes round for ever.
+    fn comes_again(&self) -> bool {
+        false
+    }
+
     /// The clauses that the last team move broke; `before` is where the robots were.
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
         let _ = (before, frame);
@@ -342,7 +352,7 @@ pub struct Report {
     pub steps: u32,
     /// Cells that were occupied.
     pub explored: u32,
-    /// Cells that the team is to explore.
+    /// Cells that the team is to explore; none where a rule of one's own is not about exploring.
     pub cells: u32,
     /// In which team move each [`Milestone`] was reached, if it was.
     pub milestones: [Option<u32>; Milestone::ALL.len()],
@@ -411,9 +421,17 @@ impl Report {
         }
         for milestone in Milestone::ALL {
             let reached = &mut self.milestones[milestone as usize];
-            if reached.is_none() && self.explored >= milestone.of(self.cells) {
+            if reached.is_none() && self.cells > 0 && self.explored >= milestone.of(self.cells) {
                 *reached = Some(self.steps);
             }
+        }
+    }
+
+    /// Why the run is over, in words.
+    pub const fn stop_words(&self) -> &'static str {
+        match self.stopped {
+            StopReason::Exhausted if self.cells == 0 => "no robot has anything left to do",
+            stopped => stopped.words(),
         }
     }
 

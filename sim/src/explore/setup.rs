@@ -237,6 +237,16 @@ pub trait Play {
         Vec::new()
     }
 
+    /// The sentence that `clause` stands for, if it is known.
+    fn sentence(&self, clause: ClauseId) -> Option<&str> {
+        clause.sentence()
+    }
+
+    /// How many of the last team moves come again and again, if the run goes round for ever and says so.
+    fn round(&self) -> usize {
+        0
+    }
+
     /// The noun for the cells that the end of the run must not miss by `clause`, and those that it misses.
     fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
         let _ = (clause, chart);

@@ -10,8 +10,8 @@ use tautline_proofs::run::Frame;
 
 use super::{Header, Line, StoredEnd, StoredViolation, drawn};
 use crate::explore::{
-    ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Surroundings, Survey, Team, Violation,
-    Watcher, run,
+    ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, StopReason, Surroundings, Survey, Team,
+    Violation, Watcher, run,
 };
 use tautline_grids::layout::Layout;
 
@@ -22,6 +22,14 @@ const MAX_HELD: usize = 1 << 22;
 
 /// Letters of a name.
 const MAX_WORD: usize = 64;
+
+/// Letters of a sentence.
+const MAX_SENTENCE: usize = 1 << 14;
+
+/// Whether `words` can stand in one line.
+fn is_line(words: &str) -> bool {
+    words.len() <= MAX_SENTENCE && !words.chars().any(char::is_control)
+}
 
 /// Whether `name` can stand in every drawing as it is.
 fn is_word(name: &str) -> bool {
@@ -34,8 +42,14 @@ fn is_word(name: &str) -> bool {
 pub struct ForeignRun {
     /// The clause that the file says it breaks, if it is a counterexample.
     pub clause: Option<ClauseId>,
+    /// The demand that is broken, in words, if the file has them.
+    demand: Option<String>,
     setup: Setup,
     frames: Vec<Frame>,
+    /// Of each team move what its frame cannot show.
+    titles: Vec<String>,
+    /// How many of the last team moves come again and again.
+    round: usize,
     end: StoredEnd,
     violations: Vec<Violation>,
 }
@@ -52,7 +66,8 @@ impl ForeignRun {
         if let Err((key, what)) = check_header(&header, &layout) {
             return Err(lines.fault(text, key, what, AGAIN));
         }
-        let (frames, text, end) = read_moves(&mut lines, starts(&header), &layout)?;
+        let moves = read_moves(&mut lines, &header, &layout)?;
+        let StoredMoves { frames, titles, round, text, end } = moves;
         let wrong = |what: String| Err(lines.fault(&text, "violations", what, AGAIN));
         if let Some(broken) = end.violations.iter().find(|broken| !is_word(&broken.clause)) {
             return wrong(format!("{:?} is no name of a clause", broken.clause));
@@ -72,8 +87,9 @@ impl ForeignRun {
         let violations = end.violations.iter().map(violation).collect();
         let clause = header.clause.as_deref().map(ClauseId::read);
         let (scheme, rule) = (Scheme::named(&header.scheme), RuleId::read(&header.rule));
+        let demand = header.demand.clone();
         let setup = header.setup(scheme, rule, layout);
-        let recorded = Self { clause, setup, frames, end, violations };
+        let recorded = Self { clause, demand, setup, frames, titles, round, end, violations };
         recorded.check(&lines, &text)?;
         lines.end()?;
         Ok(recorded)
@@ -87,20 +103,30 @@ impl ForeignRun {
             return Err(lines.differs(text, &Line::End(made), "the team moves do not make this end, but"));
         }
         let free = self.setup.layout.free_cells();
-        if !(self.end.explored..=free as u32).contains(&self.end.cells) {
+        if self.end.cells != 0 && !(self.end.explored..=free as u32).contains(&self.end.cells) {
             let what = format!("{} are explored, and {free} are free", self.end.explored);
             return Err(lines.fault(text, "cells", what, AGAIN));
         }
         Ok(())
     }
 
+    /// Whether a violation is one of the end: of a counterexample that was not stopped by a team move, or of a run
+    /// without one.
+    fn is_of_the_end(&self, broken: &Violation) -> bool {
+        let is_found = self.end.stopped != StopReason::Violation && Some(broken.clause) == self.clause;
+        broken.step as usize == self.frames.len() && (is_found || broken.step == 0)
+    }
+
     fn run(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
-        let at_start = self.violations.iter().filter(|broken| self.frames.is_empty() && broken.step == 0);
+        let (at_end, in_moves): (Vec<Violation>, Vec<Violation>) =
+            self.violations.iter().partition(|broken| self.is_of_the_end(broken));
         let mut player = Player {
             frames: &self.frames,
+            titles: &self.titles,
+            round: self.round,
             end: End::Exhausted,
-            broken: &self.violations,
-            broken_at_end: at_start.map(|broken| broken.clause).collect(),
+            broken: &in_moves,
+            broken_at_end: at_end.iter().map(|broken| broken.clause).collect(),
             due: self.end.cells,
             cells: self.setup.starts(),
             made: 0,
@@ -117,6 +143,19 @@ impl Play for ForeignRun {
 
     fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
         self.run(watch)
+    }
+
+    fn sentence(&self, clause: ClauseId) -> Option<&str> {
+        self.demand.as_deref().filter(|_| self.clause == Some(clause))
+    }
+
+    fn round(&self) -> usize {
+        self.round
+    }
+
+    fn missed(&self, clause: ClauseId, _: &Survey) -> Option<(&'static str, Vec<Cell>)> {
+        let is_of_the_end = |broken: &Violation| broken.clause == clause && self.is_of_the_end(broken);
+        self.violations.iter().any(is_of_the_end).then_some(("", Vec::new()))
     }
 }
 
@@ -136,6 +175,12 @@ fn check_header(header: &ForeignHeader, layout: &Layout) -> Result<(), (&'static
             ));
         }
     }
+    if !matches!(header.numbered_from, None | Some(0)) {
+        return Err(("numbered_from", "robots count from 0".to_owned()));
+    }
+    if let Some(demand) = header.demand.as_ref().filter(|demand| demand.is_empty() || !is_line(demand)) {
+        return Err(("demand", format!("{demand:?} is no sentence of one line")));
+    }
     if *robots == 0 {
         return Err(("robots", "no robots are no team".to_owned()));
     }
@@ -147,13 +192,21 @@ fn check_header(header: &ForeignHeader, layout: &Layout) -> Result<(), (&'static
     refused.map_or(Ok(()), |problem| Err(("starts", problem.what().to_owned())))
 }
 
-/// The team moves of robots in the cells `team`, and the end with its line.
-fn read_moves(
-    lines: &mut Lines,
-    mut team: Vec<Cell>,
-    layout: &Layout,
-) -> Result<(Vec<Frame>, String, StoredEnd), Diagnostic> {
-    let mut frames: Vec<Frame> = Vec::new();
+/// The lines behind a header.
+struct StoredMoves {
+    frames: Vec<Frame>,
+    titles: Vec<String>,
+    /// How many of the last team moves come again and again.
+    round: usize,
+    /// The line of the end.
+    text: String,
+    end: StoredEnd,
+}
+
+/// The team moves of the robots of a header, and the end with its line.
+fn read_moves(lines: &mut Lines, header: &ForeignHeader, layout: &Layout) -> Result<StoredMoves, Diagnostic> {
+    let mut team = starts(header);
+    let (mut frames, mut titles, mut round): (Vec<Frame>, Vec<String>, usize) = (Vec::new(), Vec::new(), 0);
     loop {
         let number = frames.len() + 1;
         let Some(text) = lines.next(MAX_LINE_BYTES)? else {
@@ -162,12 +215,21 @@ fn read_moves(
         };
         let made = match lines.parse(&text, AGAIN)? {
             Line::Move(made) => made,
-            Line::End(end) => return Ok((frames, text, end)),
+            Line::End(end) => return Ok(StoredMoves { frames, titles, round, text, end }),
         };
         if made.step as usize != number {
             return Err(lines.fault(&text, "step", format_args!("this is team move {number}"), AGAIN));
         }
-        let told = made.frame(&team, layout);
+        if !is_line(&made.title) {
+            return Err(lines.fault(&text, "title", "this is no sentence of one line", AGAIN));
+        }
+        if round > 0 && !made.again {
+            let what = "a team move comes again and again, and this one after it does not";
+            return Err(lines.fault(&text, "step", what, AGAIN));
+        }
+        round += usize::from(made.again);
+        titles.push(made.title.clone());
+        let told = made.frame(&team, layout, header.first_number());
         let frame = told.map_err(|(key, what)| lines.fault(&text, key, what, AGAIN))?;
         team.clone_from(&frame.cells);
         frames.push(frame);
@@ -181,6 +243,10 @@ fn read_moves(
 /// A team that does what is written down, in whatever order its robots acted.
 pub(crate) struct Player<'a> {
     pub(crate) frames: &'a [Frame],
+    /// Of each team move what its frame cannot show; none, or one for each.
+    pub(crate) titles: &'a [String],
+    /// How many of the last team moves come again and again.
+    pub(crate) round: usize,
     /// How the run ends behind the last team move.
     pub(crate) end: End,
     /// The clauses that team moves are said to break.
@@ -208,6 +274,15 @@ impl Team for Player<'_> {
 
     fn due(&self, _: &Layout) -> u32 {
         self.due
+    }
+
+    fn title(&self) -> Option<&str> {
+        let title = self.titles.get(self.made.checked_sub(1)?)?;
+        Some(title.as_str()).filter(|title| !title.is_empty())
+    }
+
+    fn comes_again(&self) -> bool {
+        self.made > 0 && self.made + self.round > self.frames.len()
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {

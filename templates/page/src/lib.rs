@@ -88,7 +88,7 @@ mod tests {
         let settings = json!({ "scheme": "east", "rule": "blind", "robots": 2, "ground": ["4a", "4a"] });
         ask(&mut page, &json!({ "do": "open", "settings": settings }));
         let step = ask(&mut page, &json!({ "do": "step", "by_hand": true }));
-        assert_eq!(step["question"]["options"], json!(["robot 1", "robot 2"]));
+        assert_eq!(step["question"]["options"], json!(["robot 0", "robot 1"]));
         assert_eq!(step["question"]["words"], "Who acts next?");
     }
 }

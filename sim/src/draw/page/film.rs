@@ -36,6 +36,9 @@ pub struct Film {
     pub has_base: bool,
     /// Whether the last robot leads.
     pub has_leader: bool,
+    /// The number of the first robot, if it is not 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub numbered_from: Option<usize>,
     /// The number of the first line, which is what there was before.
     pub first: u32,
     /// How many there are in the whole run.
@@ -47,7 +50,7 @@ pub struct Film {
     /// The layers that the scheme shows besides.
     pub layers: Vec<LayerJson>,
     /// By clause that is broken, its sentence.
-    pub clauses: BTreeMap<&'static str, &'static str>,
+    pub clauses: BTreeMap<&'static str, String>,
     /// The clauses that the end breaks.
     pub ends: Vec<EndBreach>,
     /// The lines worth a jump, by their numbers.
@@ -63,6 +66,16 @@ pub struct Share {
     pub of: u32,
     /// The noun of what is counted.
     pub what: &'static str,
+}
+
+impl Share {
+    /// The cells that are explored; of a team that is not to explore those where robots were.
+    pub(super) fn of(report: &Report, layout: &Layout) -> Self {
+        match report.cells {
+            0 => Self { of: layout.free_cells() as u32, what: "cells visited" },
+            cells => Self { of: cells, what: "cells explored" },
+        }
+    }
 }
 
 /// A clause that the end of the run breaks, and the cells that are missed.
@@ -249,6 +262,20 @@ fn halves() -> (&'static str, &'static str) {
     TEMPLATE.split_once("{{lines}}\n").unwrap_or((TEMPLATE, ""))
 }
 
+/// The data of a team move beside its words.
+#[derive(Serialize)]
+pub struct Told<'a> {
+    /// The clauses that it breaks, with lines about how.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub broken: Vec<(&'static str, Vec<String>)>,
+    /// What the steps cannot show.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub title: &'a str,
+    /// Whether it comes again and again.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub again: bool,
+}
+
 /// The data at the end of a line, beside its words.
 pub fn told(told: &impl Serialize) -> String {
     format!("\t{}", json(told))
@@ -265,14 +292,12 @@ const MOST_PRINTED: usize = 64 * 64;
 
 /// The outcome of a run, in a sentence.
 pub(super) fn outcome(scheme: Scheme, report: &Report) -> String {
-    format!(
-        "{}: {}. {} of {} explored; {}.",
-        counted(report.steps, "team move"),
-        report.stopped.words(),
-        report.explored,
-        counted(report.cells, "cell"),
-        broken(scheme, report)
-    )
+    let explored = match report.cells {
+        0 => String::new(),
+        cells => format!(" {} of {} explored;", report.explored, counted(cells, "cell")),
+    };
+    let (moves, broken) = (counted(report.steps, "team move"), broken(scheme, report));
+    format!("{moves}: {}.{explored} {broken}.", report.stop_words())
 }
 
 fn broken(scheme: Scheme, report: &Report) -> String {
@@ -288,7 +313,7 @@ pub(super) fn notes(report: &Report) -> Vec<(u32, String)> {
         let step = report.reached(milestone)?;
         Some((step, format!("{} % of the cells are explored", milestone.percent())))
     };
-    let end = (report.steps, format!("The end: {}", report.stopped.words()));
+    let end = (report.steps, format!("The end: {}", report.stop_words()));
     Milestone::ALL.into_iter().filter_map(reached).chain([end]).collect()
 }
 

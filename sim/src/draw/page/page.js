@@ -209,8 +209,10 @@ function load() {
 }
 
 const cellName = cell => `${cell % columns + board.first[0]},${Math.floor(cell / columns) + board.first[1]}`;
-const robotName = robot => film.has_base ? (robot === 0 ? "the base" : `R${robot + 1}`) : `R${robot + 1}`;
-const label = robot => film.has_base && robot === 0 ? "B" : `${robot + 1}`;
+/** The number of a robot as its rule has it. */
+const numberOf = robot => robot + (film.numbered_from ?? 1);
+const robotName = robot => film.has_base && robot === 0 ? "the base" : `R${numberOf(robot)}`;
+const label = robot => film.has_base && robot === 0 ? "B" : `${numberOf(robot)}`;
 const isTimed = load();
 const frames = { now: last, line: null, cells: [] };
 
@@ -853,7 +855,7 @@ function words(i, line) {
     const others = film.has_base ? `the base, with ${counted(film.robots - 1, film.robot)} in its cell` : counted(film.robots, film.robot);
     text = number === 0 ? `The start: ${others}` : `After ${film.unit} ${number}`;
   } else {
-    text = `${capital(film.unit)} ${number} of ${film.of}${film.has_leader ? line.back ? ", a backtrack" : ", an advance" : ""}`;
+    text = `${capital(film.unit)} ${number} of ${film.of}${film.has_leader ? line.back ? ", a backtrack" : ", an advance" : ""}${line.again ? ", again and again" : ""}${line.title ? `: ${line.title}` : ""}`;
     const bumps = [];
     eachStep(line.steps, (robot, letter, isBlocked) => { if (isBlocked) bumps.push(robotName(robot)); });
     text += bumps.length > 6 ? `; ${bumps.length} ${film.robot}s meet walls` : bumps.map(name => `; ${name} meets a wall`).join("");
@@ -907,7 +909,7 @@ function tell(i, line) {
     bytes.slice(1).forEach((byte, k) => says.set(k + 1, `0x${byte.toString(16).padStart(2, "0")}`));
   }
   for (const { layer, kind, from, to } of line.said) {
-    const text = `${film.layers[layer].kinds[kind].name}${to === null ? "" : `: ${to.map(who => who < film.robots ? `R${who + 1}` : `${board.caller} ${who - film.robots + 1}`).join(", ")}`}`;
+    const text = `${film.layers[layer].kinds[kind].name}${to === null ? "" : `: ${to.map(who => who < film.robots ? `R${numberOf(who)}` : `${board.caller} ${who - film.robots + 1}`).join(", ")}`}`;
     says.set(from, says.has(from) ? `${says.get(from)}; ${text}` : text);
   }
   const gone = new Set(failed(i));
