@@ -173,7 +173,20 @@ fn a_stored_run_says_who_dies_and_what_comes_again() {
 fn a_stored_run_says_which_message_is_lost() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.jsonl");
-    assert_snapshot!(told(&path, 2), @"");
+    assert_snapshot!(told(&path, 2), @r#"
+    {"move":{"step":1,"kind":"advance","tried":"S.","blocked":[],"cells":[[1,1],[0,0]],"title":"the message of robot 0 to robot 1 is lost"}}
+    {"move":{"step":2,"kind":"advance","tried":"W.","blocked":[],"cells":[[0,1],[0,0]]}}
+    {"move":{"step":3,"kind":"advance","tried":"..","blocked":[],"cells":[[0,1],[0,0]]}}
+    {"move":{"step":4,"kind":"advance","tried":"..","blocked":[],"cells":[[0,1],[0,0]],"again":true}}
+    {"end":{"stopped":"endless","steps":4,"explored":4,"cells":0,"violations":[{"clause":"PATROL-2","step":4}]}}
+    Team move 4 comes again and again. Such a run breaks PATROL-2: robot 1 comes to the south east
+
+    +---+---+
+    | 1   · |
+    +   +   +
+    | 0   · |
+    +---+---+
+    "#);
 }
 
 #[test]
