@@ -228,6 +228,23 @@ fn a_lost_message_must_be_sent_again_and_a_dead_robot_sends_none() {
     assert_eq!(verdict(&Teller::Again, &ONE_DIES, 0), Verdict::Refuted);
 }
 
+#[test]
+fn a_demand_reads_what_robots_have_heard_and_which_move_is_pending() {
+    static HEARS: Setting<'static, Teller> = Setting {
+        demands: &[Demand::always("TELL-2", "nobody hears", &|moved| moved.after.heard(1).is_empty())],
+        ..telling(0, 0)
+    };
+    const NONE_PENDING: Demand<'static, Walk> =
+        Demand::always("WALK-3", "no move is pending", &|moved| moved.after.pending(0).is_none());
+    static LOOKS: Setting<'static, Walk> =
+        Setting { demands: &[NONE_PENDING], ..to_goals(3, 1, Moves::LookThenMove) };
+    static GOES: Setting<'static, Walk> =
+        Setting { demands: &[NONE_PENDING], ..to_goals(3, 1, Moves::OneAtATime) };
+    assert_eq!(verdict(&Teller::Once, &HEARS, 0), Verdict::Refuted);
+    assert_eq!(verdict(&Walk::Blind, &LOOKS, 0), Verdict::Refuted);
+    assert_eq!(verdict(&Walk::Blind, &GOES, 0), Verdict::Holds);
+}
+
 /// Robots that go round a wall on their right hand, any number of them, from any cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Sweeper;

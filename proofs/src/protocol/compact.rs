@@ -1,5 +1,9 @@
 //! States as bytes: as few as a search over states has to keep of each.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use tautline_kernel::ground::{Cell, Side};
+
 /// Something that a state is made of, and its bytes.
 pub trait Compact: Sized {
     /// Appends the bytes that tell it from every other value.
@@ -139,6 +143,46 @@ impl<T: Compact, const LENGTH: usize> Compact for [T; LENGTH] {
     }
 }
 
+impl Compact for String {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.len().write(to);
+        to.extend_from_slice(self.as_bytes());
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        Self::from_utf8_lossy(&Vec::read(from)).into_owned()
+    }
+}
+
+/// In the order of its members, whatever order they came in.
+impl<T: Compact + Ord> Compact for BTreeSet<T> {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.len().write(to);
+        for member in self {
+            member.write(to);
+        }
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        Vec::read(from).into_iter().collect()
+    }
+}
+
+/// In the order of its keys, whatever order they came in.
+impl<K: Compact + Ord, V: Compact> Compact for BTreeMap<K, V> {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.len().write(to);
+        for (key, value) in self {
+            key.write(to);
+            value.write(to);
+        }
+    }
+
+    fn read(from: &mut &[u8]) -> Self {
+        Vec::read(from).into_iter().collect()
+    }
+}
+
 macro_rules! tuple {
     ($($part:ident)*) => {
         impl<$($part: Compact),*> Compact for ($($part,)*) {
@@ -157,17 +201,43 @@ macro_rules! tuple {
     };
 }
 
+tuple!(A);
 tuple!(A B);
 tuple!(A B C);
 tuple!(A B C D);
 tuple!(A B C D E);
 tuple!(A B C D E F);
 
-/// Makes an enum without fields, or a struct with named ones, [`Compact`]; or makes such an enum:
-/// `compact! { enum Light { Off, On } }`.
+/// Makes a struct or an enum [`Compact`]: of a type that stands already, it names the parts, and makes an enum besides
+/// where it begins so. A variant is one byte, before its fields.
+///
+/// ```
+/// use tautline_proofs::compact;
+///
+/// struct Node {
+///     phase: Phase,
+///     clock: u8,
+/// }
+/// compact! { Node { phase, clock } }
+///
+/// struct Lift(u8, bool);
+/// compact! { Lift(floor, is_open) }
+///
+/// enum Door {
+///     Shut,
+///     Opens(u8),
+/// }
+/// compact! { Door: Shut, Opens(since) }
+///
+/// compact! { enum Phase { Idle, Wants, Done } }
+/// compact! { enum State { Idle, Waits(u8), Serves { robot: u8 } } }
+/// ```
+///
+/// An enum that it makes is `Clone`, `Eq`, `Ord`, `Hash` and `Debug`; one without fields is `Copy`, too. A variant of an
+/// enum that it makes has at most three fields without a name.
 #[macro_export]
 macro_rules! compact {
-    ($(#[$about:meta])* $vis:vis enum $name:ident { $($variant:ident),* }) => {
+    ($(#[$about:meta])* $vis:vis enum $name:ident { $($variant:ident),* $(,)? }) => {
         $(#[$about])*
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
         #[allow(missing_docs, reason = "what it is made for says what its words mean")]
@@ -175,7 +245,21 @@ macro_rules! compact {
 
         $crate::compact! { $name: $($variant),* }
     };
-    ($name:ident: $($variant:ident),*) => {
+    ($(#[$about:meta])* $vis:vis enum $name:ident { $(
+        $variant:ident
+        $(($one:ty $(, $two:ty $(, $three:ty)?)? $(,)?))?
+        $({ $($field:ident: $part:ty),* $(,)? })?
+    ),* $(,)? }) => {
+        $(#[$about])*
+        #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+        #[allow(missing_docs, reason = "what it is made for says what its words mean")]
+        $vis enum $name { $($variant $(($one $(, $two $(, $three)?)?))? $({ $($field: $part),* })?),* }
+
+        $crate::compact! { $name: $(
+            $variant $((one: $one $(, two: $two $(, three: $three)?)?))? $({ $($field),* })?
+        ),* }
+    };
+    ($name:ident: $($variant:ident),* $(,)?) => {
         const _: () = {
             let mut number = 0;
             $(
@@ -196,7 +280,40 @@ macro_rules! compact {
             }
         }
     };
-    ($name:ident { $($field:ident),* }) => {
+    ($name:ident: $(
+        $variant:ident
+        $(($($place:ident $(: $type:ty)?),* $(,)?))?
+        $({ $($field:ident),* $(,)? })?
+    ),* $(,)?) => {
+        const _: () = {
+            #[derive(Clone, Copy)]
+            #[repr(u8)]
+            enum __Number { $($variant),* }
+
+            impl $crate::protocol::Compact for $name {
+                fn write(&self, to: &mut Vec<u8>) {
+                    match self {$(
+                        Self::$variant $(($($place),*))? $({ $($field),* })? => {
+                            to.push(__Number::$variant as u8);
+                            $($($crate::protocol::Compact::write($place, to);)*)?
+                            $($($crate::protocol::Compact::write($field, to);)*)?
+                        }
+                    )*}
+                }
+
+                fn read(from: &mut &[u8]) -> Self {
+                    let number: u8 = $crate::protocol::Compact::read(from);
+                    match [$(__Number::$variant),*][usize::from(number)] {$(
+                        __Number::$variant => {
+                            $($(let $place = $crate::protocol::Compact::read(from);)*)?
+                            Self::$variant $(($($place),*))? $({ $($field: $crate::protocol::Compact::read(from)),* })?
+                        }
+                    )*}
+                }
+            }
+        };
+    };
+    ($name:ident { $($field:ident),* $(,)? }) => {
         impl $crate::protocol::Compact for $name {
             fn write(&self, to: &mut Vec<u8>) {
                 $($crate::protocol::Compact::write(&self.$field, to);)*
@@ -207,21 +324,56 @@ macro_rules! compact {
             }
         }
     };
+    ($name:ident($($place:ident),* $(,)?)) => {
+        impl $crate::protocol::Compact for $name {
+            fn write(&self, to: &mut Vec<u8>) {
+                let Self($($place),*) = self;
+                $($crate::protocol::Compact::write($place, to);)*
+            }
+
+            fn read(from: &mut &[u8]) -> Self {
+                $(let $place = $crate::protocol::Compact::read(from);)*
+                Self($($place),*)
+            }
+        }
+    };
 }
+
+compact! { Cell { x, y } }
+compact! { Side: East, South, West, North }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::protocol::Mail;
 
-    compact! { enum Light { Off, On } }
+    compact! { enum Light { Off, On, } }
 
     #[derive(PartialEq, Eq, Debug)]
     struct Lamp {
         light: Light,
         hours: i16,
     }
-    compact! { Lamp { light, hours } }
+    compact! { Lamp { light, hours, } }
+
+    #[derive(PartialEq, Eq, Debug)]
+    struct Lift(u8, bool);
+    compact! { Lift(floor, is_open) }
+
+    compact! { enum State { Idle, Waits(u8), Serves { robot: u8, at: Cell }, Meets(u8, Light) } }
+
+    #[derive(PartialEq, Eq, Debug)]
+    enum Door {
+        Shut,
+        Opens(u16, u8),
+        Open { by: String },
+    }
+    compact! {
+        Door:
+            Shut,
+            Opens(since, to),
+            Open { by },
+    }
 
     #[test]
     fn a_value_comes_back_from_its_bytes() {
@@ -240,5 +392,11 @@ mod tests {
         let mut mail = Mail::new(2);
         mail.send((0, 1, 9_u8));
         comes_back((mail, 0_i32), 1 + 3 + 4 + 4);
+        comes_back((Cell::new(-1, 2), Side::North), 5);
+        comes_back((BTreeSet::from([3_u8, 1]), (BTreeMap::from([(2_u8, true), (1, false)]),)), 3 + 5);
+        comes_back((Lift(7, true), String::from("dock")), 2 + 5);
+        comes_back([State::Idle, State::Waits(7), State::Meets(2, Light::On)], 1 + 2 + 3);
+        comes_back(State::Serves { robot: 3, at: Cell::new(0, 300) }, 6);
+        comes_back((Door::Shut, Door::Opens(300, 1), Door::Open { by: "me".to_owned() }), 1 + 4 + 4);
     }
 }

@@ -110,6 +110,16 @@ impl<M, T> TeamState<M, T> {
         self.bodies[robot].is_dead
     }
 
+    /// The messages that have come to a robot since it last acted, each with the number of its sender.
+    pub fn heard(&self, robot: usize) -> &[(usize, T)] {
+        &self.bodies[robot].heard
+    }
+
+    /// The pending move of a robot that has looked and not yet moved, where these are steps of their own.
+    pub fn pending(&self, robot: usize) -> Option<Act> {
+        self.bodies[robot].pending
+    }
+
     /// The layout as far as it is decided: what robots have met, and all of it where nothing is left to be met. Robots
     /// need not know as much: what a rule or a demand is to tell of what they know stands in their memory. `None` in a
     /// layout that answers for itself.
@@ -181,7 +191,7 @@ impl<R: Rule> View<'_, R> {
 
     /// The messages that have come since this robot last acted, each with the number of its sender.
     pub fn heard(&self) -> &[(usize, R::Message)] {
-        &self.scene.bodies[self.robot].heard
+        self.scene.heard(self.robot)
     }
 
     /// Tells all other robots. Of two messages to a robot that has not acted since, the later one counts.
