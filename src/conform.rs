@@ -84,7 +84,7 @@ pub(super) struct Learnt<'a> {
     /// Where the robots are.
     #[schemars(with = "Vec<ColumnRow>")]
     cells: &'a [Cell],
-    /// The numbers of the robots that met a wall in the last team move, from 1.
+    /// The numbers of the robots that met a wall in the last team move, as drawings have them.
     blocked: Vec<usize>,
     /// On a sensor floor, the open sides of each agent's cell.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -127,7 +127,7 @@ pub(super) struct ConformJson<'a> {
 #[derive(JsonSchema, Serialize)]
 struct DifferenceJson {
     step: u32,
-    /// The first robot that differs, from 1, if it is not the kind of the team move, or the end.
+    /// The number of the first robot that differs, if it is not the kind of the team move, or the end.
     robot: Option<usize>,
     model: Option<StoredPlan>,
     program: Option<StoredPlan>,
@@ -206,11 +206,12 @@ impl Conform {
             ))?;
             return Ok(exit);
         };
+        let first = setup.scheme.look.first_number();
         let same = match same {
             0 => "the program differs".to_owned(),
             _ => format!("the program plans {} as the model does, and differs", counted(same, "team move")),
         };
-        out.text(format_args!("{same} in team move {}:\n{}", told.step, told.words()))?;
+        out.text(format_args!("{same} in team move {}:\n{}", told.step, told.words(first)))?;
         if let Some(drawing) = drawing {
             let legend = draw::legend(setup.scheme.look);
             out.text(format_args!("\n{legend}\n\n{}", beside(drawing.into())))?;
@@ -301,9 +302,14 @@ impl Trial<'_> {
         }
     }
 
+    /// The number of the first robot.
+    fn first_number(&self) -> usize {
+        self.run.setup().scheme.look.first_number()
+    }
+
     fn compare(&mut self, made: &TeamMove<'_>) -> Result<(), Halt> {
         let plan = self.asked(made.step, made.before)?;
-        let numbers = (1..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
+        let numbers = (self.first_number()..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
         self.blocked = numbers.map(|(robot, _)| robot).collect();
         let theirs = plan.map(|(steps, kind)| self.frame(made, steps, kind.unwrap_or(made.frame.kind)));
         let model = StoredPlan::of(made.frame);
@@ -318,7 +324,7 @@ impl Trial<'_> {
             Block { title: format!("{who}, {}", block.title), ..block }
         };
         let drawing = theirs.as_ref().map(|theirs| [drawn("model", made.frame), drawn("program", theirs)]);
-        let told = DifferenceJson::new(step, Some(model), program);
+        let told = DifferenceJson::new(self.first_number(), step, Some(model), program);
         self.difference = Some(Difference { told, drawing });
         Ok(())
     }
@@ -339,7 +345,7 @@ impl Trial<'_> {
         if let Some((steps, kind)) = self.asked(step, &report.team)? {
             let (kind, cells, blocked) = (kind.unwrap_or(Kind::Advance), Vec::new(), Vec::new());
             let program = StoredPlan::of(&Frame { kind, steps, blocked, cells });
-            let told = DifferenceJson::new(step, None, Some(program));
+            let told = DifferenceJson::new(self.first_number(), step, None, Some(program));
             self.difference = Some(Difference { told, drawing: None });
         }
         Ok(())
@@ -358,15 +364,16 @@ impl StoredPlan {
 }
 
 impl DifferenceJson {
-    fn new(step: u32, model: Option<StoredPlan>, program: Option<StoredPlan>) -> Self {
+    /// The difference of team move `step` in a team of which the first robot has the number `first`.
+    fn new(first: usize, step: u32, model: Option<StoredPlan>, program: Option<StoredPlan>) -> Self {
         let robot = model.as_ref().zip(program.as_ref()).and_then(|(model, program)| {
             model.tried.chars().zip(program.tried.chars()).position(|(one, other)| one != other)
         });
-        Self { step, robot: robot.map(|robot| robot + 1), model, program }
+        Self { step, robot: robot.map(|robot| robot + first), model, program }
     }
 
     /// The difference in words, a line for each robot that differs.
-    fn words(&self) -> String {
+    fn words(&self, first: usize) -> String {
         match (&self.model, &self.program) {
             (Some(model), Some(program)) => {
                 let kinds = (model.kind != program.kind).then(|| {
@@ -381,7 +388,7 @@ impl DifferenceJson {
                 let tries = |robot| {
                     format!(
                         "robot {}: the model {}, the program {}\n",
-                        robot + 1,
+                        robot + first,
                         model.tries(robot),
                         program.tries(robot)
                     )

@@ -112,6 +112,9 @@ pub(super) struct ReplayJson<'a> {
     run: Summary<'a>,
     /// The clause that the file says it is a counterexample to. Where a judge reads such a run, the judge agrees.
     counterexample_to: Option<ClauseId>,
+    /// Of a rule of one's own, the broken demand in words, if the file has them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    demand: Option<&'a str>,
     /// Of a scheme that this program does not know, that its rule was not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     is_rule_run: Option<bool>,
@@ -214,7 +217,7 @@ impl Replay {
         })?;
         let is_judged = self.judge_case(case(&frames))?;
         let said = clause.map(|clause| said(clause.as_str(), is_judged));
-        self.show(&setup, &report, clause, Remarks { said, is_rule_run: None }, files, out)
+        self.show(&setup, &report, clause, Remarks { said, demand: None, is_rule_run: None }, files, out)
     }
 
     /// A run of a scheme that this program does not know, as it was written.
@@ -234,7 +237,11 @@ impl Replay {
             run,
             &report,
             run.clause,
-            Remarks { said: Some(said + &named), is_rule_run: Some(false) },
+            Remarks {
+                said: Some(said + &named),
+                demand: run.clause.and_then(|clause| run.sentence(clause)),
+                is_rule_run: Some(false),
+            },
             files,
             out,
         )
@@ -258,7 +265,7 @@ impl Replay {
         run: &dyn Play,
         report: &Report,
         clause: Option<ClauseId>,
-        told: Remarks,
+        told: Remarks<'_>,
         RunFiles { page, picture, viewers }: RunFiles,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
@@ -279,6 +286,7 @@ impl Replay {
                 out.json(&ReplayJson {
                     run: summary,
                     counterexample_to: clause,
+                    demand: told.demand,
                     is_rule_run: told.is_rule_run,
                     moves,
                 })?;
@@ -400,9 +408,11 @@ impl Replay {
 }
 
 /// The words about a run besides its outcome.
-struct Remarks {
+struct Remarks<'a> {
     /// Lines of text.
     said: Option<String>,
+    /// The broken demand of a rule of one's own.
+    demand: Option<&'a str>,
     is_rule_run: Option<bool>,
 }
 

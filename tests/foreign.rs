@@ -9,7 +9,7 @@ use crate::cli::ran;
 use crate::folder::{Folder, folder, read, write};
 
 /// Two robots in a row of three cells; the first meets the wall, the second comes into its cell.
-const RUN: &str = r#"{"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"stop"},"clause":"PAIR-1","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
+const RUN: &str = r#"{"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"stop"},"clause":"PAIR-1","demand":"the second stays apart","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
 {"move":{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]}}
 {"move":{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}}
 {"end":{"stopped":"violation","steps":2,"explored":2,"cells":3,"violations":[{"clause":"PAIR-1","step":2}]}}
@@ -39,25 +39,25 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
     pair (eager), 2 robots, start 0,0: run.jsonl
     2 team moves: a clause was broken
     2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
-    PAIR-1 is broken in team move 2
+    PAIR-1 is broken in team move 2: the second stays apart
     this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
     the file says that it is a counterexample to PAIR-1
 
-    1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; x stands where a robot met a wall.
+    0, 1, … are the robots, K× stands for K of them in one cell; · is a cell where a robot was, ## blocked; x stands where a robot met a wall.
 
     move 1                 move 2 breaks PAIR-1
     +---+---+---+          +---+---+---+
-    | 2   1 |   |          | ·  12 x   |
+    | 1   0 |   |          | ·  01 x   |
     +---+---+---+          +---+---+---+
 
-    Team move 2 breaks PAIR-1.
+    Team move 2 breaks PAIR-1: the second stays apart
 
-      Robot 1 at 1,0 tries to go east, meets a wall and stays.
-      Robot 2 at 0,0 goes east to 1,0.
+      Robot 0 at 1,0 tries to go east, meets a wall and stays.
+      Robot 1 at 0,0 goes east to 1,0.
 
     before, with what each tries   after
     +---+---+---+                  +---+---+---+
-    |2→  1→ x   |                  | ·  12 x   |
+    |1→  0→ x   |                  | ·  01 x   |
     +---+---+---+                  +---+---+---+
     ");
 }
@@ -65,7 +65,7 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
 #[test]
 fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
     let kept = RUN
-        .replacen("\"clause\":\"PAIR-1\",\"layout\"", "\"clause\":null,\"layout\"", 1)
+        .replacen("\"clause\":\"PAIR-1\"", "\"clause\":null", 1)
         .replacen("[{\"clause\":\"PAIR-1\",\"step\":2}]", "[]", 1)
         .replacen("\"stopped\":\"violation\"", "\"stopped\":\"exhausted\"", 1);
     let folder = &with_run(&kept);
@@ -77,11 +77,11 @@ fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
     no clause was checked
     this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
 
-    1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; x stands where a robot met a wall.
+    0, 1, … are the robots, K× stands for K of them in one cell; · is a cell where a robot was, ## blocked; x stands where a robot met a wall.
 
     move 1
     +---+---+---+
-    | 2   1 |   |
+    | 1   0 |   |
     +---+---+---+
     ");
 }
@@ -97,7 +97,7 @@ fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
     assert!(read(folder, "run.svg").contains("breaks PAIR-1"));
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--format", "json"], 1);
     assert_snapshot!(told,
-        @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}]}"#);
+        @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","demand":"the second stays apart","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[0],"cells":[[1,0],[1,0]]}]}"#);
 }
 
 #[test]
