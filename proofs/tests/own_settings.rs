@@ -6,11 +6,12 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::clause::{Check, Clause, NamedRule};
 use tautline_proofs::decide::{Answer, Cache, Context, EveryAnswer, Method, Verdict};
 use tautline_proofs::engine::states::{Limits, MemoryLimit};
-use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::engine::tree::{self, Tree, Waves, unwatched};
 use tautline_proofs::engine::{Outcome, Until, assume};
 use tautline_proofs::protocol::{self, Move, Protocol};
 use tautline_proofs::team::{
-    Act, Demand, Ground, Keeps, Map, Moves, Places, Rule, Scene, Senses, Setting, Strategy, View, Which,
+    Act, Demand, Ground, Keeps, Map, Moves, Places, Promise, Rule, Scene, Senses, Setting, Strategy, View,
+    Which,
 };
 use tautline_proofs::{bound, demands, ledger};
 
@@ -202,6 +203,32 @@ fn a_patrol_comes_to_every_cell_again_and_again() {
         let found = decided(&keeps, &rule).counterexample.expect("cells that are left out");
         assert_eq!((found.choices.once.len(), found.choices.again.len()), (1, round), "{rule:?}");
         assert_eq!(keeps.replay(&rule, &found.choices).expect("it can be played").evidence, found);
+    }
+}
+
+/// A search as a tree may be asked, too, of several demands at once.
+#[test]
+fn a_tree_says_of_a_patrol_what_the_states_say() {
+    static PATROL: Setting<'static, Walk> = Setting {
+        demands: &[
+            Demand::again_and_again("W-3", "every cell is visited again and again", &unvisited),
+            Demand::again_and_again("W-5", "its first cell is left", &|scene| !unvisited(scene) & 1),
+        ],
+        longest_run: 200,
+        ..Setting::new("patrol", Ground::open(2, 2).walls(Which::Met(1)), 1, CORNER)
+    };
+    for rule in [Walk::Round, Walk::ToAndFro, Walk::Waits] {
+        let by_states = [0, 1].map(|demand| decided(&Keeps(&PATROL, demand), &rule).verdict);
+        let playing = PATROL.playing(&rule, &[Promise(0)]).expect("it can be played");
+        let limits = tree::Limits { max_walls: 1, budget_moves: None, until: Until::Exhausted };
+        let mut search =
+            Tree::new(playing.wanting(&[0, 1].map(Promise)), &limits).expect("it can be searched");
+        while search.wave() {}
+        let found = search.found();
+        let is_broken =
+            |demand| found.counterexamples.iter().any(|example| example.broken == Promise(demand));
+        let by_tree = [0, 1].map(|demand| if is_broken(demand) { Verdict::Refuted } else { Verdict::Holds });
+        assert_eq!((by_tree, found.given_up), (by_states, 0), "{rule:?}");
     }
 }
 

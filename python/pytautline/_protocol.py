@@ -5,7 +5,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from ._rule import Demand
+from ._rule import Cell, Demand
 
 
 class Move(NamedTuple):
@@ -71,8 +71,13 @@ def eventually(id: str, words: str, is_so: Callable[[Any], bool]) -> Demand:
     return Demand(id, words, "eventually", is_so)
 
 
-def again_and_again(id: str, words: str, owed: Callable[[Any], Iterable[int]]) -> Demand:
-    """No weakly fair run is to owe one of these numbers, from 0 to 15, from some time on for ever."""
+def again_and_again(
+    id: str, words: str, owed: Callable[[Any], Iterable[int]] | Callable[[Any, Sequence[Cell]], Iterable[int]]
+) -> Demand:
+    """No weakly fair run is to owe one of these numbers, from 0 to 15, from some time on for ever.
+
+    ``owed`` returns those that are owed in a state; of a rule for robots on cells, in a state and with robots in these cells.
+    """
     return Demand(id, words, "again-and-again", owed)
 
 

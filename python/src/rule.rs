@@ -145,7 +145,10 @@ fn found(py: Python<'_>, written: &Arc<RuleScript>, budget: Option<u64>) -> PyRe
     let refused = |refused: &dyn std::fmt::Display| {
         error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size")
     };
-    let playing = setting.playing(&rule, &[]).map_err(|what| refused(&what))?;
+    // Of one start and without faults a tree has several demands on endless runs, which states have one by one.
+    let wanted: Vec<Promise> = (0..demands.len()).map(Promise).collect();
+    let playing = setting.playing(&rule, &wanted[..wanted.len().min(1)]).map_err(|what| refused(&what))?;
+    let playing = playing.wanting(&wanted);
     let mut tree = Tree::new(playing, &limits).map_err(|what| refused(&what))?;
     while tree.wave() {
         written.script.checked(py)?;

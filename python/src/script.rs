@@ -13,8 +13,10 @@ use pyo3::exceptions::{PyAttributeError, PyException, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use rayon::ThreadPoolBuilder;
+use tautline_proofs::engine::states::Bits;
+use tautline_proofs::protocol::set;
 
-use crate::arguments::Int;
+use crate::arguments::{Int, entries};
 use crate::diagnostic::{Kind, error};
 use crate::wait::wait;
 
@@ -195,6 +197,42 @@ impl Script {
     ) -> PyResult<T> {
         self.calls.fetch_add(1, Ordering::Relaxed);
         self.watched(|| call(self.object.bind(py))).map_err(|raised| self.refused(py, what, raised))
+    }
+
+    /// The members of what a function of the rule returns.
+    pub(crate) fn listed<'py>(
+        &self,
+        py: Python<'py>,
+        what: &str,
+        remedy: &str,
+        call: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let listed = self.called(py, what, |rule| {
+            let answer = call(rule)?;
+            // A function that yields its answers is asked for them here.
+            match answer.try_iter() {
+                Ok(all) => Ok(Ok(entries(&all)?)),
+                Err(_) => Ok(Err(answer)),
+            }
+        })?;
+        listed.map_err(|answer| wrong_answer(what, &answer, remedy))
+    }
+
+    /// The obligations that a function of a demand returns, numbers from 0 to 15, a bit for each.
+    pub(crate) fn owed(
+        &self,
+        py: Python<'_>,
+        what: &str,
+        asked: &Py<PyAny>,
+        arguments: Bound<'_, PyTuple>,
+    ) -> PyResult<Bits> {
+        let remedy = "return a list of what is owed, numbers from 0 to 15";
+        let owed = self.listed(py, what, remedy, |_| asked.bind(py).call1(arguments))?;
+        let number = |owed: &Bound<'_, PyAny>| {
+            let number = owed.extract().ok().filter(|&number: &u32| number < Bits::BITS);
+            number.map(|number| number as usize).ok_or_else(|| wrong_answer(what, owed, remedy))
+        };
+        Ok(set(owed.iter().map(number).collect::<PyResult<Vec<_>>>()?))
     }
 
     /// Lets Python work, and tells whoever waits that it does.

@@ -75,6 +75,28 @@ def test_each_demand_is_decided_in_its_own_way():
     assert left.verdict == "refuted" and left.counterexamples[0].run.steps == 1
 
 
+def test_a_patrol_owes_visits_again_and_again():
+    def unvisited(state, cells):
+        return {0, 1, 2} - {x for x, _ in cells}
+
+    class Patrol(Walker):
+        patrols = True
+        max_walls = 0
+        demands = [
+            tautline.again_and_again("WALK-5", "every cell is visited again and again", unvisited),
+            tautline.again_and_again("WALK-6", "the last cell is left", lambda state, cells: [15] if cells[0] == (2, 0) else []),
+        ]
+
+    assert tautline.hunt_rule(Patrol()).verdict == "holds"
+    for wrong, is_endless in [({"max_walls": 1}, True), ({"patrols": False}, False)]:
+        first = tautline.hunt_rule(type("Wrong", (Patrol,), wrong)()).counterexamples[0]
+        assert (first.clause, first.run.stopped == "endless") == ("WALK-5", is_endless)
+
+    Patrol.demands = [tautline.again_and_again("WALK-7", "words", lambda state, cells: [16])]
+    with pytest.raises(RuleWrongType, match="WALK-7"):
+        tautline.hunt_rule(Patrol())
+
+
 def test_a_demand_is_decided_as_if_it_stood_alone():
     class Patrol(Walker):
         patrols = True

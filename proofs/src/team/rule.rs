@@ -315,6 +315,11 @@ impl<'a, R: Rule> Demand<'a, R> {
         matches!(self.when, When::NeverEndless | When::Eventually(_) | When::AgainAndAgain(_))
     }
 
+    /// Whether its obligations differ from scene to scene.
+    pub(super) const fn is_owed_again(&self) -> bool {
+        matches!(self.when, When::AgainAndAgain(_))
+    }
+
     /// The obligations that a run must not owe for ever: the same one always, unless the demand is one of them.
     pub(super) fn owed(&self, scene: &Scene<R>) -> Bits {
         match self.when {

@@ -9,6 +9,7 @@ use tautline_kernel::ground::{Cell, Step};
 use super::ground::Map;
 use super::rule::{Act, Body, Demand, Rule, Scene, TeamState, TeamStep, View, passes};
 use super::{Moves, Promise, Setting};
+use crate::engine::SeededOracle;
 use crate::engine::states::{self, Bits, Places, System};
 use crate::engine::tree::Game;
 use crate::engine::world::{Turn, World};
@@ -121,6 +122,29 @@ impl<'a, R: Rule> TeamWorld<'a, R> {
     pub fn obligations(&self, scene: &Scene<R>) -> Vec<(Promise, Bits)> {
         let owed = |promise: Promise| (promise, self.demand(promise).owed(scene));
         self.broken_by_never_ending().into_iter().map(owed).collect()
+    }
+
+    /// The demands that a run breaks by coming back to `first` again and again. A round in which the world had nothing
+    /// to answer is played again for what is owed throughout it.
+    fn broken_by_round(&self, first: &Scene<R>) -> Vec<Promise> {
+        let mut owed = self.obligations(first);
+        let mut scene = first.clone();
+        for _ in 0..self.setting.longest_run {
+            let is_open =
+                |&(promise, owed): &(Promise, Bits)| owed != 0 && self.demand(promise).is_owed_again();
+            if !owed.iter().any(is_open) {
+                break;
+            }
+            let Some(awake) = self.plan(&mut scene, &[]) else { break };
+            self.settle(&mut scene, &awake, &mut Vec::new(), &mut SeededOracle::new(0, 0));
+            if scene.bodies == first.bodies {
+                break;
+            }
+            for (promise, owed) in &mut owed {
+                *owed &= self.demand(*promise).owed(&scene);
+            }
+        }
+        owed.into_iter().filter(|&(_, owed)| owed != 0).map(|(promise, _)| promise).collect()
     }
 
     /// The demands that are wanted and are met for good in a run that has come to this.
@@ -257,7 +281,7 @@ impl<R: Rule> Game for TeamWorld<'_, R> {
         if (&then.bodies, then.map) != (&now.bodies, now.map) {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.broken_by_never_ending())
+        ControlFlow::Break(self.broken_by_round(then))
     }
 
     fn edges(&self) -> u32 {

@@ -11,7 +11,7 @@ use tautline_proofs::demands;
 use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
-use crate::arguments::{List, entries};
+use crate::arguments::List;
 use crate::diagnostic::{Kind, error};
 use crate::script::{Script, attribute, attribute_of, distinct, held, kept, shown, word, wrong_answer};
 
@@ -85,25 +85,6 @@ impl StateScript {
         std::mem::take(&mut held(&self.met))
     }
 
-    /// The members of what a function of the rule returns.
-    fn listed<'py>(
-        &self,
-        py: Python<'py>,
-        what: &str,
-        remedy: &str,
-        call: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
-    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let listed = self.script.called(py, what, |rule| {
-            let answer = call(rule)?;
-            // A function that yields its answers is asked for them here.
-            match answer.try_iter() {
-                Ok(all) => Ok(Ok(entries(&all)?)),
-                Err(_) => Ok(Err(answer)),
-            }
-        })?;
-        listed.map_err(|answer| wrong_answer(what, &answer, remedy))
-    }
-
     fn states<'py>(
         &self,
         py: Python<'py>,
@@ -111,13 +92,13 @@ impl StateScript {
         remedy: &str,
         call: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
     ) -> PyResult<Vec<u32>> {
-        let states = self.listed(py, what, remedy, call)?;
+        let states = self.script.listed(py, what, remedy, call)?;
         states.iter().map(|state| self.script.number(py, what, state)).collect()
     }
 
     fn moves(&self, py: Python<'_>, state: u32) -> PyResult<Vec<Move<u32>>> {
         let state = (self.script.state(py, state),);
-        let moves = self.listed(py, "moves", MOVES, |rule| rule.call_method1("moves", state))?;
+        let moves = self.script.listed(py, "moves", MOVES, |rule| rule.call_method1("moves", state))?;
         moves.iter().map(|made| self.made(py, made)).collect()
     }
 
@@ -210,15 +191,9 @@ impl ScriptCheck {
     fn owed(&self, state: u32) -> Bits {
         let Self(rule, demand) = self;
         let ScriptDemand { clause, asked, .. } = &rule.demands[*demand];
-        let remedy = "return a list of what is owed, numbers from 0 to 15";
         rule.answer(|py| {
-            let state = (rule.script.state(py, state),);
-            let owed = rule.listed(py, clause, remedy, |_| asked.bind(py).call1(state))?;
-            let number = |owed: &Bound<'_, PyAny>| {
-                let number = owed.extract().ok().filter(|&number: &u32| number < Bits::BITS);
-                number.map(|number| number as usize).ok_or_else(|| wrong_answer(clause, owed, remedy))
-            };
-            Ok(set(owed.iter().map(number).collect::<PyResult<Vec<_>>>()?))
+            let state = PyTuple::new(py, [rule.script.state(py, state)])?;
+            rule.script.owed(py, clause, asked, state)
         })
     }
 }

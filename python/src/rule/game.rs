@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use tautline_kernel::ground::{Cell, Step};
+use tautline_proofs::engine::states::Bits;
 use tautline_proofs::team::{
     Act, Cover, Demand, Ground, Places, Rule, Scene, Senses, Setting, TeamStep, View, Which,
 };
@@ -50,6 +51,13 @@ fn seen(scene: &Scene<PythonRule>) -> (Cells, WallHits) {
     (cells, blocked)
 }
 
+/// The state of a team, as far as it is known: a rule that learns something at its end says so with its last answer.
+fn last(written: &RuleScript, scene: &Scene<PythonRule>) -> u32 {
+    let ((cells, blocked), state) = (seen(scene), *scene.memory(0));
+    let (next, steps) = written.step(state, &cells, blocked);
+    if steps.is_none() { next } else { state }
+}
+
 /// A team move as Python sees it.
 fn moved(written: &RuleScript, moved: &TeamStep<'_, PythonRule>) -> Move {
     let (before, after) = (*moved.before.memory(0), *moved.after.memory(0));
@@ -63,10 +71,14 @@ type MoveQuestion<'a> = Box<dyn Fn(&TeamStep<'_, PythonRule>) -> bool + Sync + '
 /// A question about the end of a run.
 type EndQuestion<'a> = Box<dyn Fn(&Scene<PythonRule>) -> bool + Sync + 'a>;
 
+/// A question about what is owed.
+type OwedQuestion<'a> = Box<dyn Fn(&Scene<PythonRule>) -> Bits + Sync + 'a>;
+
 /// The questions that a rule's demands and covers ask.
 pub(super) struct Questions<'a> {
     of_moves: Vec<MoveQuestion<'a>>,
     of_ends: Vec<EndQuestion<'a>>,
+    of_owed: Vec<OwedQuestion<'a>>,
     covers: Vec<MoveQuestion<'a>>,
 }
 
@@ -76,12 +88,10 @@ impl<'a> Questions<'a> {
             Box::new(move |step| !written.is_broken_by(demand, &moved(written, step)))
         };
         let of_end = |demand: usize| -> EndQuestion<'a> {
-            Box::new(move |scene| {
-                let (cells, blocked) = seen(scene);
-                // A rule that learns something at its end says so with its last answer.
-                let (last, _) = written.step(*scene.memory(0), &cells, blocked);
-                !written.is_broken_at_end(demand, last, &cells)
-            })
+            Box::new(move |scene| !written.is_broken_at_end(demand, last(written, scene), &seen(scene).0))
+        };
+        let of_owed = |demand: usize| -> OwedQuestion<'a> {
+            Box::new(move |scene| written.owed(demand, last(written, scene), &seen(scene).0))
         };
         let cover = |cover: usize| -> MoveQuestion<'a> {
             Box::new(move |step| written.occurs(cover, &moved(written, step)))
@@ -89,7 +99,8 @@ impl<'a> Questions<'a> {
         let demands = 0..written.demands.len();
         Self {
             of_moves: demands.clone().map(of_move).collect(),
-            of_ends: demands.map(of_end).collect(),
+            of_ends: demands.clone().map(of_end).collect(),
+            of_owed: demands.map(of_owed).collect(),
             covers: (0..written.covers.len()).map(cover).collect(),
         }
     }
@@ -101,6 +112,7 @@ impl<'a> Questions<'a> {
                 When::Always(_) => Demand::always(id, words, &*self.of_moves[number]),
                 When::AtTheEnd(_) => Demand::at_the_end(id, words, &*self.of_ends[number]),
                 When::NeverEndless => Demand::never_endless(id, words),
+                When::AgainAndAgain(_) => Demand::again_and_again(id, words, &*self.of_owed[number]),
             }
         };
         written.demands.iter().enumerate().map(demand).collect()

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use tautline_kernel::ground::{Area, Cell, SmallGrid, Step};
 use tautline_papers::rivals::CATALOGUE;
+use tautline_proofs::engine::states::Bits;
 use tautline_sim::explore::ClauseId;
 use tautline_sim::trace::{self, letter};
 
@@ -37,6 +38,8 @@ pub(super) enum When {
     AtTheEnd(Py<PyAny>),
     /// Where a run comes back to where it was.
     NeverEndless,
+    /// There, and at the end of every run that ends, for what is owed.
+    AgainAndAgain(Py<PyAny>),
 }
 
 /// A demand of the rule.
@@ -201,7 +204,7 @@ impl RuleScript {
                 let moved = moved.unwrap_or_else(|_| PyTuple::empty(py));
                 !self.script.says(py, demand.clause.as_str(), is_kept, moved)
             }
-            When::AtTheEnd(_) | When::NeverEndless => false,
+            When::AtTheEnd(_) | When::NeverEndless | When::AgainAndAgain(_) => false,
         })
     }
 
@@ -215,8 +218,22 @@ impl RuleScript {
                 let end = end.unwrap_or_else(|_| PyTuple::empty(py));
                 !self.script.says(py, demand.clause.as_str(), is_kept, end)
             }
-            When::Always(_) | When::NeverEndless => false,
+            When::Always(_) | When::NeverEndless | When::AgainAndAgain(_) => false,
         })
+    }
+
+    /// The obligations of the demand with this number, a bit for each; none if the rule has failed.
+    pub(super) fn owed(&self, demand: usize, state: u32, cells: &Cells) -> Bits {
+        let Demand { clause, when, .. } = &self.demands[demand];
+        let When::AgainAndAgain(asked) = when else { return 0 };
+        if self.script.is_over() {
+            return 0;
+        }
+        let owed = |py: Python<'_>| {
+            let scene = (self.script.state(py, state), self.cells(py, cells)?).into_pyobject(py)?;
+            self.script.owed(py, clause.as_str(), asked, scene)
+        };
+        Python::attach(|py| owed(py).unwrap_or_else(|failed| self.script.fail(failed)))
     }
 
     /// Whether this is so of the demand with this number; no if the rule has failed.
@@ -251,7 +268,7 @@ impl RuleScript {
 
 fn demand(demand: &Bound<'_, PyAny>) -> PyResult<Demand> {
     let py = demand.py();
-    let wanted = "demands made by pytautline.always, pytautline.at_the_end and pytautline.never_endless";
+    let wanted = "demands made by pytautline.always, at_the_end, never_endless and again_and_again";
     let text = |name: &str| attribute_of::<String>("the demand", demand, name, wanted);
     let (id, words, when) = (text("id")?, text("words")?, text("when")?);
     let kept_by: Py<PyAny> = attribute_of("the demand", demand, "kept", wanted)?;
@@ -259,6 +276,7 @@ fn demand(demand: &Bound<'_, PyAny>) -> PyResult<Demand> {
         "always" => When::Always(kept_by),
         "at-the-end" => When::AtTheEnd(kept_by),
         "never-endless" => When::NeverEndless,
+        "again-and-again" => When::AgainAndAgain(kept_by),
         _ => {
             let what = format!("a demand is looked at {when:?}");
             return Err(error(py, Kind::WrongType, what, format_args!("give the rule {wanted}")));
