@@ -120,7 +120,19 @@ impl<'a, R: Rule> Own<'a, R> {
         let met = playing.met(&scene);
         let (script, been, owed) = (VecDeque::new(), HashMap::new(), Vec::new());
         let (title, is_exploring) = (String::new(), true);
-        Self { playing, before: scene.clone(), scene, cells, script, dice, title, is_exploring, been, owed, met }
+        Self {
+            playing,
+            before: scene.clone(),
+            scene,
+            cells,
+            script,
+            dice,
+            title,
+            is_exploring,
+            been,
+            owed,
+            met,
+        }
     }
 
     /// This team, of which nobody asks how much of the layout it explores.
