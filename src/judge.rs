@@ -24,7 +24,7 @@ const EXAMPLES: &str = "\
 Examples:
   tautline judge log.csv --clauses CHAIN-3
   tautline judge field.mcap --clauses CHAIN-2,CHAIN-3 --names names.csv --cell 0.5 --tolerance 0.1
-  tautline judge run.jsonl --clauses KIT-12,KIT-3 --gap 2 --svg moment.svg
+  tautline judge log.jsonl --clauses KIT-12,KIT-3 --gap 2 --svg moment.svg
   tautline judge log.csv --clauses FRONTIER-1,FRONTIER-2 --map floor.yaml --cell 0.5 --radius 0.2
 
 LOG is a table (CSV) with columns time, robot, x and y, lines of JSON with these fields or like messages of ROS, or a \

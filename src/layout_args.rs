@@ -8,11 +8,13 @@ use tautline_grids::layout::{self, Coarse, Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::value_parser::real;
 
+use super::value_parser::file_or_word;
 use super::{number, refuse_needless};
 
 #[derive(Debug, Args)]
 pub(super) struct LayoutArgs {
     /// A layout file or a generator.
+    #[arg(value_parser = file_or_word())]
     pub(super) layout: String,
     /// The seed of whatever is left to chance. Without it 0.
     #[arg(long, value_parser = number::<u64>)]

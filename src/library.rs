@@ -12,6 +12,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_library::{Entry, RULES};
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::RandomRuns;
+use tautline_proofs::ledger::Limits;
 
 pub(super) use self::jobs::rows;
 use super::output::Output;
@@ -50,7 +51,7 @@ pub(super) struct Library {
     /// Hunt: in place of all states, make at most N random runs for each check, until one breaks its promise. Of
     /// mutants none are made.
     #[arg(long, value_name = "N", value_parser = positive::<NonZeroU64>)]
-    #[arg(conflicts_with_all = ["html", "certificate", "memory", "spill", "patience"])]
+    #[arg(conflicts_with_all = ["html", "certificate", "memory", "spill"])]
     runs: Option<NonZeroU64>,
     /// The seed of the random runs, 0 unless this says otherwise.
     #[arg(long, value_name = "SEED", value_parser = number::<u64>, requires = "runs")]
@@ -100,7 +101,8 @@ impl Library {
                 let (seed, most_moves) =
                     (self.seed.unwrap_or(0), self.max_moves.map_or(MAX_MOVES, NonZeroU32::get));
                 let runs = RandomRuns { runs: runs.get(), seed, most_moves };
-                hunt::hunt(&clauses, &runs, (folder, &replaceable), format, out)
+                let limits = Limits { patience_s: self.how.patience_s(), ..Limits::default() };
+                hunt::hunt(&clauses, (&runs, &limits), (folder, &replaceable), format, out)
             }
             (_, None) => self.how.decide(&clauses, Detail::Rows, out),
         }

@@ -246,6 +246,11 @@ impl DecisionArgs {
         (self.out.as_deref(), self.force.replaceable([]), self.format.format)
     }
 
+    /// Seconds that one step may take.
+    pub(super) const fn patience_s(&self) -> u32 {
+        self.patience.get()
+    }
+
     /// Whether files of others may be replaced.
     pub(super) const fn force(&self) -> &ForceArgs {
         &self.force
@@ -283,12 +288,12 @@ impl DecisionArgs {
         for folder in self.out.iter().chain(&self.certificate) {
             new.extend(make_folder(folder)?);
         }
-        let limits = Limits { memory: Arc::new(memory), patience_s: self.patience.get() };
+        let limits = Limits { memory: Arc::new(memory), patience_s: self.patience_s() };
         let memory = &*limits.memory;
         let bar = progress::bar("proving", 1);
         let start = Instant::now();
         let shown = if checks.len() == 1 { Shown::Search } else { Shown::Checks };
-        let hear = progress::hears(&bar, shown, self.patience.get());
+        let hear = progress::hears(&bar, shown, limits.patience_s);
         interrupt::defer_for_pool();
         tracing::debug!("proving: {}", counted(checks.len(), "check"));
         let mut rows = registered(ledger::decide(&checks, &limits, &hear));

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{OsStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, Command, Error};
 use tautline_io::named_values::NamedValues;
 use tautline_sim::explore::{RuleId, Scheme};
@@ -28,6 +28,12 @@ pub(crate) fn hunted_scheme() -> impl TypedValueParser<Value = Scheme> {
 /// Reads the name of a rule. Whether its scheme offers it is for the scheme to say, which knows what it offers.
 pub(crate) fn rule() -> impl TypedValueParser<Value = RuleId> {
     AnyRule
+}
+
+/// Reads a text that may name a file.
+pub(crate) fn file_or_word() -> impl TypedValueParser<Value = String> {
+    OsStringValueParser::new()
+        .try_map(|text| text.into_string().map_err(|_| "rename the file, so that its name is UTF-8"))
 }
 
 /// Any word; those of all schemes are what a shell completes.

@@ -1121,7 +1121,7 @@ fn a_rescue_is_stored_played_and_drawn() {
 #[test]
 fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
     let folder = &folder();
-    let cases: [&[&str]; 34] = [
+    let cases: [&[&str]; 35] = [
         &["--nodes", "0"],
         &["--nodes", "1"],
         &["--nodes", "2000000"],
@@ -1129,6 +1129,7 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
         &["--nodes", "900000", "--wfr", "16"],
         &["--range", "0"],
         &["--range", "NaN"],
+        &["--range", "1e308"],
         &["--area", "0x5"],
         &["--area", "5"],
         &["--k", "0"],

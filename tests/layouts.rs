@@ -558,7 +558,7 @@ fn a_file_that_is_no_layout_is_refused() {
         @"no/such/file.map: there is no such file; name a layout file or one of the generators open:15x15, \
           walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
     assert_snapshot!(load("src", None),
-        @"src: this is a directory; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, \
+        @"src: this is a folder; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, \
           rooms-b, office:30x30:4x4, cells:32x32:0.2");
     assert_snapshot!(load("open:3x3", Some(Path::new("map.pgm"))),
         @"--image is given, but the layout is not a ROS map; leave --image out, or name the map's .yaml file");

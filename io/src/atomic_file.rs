@@ -403,11 +403,13 @@ fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
             let what = format_args!("it is left out, there is no room for it: {}", error.kind());
             Diagnostic::in_file(path, what, "make room, or store it elsewhere")
         }
-        _ => Diagnostic::in_file(
-            path,
-            format_args!("it cannot be written: {error}"),
-            "name a file in a folder that you can write to",
-        ),
+        _ => {
+            // An error that is met as a part is made goes on with the name of the part, which the user has not given.
+            let error = error.to_string();
+            let error = error.split(" at path ").next().unwrap_or_default();
+            let what = format_args!("it cannot be written: {error}");
+            Diagnostic::in_file(path, what, "name a file in a folder that you can write to")
+        }
     }
 }
 
@@ -502,6 +504,14 @@ mod tests {
         assert!(file.keep().is_err());
         assert_eq!(fs::read_to_string(&path).expect("text"), "something else");
         assert_eq!(folder.path().read_dir().expect("a folder").count(), 1);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn where_nothing_may_be_written_no_name_is_told_but_that_of_the_user() {
+        let path = Path::new("/sys/file");
+        let fault = AtomicFile::new(path, &Replaceable::default()).map(drop).expect_err("a folder of Linux");
+        assert!(!fault.to_string().contains(".part"), "{fault}");
     }
 
     #[cfg(unix)]

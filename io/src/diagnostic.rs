@@ -14,6 +14,9 @@ const CLIP_CHARS: usize = 32;
 /// Longer names and messages are clipped: they may quote the input.
 const MAX_MESSAGE_CHARS: usize = 1_000;
 
+/// Numbers with more digits are shortened. Twenty are the most of a number of 64 bits.
+const MAX_DIGITS: usize = 24;
+
 /// The byte order mark that some editors put before a text; it is no part of it.
 pub const BOM: char = '\u{feff}';
 
@@ -155,7 +158,7 @@ impl Diagnostic {
     fn new(place: Place, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
         Self(Box::new(Parts {
             place,
-            what: one_line(&what.to_string()),
+            what: one_line(&shortened(&what.to_string())),
             remedy: one_line(&remedy.to_string()),
         }))
     }
@@ -236,7 +239,7 @@ fn printable(character: char) -> char {
 /// Why a file cannot be read, in words.
 pub fn unreadable(error: &io::Error) -> String {
     match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
+        ErrorKind::NotFound | ErrorKind::NotADirectory => "there is no such file".to_owned(),
         ErrorKind::IsADirectory => "this is a folder".to_owned(),
         ErrorKind::PermissionDenied => "this file may not be read".to_owned(),
         _ => format!("the file cannot be read: {error}"),
@@ -255,6 +258,19 @@ pub fn one_line(text: &str) -> String {
         line.push('…');
     }
     line
+}
+
+/// `text`, of whose numbers only the first digits stand, if one has more than any number in use: 1e308 has 309.
+fn shortened(text: &str) -> String {
+    let mut digits = 0;
+    let sign = |sign: char| {
+        digits = if sign.is_ascii_digit() { digits + 1 } else { 0 };
+        match digits {
+            0..=MAX_DIGITS => Some(sign),
+            _ => (digits == MAX_DIGITS + 1).then_some('…'),
+        }
+    };
+    text.chars().filter_map(sign).collect()
 }
 
 impl fmt::Display for Place {

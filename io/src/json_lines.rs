@@ -285,6 +285,7 @@ fn in_words_of_json(message: &str) -> String {
         "i8" | "i16" | "i32" | "i64" => "a whole number that is not too large",
         "f32" | "f64" => "a number",
         "tuple" => "a list",
+        "ident" => "value",
         _ => match expected {
             "a map" => "an object",
             "a sequence" => "a list",

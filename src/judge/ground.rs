@@ -10,6 +10,7 @@ use tautline_io::value_parser::{Metres, metres_within, real};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
 
+use super::super::value_parser::file_or_word;
 use super::super::{CellArg, number, refuse_needless};
 use super::{MOST, above_0};
 use tautline_grids::layout::ros::{self, Frame};
@@ -18,7 +19,7 @@ use tautline_grids::layout::{self, Coarse, Generator, Layout};
 #[derive(Debug, Args)]
 pub(super) struct MapArgs {
     /// The map: a layout file or a generator, with its lower left corner at 0,0, or where a ROS map says.
-    #[arg(long, value_name = "LAYOUT")]
+    #[arg(long, value_name = "LAYOUT", value_parser = file_or_word())]
     map: Option<String>,
     /// The seed of a map that is generated. Without it 0.
     #[arg(long, requires = "map", value_parser = number::<u64>)]

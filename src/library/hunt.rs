@@ -54,18 +54,18 @@ struct CheckJson {
 /// [`Halt`] if a check cannot begin, or nothing can be printed.
 pub(super) fn hunt(
     clauses: &[&'static Clause],
-    runs: &RandomRuns,
+    (runs, limits): (&RandomRuns, &Limits),
     (folder, replaceable): (Option<&Path>, &Replaceable),
     format: Format,
     out: &mut Output,
 ) -> Result<Exit, Halt> {
     let new = folder.map(make_folder).transpose()?.unwrap_or_default();
-    let (checks, limits) = (ledger::checks(clauses), Limits::default());
+    let checks = ledger::checks(clauses);
     let bar = progress::bar("hunting", 1);
     let hear = progress::hears(&bar, Shown::Checks, limits.patience_s);
     interrupt::defer_for_pool();
     tracing::debug!("hunting: {}", counted(checks.len(), "check"));
-    let mut rows = registered(ledger::hunt(&checks, runs, &limits, &hear));
+    let mut rows = registered(ledger::hunt(&checks, runs, limits, &hear));
     rows.retain(|row| row.undecided != Some(Indecision::Ended));
     bar.finish_and_clear();
     let file = |row: &Row| folder.map_or(Ok(None), |folder| stored(row, folder, replaceable, &mut *out));

@@ -53,7 +53,7 @@ fn a_wrong_name_and_options_without_effect_are_refused() {
 #[test]
 fn a_rule_is_hunted_by_random_runs_and_what_is_found_is_stored_replayed_and_minimised() {
     let folder = &folder();
-    let hunt = ["library", "ricart-agrawala", "--runs", "50", "--seed", "3"];
+    let hunt = ["library", "ricart-agrawala", "--runs", "50", "--seed", "3", "--patience", "30"];
     let told = printed(folder, &[&hunt[..], &["--out", "found"]].concat(), 1);
     assert_snapshot!("library_hunt", told);
     let stored = "found/mutex-2-published-states-2.jsonl";

@@ -2,11 +2,11 @@
 //! the faults of what is wrong there.
 
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
-use tautline_io::diagnostic::{BOM, Diagnostic};
+use tautline_io::diagnostic::{BOM, Diagnostic, unreadable};
 use tautline_io::json_lines::MAX_FILE_BYTES;
 
 use super::problem::sizes;
@@ -24,16 +24,17 @@ pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
 
 /// The bytes of `file`, at least one and at most [`MAX_FILE_BYTES`].
 pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Diagnostic> {
-    let about = fs::metadata(file).map_err(|error| unreadable(&error))?;
+    let unread = |error| problem::no_file(&unreadable(&error));
+    let about = fs::metadata(file).map_err(unread)?;
     if about.is_dir() {
-        return Err(problem::no_file("this is a directory"));
+        return Err(problem::no_file("this is a folder"));
     }
     if about.len() > MAX_FILE_BYTES {
         return Err(too_large());
     }
     let mut bytes = Vec::new();
-    let opened = File::open(file).map_err(|error| unreadable(&error))?;
-    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
+    let opened = File::open(file).map_err(unread)?;
+    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unread)?;
     match bytes.len() as u64 {
         0 => Err(Diagnostic::usage("the file is empty", "a drawing begins with `tautline layout 1`")),
         size @ 1..=MAX_FILE_BYTES => {
@@ -46,13 +47,6 @@ pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Diagnostic> {
 
 fn too_large() -> Diagnostic {
     Diagnostic::usage(format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20), sizes())
-}
-
-fn unreadable(error: &io::Error) -> Diagnostic {
-    match error.kind() {
-        io::ErrorKind::NotFound => problem::no_file("there is no such file"),
-        _ => Diagnostic::usage(format!("the file cannot be read: {error}"), "make the file readable"),
-    }
 }
 
 /// The fault of a problem in a text.

@@ -99,10 +99,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Log, Fault> {
                 break;
             }
             Err(error) => {
-                return Err(fault(
-                    error.column().saturating_sub(1),
-                    format!("this is no object of JSON: {error}"),
-                ));
+                let why = error.to_string();
+                let why = why.split(" at line ").next().unwrap_or_default();
+                let what = format!("this is no object of JSON: {why}");
+                return Err(fault(error.column().saturating_sub(1), what));
             }
         };
         let wrong = |what| fault(0, format!("this line has {what}"));
