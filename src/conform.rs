@@ -69,6 +69,9 @@ pub(super) enum ToldLine<'a> {
         size: [i16; 2],
         #[schemars(with = "Vec<ColumnRow>")]
         starts: Vec<Cell>,
+        /// 0 where robots are counted from 0; left out where from 1.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        numbered_from: Option<usize>,
     },
     /// One before each team move: an answer is due.
     Move(Learnt<'a>),
@@ -84,7 +87,7 @@ pub(super) struct Learnt<'a> {
     /// Where the robots are.
     #[schemars(with = "Vec<ColumnRow>")]
     cells: &'a [Cell],
-    /// The numbers of the robots that met a wall in the last team move, as drawings have them.
+    /// The numbers of the robots that met a wall in the last team move.
     blocked: Vec<usize>,
     /// On a sensor floor, the open sides of each agent's cell.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -169,7 +172,10 @@ impl Conform {
                 (Box::new(setup), trace.replay(&mut |_| Ok(()))?)
             }
             StoredRun::Foreign(run) => {
-                let report = run.play(&mut |_| Ok(()))?;
+                let report = run.play(&mut |made| match made.team.title() {
+                    None => Ok(()),
+                    Some(title) => Err(untold(title, made.step).found_in(&self.file).into()),
+                })?;
                 (Box::new(run), report)
             }
         };
@@ -237,6 +243,12 @@ fn check(setup: &Setup) -> Result<(), Diagnostic> {
     Err(Diagnostic::usage(format_args!("{what}: no program could plan along"), remedy))
 }
 
+/// The fault of a run in which something happens that no program is told.
+fn untold(title: &str, step: u32) -> Diagnostic {
+    let what = format!("{title} in team move {step}, and no program is told: none could plan along");
+    Diagnostic::usage(what, "name a run in which all robots act at once, none dies and no message is lost")
+}
+
 impl Trial<'_> {
     /// Goes through the run up to the first difference.
     fn hold(mut self, report: &Report) -> Result<Option<Difference>, Halt> {
@@ -251,6 +263,7 @@ impl Trial<'_> {
             robots: starts.len(),
             size: [layout.size().width(), layout.size().height()],
             starts,
+            numbered_from: Some(scheme.look.first_number()).filter(|&first| first != 1),
         });
         let made = run.play(&mut |made| {
             self.compare(made)?;
@@ -372,7 +385,7 @@ impl DifferenceJson {
         Self { step, robot: robot.map(|robot| robot + first), model, program }
     }
 
-    /// The difference in words, a line for each robot that differs.
+    /// The difference in words, a line for each robot that differs; the first is number `first`.
     fn words(&self, first: usize) -> String {
         match (&self.model, &self.program) {
             (Some(model), Some(program)) => {

@@ -360,7 +360,7 @@ pub(super) fn draw_moves(
             *moves.start().max(&(moves.end() + 1).saturating_sub(most))..=*moves.end()
         }
     };
-    out.text(format_args!("\n{}\n\n", draw::legend(run.setup().scheme.look)))?;
+    out.text(format_args!("\n{}\n\n", drawn.legend(pose)))?;
     let mut rows = Rows::new(columns);
     run.among(&moves, &mut |made| {
         if out.is_gone() {

@@ -112,12 +112,15 @@ pub(super) struct ReplayJson<'a> {
     run: Summary<'a>,
     /// The clause that the file says it is a counterexample to. Where a judge reads such a run, the judge agrees.
     counterexample_to: Option<ClauseId>,
-    /// Of a rule of one's own, the broken demand in words, if the file has them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    demand: Option<&'a str>,
     /// Of a scheme that this program does not know, that its rule was not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     is_rule_run: Option<bool>,
+    /// Of such a scheme, the broken demand in words, if the file has them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    demand: Option<&'a str>,
+    /// Of such a scheme, the number of the first robot.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numbered_from: Option<usize>,
     #[schemars(with = "Vec<StoredMove>")]
     moves: MovesJson<'a>,
 }
@@ -217,7 +220,7 @@ impl Replay {
         })?;
         let is_judged = self.judge_case(case(&frames))?;
         let said = clause.map(|clause| said(clause.as_str(), is_judged));
-        self.show(&setup, &report, clause, Remarks { said, demand: None, is_rule_run: None }, files, out)
+        self.show(&setup, &report, clause, Remarks { said, is_rule_run: None }, files, out)
     }
 
     /// A run of a scheme that this program does not know, as it was written.
@@ -237,11 +240,7 @@ impl Replay {
             run,
             &report,
             run.clause,
-            Remarks {
-                said: Some(said + &named),
-                demand: run.clause.and_then(|clause| run.sentence(clause)),
-                is_rule_run: Some(false),
-            },
+            Remarks { said: Some(said + &named), is_rule_run: Some(false) },
             files,
             out,
         )
@@ -265,7 +264,7 @@ impl Replay {
         run: &dyn Play,
         report: &Report,
         clause: Option<ClauseId>,
-        told: Remarks<'_>,
+        told: Remarks,
         RunFiles { page, picture, viewers }: RunFiles,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
@@ -281,14 +280,14 @@ impl Replay {
         let name = self.file.display().to_string();
         match self.format.format {
             Format::Json => {
-                let summary = Summary::new(run, &name, report);
-                let moves = MovesJson { run, moves: &moves };
+                let foreign = told.is_rule_run.map(|_| run);
                 out.json(&ReplayJson {
-                    run: summary,
+                    run: Summary::new(run, &name, report),
                     counterexample_to: clause,
-                    demand: told.demand,
                     is_rule_run: told.is_rule_run,
-                    moves,
+                    demand: foreign.zip(clause).and_then(|(run, clause)| run.sentence(clause)),
+                    numbered_from: foreign.map(|run| run.setup().scheme.look.first_number()),
+                    moves: MovesJson { run, moves: &moves },
                 })?;
             }
             Format::Text => {
@@ -408,11 +407,9 @@ impl Replay {
 }
 
 /// The words about a run besides its outcome.
-struct Remarks<'a> {
+struct Remarks {
     /// Lines of text.
     said: Option<String>,
-    /// The broken demand of a rule of one's own.
-    demand: Option<&'a str>,
     is_rule_run: Option<bool>,
 }
 

@@ -92,12 +92,12 @@ fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--html", "run.html", "--svg", "run.svg"], 1);
     assert!(told.contains("the file says that it is a counterexample to PAIR-1"), "{told}");
     let page = read(folder, "run.html");
-    // R1 tries to go east and meets a wall, R2 goes east.
+    // R0 tries to go east and meets a wall, R1 goes east.
     assert!(page.contains("\neE\t{\"broken\":[[\"PAIR-1\",[]]]}\n"), "{page}");
     assert!(read(folder, "run.svg").contains("breaks PAIR-1"));
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--format", "json"], 1);
     assert_snapshot!(told,
-        @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","demand":"the second stays apart","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[0],"cells":[[1,0],[1,0]]}]}"#);
+        @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","is_rule_run":false,"demand":"the second stays apart","numbered_from":0,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[0],"cells":[[1,0],[1,0]]}]}"#);
 }
 
 #[test]
@@ -115,6 +115,22 @@ fn a_run_of_an_unknown_scheme_that_contradicts_itself_is_refused() {
        │ Help: store the run again with the program that wrote it
     ───╯
     "#);
+}
+
+#[test]
+fn a_program_is_held_to_a_run_of_an_unknown_scheme_whose_robots_are_counted_from_0() {
+    let folder = &with_run(RUN);
+    let waits = r#"while read line; do echo '{"tried":".."}'; done"#;
+    let conform = |options: &[&str], code| {
+        ended(folder, &[&["conform", "run.jsonl"], options, &["--", "sh", "-c", waits]].concat(), code)
+    };
+    let (told, _) = conform(&[], 1);
+    assert!(told.contains("robot 0: the model E, the program ."), "{told}");
+    assert!(conform(&["--format", "json"], 1).0.contains("\"robot\":0"));
+    // Where robots do not act at once, no program can know who does.
+    write(folder, "run.jsonl", RUN.replacen("[0,0]]}}", "[0,0]],\"title\":\"robot 0 acts\"}}", 1));
+    let (_, said) = conform(&[], 2);
+    assert!(said.contains("robot 0 acts in team move 1, and no program is told"), "{said}");
 }
 
 #[test]

@@ -125,6 +125,13 @@ impl<'a> TeamMoves<'a> {
         Self { setup, chart, is_bare: is_bare(setup, chart.area()) }
     }
 
+    /// The meaning of the signs in these drawings.
+    pub fn legend(&self, pose: Pose) -> String {
+        let short = " Here a is 10, b is 11 and so on, and * stands for several in one cell.";
+        let is_short = self.is_bare && pose == Pose::After;
+        legend(self.setup.scheme.look).to_owned() + if is_short { short } else { "" }
+    }
+
     /// Whether one character for each cell is enough to draw a team move.
     fn is_bare(&self, made: &TeamMove<'_>, pose: Pose) -> bool {
         self.is_bare && made.unseen.is_empty() && pose == Pose::After

@@ -202,7 +202,7 @@ function load() {
     if (line.note) events.push({ i, text: line.note });
   }
   for (const { clause, what, cells: missed } of film.ends) {
-    broken.push({ i: last, clause, told: what ? [`${what}: ${missed.slice(0, 20).map(cellName).join(" ")}${missed.length > 20 ? ` and ${missed.length - 20} more` : ""}.`] : [], missed, atEnd: true });
+    broken.push({ i: last, clause, told: what ? [`${what}: ${missed.slice(0, 20).map(cellName).join(" ")}${missed.length > 20 ? ` and ${missed.length - 20} more` : ""}.`] : [], missed, atEnd: read(texts[last]).again ? "such a run" : "the end" });
   }
   journal[last + 1] = slots.length;
   return isTimed;
@@ -286,10 +286,12 @@ function places(i, time) {
 
 // ---- What is shown, with its legend
 
+// Where no robot is to explore, cells are those that robots have visited, and there is no frontier.
+const explores = film.share.what !== "cells visited";
 const BUILT_IN = inCells ? [
   { name: "what is", about: "walls and blocked cells, known or not", keys: [["wall", "wall"], ["blocked", "blocked"]] },
-  { name: "what the team knows", about: "explored cells, and walls that robots met or saw", keys: [["explored", "explored"], ["known", "known wall"]] },
-  { name: "frontier", about: "unexplored cells beside explored ones", keys: [["frontier", "frontier cell"]] },
+  { name: "what the team knows", about: `${explores ? "explored cells" : "cells where robots were"}, and walls that robots met or saw`, keys: [["explored", explores ? "explored" : "visited"], ["known", "known wall"]] },
+  ...explores ? [{ name: "frontier", about: "unexplored cells beside explored ones", keys: [["frontier", "frontier cell"]] }] : [],
   { name: "plan and outcome", about: "what each robot tried in this step, and whether a wall was in the way", keys: [["arrow", "went"], ["bump", "met a wall"], ...isBlind ? [["missed", "missed a sensor"]] : []] },
   { name: "way", about: "where the followed robot has been", keys: [["trail", "way"]] },
 ] : [
@@ -297,7 +299,7 @@ const BUILT_IN = inCells ? [
   { name: "ways", about: "where robots have been", keys: [["trail", "way"]] },
 ];
 // Many circles hide more than they show.
-const isOn = { way: false };
+const isOn = { way: false, frontier: explores };
 for (const layer of film.layers) if (layer.shape === "circle") isOn[layer.name] = film.robots <= 3;
 const shows = name => isOn[name] !== false;
 const shapes = shape => film.layers.filter(layer => layer.shape === shape && layer.used && shows(layer.name));
@@ -861,7 +863,7 @@ function words(i, line) {
     text += bumps.length > 6 ? `; ${bumps.length} ${film.robot}s meet walls` : bumps.map(name => `; ${name} meets a wall`).join("");
   }
   if (isTimed) text += `; ${seconds(times[i])} s`;
-  for (const one of broken) if (one.i === i) text += one.atEnd ? `; the end breaks ${one.clause}` : `; breaks ${one.clause}`;
+  for (const one of broken) if (one.i === i) text += one.atEnd ? `; ${one.atEnd} breaks ${one.clause}` : `; breaks ${one.clause}`;
   return text;
 }
 
@@ -885,7 +887,7 @@ function explain(i, line) {
   const here = broken.filter(one => one.i === i);
   const said = here.map(({ clause, told, atEnd }) => {
     const p = element("p");
-    p.append(element("b", `${atEnd ? "The end" : capital(film.unit)} ${atEnd ? "" : `${film.first + i} `}breaks ${clause}. `), [film.clauses[clause], ...told].filter(text => text).join(" "));
+    p.append(element("b", `${capital(atEnd || `${film.unit} ${film.first + i}`)} breaks ${clause}. `), [film.clauses[clause], ...told].filter(text => text).join(" "));
     return p;
   });
   if (inCells && here.some(one => !one.atEnd) && i > 0) {
@@ -1086,7 +1088,7 @@ const MOST_EVENTS = 3000;
 
 function listEvents() {
   for (const [number, text] of film.notes) if (number >= film.first && number <= film.first + last) events.push({ i: number - film.first, text });
-  for (const { i, clause, atEnd } of broken) events.push({ i, text: atEnd ? `The end breaks ${clause}` : `Breaks ${clause}`, isBad: true });
+  for (const { i, clause, atEnd } of broken) events.push({ i, text: atEnd ? `${capital(atEnd)} breaks ${clause}` : `Breaks ${clause}`, isBad: true });
   if (inCells) for (const { i, of } of failures) events.push({ i, text: `${capital(robotName(of))} dies`, isBad: true });
   const some = bumpLines.length + events.length <= MOST_EVENTS ? bumpLines : [];
   for (const i of some) {
