@@ -143,14 +143,6 @@ fn what_was_recorded_of_a_run_conforms_to_it() {
 }
 
 #[test]
-fn robots_of_a_rule_of_ones_own_are_counted_from_0() {
-    let run = recipe("docs/follow-1-written.jsonl");
-    let program = recorded(&[r#"{"tried":"E."}"#, r#"{"tried":"E."}"#].map(str::to_owned));
-    let conform = ["conform", run.to_str().expect("text"), "--", "sh", "-c", &program];
-    says(&ended(&folder(), &conform, 1).0, &["differs in team move 2:\nrobot 1: the model E, the program ."]);
-}
-
-#[test]
 fn programs_that_do_not_answer_are_named_with_their_lines() {
     let run = recipe("docs/chain-1-published-n4.jsonl");
     let run = run.to_str().expect("text");
