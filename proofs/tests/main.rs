@@ -29,6 +29,7 @@ mod rocq;
 mod search;
 mod smallest;
 mod teams;
+mod ties;
 mod trap;
 mod trees;
 mod unsound;

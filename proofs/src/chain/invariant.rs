@@ -446,27 +446,17 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
 
     /// Where a robot enters a cell other than the base in which another one then is, one of the two was blocked.
     fn meets_blocked(&self) -> Result<(), Stop> {
-        let (before, after) = (self.before.cells(), self.after.cells());
-        let passed = |robot: usize| {
+        let passes = |robot: usize| {
             let message = Message::decode(self.messages[robot - 1]);
             message.is_ok_and(|message| message.outcome != Outcome::Blocked)
         };
-        let meet = |one: usize, other: usize| {
-            let is_entered = before[one] != after[one] || before[other] != after[other];
-            after[one] == after[other] && after[one] != after[0] && is_entered
-        };
-        let met = (2..after.len())
-            .any(|other| (1..other).any(|one| meet(one, other) && passed(one) && passed(other)));
-        require(!met, "of two robots that come together in a cell one is blocked")
+        let meet = meet_unblocked(self.before.cells(), self.after.cells(), passes);
+        require(!meet, "of two robots that come together in a cell one is blocked")
     }
 
     /// Each of two neighbours has gone, or not yet.
     fn holds_in_any_order(&self) -> Result<(), Stop> {
-        let (before, after) = (self.before.cells(), self.after.cells());
-        let holds = (1..after.len()).all(|ahead| {
-            let [behind, ahead] = [ahead - 1, ahead].map(|robot| [before[robot], after[robot]]);
-            behind.iter().all(|&behind| ahead.iter().all(|&ahead| in_covered(behind, ahead)))
-        });
+        let holds = holds_in_any_order(self.before.cells(), self.after.cells());
         require(holds, "neighbours keep contact in whatever order they go")
     }
 
@@ -502,4 +492,22 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         require(understood, "every byte is a message that fits the plan")?;
         require(listener == *self.after, "one who hears the bytes has the state of the whole team")
     }
+}
+
+/// Whether of two robots that come together in a cell other than the base both pass, as `passes` says of each but the
+/// base.
+pub(super) fn meet_unblocked(before: &[Cell], after: &[Cell], passes: impl Fn(usize) -> bool) -> bool {
+    let meet = |one: usize, other: usize| {
+        let is_entered = before[one] != after[one] || before[other] != after[other];
+        after[one] == after[other] && after[one] != after[0] && is_entered
+    };
+    (2..after.len()).any(|other| (1..other).any(|one| meet(one, other) && passes(one) && passes(other)))
+}
+
+/// Whether neighbours are in contact, each of the two having gone, or not yet.
+pub(super) fn holds_in_any_order(before: &[Cell], after: &[Cell]) -> bool {
+    (1..after.len()).all(|ahead| {
+        let [behind, ahead] = [ahead - 1, ahead].map(|robot| [before[robot], after[robot]]);
+        behind.iter().all(|&behind| ahead.iter().all(|&ahead| in_covered(behind, ahead)))
+    })
 }

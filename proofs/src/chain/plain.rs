@@ -11,7 +11,7 @@ use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
 
 use super::environment::{in_covered, in_safe};
 use super::plain_walk::walk;
-use super::readings::Reading::{LastMoved, NullLast, Pathless, Unfollowed};
+use super::readings::Reading::{LastMoved, NullLast, OnceExamined, Pathless, Unfollowed};
 use super::readings::{Readings, starts};
 
 /// A chain on an area of its own.
@@ -32,6 +32,8 @@ pub struct PlainChain {
     doubts_all: bool,
     floods: Floods,
     readings: Readings,
+    /// Of equal candidates the first in this order comes first.
+    order: [Step; 5],
 }
 
 /// How many flood fills a plan takes.
@@ -118,6 +120,7 @@ impl PlainChain {
             doubts_all: false,
             floods: Floods::Many,
             readings: Readings::of(&[]),
+            order: Step::ALL,
         };
         for cell in area.cells() {
             for side in Side::ALL {
@@ -141,6 +144,12 @@ impl PlainChain {
     #[must_use]
     pub fn that_floods_once(self) -> Self {
         Self { floods: Floods::Few, ..self }
+    }
+
+    /// This chain with another order of equal candidates. The walk on which it unfolds stays as it is.
+    #[must_use]
+    pub fn that_prefers(self, order: [Step; 5]) -> Self {
+        Self { order, ..self }
     }
 
     /// This chain as other readings of the paper have it; `None` if the area has no room for its start.
@@ -292,8 +301,11 @@ impl PlainChain {
             return Ok(None);
         }
         let distances = self.distances(Avoid::WallsAndVirtual);
-        let mut list: Vec<(Side, Step)> = Side::ALL
-            .into_iter()
+        let sides = self.order.into_iter().filter_map(|step| match step {
+            Step::Cross(side) => Some(side),
+            Step::Stay => None,
+        });
+        let mut list: Vec<(Side, Step)> = sides
             .filter(is_open)
             .filter(|&side| self.distance(at.beyond(side), &distances).is_some())
             .map(|side| (side, Step::Cross(side)))
@@ -309,7 +321,9 @@ impl PlainChain {
         });
         for (side, step) in &mut list {
             if !self.admits_behind(at.after(*step), self.cells[leader - 1]) {
-                self.mark(Edge::new(at, *side), |marks| marks.virtual_obstacle = true);
+                if !self.readings.has(OnceExamined) {
+                    self.mark(Edge::new(at, *side), |marks| marks.virtual_obstacle = true);
+                }
                 *step = Step::Stay;
             }
         }
@@ -318,6 +332,9 @@ impl PlainChain {
         }
         let distances = self.distances(Avoid::Walls);
         for (side, step) in list {
+            if step == Step::Stay {
+                self.mark(Edge::new(at, side), |marks| marks.virtual_obstacle = true);
+            }
             let to = at.after(step);
             let may_enter =
                 !self.rule.has(Condition::FullForLeader) || step == Step::Stay || !self.is_full(to);
@@ -483,7 +500,7 @@ impl Recursion<'_> {
         }
         let at = chain.cells[robot];
         let mut list = Vec::new();
-        for step in Step::ALL {
+        for step in chain.order {
             self.looked_at += 1;
             if self.looked_at > self.most {
                 return Err(TooMany);

@@ -9,7 +9,7 @@ use tautline_kernel::ground::Step;
 
 use super::bounds::Bounds;
 use super::game::{MOVES_OF_A_CELL, left_out, words_of_end};
-use super::invariant::Invariant;
+use super::invariant::{Invariant, holds_in_any_order, meet_unblocked};
 use super::plain::{PlainChain, PlainIntent};
 use crate::engine::tree::Game;
 use crate::engine::world::{Turn, World};
@@ -24,7 +24,8 @@ pub(super) struct PlainGame {
 impl PlainGame {
     pub(super) fn new(bounds: &Bounds) -> Result<Self, SetupError> {
         let Bounds { observed, robots, base, .. } = *bounds;
-        let plain = PlainChain::new(observed.rule, robots, base, bounds.reach()?);
+        let plain =
+            PlainChain::new(observed.rule, robots, base, bounds.reach()?).that_prefers(observed.order);
         let start = plain.under(observed.readings).ok_or(SetupError::BaseOutside(base))?;
         Ok(Self { bounds: bounds.clone(), start })
     }
@@ -62,8 +63,14 @@ impl World for PlainGame {
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Invariant> {
-        let is_in = |demand: &Invariant| {
-            demand.breach().is_some_and(|breach| breach.is_in(turn.before.cells(), turn.after.cells()))
+        let (before, after) = (turn.before.cells(), turn.after.cells());
+        let steps = turn.plan.steps().unwrap_or_default();
+        let passes = |robot: usize| before[robot] != after[robot] || steps[robot] == Step::Stay;
+        let is_in = |demand: &Invariant| match demand {
+            Invariant::Without(breach) => breach.is_in(before, after),
+            Invariant::AnyOrder => !holds_in_any_order(before, after),
+            Invariant::Meets => meet_unblocked(before, after, passes),
+            _ => false,
         };
         self.bounds.invariants.iter().copied().filter(is_in).collect()
     }

@@ -15,6 +15,8 @@ conditions! {
         InARow,
         /// The null move stands at the end of the leader's list.
         NullLast,
+        /// A candidate of the leader outside E_C of the robot behind gets its virtual obstacle when it is examined.
+        OnceExamined,
         /// Of the leader's candidates those alone get a virtual obstacle for which followers were sought in vain.
         Unfollowed,
         /// A follower has no candidate where no unexplored cell can be walked to.

@@ -2,7 +2,7 @@
 //! conditions can express, done to a mutant on the way from the rule to the check.
 
 use tautline_kernel::chain::{Budget, Condition, Habit, High, Pursuit, Rule};
-use tautline_kernel::ground::Circle;
+use tautline_kernel::ground::{Circle, Step};
 
 use super::readings::Readings;
 use crate::clause::NamedRule;
@@ -43,6 +43,8 @@ pub struct Subject {
     pub deception: Deception,
     /// The readings that it follows, of those that no rule expresses.
     pub readings: Readings,
+    /// The order of equal candidates.
+    pub order: [Step; 5],
 }
 
 impl Subject {
@@ -66,12 +68,13 @@ impl Subject {
 
     /// A chain that follows the rule that it claims to follow.
     pub const fn honest(rule: Rule) -> Self {
-        Self { rule, intended: rule, deception: Deception::None, readings: Readings::of(&[]) }
+        let (deception, readings, order) = (Deception::None, Readings::of(&[]), Step::ALL);
+        Self { rule, intended: rule, deception, readings, order }
     }
 
     /// Whether it follows a reading that no rule expresses.
     pub(super) fn has_readings(&self) -> bool {
-        self.readings != Readings::of(&[])
+        self.readings != Readings::of(&[]) || self.order != Step::ALL
     }
 
     /// It, which claims what it claims, but follows `rule`.
