@@ -233,8 +233,8 @@ tuple!(A B C D E F);
 /// compact! { enum State { Idle, Waits(u8), Serves { robot: u8 } } }
 /// ```
 ///
-/// An enum that it makes is `Clone`, `Eq`, `Ord`, `Hash` and `Debug`; one without fields is `Copy`, too. A variant of an
-/// enum that it makes has at most three fields without a name.
+/// An enum that it makes is `Clone`, `Eq`, `Ord`, `Hash` and `Debug`; one without fields is `Copy`, too. Its variants
+/// have at most three fields without a name.
 #[macro_export]
 macro_rules! compact {
     ($(#[$about:meta])* $vis:vis enum $name:ident { $($variant:ident),* $(,)? }) => {
