@@ -210,14 +210,16 @@ fn arrows_run_one_way_and_files_and_lines_are_short() {
             assert!(is_listed, "no line says who may import the room {room} of {part}");
         }
     }
+    let mut faults = Vec::new();
     for folder in FOLDERS.into_iter().filter(|folder| path(folder).exists()) {
         for (file, text) in sources(folder) {
             let (file, lines) = (format!("{folder}/{file}"), text.lines().count());
             assert!(lines <= MOST_LINES, "{file} has {lines} lines");
-            let faults = (1..).zip(text.lines()).filter_map(|(line, text)| Some((line, fault(text)?)));
-            assert_eq!(faults.collect::<Vec<(u32, _)>>(), [], "{file}");
+            let lines = (1_u32..).zip(text.lines());
+            faults.extend(lines.filter_map(|(line, text)| Some(format!("{file}:{line}: {}", fault(text)?))));
         }
     }
+    assert!(faults.is_empty(), "{faults:#?}");
 }
 
 #[test]

@@ -58,8 +58,8 @@ macro_rules! bound {
 }
 
 /// Makes the demands of a [`Protocol`](crate::protocol::Protocol), in its block, each by the name of a function of
-/// [`Demand`](crate::protocol::Demand): `demands! { eventually "all are there", |rule, here, state| state.0; }`. The last
-/// `;` may be left out.
+/// [`Demand`](crate::protocol::Demand): `demands! { eventually "all are there", |rule, here, state| state.0; }`. The
+/// last `;` may be left out.
 #[macro_export]
 macro_rules! demands {
     ($($when:ident $words:expr, $asked:expr);+ $(;)?) => {

@@ -5,8 +5,8 @@ use super::rule::Rule;
 use super::world::{Event, TeamWorld};
 
 impl<R: Rule> TeamWorld<'_, R> {
-    /// What happened in a step, such as `robot 0 dies`; nothing where all robots act in each step and no message is
-    /// lost. Robots count from 0.
+    /// The words for a step, such as `robot 0 dies`; none where all robots act in each step and no message is lost.
+    /// Robots count from 0.
     pub fn title(&self, event: &Event) -> String {
         let Event { died, looked, lost, .. } = event;
         if let Some(robot) = died {

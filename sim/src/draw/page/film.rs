@@ -268,7 +268,7 @@ pub struct Told<'a> {
     /// The clauses that it breaks, with lines about how.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub broken: Vec<(&'static str, Vec<String>)>,
-    /// What the steps cannot show.
+    /// The words for what the steps cannot show.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub title: &'a str,
     /// Whether it comes again and again.
