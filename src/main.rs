@@ -79,7 +79,7 @@ const FIRST_STEPS: &str = "\
 Tautline decides what published rules for robot teams promise, and plays what breaks them.
 
 Begin with one of these:
-  tautline prove                           every verdict on one screen (a minute or two)
+  tautline prove                           every verdict on one screen (1 to 3 minutes)
   tautline hunt --rule published --max-cells 10 --max-walls 13 --out found
                                            the smallest runs that break a chain of robots
   tautline replay found/chain-1-published-n4.jsonl --html run.html
