@@ -263,7 +263,7 @@ impl Trial<'_> {
             robots: starts.len(),
             size: [layout.size().width(), layout.size().height()],
             starts,
-            numbered_from: Some(scheme.look.first_number()).filter(|&first| first != 1),
+            numbered_from: trace::numbered_from(scheme.look),
         });
         let made = run.play(&mut |made| {
             self.compare(made)?;
@@ -322,8 +322,7 @@ impl Trial<'_> {
 
     fn compare(&mut self, made: &TeamMove<'_>) -> Result<(), Halt> {
         let plan = self.asked(made.step, made.before)?;
-        let numbers = (self.first_number()..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
-        self.blocked = numbers.map(|(robot, _)| robot).collect();
+        self.blocked = trace::blocked_numbers(made.frame, self.first_number());
         let theirs = plan.map(|(steps, kind)| self.frame(made, steps, kind.unwrap_or(made.frame.kind)));
         let model = StoredPlan::of(made.frame);
         let program = theirs.as_ref().map(StoredPlan::of);

@@ -34,9 +34,8 @@ use tautline_grids::layout::Layout;
 pub use foreign::ForeignRun;
 pub(crate) use foreign::Player;
 pub use summary::Summary;
-pub(crate) use team_move::numbered_from;
 use team_move::one_line;
-pub use team_move::{StoredMove, letter, step, steps};
+pub use team_move::{StoredMove, blocked_numbers, letter, numbered_from, step, steps};
 
 /// The header of a run that this program can make again.
 type KnownHeader = Header<Limits>;

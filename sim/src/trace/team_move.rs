@@ -46,11 +46,7 @@ impl StoredMove {
             step: *step,
             kind: frame.kind,
             tried: frame.steps.iter().map(|&step| letter(step)).collect(),
-            blocked: (numbered_from.unwrap_or(1)..)
-                .zip(&frame.blocked)
-                .filter(|&(_, &blocked)| blocked)
-                .map(|(robot, _)| robot)
-                .collect(),
+            blocked: blocked_numbers(frame, numbered_from.unwrap_or(1)),
             cells: frame.cells.clone(),
             title: team.title().filter(|_| is_titled).map_or_else(String::new, one_line),
             again: is_titled && team.comes_again(),
@@ -125,8 +121,14 @@ impl StoredMove {
 }
 
 /// The number of the first robot that a header tells, if robots do not count from 1.
-pub(crate) fn numbered_from(look: Look) -> Option<usize> {
+pub fn numbered_from(look: Look) -> Option<usize> {
     Some(look.first_number()).filter(|&first| first != 1)
+}
+
+/// The numbers of the robots that met a wall, of which the first robot has the number `first`.
+pub fn blocked_numbers(frame: &Frame, first: usize) -> Vec<usize> {
+    let numbers = (first..).zip(&frame.blocked).filter(|&(_, &blocked)| blocked);
+    numbers.map(|(robot, _)| robot).collect()
 }
 
 /// `words` in one line.
