@@ -1,17 +1,18 @@
-//! Exploration: a scheme is a row in the [`catalogue`], a [`Setup`] is a run of it before its start, and [`explore`]
+//! Exploration: a scheme is a row in the [`Catalogue`], a [`Setup`] is a run of it before its start, and [`explore`]
 //! makes the run. Every team move becomes a [`Frame`](tautline_proofs::run::Frame) and is checked for the sentences of
 //! `SPEC.md` that the scheme is bound to. A team that is in no catalogue is run by [`run`].
 
 pub mod agents;
 pub mod ants;
+mod bounds;
 pub mod bricks;
 mod by_layout;
-pub mod catalogue;
+mod catalogue;
 pub mod chain;
 mod clause;
 mod connectivity;
-mod course;
 pub mod depth_first;
+mod features;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;
@@ -25,27 +26,30 @@ mod rule;
 mod run;
 mod scan_time;
 mod scene;
+mod scheme;
 mod script;
 mod setup;
 mod states;
+mod survey;
+mod switches;
+mod team;
 
-pub use self::catalogue::{
-    By, Catalogue, Completeness, Knowledge, Look, Profile, RandomPart, Scheme, Senses, Starts,
-};
-pub use self::clause::{Clause, ClauseId};
+pub use self::clause::ClauseId;
 pub use self::connectivity::{has_double, unlinked};
-pub use self::course::{Course, CourseMove};
+pub use self::features::{By, Completeness, Knowledge, Look, RandomPart, Senses, Starts};
 pub use self::own::Own;
 pub use self::own_rule::OwnRule;
-pub use self::rule::{Rule, RuleId, RuleName, Start, Switches};
+pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
-    End, Limits, Milestone, OnViolation, Reach, Report, StopReason, Surroundings, Survey, Team, TeamMove,
-    Violation, Watcher, run,
+    Course, CourseMove, Limits, Milestone, OnViolation, Report, StopReason, TeamMove, Violation, Watcher, run,
 };
 pub use self::scene::{
     Change, Hearers, Ink, Joins, Kind, Layer, Mark, Place, Refusal, Scene, Shape, Value, Zone,
 };
-pub use self::setup::{ExplorationRequest, Play, Setup, explore, team};
+pub use self::scheme::{Catalogue, Clause, Profile, Rule, Scheme, Setup, Start, Switches, WriteCase};
+pub use self::setup::{ExplorationRequest, Play, explore, team};
+pub use self::survey::Survey;
+pub use self::team::{End, Reach, Surroundings, Team};
 
 tautline_io::written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }
 
@@ -61,3 +65,14 @@ pub const SCHEMES: &[&Profile] = &[
     &frontier::FRONTIER,
     &pack::PACK,
 ];
+
+impl Catalogue {
+    /// The schemes of this library and no others.
+    pub const OWN: Self = Self(&[SCHEMES]);
+}
+
+impl From<&'static Profile> for Scheme {
+    fn from(row: &'static Profile) -> Self {
+        Self { row, among: Catalogue::OWN }
+    }
+}

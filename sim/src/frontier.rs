@@ -10,13 +10,14 @@ mod allowance;
 mod assignment;
 mod chart;
 mod field;
+mod place;
 mod radio;
 mod team;
 mod waves;
 
 pub use allowance::Allowance;
 pub use assignment::{AssignedTeam, Assignment};
-pub use radio::cell_at;
+pub use place::cell_at;
 pub use team::Explorers;
 
 use tautline_kernel::chain::Kind;

@@ -17,8 +17,8 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
-pub use self::film::in_words;
 use self::film::{Board, EndBreach, Film, Share, Told, again, notes, outcome};
+pub use self::film::{in_words, place_of};
 use crate::explore::{
     Change, ClauseId, Hearers, Layer, Look, Mark, Place, Play, Report, Scene, Survey, TeamMove,
 };
@@ -385,11 +385,6 @@ impl Line {
         open.sort_unstable();
         text + &known(true, &open) + &known(false, &blocked) + &puts.text() + &said
     }
-}
-
-/// The number of a cell, row by row.
-pub fn place_of(area: Area, cell: Cell) -> Option<u32> {
-    area.place(cell).map(|place| place as u32)
 }
 
 /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern

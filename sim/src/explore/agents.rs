@@ -15,13 +15,12 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight, unseen};
 use tautline_proofs::run::Frame;
 
-use super::catalogue::{By, Completeness, Look, Profile, RandomPart, Senses};
-use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, is_visited};
-use super::run::{End, Surroundings, Survey, Team};
 use super::scan_time;
-use super::scene::{Layer, Scene};
-use super::setup::Setup;
+use super::{
+    By, ClauseId, Completeness, End, Layer, Look, Profile, RandomPart, Scene, Senses, Setup, Surroundings,
+    Survey, Team,
+};
 use tautline_grids::chance::{Dice, Probability};
 use tautline_grids::layout::Layout;
 

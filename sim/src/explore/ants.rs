@@ -4,9 +4,8 @@ use tautline_kernel::ants::Rule as Ants;
 use tautline_kernel::floor::SensorFate::{Beside, Counted};
 
 use super::agents::AGENTS;
-use super::catalogue::{Knowledge, Profile};
 use super::hunt_states::crew;
-use super::rule::{Rule, RuleId};
+use super::{Knowledge, Profile, Rule, RuleId};
 
 /// Agents on a sensor floor that go where they have been least; they never know that they are done.
 pub static ANTS: Profile = Profile {

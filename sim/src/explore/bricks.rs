@@ -10,13 +10,9 @@ use tautline_proofs::judge::floor::{self, Judgement};
 use tautline_proofs::plural::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, unvisited};
-use super::catalogue::{Knowledge, Profile};
-use super::clause::Clause;
 use super::hunt_states::{crew, switched};
 use super::judge_input::of_agent;
-use super::rule::{Rule, RuleId};
-use super::run::{Survey, TeamMove};
-use super::setup::Setup;
+use super::{Clause, Knowledge, Profile, Rule, RuleId, Setup, Survey, TeamMove};
 
 const ALONE: Bricks = Bricks::PUBLISHED.with(Condition::Alone);
 const BESIDE: Bricks = Bricks { replaced: SensorFate::Beside, ..Bricks::PUBLISHED };

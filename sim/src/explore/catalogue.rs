@@ -1,33 +1,21 @@
-//! A scheme as a row of data, and the catalogue of schemes: a list of rows that a program puts together, and what is
-//! looked up in it by a word.
+//! The catalogue of schemes: a list of rows that a program puts together, and what is looked up in it by a word.
 
 use std::collections::BTreeMap;
-use std::fmt;
-use std::ops::{Deref, RangeInclusive};
+use std::ops::Deref;
 use std::sync::{Mutex, PoisonError};
 
 use serde::{Serialize, Serializer};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::judge::Case;
-use tautline_proofs::run::Frame;
 
-use super::SCHEMES;
-use super::clause::{Clause, ClauseId, kept};
-use super::rule::{Rule, RuleId};
-use super::setup::Setup;
+use super::clause::kept;
+use super::{
+    By, Catalogue, Clause, ClauseId, Completeness, Look, Profile, Rule, RuleId, Scheme, Senses, Setup, Starts,
+};
 use crate::kit;
-use crate::options::Extra;
 use tautline_grids::layout::Layout;
 
-/// The schemes that a program knows, in lists behind each other.
-#[derive(Clone, Copy, Debug)]
-pub struct Catalogue(pub &'static [&'static [&'static Profile]]);
-
 impl Catalogue {
-    /// The schemes of this library and no others.
-    pub const OWN: Self = Self(&[SCHEMES]);
-
     /// All schemes.
     pub fn schemes(self) -> impl Iterator<Item = Scheme> {
         self.0.iter().copied().flatten().map(move |row| Scheme { row, among: self })
@@ -95,14 +83,6 @@ impl Catalogue {
 fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = known.map(|known| format!("`{known}`")).collect();
     format!("unknown variant `{name}`, expected one of {}", quoted.join(", "))
-}
-
-/// A scheme, and the catalogue that it is chosen from.
-#[derive(Clone, Copy)]
-pub struct Scheme {
-    row: &'static Profile,
-    /// That catalogue.
-    pub among: Catalogue,
 }
 
 /// The rows of schemes that are in no catalogue, by their names: files name few, and they are kept as long as the
@@ -183,12 +163,6 @@ impl Scheme {
     }
 }
 
-impl From<&'static Profile> for Scheme {
-    fn from(row: &'static Profile) -> Self {
-        Self { row, among: Catalogue::OWN }
-    }
-}
-
 impl Deref for Scheme {
     type Target = Profile;
 
@@ -205,196 +179,10 @@ impl PartialEq for Scheme {
 
 impl Eq for Scheme {}
 
-impl fmt::Debug for Scheme {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.row.fmt(f)
-    }
-}
-
 impl Serialize for Scheme {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.row.serialize(serializer)
     }
-}
-
-/// A scheme: a way for a team to explore. Whatever is not the scheme's own asks this row.
-pub struct Profile {
-    /// The word for it on the command line and in files.
-    pub name: &'static str,
-    /// One line about it.
-    pub about: &'static str,
-    /// Its rules.
-    pub rules: &'static [Rule],
-    /// The noun for its team.
-    pub team: &'static str,
-    /// How many robots a team can have, the base counted if there is one.
-    pub robots: RangeInclusive<usize>,
-    /// Where its robots start.
-    pub starts: Starts,
-    /// How its robots learn of the layout.
-    pub senses: Senses,
-    /// The options that a run of it can be told.
-    pub extras: &'static [&'static Extra],
-    /// Why an option has no effect in a run, and what would be right, if it has none.
-    pub needless: fn(&Setup, &Extra) -> Option<(&'static str, &'static str)>,
-    /// Whether a program that is told where robots are and what they bump into, or the open sides around them on a
-    /// sensor floor, can plan as they do.
-    pub told: Completeness,
-    /// The things that its runs draw by their seed.
-    pub drawn: &'static [RandomPart],
-    /// How its team is drawn.
-    pub look: Look,
-    /// The knowledge that its team has of a sensor floor, if it is on one.
-    pub knowledge: Option<Knowledge>,
-    /// The clauses that its runs can break, in order.
-    pub clauses: &'static [Clause],
-    /// How its runs are written down for a judge.
-    pub case: WriteCase,
-}
-
-/// Writes down a run of these team moves that is said to break a clause; `None` if no judge reads it.
-pub type WriteCase = fn(&Setup, ClauseId, &[Frame]) -> Option<Box<dyn Case>>;
-
-/// Where the robots of a team start.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Starts {
-    /// All of them at the base.
-    Base,
-    /// Each in any free cell.
-    Anywhere,
-    /// Each in any free cell: without another word as repaired the first one at the base and the others beside it, and
-    /// else all at the base.
-    Beside,
-    /// Each in a free cell of its own: without another word the first one at the base, and the others beside it.
-    Alone,
-}
-
-/// Something that runs of a scheme draw by their seed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct RandomPart {
-    /// Its name in words.
-    pub what: &'static str,
-    /// In which runs it is drawn.
-    pub by: By,
-}
-
-/// In which runs something is drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum By {
-    /// In all.
-    Every,
-    /// Where sensors are missed by chance.
-    Miss,
-    /// Where this is told.
-    Told(&'static Extra),
-    /// In those of this rule.
-    Rule(RuleId),
-}
-
-impl RandomPart {
-    /// Whether it is drawn in a run.
-    fn is_in(&self, setup: &Setup) -> bool {
-        match self.by {
-            By::Every => true,
-            By::Miss => !setup.miss.is_never(),
-            By::Told(extra) => extra.is_told_by(&setup.options),
-            By::Rule(rule) => rule == setup.rule,
-        }
-    }
-}
-
-/// Says what is drawn, and by which field.
-impl fmt::Display for RandomPart {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, by } = self;
-        match by {
-            By::Every => f.write_str(what),
-            By::Miss => write!(f, "{what}, with `miss`"),
-            By::Told(extra) => write!(f, "{what}, with `{}`", extra.field),
-            By::Rule(rule) => write!(f, "{what}, with `rule` {rule}"),
-        }
-    }
-}
-
-/// How a team is drawn and told of.
-#[derive(Clone, Copy, Debug)]
-pub enum Look {
-    /// The first robot is the base, the last one leads, and those beside each other in their order have a link.
-    Linked {
-        /// Whether the link of two robots is lost that go from the first to the second of these pairs of cells.
-        is_lost: fn(&[Cell], &[Cell]) -> bool,
-    },
-    /// The first robot is the base, and links join the robots in a tree.
-    Tree {
-        /// Whether robots in these cells have a link.
-        is_linked: fn(Cell, Cell) -> bool,
-    },
-    /// Every robot is an agent for itself.
-    Apart,
-    /// Every robot is an agent for itself, and is called a robot.
-    Robots,
-    /// The robots of a rule of one's own, which have the numbers that the rule gives them: from 0.
-    Own,
-}
-
-impl Look {
-    /// Whether the first robot is the base.
-    pub const fn has_base(self) -> bool {
-        match self {
-            Self::Linked { .. } | Self::Tree { .. } => true,
-            Self::Apart | Self::Robots | Self::Own => false,
-        }
-    }
-
-    /// The number of the first robot.
-    pub const fn first_number(self) -> usize {
-        match self {
-            Self::Linked { .. } | Self::Tree { .. } | Self::Apart | Self::Robots => 1,
-            Self::Own => 0,
-        }
-    }
-
-    /// The robots whose link with the next one is lost when all go from the first to the second of these cells.
-    pub fn lost(self, before: &[Cell], after: &[Cell]) -> Vec<u32> {
-        let Self::Linked { is_lost } = self else { return Vec::new() };
-        let pairs = (0..).zip(before.windows(2).zip(after.windows(2)));
-        pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot).collect()
-    }
-
-    /// The noun for a robot.
-    pub const fn robot(self) -> &'static str {
-        match self {
-            Self::Linked { .. } | Self::Tree { .. } | Self::Robots | Self::Own => "robot",
-            Self::Apart => "agent",
-        }
-    }
-}
-
-/// The knowledge that agents have of a sensor floor in the end.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Knowledge {
-    /// Nothing: whoever watches them ends the run.
-    None,
-    /// Which cells are visited, and when they are done.
-    Visited,
-}
-
-/// How robots learn of a layout.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Senses {
-    /// A robot knows the edges that were tried. What no robot met can go, and the run stays the same.
-    Bumps,
-    /// Agents read sensors on the floor, and may miss some.
-    Floor,
-}
-
-/// How much of what robots learn their cells, their bumps and the open sides around them are.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Completeness {
-    /// All of it.
-    All,
-    /// Not all: robots also see cells farther away, hear messages, or act in an order that is drawn.
-    Part,
 }
 
 impl Profile {
@@ -416,7 +204,12 @@ impl Profile {
 
     /// Whether a run of it draws anything: whether its seed has an effect.
     pub fn draws(&self, setup: &Setup) -> bool {
-        self.drawn.iter().any(|drawn| drawn.is_in(setup))
+        self.drawn.iter().any(|drawn| match drawn.by {
+            By::Every => true,
+            By::Miss => !setup.miss.is_never(),
+            By::Told(extra) => extra.is_told_by(&setup.options),
+            By::Rule(rule) => rule == setup.rule,
+        })
     }
 
     /// Where `robots` of this rule start in `layout` of which nobody says where, if not all start at the base.
@@ -472,11 +265,5 @@ impl Eq for Profile {}
 impl Serialize for Profile {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name)
-    }
-}
-
-impl fmt::Debug for Profile {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name)
     }
 }

@@ -2,6 +2,7 @@
 //! how its clauses are told.
 
 mod areas;
+mod bounds;
 pub mod hunt;
 mod layers;
 mod team;
@@ -15,15 +16,15 @@ use tautline_proofs::judge::Case;
 use tautline_proofs::judge::chain::judges;
 use tautline_proofs::plural::counted;
 
+use self::bounds::team_fault;
 use self::hunt::Walls;
 use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH, HEARD};
-use super::catalogue::{By, Completeness, Look, Profile, RandomPart, Starts};
-use super::clause::Clause;
 use super::judge_input::judge_input;
-use super::rule::{Rule, RuleId, SwitchableRule};
-use super::run::{Team, TeamMove};
-use super::setup::Setup;
+use super::switches::SwitchableRule;
+use super::{
+    By, Clause, Completeness, Look, Profile, RandomPart, Rule, RuleId, Setup, Starts, Team, TeamMove,
+};
 use crate::options::Extra;
 use tautline_grids::heap_grid::HeapGrid;
 
@@ -99,7 +100,7 @@ fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Diagnostic> 
         9..=32 => begin::<_, 32>(setup, rule, MediumGrid::new),
         _ => begin::<_, MAX_ROBOTS>(setup, rule, |area| Some(HeapGrid::new(area))),
     }
-    .map_err(fault)
+    .map_err(team_fault)
 }
 
 fn begin<G: Grid + Clone + 'static, const ROBOTS: usize>(
@@ -112,19 +113,6 @@ fn begin<G: Grid + Clone + 'static, const ROBOTS: usize>(
     let grid = grid(area).ok_or(SetupError::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
     Ok(Box::new(ChainTeam::new(setup, chain)))
-}
-
-/// The fault of a chain that is refused.
-fn fault(refused: SetupError) -> Diagnostic {
-    match refused {
-        SetupError::TooFewRobots(_) | SetupError::TooManyRobots { .. } => {
-            let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
-            Diagnostic::of_field("robots", refused, remedy)
-        }
-        SetupError::BaseOutside(_) => {
-            Diagnostic::of_field("base", refused, "give `base` a free cell of the layout")
-        }
-    }
 }
 
 /// The neighbours in the chain that are out of contact.

@@ -1,4 +1,4 @@
-//! A clause that a run can break: its id, whoever wrote it, and how a scheme tells of it.
+//! The id of a clause that a run can break, whoever wrote it.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -8,9 +8,6 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Deserialize, Deserializer, Serialize};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::ledger;
-
-use super::run::{Survey, TeamMove};
-use super::setup::Setup;
 
 /// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by
 /// number, so that `CHAIN-2` comes before `CHAIN-12`.
@@ -101,24 +98,6 @@ impl From<Breach> for ClauseId {
 impl PartialEq<Breach> for ClauseId {
     fn eq(&self, breach: &Breach) -> bool {
         self.0 == breach.clause()
-    }
-}
-
-/// A clause that a run can break.
-#[derive(Clone, Copy, Debug)]
-pub struct Clause {
-    /// Its id.
-    pub id: ClauseId,
-    /// How a team move breaks it, one line for each pair or cell.
-    pub lines: fn(&Setup, &Survey, &TeamMove<'_>) -> Vec<String>,
-    /// If it is about the end of a run: what the cells are that are missed.
-    pub missed: Option<&'static str>,
-}
-
-impl Clause {
-    /// The clause with this id, of which the words of the clause itself tell enough.
-    pub const fn new(id: &'static str) -> Self {
-        Self { id: ClauseId::new(id), lines: |_, _, _| Vec::new(), missed: None }
     }
 }
 

@@ -5,9 +5,8 @@ use tautline_kernel::bricks::tree::Rule as Trees;
 use tautline_proofs::bricks::tree::mdfs::Mdfs;
 
 use super::bricks::MARKING;
-use super::catalogue::Profile;
 use super::hunt_states::{crew, switched};
-use super::rule::{Rule, RuleId};
+use super::{Profile, Rule, RuleId};
 
 /// Multiple depth first search.
 pub static MDFS: Profile = Profile {

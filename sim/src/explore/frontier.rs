@@ -1,46 +1,22 @@
-//! Frontier cells (Rajesh, Nagaraja and Suja 2024): their row, and their teams: the kernel's robots, rivals that assign
-//! cells, and runs that a search has found.
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024): their row, and the start of their teams.
 
 mod hunt;
 mod layers;
 mod scripted;
-
-use std::collections::BTreeSet;
+mod team;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::frontier::{Condition, Rule as Frontier};
-use tautline_kernel::ground::Cell;
 use tautline_kernel::position::Odometry;
-use tautline_proofs::run::Frame;
 
 use self::hunt::{KernelHunt, RivalHunt};
-use super::catalogue::{By, Look, Profile, RandomPart, Starts};
-use super::clause::{Clause, ClauseId, broken};
-use super::connectivity::has_double;
-use super::rule::{Rule, RuleId, SwitchableRule};
-use super::run::{End, Surroundings, Survey, Team};
-use super::scene::{Layer, Scene};
-use super::setup::Setup;
-use crate::frontier::{Allowance, AssignedTeam, Assignment, Explorers, TeamEnd};
-use crate::objects::ObjectReport;
+pub use self::team::{ALONE, COVERS, ENDS, KNOWS, MARKS};
+use self::team::{Who, team};
+use super::switches::SwitchableRule;
+use super::{By, Clause, Look, Profile, RandomPart, Rule, RuleId, Setup, Starts, Team};
+use crate::frontier::{Allowance, AssignedTeam, Assignment, Explorers};
 use crate::options::{Extra, Options};
 use tautline_grids::chance::Dice;
-use tautline_grids::layout::Layout;
-
-/// The run ends, and a cell in reach is unexplored.
-pub const COVERS: ClauseId = ClauseId::new("FRONTIER-1");
-
-/// Two robots are in one cell.
-pub const ALONE: ClauseId = ClauseId::new("FRONTIER-2");
-
-/// The run goes on for ever.
-pub const ENDS: ClauseId = ClauseId::new("FRONTIER-3");
-
-/// The run ends, and a robot does not know it.
-pub const KNOWS: ClauseId = ClauseId::new("FRONTIER-4");
-
-/// A robot notes of a cell what is not so.
-pub const MARKS: ClauseId = ClauseId::new("FRONTIER-5");
 
 /// The rule without preferences.
 const PLAIN: RuleId = RuleId::new("plain");
@@ -120,22 +96,6 @@ pub static FRONTIER: Profile = Profile {
     ..Profile::named("frontier")
 };
 
-/// Who explores.
-enum Who {
-    Robots(Box<Explorers>),
-    Assigned(Box<AssignedTeam>),
-}
-
-struct FrontierTeam {
-    who: Who,
-    /// Cells in reach of a start.
-    due: Vec<Cell>,
-    /// Those of them that no robot was in.
-    left: BTreeSet<Cell>,
-    /// How it has ended.
-    ended: Option<TeamEnd>,
-}
-
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     setup.refuse_walls("frontier cells", "cells:6x7:0.1")?;
@@ -181,13 +141,6 @@ fn needless(setup: &Setup, extra: &Extra) -> Option<(&'static str, &'static str)
     }
 }
 
-fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
-    let starts = setup.starts();
-    let due = setup.layout.reachable(&starts);
-    let left = due.iter().copied().filter(|cell| !starts.contains(cell)).collect();
-    Box::new(FrontierTeam { who, due, left, ended: None })
-}
-
 /// Refuses a floor on which a robot would stand too long, before the run.
 fn allowed(setup: &Setup, rule: &Frontier) -> Result<(), Diagnostic> {
     let allowance = Allowance::new(&setup.options, setup.layout.size().area());
@@ -211,80 +164,3 @@ fn allowed(setup: &Setup, rule: &Frontier) -> Result<(), Diagnostic> {
 
 /// The most team moves that a robot may have to stand in its worst cell.
 const MOST_STOPS: u32 = 100;
-
-impl Team for FrontierTeam {
-    fn cells(&self) -> &[Cell] {
-        match &self.who {
-            Who::Robots(robots) => robots.cells(),
-            Who::Assigned(robots) => robots.cells(),
-        }
-    }
-
-    fn advance(&mut self, _: &mut dyn Surroundings) -> Result<Frame, End> {
-        let made = match &mut self.who {
-            Who::Robots(robots) => robots.advance(),
-            Who::Assigned(robots) => robots.advance(),
-        };
-        if let Ok(frame) = &made {
-            for cell in &frame.cells {
-                self.left.remove(cell);
-            }
-        }
-        made.map_err(|ended| {
-            self.ended = Some(ended);
-            match ended {
-                TeamEnd::Known if self.left.is_empty() => End::Explored,
-                TeamEnd::Known | TeamEnd::Still => End::Exhausted,
-                TeamEnd::Endless => End::Endless,
-                TeamEnd::Idle => End::Idle,
-            }
-        })
-    }
-
-    fn due(&self, _: &Layout) -> u32 {
-        self.due.len() as u32
-    }
-
-    fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
-        chart.unexplored(self.due.iter().copied())
-    }
-
-    fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
-        let is_double = has_double(&frame.cells);
-        let is_wrong = match &self.who {
-            Who::Robots(robots) => robots.is_wrong(),
-            Who::Assigned(_) => false,
-        };
-        broken([(is_double, ALONE), (is_wrong, MARKS)])
-    }
-
-    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
-        let is_endless = end == End::Endless;
-        let is_short = !is_endless && end != End::Idle && !self.missed(layout, chart).is_empty();
-        let knows_not = self.ended == Some(TeamEnd::Still);
-        broken([(is_short, COVERS), (is_endless, ENDS), (knows_not, KNOWS)])
-    }
-
-    fn objects(&self) -> Vec<ObjectReport> {
-        match &self.who {
-            Who::Robots(robots) => {
-                robots.objects().iter().map(|(at, known)| ObjectReport::new(*at, known.as_ref())).collect()
-            }
-            Who::Assigned(_) => Vec::new(),
-        }
-    }
-
-    fn layers(&self) -> Vec<Layer> {
-        match &self.who {
-            Who::Robots(robots) => layers::layers(robots),
-            Who::Assigned(_) => layers::layers_of_assigned(),
-        }
-    }
-
-    fn show(&self, _: &[Cell], scene: &mut Scene) {
-        match &self.who {
-            Who::Robots(robots) => layers::show(robots, scene),
-            Who::Assigned(robots) => layers::show_assigned(robots, scene),
-        }
-    }
-}

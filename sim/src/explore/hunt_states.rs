@@ -8,10 +8,9 @@ use tautline_proofs::plural::counted;
 
 use super::agents::{self, PREMATURE};
 use super::by_layout::Each;
-use super::catalogue::Scheme;
 use super::hunt::{Bound, CoveredBound, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
-use super::rule::{RuleId, SwitchableRule};
-use super::setup::Setup;
+use super::switches::SwitchableRule;
+use super::{RuleId, Scheme, Setup};
 use tautline_grids::layout::{Layout, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.

@@ -12,9 +12,7 @@ use tautline_proofs::engine::world::World;
 use tautline_proofs::run::Frame;
 use tautline_proofs::team::{self, Promise, Rule, TeamStep, TeamWorld};
 
-use super::clause::ClauseId;
-use super::run::{End, Surroundings, Survey, Team};
-use super::scene::{Change, Scene};
+use super::{Change, ClauseId, End, Scene, Surroundings, Survey, Team};
 use tautline_grids::layout::Layout;
 
 /// A team that follows a rule of one's own in one layout.

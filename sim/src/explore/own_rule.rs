@@ -15,14 +15,12 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Ending, Run};
 use tautline_proofs::team::{Keeps, Places, Rule, Setting, Strategy};
 
-use super::hunt::setup as found_setup;
 use super::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize,
-    outcome,
+    outcome, setup as found_setup,
 };
 use super::own::Own;
-use super::run::Team;
-use super::setup::Setup;
+use super::{Setup, Team};
 
 /// A rule of one's own in its surroundings.
 pub struct OwnRule<R: Rule + 'static> {

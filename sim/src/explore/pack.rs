@@ -14,13 +14,12 @@ use tautline_kernel::pack::{
 use tautline_proofs::pack::{Moves, are_side_by_side};
 use tautline_proofs::run::Frame;
 
-use super::catalogue::{Profile, Starts};
-use super::clause::{Clause, ClauseId, broken};
-use super::connectivity::{has_double, unlinked};
-use super::rule::{Rule, RuleId, SwitchableRule};
-use super::run::{End, Surroundings, Survey, Team};
-use super::scene::{Layer, Scene};
-use super::setup::Setup;
+use super::clause::broken;
+use super::switches::SwitchableRule;
+use super::{
+    Clause, ClauseId, End, Layer, Profile, Rule, RuleId, Scene, Setup, Starts, Surroundings, Survey, Team,
+    has_double, unlinked,
+};
 use crate::options::Extra;
 use tautline_grids::layout::Layout;
 

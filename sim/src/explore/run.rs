@@ -2,8 +2,6 @@
 //! edges it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this
 //! program or not.
 
-use std::collections::BTreeMap;
-use std::fmt;
 use std::num::NonZeroU32;
 
 use schemars::JsonSchema;
@@ -11,162 +9,16 @@ use serde::{Deserialize, Serialize};
 use tautline_io::diagnostic::Halt;
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Area, Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::course::Course;
 use super::floor::Component;
-use super::scene::{Layer, Refusal, Scene};
+use super::survey::Survey;
+use super::team::{End, Surroundings, Team};
 use crate::failures::Failures;
 use crate::objects::ObjectReport;
 use tautline_grids::layout::Layout;
-
-/// The questions that a run asks of a team. Only where its robots are and how they make a team move is required.
-pub trait Team {
-    /// Where the robots are; if one of them is a base, it is the first.
-    fn cells(&self) -> &[Cell];
-
-    /// Makes one team move. `world` answers for every edge that is crossed
-    /// without being known, and what no layout knows.
-    ///
-    /// # Errors
-    /// [`End`] if the run is over.
-    fn advance(&mut self, world: &mut dyn Surroundings) -> Result<Frame, End>;
-
-    /// The cells of `layout` among which the team is to explore: all of them, unless it says otherwise.
-    fn area(&self, layout: &Layout) -> Area {
-        layout.size().area()
-    }
-
-    /// How many cells of `layout` the team is to explore: the free ones of its area, unless it says otherwise.
-    fn due(&self, layout: &Layout) -> u32 {
-        self.area(layout).cells().filter(|&cell| layout.is_free(cell)).count() as u32
-    }
-
-    /// How far the team comes in `layout`, if one with more robots came farther.
-    fn reach(&self, layout: &Layout) -> Option<Reach> {
-        let _ = layout;
-        None
-    }
-
-    /// The cells of `layout` that the team must have explored, or marked as visited, before it ends, and has not, as
-    /// `chart` shows. It must explore none, unless it says otherwise.
-    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        let _ = (layout, chart);
-        Vec::new()
-    }
-
-    /// The words for the last team move that its steps cannot show, such as that a robot has died.
-    fn title(&self) -> Option<&str> {
-        None
-    }
-
-    /// Whether the last team move is one of those that come again and again in a run that goes round for ever.
-    fn comes_again(&self) -> bool {
-        false
-    }
-
-    /// The clauses that the last team move broke; `before` is where the robots were.
-    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
-        let _ = (before, frame);
-        Vec::new()
-    }
-
-    /// The clauses that the end of the run breaks, in which the team has explored what is in `chart`.
-    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
-        let _ = (layout, chart, end);
-        Vec::new()
-    }
-
-    /// The marks of cells that the last team move has changed, in order.
-    fn marked(&self) -> &[(Cell, Mark)] {
-        &[]
-    }
-
-    /// The cells of the sensors that agents missed in the last team move, agent by agent.
-    fn unseen(&self) -> &[Cell] {
-        &[]
-    }
-
-    /// The parts of a sensor floor in which agents started; none for teams without one.
-    fn components(&self) -> &[Component] {
-        &[]
-    }
-
-    /// The cells besides those where its robots are that the last team move has explored, or before the first one the
-    /// start: none for teams that explore a cell by being in it.
-    fn seen(&self) -> &[Cell] {
-        &[]
-    }
-
-    /// How long the run has taken the slowest robot, where that is known.
-    fn milliseconds(&self) -> Option<u64> {
-        None
-    }
-
-    /// The steps that robots cannot take instead of theirs in the next team move, all others doing as they plan.
-    fn refusals(&self) -> Vec<Refusal> {
-        Vec::new()
-    }
-
-    /// The failures so far, in a run in which something is to fail.
-    fn failures(&self) -> Option<Failures> {
-        None
-    }
-
-    /// The objects that it has looked for, if it was to.
-    fn objects(&self) -> Vec<ObjectReport> {
-        Vec::new()
-    }
-
-    /// The layers that a page can show of the team beside its robots and the cells that they enter.
-    fn layers(&self) -> Vec<Layer> {
-        Vec::new()
-    }
-
-    /// Tells `scene` what the last team move has changed in [`layers`](Self::layers), whose robots were in the cells
-    /// `before`.
-    fn show(&self, before: &[Cell], scene: &mut Scene) {
-        let _ = (before, scene);
-    }
-}
-
-/// The answers to a team's questions. A function that knows which edges are open answers everything else as usual.
-pub trait Surroundings {
-    /// Whether robots can cross `edge`.
-    fn is_open(&mut self, edge: Edge) -> bool;
-
-    /// The place of the option that is chosen; `usual` is the one of the seed, or of the search that has found the run.
-    fn choose(&mut self, words: &str, options: &mut dyn FnMut() -> Vec<String>, usual: u32) -> u32;
-}
-
-impl<F: FnMut(Edge) -> bool> Surroundings for F {
-    fn is_open(&mut self, edge: Edge) -> bool {
-        self(edge)
-    }
-
-    fn choose(&mut self, _: &str, _: &mut dyn FnMut() -> Vec<String>, usual: u32) -> u32 {
-        usual
-    }
-}
-
-/// How far a team comes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Reach {
-    /// The cells within its reach.
-    pub cells: usize,
-    /// The cells that are connected with its start.
-    pub connected: usize,
-    /// The fewest robots that have all of those within reach.
-    pub robots: usize,
-}
-
-impl fmt::Debug for dyn Team + '_ {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.cells()).finish()
-    }
-}
 
 /// When a run is stopped before it ends by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
@@ -256,23 +108,6 @@ impl Milestone {
     pub const fn of(self, cells: u32) -> u32 {
         (cells as u64 * self.percent() as u64).div_ceil(100) as u32
     }
-}
-
-/// How a run ended by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum End {
-    /// Every cell of the area is explored.
-    Explored,
-    /// The cells that are left cannot be reached.
-    Exhausted,
-    /// The team goes round and round.
-    Endless,
-    /// Nothing new was found for so long that the team may go on for ever, or be slow.
-    Idle,
-    /// The robots that are left wait for one that is silent.
-    Silent,
-    /// The robots refuse what they have told each other.
-    Refused,
 }
 
 /// Why a run is over.
@@ -392,7 +227,7 @@ impl Report {
     }
 
     /// The report of the start: where the robots are is explored.
-    pub(super) fn new(team: &dyn Team, layout: &Layout) -> Self {
+    fn new(team: &dyn Team, layout: &Layout) -> Self {
         let mut report = Self {
             steps: 0,
             explored: 0,
@@ -412,7 +247,7 @@ impl Report {
     }
 
     /// Notes where the robots are, what they have seen, and what they have marked.
-    pub(super) fn note(&mut self, cells: &[Cell], seen: &[Cell], marked: &[(Cell, Mark)]) {
+    fn note(&mut self, cells: &[Cell], seen: &[Cell], marked: &[(Cell, Mark)]) {
         for &cell in cells.iter().chain(seen) {
             self.explored += u32::from(self.chart.enter(cell, self.steps));
         }
@@ -436,7 +271,7 @@ impl Report {
     }
 
     /// The run is over.
-    pub(super) fn end(&mut self, stopped: StopReason, team: &dyn Team) {
+    fn end(&mut self, stopped: StopReason, team: &dyn Team) {
         self.stopped = stopped;
         (self.team, self.components) = (team.cells().to_vec(), team.components().to_vec());
         (self.milliseconds, self.failures, self.objects) =
@@ -461,8 +296,84 @@ pub fn run(
     Ok(course.report)
 }
 
+/// A run that is made one team move at a time.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The report so far.
+    pub report: Report,
+    /// By robot, how many cells it has entered.
+    entered: Vec<u32>,
+}
+
+/// A team move that was made.
+#[derive(Clone, Debug)]
+pub struct CourseMove {
+    /// Where the robots were.
+    pub before: Vec<Cell>,
+    /// The steps that they made.
+    pub frame: Frame,
+    /// The clauses that were broken.
+    pub broken: Vec<ClauseId>,
+}
+
+impl Course {
+    /// The run of `team`, which is at its start, in `layout`.
+    pub fn new(team: &dyn Team, layout: &Layout) -> Self {
+        Self { report: Report::new(team, layout), entered: vec![0; team.cells().len()] }
+    }
+
+    /// Makes the next team move of the `team`, for which `world` answers; `None` if the run is over, and then the
+    /// report says why.
+    pub fn step(
+        &mut self,
+        team: &mut dyn Team,
+        layout: &Layout,
+        limits: Limits,
+        world: &mut dyn Surroundings,
+    ) -> Option<CourseMove> {
+        let report = &mut self.report;
+        if let Some(stopped) = limit(limits, report, &self.entered) {
+            report.end(stopped, team);
+            return None;
+        }
+        let before = team.cells().to_vec();
+        let frame = match team.advance(world) {
+            Ok(frame) => frame,
+            Err(end) => {
+                let stopped = match end {
+                    End::Explored => StopReason::Explored,
+                    End::Exhausted => StopReason::Exhausted,
+                    End::Endless => StopReason::Endless,
+                    End::Idle => StopReason::Idle,
+                    End::Silent => StopReason::Silent,
+                    End::Refused => StopReason::Refused,
+                };
+                let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
+                report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));
+                report.end(stopped, team);
+                return None;
+            }
+        };
+        report.steps += 1;
+        report.note(&frame.cells, team.seen(), team.marked());
+        for (count, (from, to)) in self.entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
+            *count += u32::from(from != to);
+        }
+        let broken = team.broken_in_move(&before, &frame);
+        let step = report.steps;
+        report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
+        Some(CourseMove { before, frame, broken })
+    }
+
+    /// The last team move of the `team`, as a watcher sees it.
+    pub fn team_move<'a>(&self, made: &'a CourseMove, team: &'a dyn Team) -> TeamMove<'a> {
+        let CourseMove { before, frame, broken } = made;
+        TeamMove { step: self.report.steps, before, frame, unseen: team.unseen(), broken, team }
+    }
+}
+
 /// Why the limits stop a run, if they do.
-pub(super) fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<StopReason> {
+fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<StopReason> {
     let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
     let is_broken = report.violations.iter().any(|broken| limits.violation.is_final(broken.clause));
     if is_broken {
@@ -473,75 +384,5 @@ pub(super) fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<
         Some(StopReason::MaxMoves)
     } else {
         None
-    }
-}
-
-/// Which cell was explored when, and how it was marked.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Survey {
-    area: Area,
-    /// Row by row: the team move, or `UNEXPLORED`.
-    steps: Vec<u32>,
-    /// The marks that cells have from a team move on; a cell that has none from before is as explored as `steps` says.
-    marks: BTreeMap<(Cell, u32), Mark>,
-}
-
-const UNEXPLORED: u32 = u32::MAX;
-
-impl Survey {
-    /// Nothing of `area` is explored.
-    fn new(area: Area) -> Self {
-        Self { area, steps: vec![UNEXPLORED; area.width() * area.height()], marks: BTreeMap::new() }
-    }
-
-    /// The cells that robots explore which are in those of `teams` at the start and after each team move.
-    pub fn of<'a>(area: Area, teams: impl IntoIterator<Item = &'a [Cell]>) -> Self {
-        let mut chart = Self::new(area);
-        for (step, team) in (0..).zip(teams) {
-            for &cell in team {
-                chart.enter(cell, step);
-            }
-        }
-        chart
-    }
-
-    /// The cells that it spans.
-    pub const fn area(&self) -> Area {
-        self.area
-    }
-
-    /// The team move in which `cell` was first occupied, 0 for the start; `None` if it never was.
-    pub fn step(&self, cell: Cell) -> Option<u32> {
-        self.area.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
-    }
-
-    /// Those of `cells` that were never occupied.
-    pub fn unexplored(&self, cells: impl IntoIterator<Item = Cell>) -> Vec<Cell> {
-        cells.into_iter().filter(|&cell| self.step(cell).is_none()).collect()
-    }
-
-    /// The mark of `cell` after team move number `step`.
-    pub fn mark(&self, cell: Cell, step: u32) -> Mark {
-        match self.marks.range((cell, 0)..=(cell, step)).next_back() {
-            Some((_, &mark)) => mark,
-            None if self.step(cell).is_some_and(|explored| explored <= step) => Mark::Explored,
-            None => Mark::Unexplored,
-        }
-    }
-
-    /// Notes that a robot is in `cell`; whether that is new.
-    fn enter(&mut self, cell: Cell, step: u32) -> bool {
-        let Some(place) = self.area.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
-            return false;
-        };
-        self.steps[place] = step;
-        true
-    }
-
-    /// Notes that `cell` has this mark from team move number `step` on.
-    fn put(&mut self, cell: Cell, step: u32, mark: Mark) {
-        if mark != self.mark(cell, step) {
-            self.marks.insert((cell, step), mark);
-        }
     }
 }

@@ -7,42 +7,13 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
-use super::catalogue::{RandomPart, Scheme, Senses, Starts};
-use super::clause::ClauseId;
-use super::rule::{Rule, RuleId};
-use super::run::{Limits, Report, Survey, Team, TeamMove, Watcher, run};
+use super::{
+    ClauseId, Limits, RandomPart, Report, Rule, RuleId, Scheme, Senses, Setup, Starts, Survey, Team,
+    TeamMove, Watcher, run,
+};
 use crate::options::{Extra, Options};
 use tautline_grids::chance::Probability;
 use tautline_grids::layout::Layout;
-
-/// A run before its start: what stands still while it goes on. The same setup makes the same run.
-#[derive(Clone, Debug)]
-pub struct Setup {
-    /// The scheme.
-    pub scheme: Scheme,
-    /// One of its rules.
-    pub rule: RuleId,
-    /// Robots, the base of a chain included.
-    pub robots: u16,
-    /// The seed of whatever is left to chance.
-    pub seed: u64,
-    /// The ground truth.
-    pub layout: Layout,
-    /// Where the robots start that have no start of their own: a free cell.
-    pub base: Cell,
-    /// Where each agent starts, if not all start at the base: free cells.
-    pub starts: Option<Vec<Cell>>,
-    /// How likely it is that an agent misses a sensor that it could see.
-    pub miss: Probability,
-    /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
-    pub missed: Vec<u32>,
-    /// The options that the run is told.
-    pub options: Options,
-    /// The choices that make the run, where a search has found it; else it is left to chance.
-    pub choices: Vec<u32>,
-    /// When the run is stopped.
-    pub limits: Limits,
-}
 
 impl Setup {
     /// A run of `scheme` in `layout` with a base, all robots starting there, nothing missed, and no limits.

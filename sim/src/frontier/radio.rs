@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use tautline_kernel::frontier::{Condition, DETOUR, HALF, Place, Rule, SIDE, clamped, midpoint};
+use tautline_kernel::frontier::{Condition, DETOUR, Place, Rule, SIDE, clamped, midpoint};
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_kernel::position::{
     self, Belief, Gate, Odometry, Parameters, Particle, Point, Range, Residual, SightError, Sighting, Signal,
     Swarm, SymmetricMatrix, best_three, linear, locate,
 };
 
+use super::place::place_of;
 use crate::options::Options;
 use tautline_grids::chance::{Dice, deviation};
 
@@ -33,23 +34,6 @@ impl Pose {
     pub(super) fn fix(&self) -> Place {
         place_of(self.belief.at())
     }
-}
-
-/// The cell that a place is in, in sides of a cell.
-pub fn cell_at(at: Point) -> Cell {
-    cell_of(place_of(at))
-}
-
-/// A place in whole units.
-pub(super) fn place_of(at: Point) -> Place {
-    let units = |sides: f64| libm::round(sides * f64::from(SIDE)) as i32;
-    Place::new(units(at.x_m), units(at.y_m))
-}
-
-/// The cell that a place is in.
-pub(super) fn cell_of(place: Place) -> Cell {
-    let line = |coordinate: i32| (coordinate + HALF).div_euclid(SIDE) as i16;
-    Cell::new(line(place.x), line(place.y))
 }
 
 /// The radio of a run.

@@ -11,7 +11,8 @@ use tautline_proofs::frontier::has_more;
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
-use super::radio::{Pose, Radio, cell_at, cell_of, place_of};
+use super::place::{cell_at, cell_of, place_of};
+use super::radio::{Pose, Radio};
 use super::waves::{Knowledge, Waves};
 use super::{Moves, PATIENCE, TeamEnd};
 use crate::options::Options;

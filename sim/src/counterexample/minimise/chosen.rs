@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
-use super::{Case, Extent, Failure, Minimal, Progress, Refusal, first_violation};
+use super::minimal::{Failure, Minimal, Refusal, first_violation};
+use super::shrink::{Case, Extent, Progress};
 use crate::explore::hunt::{Bound, Exhibit, Far, Finding, HuntRequest, Hunter};
 use crate::explore::{ClauseId, Setup, explore};
 use tautline_grids::layout::Size;

@@ -10,7 +10,6 @@ use tautline_io::svg::escaped;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_proofs::plural::counted;
 
-use super::place_of;
 use crate::explore::{Joins, Kind, Layer, Milestone, Report, Scheme, Setup, Shape, Starts, Value, Zone};
 use crate::options::{Extra, Takes};
 use tautline_grids::layout::Layout;
@@ -365,4 +364,9 @@ pub(super) fn again(setup: &Setup) -> Again {
         let _ = write!(command, " --seed {seed}");
     }
     Again { command: Some(command + " --html run.html"), ..by_search }
+}
+
+/// The number of a cell, row by row.
+pub fn place_of(area: Area, cell: Cell) -> Option<u32> {
+    area.place(cell).map(|place| place as u32)
 }

@@ -5,7 +5,7 @@ use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::areas::{Areas, Findings, Smallest, most_edges, search};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{bounds, exhibit, fault, team};
+use super::bounds::{bounds, exhibit, fault, team};
 use crate::explore::hunt::{
     CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
 };

@@ -12,12 +12,11 @@ use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
 use tautline_proofs::run::Frame;
 
-use super::{COVERS, KNOWS};
-use crate::explore::ClauseId;
+use super::team::{COVERS, KNOWS};
 use crate::explore::clause::broken;
-use crate::explore::run::{End, Surroundings, Survey, Team};
 use crate::explore::script::Script;
-use crate::explore::setup::{Setup, of_choices};
+use crate::explore::setup::of_choices;
+use crate::explore::{ClauseId, End, Setup, Surroundings, Survey, Team};
 use tautline_grids::layout::Layout;
 
 /// The team of `setup`, which has choices.

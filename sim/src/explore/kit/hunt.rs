@@ -14,7 +14,7 @@ use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::ScriptedRun;
 
-use super::{EQUAL, reach};
+use super::team::{EQUAL, reach};
 use crate::explore::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };

@@ -12,11 +12,10 @@ use tautline_proofs::kit::counterexample::{self, ANY_SPEEDS, EQUAL_SPEEDS};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
-use super::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes, reach};
-use crate::explore::run::{End, Surroundings, Survey, Team};
+use super::team::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes, reach};
 use crate::explore::script::Script;
-use crate::explore::setup::{Setup, of_choices};
-use crate::explore::{ClauseId, RuleId};
+use crate::explore::setup::of_choices;
+use crate::explore::{ClauseId, End, RuleId, Setup, Surroundings, Survey, Team};
 use crate::kit::paths;
 use tautline_grids::layout::Layout;
 

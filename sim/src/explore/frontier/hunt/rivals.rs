@@ -6,13 +6,12 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::cases::{self, Cases};
 use tautline_proofs::protocol::arrangements;
 
-use super::super::ENDS;
+use super::super::team::ENDS;
 use super::{SMALL, areas, bounds, report, title};
 use crate::explore::by_layout::{Each, FoundBy};
 use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, RunSize};
-use crate::explore::run::{Limits, run};
 use crate::explore::states::Count;
-use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
+use crate::explore::{ClauseId, Limits, RuleId, Scheme, Setup, run, team};
 use tautline_grids::layout::Layout;
 
 /// Team moves after which a rival is watched no longer.
