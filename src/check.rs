@@ -10,9 +10,10 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::ledger::{self, Examination, examine};
 use tautline_proofs::plural::counted;
 
+use super::exit::Exit;
 use super::judge::ground::bytes;
+use super::options::{Format, FormatArgs};
 use super::output::Output;
-use super::{Exit, Format, FormatArgs};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -18,8 +18,11 @@ use tautline_proofs::plural::counted;
 use tautline_proofs::run::Frame;
 
 use self::program::Program;
+use super::catalogue::CATALOGUE;
+use super::exit::Exit;
+use super::options::{Format, FormatArgs};
 use super::output::Output;
-use super::{CATALOGUE, Exit, Format, FormatArgs, positive};
+use super::value_parser::positive;
 use tautline_grids::layout::ColumnRow;
 use tautline_grids::layout::Layout;
 use tautline_io::text_blocks::{Block, beside};

@@ -1,5 +1,6 @@
 //! A refutation as a person sees it, whoever has found it: `prove` as it decides, `replay` in a file.
 
+use super::catalogue::CATALOGUE;
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -8,12 +9,11 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::named_values::NamedValues;
 use tautline_kernel::ground::Edge;
 use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::decide::{Depiction, Evidence};
+use tautline_proofs::decide::{Depiction, Evidence, MethodError};
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::{Run, ScriptedRun};
 
-use super::CATALOGUE;
 use tautline_io::text_blocks::Block;
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::draw::{self, page};
@@ -199,4 +199,9 @@ fn listed(choices: &[u32]) -> String {
     let first: Vec<String> = choices.iter().take(LISTED).map(u32::to_string).collect();
     let rest = if choices.len() > LISTED { format!(" … {} in all", choices.len()) } else { String::new() };
     first.join(" ") + &rest
+}
+
+/// The answer about a check that is registered. One that cannot be decided, or panics, is a bug of ours.
+pub(crate) fn registered<T>(answer: Result<T, MethodError>) -> T {
+    answer.unwrap_or_else(|refused| panic!("a registered check is not decided: {refused}"))
 }

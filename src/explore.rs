@@ -13,18 +13,19 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::json_lines;
 use tautline_io::svg::Panel;
 use tautline_io::text_blocks::Rows;
+use tautline_io::value_parser::whole;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
-use super::evidence;
+use super::catalogue::CATALOGUE;
+use super::exit::Exit;
 use super::layout_args::LayoutArgs;
+use super::options::{ForceArgs, Format, FormatArgs, refuse_needless};
 use super::output::Output;
-use super::ros_map;
+use super::value_parser::{CellArg, chosen, positive};
 use super::viewers::{self, ViewerArgs};
-use super::{
-    CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, positive, progress, refuse_needless, whole,
-};
-use crate::value_parser::{self, chosen};
+use super::{evidence, progress, ros_map};
+use crate::value_parser;
 use tautline_grids::chance::Probability;
 use tautline_sim::counterexample::refutation;
 use tautline_sim::draw::{page, svg};

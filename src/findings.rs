@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_io::svg::escaped;
 
-use super::ascii;
+use super::{ascii, options};
 
 /// The format of a command that decides something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
@@ -27,10 +27,10 @@ impl Format {
     ///
     /// # Errors
     /// A [`Diagnostic`] if only a decision has this format.
-    pub(super) fn plain(self) -> Result<super::Format, Diagnostic> {
+    pub(super) fn plain(self) -> Result<options::Format, Diagnostic> {
         match self {
-            Self::Text => Ok(super::Format::Text),
-            Self::Json => Ok(super::Format::Json),
+            Self::Text => Ok(options::Format::Text),
+            Self::Json => Ok(options::Format::Json),
             Self::Github | Self::Junit => {
                 let remedy = "give --format text or json here, and this one where the verdict is";
                 Err(Diagnostic::usage("nothing is decided here that a CI could show", remedy))

@@ -1,8 +1,6 @@
 //! `tautline hunt`: all layouts within a bound, until something breaks.
 
 use std::fmt::Write;
-use std::fs;
-use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -11,22 +9,26 @@ use clap::Args;
 use indicatif::ProgressBar;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_io::atomic_file::{AtomicFile, Replaceable, check_name};
+use tautline_io::atomic_file::Replaceable;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::Plan;
-use tautline_io::value_parser::real;
+use tautline_io::value_parser::{number, real, whole};
 use tautline_proofs::decide::Verdict;
 
+use super::catalogue::CATALOGUE;
+use super::exit::Exit;
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
-use super::output::{Output, argument, replay_line};
-use super::shards::{Scope, ShardArgs};
-use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
-use crate::{shards, value_parser};
+use super::folder::{again, clear, keep, make_folder, shown};
+use super::options::ForceArgs;
+use super::output::{Output, replay_line};
+use super::shards::{self, Scope, ShardArgs};
+use super::value_parser::{self, SizeArg};
+use super::{interrupt, progress};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{
     CoveredBound, Exhibit, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize,
 };
-use tautline_sim::explore::{RuleId, Scheme, Senses, Setup};
+use tautline_sim::explore::{RuleId, Scheme, Senses};
 use tautline_sim::shards::{deal_hunt, hunt_part, hunted};
 use tautline_sim::trace::{path_in, store};
 
@@ -368,15 +370,6 @@ impl Answer<'_> {
     }
 }
 
-/// How to see the run of a file again, and, where no search has chosen anything in it, to hold a rule to it.
-pub(super) fn again(file: &str, setup: &Setup) -> String {
-    let again = replay_line(file);
-    if !setup.choices.is_empty() || !setup.missed.is_empty() {
-        return again;
-    }
-    again + "try a rule on it: tautline explore " + &argument(file) + " --rule RULE\n"
-}
-
 /// A counterexample as a person sees it.
 fn picture(finding: &Finding) -> Result<String, Halt> {
     let setup = &finding.setup;
@@ -387,51 +380,4 @@ fn picture(finding: &Finding) -> Result<String, Halt> {
         (Exhibit::Story(_, story), Senses::Bumps) => Ok(format!("{story}\n{}", story::last_move(setup)?)),
         (Exhibit::Story(_, story) | Exhibit::Told(story), _) => Ok(story.clone()),
     }
-}
-
-/// Makes the folder that --out names, if it is not there. The folders that are new, the inmost first.
-pub(super) fn make_folder(out: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
-    check_name(out)?;
-    let is_new = |folder: &&Path| !folder.exists();
-    let new: Vec<PathBuf> = out.ancestors().take_while(is_new).map(Path::to_owned).collect();
-    if let Err(error) = fs::create_dir_all(out) {
-        clear(&new);
-        let what = match error.kind() {
-            ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
-                "a file is where the folder is to be".to_owned()
-            }
-            _ => format!("the folder cannot be made: {error}"),
-        };
-        return Err(Diagnostic::in_file(out, what, "name a folder, or a place where one can be made"));
-    }
-    Ok(new)
-}
-
-/// Removes those of these folders that are empty.
-pub(super) fn clear(folders: &[PathBuf]) {
-    for folder in folders {
-        // What is not empty stays.
-        let _ = fs::remove_dir(folder);
-    }
-}
-
-/// The result of `work`, for which the folder that --out names is made. Of work that
-/// fails no folder is left that is new and empty.
-pub(super) fn in_folder<T, E: From<Diagnostic>>(
-    out: &Path,
-    work: impl FnOnce() -> Result<T, E>,
-) -> Result<T, E> {
-    let new = make_folder(out)?;
-    work().inspect_err(|_| clear(&new))
-}
-
-/// Puts the file of a counterexample in its place; where it stands then.
-pub(super) fn keep(file: AtomicFile, out: &mut Output) -> Option<String> {
-    let path = file.path().to_owned();
-    out.keep(file).then(|| shown(&path))
-}
-
-/// The path as one would type it.
-pub(super) fn shown(path: &Path) -> String {
-    path.strip_prefix(".").unwrap_or(path).display().to_string()
 }

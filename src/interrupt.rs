@@ -2,6 +2,7 @@
 //! the process at once, unless the work in hand has results to keep; then it ends the work, and the second the process.
 //! No unfinished file stays.
 
+use super::exit::Exit;
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::process;
@@ -9,8 +10,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use tautline_io::atomic_file;
 use tautline_io::diagnostic::Halt;
-
-use super::Exit;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 static DEFERRED: AtomicBool = AtomicBool::new(false);

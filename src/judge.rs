@@ -7,7 +7,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_io::value_parser::real;
 use tautline_logs::{
     CLAUSES, Demand, Doubt, Fault, FaultPlace, Kind, Limits, Log, NamesError, Numbers, Strays, Tracks,
     Verdict, judge, misplaced, not_judged, read,
@@ -16,8 +15,10 @@ use tautline_proofs::ledger;
 
 use self::ground::{LogMap, MapArgs};
 use self::report::LogReport;
+use super::exit::Exit;
+use super::options::{ForceArgs, Format, FormatArgs, refuse_needless};
 use super::output::Output;
-use super::{Exit, ForceArgs, FormatArgs, refuse_needless};
+use super::value_parser::{above_0, from_0};
 use tautline_sim::draw::page;
 
 const EXAMPLES: &str = "\
@@ -88,17 +89,6 @@ pub(super) struct Judge {
     format: FormatArgs,
 }
 
-/// The most metres and seconds that an option takes.
-const MOST: f64 = 1e6;
-
-fn from_0(text: &str) -> Result<f64, &'static str> {
-    real(text).ok().filter(|number| (0.0..=MOST).contains(number)).ok_or("write a number from 0 to 1000000")
-}
-
-fn above_0(text: &str) -> Result<f64, &'static str> {
-    from_0(text).ok().filter(|&number| number >= 1e-3).ok_or("write a number from 0.001 to 1000000")
-}
-
 /// A clause that positions decide.
 fn clause(id: &str) -> Result<(&'static str, Kind), String> {
     let id = id.trim().to_ascii_uppercase();
@@ -163,8 +153,8 @@ impl Judge {
             html.draw(Ok(page::in_words(&told.title(), first, words, &told.moments())))
         })?;
         match self.format.format {
-            super::Format::Json => out.json(&told.json())?,
-            super::Format::Text => out.text(told.text())?,
+            Format::Json => out.json(&told.json())?,
+            Format::Text => out.text(told.text())?,
         }
         let exit = |(_, _, verdict): &(_, _, Verdict)| match verdict {
             Verdict::Kept => Exit::Expected,

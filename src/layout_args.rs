@@ -6,10 +6,10 @@ use clap::Args;
 use tautline_grids::layout::ros::{self, Frame};
 use tautline_grids::layout::{self, Coarse, Generator, Layout};
 use tautline_io::diagnostic::Diagnostic;
-use tautline_io::value_parser::real;
+use tautline_io::value_parser::{number, real};
 
+use super::options::refuse_needless;
 use super::value_parser::file_or_word;
-use super::{number, refuse_needless};
 
 #[derive(Debug, Args)]
 pub(super) struct LayoutArgs {

@@ -2,23 +2,27 @@
 
 pub(super) mod hunt;
 mod jobs;
+mod rules;
 
 use std::fmt::Write;
 use std::num::{NonZeroU32, NonZeroU64};
 use std::path::PathBuf;
 
 use clap::Args;
-use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_library::{Entry, RULES};
-use tautline_proofs::clause::Clause;
+use tautline_io::diagnostic::Halt;
+use tautline_io::value_parser::{number, whole};
+use tautline_library::RULES;
 use tautline_proofs::decide::RandomRuns;
 use tautline_proofs::ledger::Limits;
 
 pub(super) use self::jobs::rows;
+use self::rules::{chosen, clauses};
+use super::exit::Exit;
+use super::options::refuse_needless;
 use super::output::Output;
 use super::prove::{DecisionArgs, Detail};
 use super::shards::Scope;
-use super::{Exit, number, positive, refuse_needless, whole};
+use super::value_parser::positive;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,9 +38,6 @@ Examples:
 
 /// Most moves of a random run, unless the user says otherwise.
 const MAX_MOVES: u32 = 1000;
-
-/// The word for every rule.
-const ALL: &str = "all";
 
 /// Decide published rules of other people; without a name, list them.
 #[derive(Debug, Args)]
@@ -106,30 +107,6 @@ impl Library {
             }
             (_, None) => self.how.decide(&clauses, Detail::Rows, out),
         }
-    }
-}
-
-/// The rules of these names.
-fn chosen(names: &[String]) -> Result<Vec<&'static Entry>, Diagnostic> {
-    if names == [ALL] {
-        return Ok(RULES.to_vec());
-    }
-    let find = |name: &String| {
-        RULES.iter().copied().find(|rule| rule.name.eq_ignore_ascii_case(name)).ok_or_else(|| {
-            let known: Vec<&str> = RULES.iter().map(|rule| rule.name).collect();
-            let remedy = format!("the rules are {}; or give {ALL} alone", known.join(", "));
-            Diagnostic::usage(format_args!("there is no rule {name:?}"), remedy)
-        })
-    };
-    names.iter().map(find).collect()
-}
-
-/// The promises of these rules.
-fn clauses(rules: &[&'static Entry], larger: bool) -> Vec<&'static Clause> {
-    if larger {
-        rules.iter().flat_map(|rule| rule.larger()).collect()
-    } else {
-        rules.iter().flat_map(|rule| rule.clauses()).collect()
     }
 }
 

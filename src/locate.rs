@@ -13,15 +13,17 @@ use tautline_field::position::{
 use tautline_io::diagnostic::{Diagnostic, Halt, one_line};
 use tautline_io::named_values::NamedValues;
 use tautline_io::text_table::{Column, TextTable, Width};
-use tautline_io::value_parser::{Metres, metres_within, within};
+use tautline_io::value_parser::{Metres, metres_within, number, within};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::plural::counted;
 use tautline_sim::explore::RuleName;
 
+use super::exit::Exit;
+use super::options::{ForceArgs, Format, FormatArgs, refuse_needless};
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, interrupt, number, progress, refuse_needless};
-use crate::value_parser::chosen;
+use super::value_parser::chosen;
+use super::{interrupt, progress};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -3,13 +3,16 @@
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
 mod ascii;
+mod catalogue;
 mod check;
 mod conform;
 #[cfg(test)]
 mod docs_test;
 mod evidence;
+mod exit;
 mod explore;
 mod findings;
+mod folder;
 mod hunt;
 mod interrupt;
 mod judge;
@@ -19,7 +22,9 @@ mod locate;
 mod manual;
 #[cfg(feature = "mcp")]
 mod mcp;
+mod merge;
 mod minimise;
+mod options;
 mod output;
 mod page;
 mod progress;
@@ -40,39 +45,24 @@ mod threads;
 mod value_parser;
 mod viewers;
 
-use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::panic::{self, AssertUnwindSafe};
-use std::path::PathBuf;
 use std::process::ExitCode;
-use std::str::FromStr;
 use std::time::Instant;
 
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
-use tautline_io::atomic_file::{AtomicFile, Foreign, Replaceable};
-use tautline_io::diagnostic::{Diagnostic, Halt};
-use tautline_io::value_parser::{number, real, whole};
-use tautline_kernel::ground::Cell;
-use tautline_proofs::decide::MethodError;
+use tautline_io::diagnostic::Halt;
+use tautline_io::text_blocks::fit_into;
 use terminal_size::{Width, terminal_size};
 
-use crate::report::{Colour, render};
-use output::Output;
-use tautline_grids::layout::Size;
-use tautline_io::text_blocks::fit_into;
-#[cfg(feature = "papers")]
-use tautline_papers::rivals::CATALOGUE;
-#[cfg(not(feature = "papers"))]
-use tautline_sim::explore::Catalogue;
+use crate::exit::{EXIT_CODES, Exit};
+use crate::output::{Output, colour, complain};
+use crate::report::Colour;
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
-/// The schemes of this program: without the papers, the chain has no rivals.
-#[cfg(not(feature = "papers"))]
-const CATALOGUE: Catalogue = Catalogue::OWN;
 
 /// The text that is printed without a command.
 const FIRST_STEPS: &str = "\
@@ -90,50 +80,6 @@ Begin with one of these:
 
 All commands: tautline help; one of them: tautline help COMMAND
 ";
-
-/// How a command ended. Where several are so, the last of them in this order is told.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-enum Exit {
-    /// As expected.
-    Expected,
-    /// A violation was found.
-    Violation,
-    /// A budget or the user ended the work before its bound.
-    Unfinished,
-    /// A merge has gaps.
-    Gaps,
-    /// Wrong usage or bad input, or a file could not be stored.
-    Diagnostic,
-    /// A bug of ours.
-    Bug,
-}
-
-impl Exit {
-    /// The exit code of the process.
-    const fn code(self) -> u8 {
-        match self {
-            Self::Expected => 0,
-            Self::Violation => 1,
-            Self::Diagnostic => 2,
-            Self::Unfinished => 3,
-            Self::Gaps => 4,
-            Self::Bug => 70,
-        }
-    }
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        Self::from(exit.code())
-    }
-}
-
-/// The meaning of the exit codes, for the help, the manual pages and the documents.
-const EXIT_CODES: &str = "0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file \
-                          could not be stored · 3 a budget, Ctrl-C, SIGTERM or SIGHUP ended the work before \
-                          its bound, also if something was found by then, or a log does not say enough · 4 a \
-                          merge has gaps · 70 a bug of ours. Where several apply, the code is the first of \
-                          70, 2, 4, 3, 1, 0. With --exit-zero 1 is 0.";
 
 /// The fate of files.
 const FILES: &str = "\
@@ -180,7 +126,7 @@ enum Command {
     Show(show::Show),
     #[cfg(feature = "papers")]
     Reproduce(reproduce::Reproduce),
-    Merge(shards::Merge),
+    Merge(merge::Merge),
     #[cfg(feature = "mcp")]
     Mcp(mcp::Mcp),
 
@@ -191,122 +137,6 @@ enum Command {
         shell: Shell,
     },
     Man(manual::Manual),
-}
-
-/// How the result is printed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-enum Format {
-    /// For people.
-    Text,
-    /// One JSON object, with its schema_version.
-    Json,
-}
-
-/// The version of every JSON object on stdout.
-const SCHEMA_VERSION: u32 = 1;
-
-#[derive(Debug, Args)]
-struct FormatArgs {
-    /// How the result is printed.
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
-}
-
-/// Refuses options that can have no effect, where one of them is given.
-///
-/// # Errors
-/// A [`Diagnostic`] of the first that is.
-fn refuse_needless<const N: usize>(options: [(&str, bool); N], why: impl Display) -> Result<(), Diagnostic> {
-    let Some((option, _)) = options.into_iter().find(|&(_, is_given)| is_given) else { return Ok(()) };
-    Err(Diagnostic::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out")))
-}
-
-/// The choice about files that stand where others are to be stored.
-#[derive(Clone, Copy, Debug, Args)]
-struct ForceArgs {
-    /// Also replace files that tautline did not write, and those that keep work. A file that the command reads is
-    /// never replaced.
-    #[arg(long)]
-    force: bool,
-}
-
-impl ForceArgs {
-    /// The files that a command may replace which reads `inputs`.
-    fn replaceable(&self, inputs: impl IntoIterator<Item = PathBuf>) -> Replaceable {
-        Replaceable::new(if self.force { Foreign::Replace } else { Foreign::Keep }, inputs)
-    }
-
-    /// The files that a command stores, where they have a place, if it reads these.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] if one of them has none, or there is nothing to force.
-    fn files<const N: usize>(
-        &self,
-        paths: [&Option<PathBuf>; N],
-        inputs: impl IntoIterator<Item = PathBuf>,
-    ) -> Result<[Option<AtomicFile>; N], Diagnostic> {
-        self.has_effect(paths.iter().any(|path| path.is_some()))?;
-        AtomicFile::several(paths.map(Option::as_deref), &self.replaceable(inputs))
-    }
-
-    /// The files that a command stores, as many as there may be, if it reads these.
-    ///
-    /// # Errors
-    /// As of [`ForceArgs::files`].
-    #[cfg(feature = "papers")]
-    fn each(
-        &self,
-        paths: &[Option<PathBuf>],
-        inputs: impl IntoIterator<Item = PathBuf>,
-    ) -> Result<Vec<Option<AtomicFile>>, Diagnostic> {
-        self.has_effect(paths.iter().any(Option::is_some))?;
-        let replaceable = self.replaceable(inputs);
-        let mut files: Vec<Option<AtomicFile>> = Vec::new();
-        for path in paths {
-            let beside = |path: &PathBuf| AtomicFile::beside(path, files.iter().flatten(), &replaceable);
-            let file = path.as_ref().map(beside).transpose()?;
-            files.push(file);
-        }
-        Ok(files)
-    }
-
-    fn has_effect(&self, is_any_stored: bool) -> Result<(), Diagnostic> {
-        refuse_needless([("--force", self.force && !is_any_stored)], "no file is to be stored")
-    }
-}
-
-/// A cell as `X,Y`.
-#[derive(Clone, Copy, Debug)]
-struct CellArg(Cell);
-
-impl FromStr for CellArg {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parts = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
-        parts.map(|(x, y)| Self(Cell::new(x, y))).ok_or("write column and row as X,Y, for example 7,7")
-    }
-}
-
-/// Columns and rows as `WxH`.
-#[derive(Clone, Copy, Debug)]
-struct SizeArg(Size);
-
-impl FromStr for SizeArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parts = text.split_once('x').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
-        let (width, height) = parts.ok_or("write columns and rows as WIDTHxHEIGHT, for example 7x7")?;
-        let size = Size::new(width, height);
-        size.map(Self).map_err(|problem| problem.to_string())
-    }
-}
-
-/// A whole number above 0, of a type without 0.
-fn positive<T: FromStr>(text: &str) -> Result<T, String> {
-    let largest = u128::MAX >> (128 - 8 * size_of::<T>());
-    text.parse().map_err(|_| format!("write a whole number from 1 to {largest}"))
 }
 
 /// Runs the program with the arguments of this process.
@@ -365,11 +195,6 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
     command.mut_args(takes).mut_subcommands(with_negative_numbers)
 }
 
-/// The answer about a check that is registered. One that cannot be decided, or panics, is a bug of ours.
-fn registered<T>(answer: Result<T, MethodError>) -> T {
-    answer.unwrap_or_else(|refused| panic!("a registered check is not decided: {refused}"))
-}
-
 /// Does `work`; a panic, of which the hook has told, is a bug.
 fn guarded(work: impl FnOnce() -> Exit) -> Exit {
     panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(Exit::Bug)
@@ -418,11 +243,6 @@ fn command(cli: &Cli, name: &str) -> Exit {
     exit
 }
 
-/// Tells on stderr what went wrong, if anybody is there to read it.
-fn complain(fault: &Diagnostic) {
-    let _ = ascii::Stderr.write_all(render(fault, colour()).as_bytes());
-}
-
 impl Command {
     fn run(&self, is_verbose: bool, out: &mut Output) -> Result<Exit, Halt> {
         match self {
@@ -451,17 +271,9 @@ impl Command {
                 out.bytes(&script)?;
                 Ok(Exit::Expected)
             }
-            Self::Man(manual) => manual.run(out),
+            Self::Man(manual) => manual.run(program(), out),
         }
     }
-}
-
-fn colour() -> Colour {
-    if ascii::is_asked() {
-        return Colour::Ascii;
-    }
-    let is_refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    if io::stderr().is_terminal() && !is_refused { Colour::Ansi } else { Colour::Plain }
 }
 
 fn start_log(verbose: u8) {

@@ -8,8 +8,11 @@ use clap_mangen::roff::{Roff, roman};
 use tautline_io::atomic_file::{AtomicFile, MAN_HEAD};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
+use super::ascii;
+use super::exit::{EXIT_CODES, Exit};
+use super::folder::make_folder;
+use super::options::ForceArgs;
 use super::output::{self, Output};
-use super::{EXIT_CODES, Exit, ForceArgs, ascii, hunt, program};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,12 +35,12 @@ pub(super) struct Manual {
 }
 
 impl Manual {
-    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+    pub(super) fn run(&self, program: Command, out: &mut Output) -> Result<Exit, Halt> {
         self.force.has_effect(self.out.is_some())?;
-        let mut program = program().disable_help_subcommand(true);
+        let mut program = program.disable_help_subcommand(true);
         program.build();
         if let Some(folder) = &self.out {
-            hunt::make_folder(folder)?;
+            make_folder(folder)?;
             let replaceable = self.force.replaceable([]);
             for command in all(&program) {
                 let man = Man::new(command.clone());

@@ -25,8 +25,9 @@ use tokio::io::{AsyncRead, AsyncReadExt};
 use tokio::process::Command;
 use tokio::time::{sleep, timeout};
 
+use super::exit::Exit;
+use super::interrupt;
 use super::output::Output;
-use super::{Exit, interrupt};
 use tautline_grids::layout::is_ros;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_proofs::plural::counted;

@@ -15,10 +15,14 @@ use tautline_proofs::engine::states::{Limits, MemoryLimit};
 use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
 
+use super::catalogue::CATALOGUE;
+use super::exit::Exit;
 use super::explore::DrawnMoves;
+use super::folder::{again, in_folder, keep};
+use super::options::{ForceArgs, Format, FormatArgs};
 use super::output::{Output, replay_line};
 use super::replay::draw;
-use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, evidence, hunt, progress};
+use super::{evidence, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
@@ -130,7 +134,7 @@ const MOST_BYTES: u64 = 1 << 31;
 
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        hunt::in_folder(&self.out, || self.minimise(out))
+        in_folder(&self.out, || self.minimise(out))
     }
 
     fn minimise(&self, out: &mut Output) -> Result<Exit, Halt> {
@@ -175,7 +179,7 @@ impl Minimise {
                 out.text(tell(&self.file.display().to_string(), &minimised))?;
                 draw(&minimal.setup, &report, &DrawnMoves::Last(1..=report.steps), out)?;
                 if let Some(file) = &minimised.file {
-                    out.text(format_args!("\n{}", hunt::again(file, &minimal.setup)))?;
+                    out.text(format_args!("\n{}", again(file, &minimal.setup)))?;
                 }
             }
         }
@@ -220,7 +224,7 @@ impl Minimise {
             before: RunLength::of(&evidence.choices),
             after: RunLength::of(&choices),
             shortest,
-            file: hunt::keep(stored, out),
+            file: keep(stored, out),
         };
         match self.format.format {
             Format::Json => out.json(&minimised)?,
@@ -249,7 +253,7 @@ impl Minimise {
             after: *after,
             runs: *runs,
             is_searched: !setup.choices.is_empty(),
-            file: hunt::keep(file, out),
+            file: keep(file, out),
         };
         Ok((minimised, report))
     }

@@ -3,7 +3,7 @@
 //! nothing else.
 
 use std::fmt;
-use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::mem;
 
 use schemars::JsonSchema;
@@ -11,7 +11,11 @@ use serde::Serialize;
 use tautline_io::atomic_file::{self, AtomicFile, FinishedFile};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 
-use super::{SCHEMA_VERSION, ascii, complain};
+use super::ascii;
+use super::report::{Colour, render};
+
+/// The version of every JSON object on stdout.
+pub(super) const SCHEMA_VERSION: u32 = 1;
 
 pub(super) struct Output {
     /// Unless its reader has gone away.
@@ -157,4 +161,17 @@ impl Write for Output {
 
 pub(super) fn unwritable(error: &io::Error) -> Diagnostic {
     Diagnostic::in_file("standard output", error, "make room, or send it elsewhere")
+}
+
+/// Tells on stderr what went wrong, if anybody is there to read it.
+pub(super) fn complain(fault: &Diagnostic) {
+    let _ = ascii::Stderr.write_all(render(fault, colour()).as_bytes());
+}
+
+pub(super) fn colour() -> Colour {
+    if ascii::is_asked() {
+        return Colour::Ascii;
+    }
+    let is_refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    if io::stderr().is_terminal() && !is_refused { Colour::Ansi } else { Colour::Plain }
 }

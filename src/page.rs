@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use tautline_io::diagnostic::Halt;
 
+use super::exit::Exit;
+use super::folder::shown;
+use super::options::ForceArgs;
 use super::output::Output;
 use super::replay::Replay;
-use super::{Exit, ForceArgs, hunt};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -37,7 +39,7 @@ impl Page {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let name = || PathBuf::from(self.file.file_name().unwrap_or_default()).with_extension("html");
         let html = self.html.clone().unwrap_or_else(name);
-        let path = hunt::shown(&html);
+        let path = shown(&html);
         let exit = Replay::as_page(self.file.clone(), html, self.force).run(out)?;
         out.text(format_args!("the page that plays it: {path}\n"))?;
         Ok(if exit == Exit::Violation { Exit::Expected } else { exit })

@@ -20,12 +20,14 @@ use tautline_proofs::ledger::indented;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Frame;
 
+use super::catalogue::CATALOGUE;
 use super::evidence::{self, EvidenceJson, setup, shown, story};
+use super::exit::Exit;
 use super::explore::{DrawnMoves, draw_moves, summary};
+use super::options::{ForceArgs, Format, FormatArgs};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
-use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::draw::{self, page, svg};

@@ -14,14 +14,17 @@ use serde::Serialize;
 use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::shards::Plan;
+use tautline_io::value_parser::whole;
 use tautline_papers::shards::{deal_table, restored, table_part};
 use tautline_papers::tables::parameter::{TableOption, Values};
 use tautline_papers::tables::{Description, Entry, Experiment, Observer, Report, TABLES, find};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 
-use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, ascii, interrupt, progress, shards, whole};
+use super::exit::Exit;
+use super::options::{ForceArgs, Format, FormatArgs};
+use super::output::{Output, SCHEMA_VERSION};
+use super::{ascii, interrupt, progress, shards};
 
 const EXAMPLES: &str = "\
 Examples:

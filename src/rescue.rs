@@ -13,15 +13,15 @@ use tautline_io::atomic_file::AtomicFile;
 use tautline_io::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_io::named_values::NamedValues;
 use tautline_io::text_table::{Column, TextTable, Width};
-use tautline_io::value_parser::Metres;
+use tautline_io::value_parser::{Metres, real, whole};
 use tautline_proofs::mrc::Demand;
 use tautline_proofs::plural::counted;
 
+use super::exit::Exit;
+use super::options::{ForceArgs, Format, FormatArgs, refuse_needless};
 use super::output::Output;
-use super::{
-    Exit, ForceArgs, Format, FormatArgs, interrupt, progress, real, refuse_needless, viewers, whole,
-};
-use crate::value_parser::chosen;
+use super::value_parser::chosen;
+use super::{interrupt, progress, viewers};
 use tautline_field::draw::{self, field::picture};
 use tautline_field::radio::{ChannelName, FREE_SPACE, Lake};
 use tautline_field::rescue::{

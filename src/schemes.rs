@@ -8,8 +8,10 @@ use serde::Serialize;
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{Scheme, Senses};
 
+use super::catalogue::CATALOGUE;
+use super::exit::Exit;
+use super::options::{Format, FormatArgs};
 use super::output::Output;
-use super::{CATALOGUE, Exit, Format, FormatArgs};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -8,9 +8,10 @@ use serde::Serialize;
 use tautline_io::diagnostic::Halt;
 use tautline_kernel::ground::Cell;
 
+use super::exit::Exit;
 use super::layout_args::LayoutArgs;
+use super::options::{ForceArgs, Format, FormatArgs, refuse_needless};
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, refuse_needless};
 use tautline_grids::layout::ColumnRow;
 use tautline_io::svg::Panel;
 use tautline_sim::draw::svg;

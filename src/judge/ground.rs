@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tautline_io::diagnostic::{Diagnostic, unreadable};
-use tautline_io::value_parser::{Metres, metres_within, real};
+use tautline_io::value_parser::{Metres, metres_within, number, real};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_logs::{Grid, Ground, Limits, Tracks};
 
-use super::super::value_parser::file_or_word;
-use super::super::{CellArg, number, refuse_needless};
-use super::{MOST, above_0};
+use crate::options::refuse_needless;
+use crate::value_parser::{CellArg, MOST, above_0, file_or_word};
 use tautline_grids::layout::ros::{self, Frame};
 use tautline_grids::layout::{self, Coarse, Generator, Layout};
 

@@ -11,13 +11,14 @@ use tautline_proofs::decide::{RandomRuns, Verdict};
 use tautline_proofs::ledger::{self, Indecision, Limits, Row, indented};
 use tautline_proofs::plural::counted;
 
-use crate::evidence::{EvidenceJson, shown};
+use crate::evidence::{EvidenceJson, registered, shown};
+use crate::exit::Exit;
 use crate::findings::{self, Case, Format, Outcome};
-use crate::hunt::{clear, make_folder};
+use crate::folder::{clear, make_folder};
+use crate::interrupt;
 use crate::output::{Output, replay_line};
-use crate::progress::Shown;
+use crate::progress::{self, Shown};
 use crate::prove::{stored, story};
-use crate::{Exit, interrupt, progress, registered};
 
 /// Moves of a run that is drawn as it is found.
 const DRAWN: usize = 24;

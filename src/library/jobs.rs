@@ -18,9 +18,12 @@ use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::ledger::{Row, checks};
 use tautline_proofs::plural::counted;
 
-use super::{chosen, clauses};
+use super::rules::{chosen, clauses};
+use crate::evidence::registered;
+use crate::exit::Exit;
+use crate::options::{ForceArgs, Format};
 use crate::output::Output;
-use crate::{Exit, ForceArgs, Format, registered, shards};
+use crate::shards;
 
 /// The remedy for a plan or a shard that says no such thing.
 const AS_WRITTEN: &str = "take it as tautline wrote it";

@@ -5,7 +5,7 @@ use tautline_proofs::engine::states::MemoryLimit;
 use tautline_proofs::ledger::Row;
 use tautline_proofs::plural::counted;
 
-use super::{of_variants, story};
+use super::row::{of_variants, story};
 use crate::findings::{Case, Outcome};
 
 /// Why a search was cut off, if one was.

@@ -7,7 +7,8 @@ use tautline_io::diagnostic::Halt;
 use tautline_proofs::ledger::{Row, title};
 use tautline_sim::draw::page::film::{json, shared, without_shared};
 
-use super::{Ledger, evidence};
+use super::row::Ledger;
+use crate::evidence;
 
 const TEMPLATE: &str = include_str!("report.html");
 

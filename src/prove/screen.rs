@@ -8,7 +8,7 @@ use tautline_proofs::ambiguity::PUBLISHED;
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::ledger::{Row, indented, title};
 
-use super::of_variants;
+use super::row::of_variants;
 
 /// A heading, and whether a row is counted below it.
 type Count = (&'static str, fn(&Row) -> bool);
