@@ -10,9 +10,11 @@ use tautline_kernel::ground::Circle;
 use super::every_area::EveryArea;
 use super::invariant::Invariant;
 use super::local::{self, Contact, Coverage, Crowd, OfThree};
-use super::readings::{LAST, PAPER, READINGS};
+use super::readings::PAPER;
 use super::search::EveryLayout;
-use super::subject::{Deception, Subject, base_follows, high_from_present, safe_too_wide, swapped_bits};
+use super::subject::{
+    Deception, LAST, READINGS, Subject, base_follows, high_from_present, safe_too_wide, swapped_bits,
+};
 use super::{crowd, optimum, pair, small, three, walk, whole_runs};
 use crate::clause::{Check, Clause, NamedRule, holding};
 use crate::decide::{EveryAnswer, RandomAnswers, Verdict};

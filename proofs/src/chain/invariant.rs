@@ -8,8 +8,8 @@ use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step}
 
 use super::breach::Breach;
 use super::environment::{in_covered, in_safe};
-use super::plain_reel::{Map, PlainReel};
-use super::plain_walk::walk;
+use super::plain_reel::PlainReel;
+use super::plain_walk::{Map, walk};
 use super::subject::Subject;
 use crate::engine::{Stop, require};
 

@@ -10,7 +10,7 @@ use tautline_kernel::chain::{Condition, High, Kind, Rule};
 use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
 
 use super::environment::{in_covered, in_safe};
-use super::plain_walk::walk;
+use super::plain_walk::{Walk, walk};
 use super::readings::Reading::{LastMoved, NullLast, OnceExamined, Pathless, Unfollowed};
 use super::readings::{Readings, starts};
 
@@ -358,7 +358,7 @@ impl PlainChain {
     }
 
     /// The walk on which the chain unfolds, if it is to: its cells, and which of them are stops.
-    fn walk(&self) -> Option<(Vec<Cell>, Vec<usize>)> {
+    fn walk(&self) -> Option<Walk> {
         let is_open = |edge| !self.marks(edge).wall;
         let is_explored = |cell| self.index(cell).is_none_or(|index| self.explored[index]);
         walk((self.area, &is_open, &is_explored), self.cells[0], self.cells.len() - 1)

@@ -4,16 +4,13 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use super::environment::{in_covered, in_safe};
-use super::plain_walk::{walk, way};
+use super::plain_walk::{Map, Walk, walk, way};
 
 /// Rehearsals of approaches that one choice may take.
 const REHEARSALS: usize = 64;
-
-/// A map: its area, whether an edge is not known to be a wall, and whether a cell is explored.
-pub(super) type Map<'a> = (Area, &'a dyn Fn(Edge) -> bool, &'a dyn Fn(Cell) -> bool);
 
 /// The robots, base first, on the map.
 pub(super) struct PlainReel<'a> {
@@ -305,6 +302,3 @@ impl<'a> PlainReel<'a> {
         })
     }
 }
-
-/// A list of cells, and the places of stops among them.
-type Walk = (Vec<Cell>, Vec<usize>);

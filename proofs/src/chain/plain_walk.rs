@@ -2,18 +2,17 @@
 //! nearest unexplored one.
 
 use rustc_hash::FxHashSet;
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
-use super::plain_reel::Map;
+/// A map: its area, whether an edge is not known to be a wall, and whether a cell is explored.
+pub(super) type Map<'a> = (Area, &'a dyn Fn(Edge) -> bool, &'a dyn Fn(Cell) -> bool);
 
-/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of the map, as a list of its cells and
-/// the places of its stops among them. Of equally near cells the first in row order; going back from it, stops beyond
-/// a side before those beyond a corner, in direction order.
-pub(super) fn walk(
-    (area, is_open, is_explored): Map<'_>,
-    base: Cell,
-    most: usize,
-) -> Option<(Vec<Cell>, Vec<usize>)> {
+/// A list of cells, and the places of stops among them.
+pub(super) type Walk = (Vec<Cell>, Vec<usize>);
+
+/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of the map. Of equally near cells the
+/// first in row order; going back from it, stops beyond a side before those beyond a corner, in direction order.
+pub(super) fn walk((area, is_open, is_explored): Map<'_>, base: Cell, most: usize) -> Option<Walk> {
     // East, south, west, north, and the corners between them, from east over south round to east again.
     let around = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
     let way = |from, offset: (i16, i16)| way(is_open, from, offset);

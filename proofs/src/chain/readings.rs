@@ -4,7 +4,6 @@
 use tautline_kernel::conditions;
 use tautline_kernel::ground::Cell;
 
-use super::subject::Subject;
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 
@@ -34,18 +33,6 @@ pub(super) fn starts(readings: Readings, base: Cell, robots: usize) -> impl Iter
     let columns = i16::from(readings.has(Reading::InARow));
     (0..robots).map(move |robot| base.at_offset(robot as i16 * columns, 0))
 }
-
-/// The published chain under these readings.
-const fn read(readings: &[Reading]) -> Subject {
-    Subject { readings: Readings::of(readings), ..Subject::PUBLISHED }
-}
-
-/// The null move stands last.
-pub(super) const LAST: (&str, Subject) = ("last", read(&[Reading::NullLast]));
-
-/// The readings but for the published one that make a difference.
-pub(super) const READINGS: [(&str, Subject); 3] =
-    [LAST, ("row", read(&[Reading::InARow])), ("row + last", read(&[Reading::InARow, Reading::NullLast]))];
 
 /// The passages that the paper leaves open, as far as they make a difference.
 pub(super) static PAPER: Paper = Paper {

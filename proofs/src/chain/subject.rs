@@ -4,7 +4,7 @@
 use tautline_kernel::chain::{Budget, Condition, Habit, High, Pursuit, Rule};
 use tautline_kernel::ground::{Circle, Step};
 
-use super::readings::Readings;
+use super::readings::{Reading, Readings};
 use crate::clause::NamedRule;
 
 /// How the observer of a mutant is deceived.
@@ -118,6 +118,18 @@ impl Subject {
         self.following(Rule { high: High::Present, ..self.rule })
     }
 }
+
+/// The published chain under these readings.
+const fn read(readings: &[Reading]) -> Subject {
+    Subject { readings: Readings::of(readings), ..Subject::PUBLISHED }
+}
+
+/// The null move stands last.
+pub(super) const LAST: (&str, Subject) = ("last", read(&[Reading::NullLast]));
+
+/// The readings but for the published one that make a difference.
+pub(super) const READINGS: [(&str, Subject); 3] =
+    [LAST, ("row", read(&[Reading::InARow])), ("row + last", read(&[Reading::InARow, Reading::NullLast]))];
 
 /// Followers that look where the robot ahead is, not where it goes.
 pub(super) const fn high_from_present(subject: Subject) -> NamedRule<Subject> {
