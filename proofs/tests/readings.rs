@@ -24,8 +24,8 @@ fn area(robots: i16) -> (Area, Cell) {
 /// The published chain of so many robots in the paper's area, under these readings.
 fn chain(robots: i16, readings: &[Reading]) -> PlainChain {
     let (area, base) = area(robots);
-    let chain = PlainChain::new(Rule::PUBLISHED, robots as usize, base, area).that_floods_once();
-    chain.under(Readings::of(readings)).expect("room for a row")
+    let subject = Subject { readings: Readings::of(readings), ..Subject::PUBLISHED };
+    PlainChain::of(&subject, robots as usize, base, area).expect("room for a row").that_floods_once()
 }
 
 fn plan(chain: &mut PlainChain) -> PlainIntent {

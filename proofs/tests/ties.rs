@@ -162,8 +162,7 @@ fn chain(subject: Subject, robots: usize) -> PlainChain {
     let last = 2 * robots as i16 - 2;
     let area = Area::new(Cell::new(0, 0), Cell::new(last, last)).expect("cells");
     let base = Cell::new(last / 2, last / 2);
-    let chain = PlainChain::new(subject.rule, robots, base, area).that_floods_once();
-    chain.that_prefers(subject.order).under(subject.readings).expect("all start in the base")
+    PlainChain::of(&subject, robots, base, area).expect("all start in the base").that_floods_once()
 }
 
 /// CHAIN-9; and CHAIN-26, since 8 and 12 team moves are enough for these cells, whatever the order.

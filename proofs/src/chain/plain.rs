@@ -13,6 +13,7 @@ use super::environment::{in_covered, in_safe};
 use super::plain_walk::{Walk, walk};
 use super::readings::Reading::{LastMoved, NullLast, OnceExamined, Pathless, Unfollowed};
 use super::readings::{Readings, starts};
+use super::subject::Subject;
 
 /// A chain on an area of its own.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -133,6 +134,23 @@ impl PlainChain {
         chain
     }
 
+    /// A chain as [`Self::new`] makes it, with the rule, the readings and the order of equal candidates of `subject`;
+    /// the walk on which it unfolds knows no order. `None` if the area has no room for its start.
+    pub fn of(subject: &Subject, robots: usize, base: Cell, area: Area) -> Option<Self> {
+        let Subject { rule, readings, order, .. } = *subject;
+        let cells = starts(readings, base, robots).collect();
+        let mut chain = Self { cells, readings, order, ..Self::new(rule, robots, base, area) };
+        for robot in 0..robots {
+            let (behind, cell) = (chain.cells[robot.saturating_sub(1)], chain.cells[robot]);
+            chain.index(cell)?;
+            chain.explore(cell);
+            if cell != behind {
+                chain.mark(Edge::new(behind, Side::East), |marks| marks.open = true);
+            }
+        }
+        Some(chain)
+    }
+
     /// This chain, wrong in one thing: *UnsureAhead* binds it also behind a robot that is sure to arrive.
     #[must_use]
     pub fn that_doubts_all(self) -> Self {
@@ -144,28 +162,6 @@ impl PlainChain {
     #[must_use]
     pub fn that_floods_once(self) -> Self {
         Self { floods: Floods::Few, ..self }
-    }
-
-    /// This chain with another order of equal candidates. The walk on which it unfolds stays as it is.
-    #[must_use]
-    pub fn that_prefers(self, order: [Step; 5]) -> Self {
-        Self { order, ..self }
-    }
-
-    /// This chain as other readings of the paper have it; `None` if the area has no room for its start.
-    #[must_use]
-    pub fn under(mut self, readings: Readings) -> Option<Self> {
-        self.readings = readings;
-        self.cells = starts(readings, self.cells[0], self.cells.len()).collect();
-        for robot in 0..self.cells.len() {
-            let (behind, cell) = (self.cells[robot.saturating_sub(1)], self.cells[robot]);
-            self.index(cell)?;
-            self.explore(cell);
-            if cell != behind {
-                self.mark(Edge::new(behind, Side::East), |marks| marks.open = true);
-            }
-        }
-        Some(self)
     }
 
     /// Where the robots are, base first.

@@ -23,10 +23,9 @@ pub(super) struct PlainGame {
 
 impl PlainGame {
     pub(super) fn new(bounds: &Bounds) -> Result<Self, SetupError> {
-        let Bounds { observed, robots, base, .. } = *bounds;
-        let plain =
-            PlainChain::new(observed.rule, robots, base, bounds.reach()?).that_prefers(observed.order);
-        let start = plain.under(observed.readings).ok_or(SetupError::BaseOutside(base))?;
+        let Bounds { ref observed, robots, base, .. } = *bounds;
+        let start = PlainChain::of(observed, robots, base, bounds.reach()?);
+        let start = start.ok_or(SetupError::BaseOutside(base))?;
         Ok(Self { bounds: bounds.clone(), start })
     }
 }

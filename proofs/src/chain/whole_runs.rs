@@ -94,9 +94,7 @@ const LONGER: &str = "all cells are explored after 9(N−1)−1 moves";
 /// CHAIN-9 by the plain recursion.
 fn plain_spiral(observed: &Subject, robots: usize, optimum: usize) -> Outcome {
     let (area, base) = area(robots);
-    let plain = PlainChain::new(observed.rule, robots, base, area).that_floods_once();
-    let plain = plain.that_prefers(observed.order);
-    let mut plain = plain.under(observed.readings).ok_or(Stop::Assumed)?;
+    let mut plain = PlainChain::of(observed, robots, base, area).ok_or(Stop::Assumed)?.that_floods_once();
     let plan = |plain: &mut PlainChain| Ok(plain.plan(PATIENCE).map_err(|_| Stop::GivenUp)?.0);
     for _ in 0..optimum {
         let intent = plan(&mut plain)?;
