@@ -22,6 +22,19 @@ impl Choices {
     }
 }
 
+impl<D> Run<D> {
+    /// Its start and its steps as choices, those of its round apart.
+    pub fn choices(&self) -> Choices {
+        self.choices_after(&[])
+    }
+
+    /// Its start and its steps as choices behind `first`, those of its round apart.
+    pub(crate) fn choices_after(&self, first: &[u32]) -> Choices {
+        let once = [first, &[self.start as u32], &self.steps].concat();
+        Choices { once, again: self.round().to_vec() }
+    }
+}
+
 /// Why choices are no refutation. Choices are counted from 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ScriptError {

@@ -36,7 +36,6 @@ pub use spill::{Create, HEAD, PART, Spill, SpillError, SpillFault, WHOLE};
 pub use walk::{walk, without_detours};
 
 use super::bodies::Odometer;
-use super::script::Choices;
 use super::watchdog;
 use super::world::{MOST_COVERS, Turn, World};
 
@@ -208,9 +207,18 @@ pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = St
     all.into_iter()
 }
 
+/// A state, as far as it is kept.
+type StateParts<S> = (Vec<<S as System>::Part>, Vec<u8>);
+
+fn kept<S: System>(system: &S, state: &S::State) -> StateParts<S> {
+    let mut bytes = Vec::new();
+    system.write(state, &mut bytes);
+    ((0..system.places(state)).map(|place| system.part(state, place)).collect(), bytes)
+}
+
 /// Whether two states are the same one, as far as they are kept.
 pub fn is_same<S: System>(system: &S, one: &S::State, other: &S::State) -> bool {
-    walk::kept(system, one) == walk::kept(system, other)
+    kept(system, one) == kept(system, other)
 }
 
 /// Why no search of a system can be believed.
@@ -264,7 +272,7 @@ pub(crate) fn first_states<S: System>(
     let making = watchdog::Steps::begin();
     let mut known: FxHashMap<_, u8> = FxHashMap::default();
     let mut is_due = move |state: &S::State| {
-        let times = known.entry(walk::kept(system, state)).or_default();
+        let times = known.entry(kept(system, state)).or_default();
         *times = times.saturating_add(1);
         *times <= 2
     };
@@ -291,7 +299,7 @@ pub(crate) fn first_states<S: System>(
 /// [`Unsound`] if they differ, or too many situations must occur.
 pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>) -> Result<(), Unsound> {
     let made = |state: &S::State| steps(system, state).collect::<Vec<_>>();
-    let of_step = |step: &Step<S>| (walk::kept(system, &step.state), step.is_bound, step.breaks.clone());
+    let of_step = |step: &Step<S>| (kept(system, &step.state), step.is_bound, step.breaks.clone());
     let outlook = |steps: &[Step<S>]| steps.iter().map(of_step).collect::<Vec<_>>();
     let canonical = |state: &S::State| {
         let mut state = state.clone();
@@ -304,7 +312,7 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
     let of_class = |steps: &[Step<S>]| {
         let mut times: FxHashMap<_, u32> = FxHashMap::default();
         for Step { state, is_bound, breaks, .. } in steps {
-            *times.entry((walk::kept(system, &canonical(state)), *is_bound, breaks.len())).or_default() += 1;
+            *times.entry((kept(system, &canonical(state)), *is_bound, breaks.len())).or_default() += 1;
         }
         times
     };
@@ -326,7 +334,7 @@ pub fn repeats<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>
             return Err(Unsound::Unlike);
         }
         if let Some(mut other) = before.replace(own) {
-            let (parts, bytes) = before.as_ref().map(|own| walk::kept(system, own)).unwrap_or_default();
+            let (parts, bytes) = before.as_ref().map(|own| kept(system, own)).unwrap_or_default();
             system.read(&mut other, &bytes);
             for (place, part) in parts.iter().enumerate() {
                 system.put(&mut other, place, part);
@@ -435,17 +443,6 @@ impl<D> Run<D> {
             Ending::There | Ending::Still => &[],
             Ending::Round(round) => round,
         }
-    }
-
-    /// Its start and its steps as choices, those of its round apart.
-    pub fn choices(&self) -> Choices {
-        self.choices_after(&[])
-    }
-
-    /// Its start and its steps as choices behind `first`, those of its round apart.
-    pub(crate) fn choices_after(&self, first: &[u32]) -> Choices {
-        let once = [first, &[self.start as u32], &self.steps].concat();
-        Choices { once, again: self.round().to_vec() }
     }
 
     /// Its steps and then those of its round, made from `state`: each with the state in which it begins.

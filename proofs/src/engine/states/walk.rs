@@ -6,7 +6,7 @@ use std::collections::hash_map::Entry;
 use rustc_hash::FxHashMap;
 use tautline_kernel::choice::Oracle;
 
-use super::{Bits, Ending, Run, Step, System, steps};
+use super::{Bits, Ending, Run, Step, System, kept, steps};
 use crate::engine::watchdog::Steps;
 
 /// One run of `system` of at most so many steps from a start, in which `world` picks each step: up to where it breaks a
@@ -48,15 +48,6 @@ pub fn walk<S: System>(
         }
         state = step.state;
     }
-}
-
-/// A state, as far as it is kept.
-type StateParts<S> = (Vec<<S as System>::Part>, Vec<u8>);
-
-pub(super) fn kept<S: System>(system: &S, state: &S::State) -> StateParts<S> {
-    let mut bytes = Vec::new();
-    system.write(state, &mut bytes);
-    ((0..system.places(state)).map(|place| system.part(state, place)).collect(), bytes)
 }
 
 /// The states since which the same thing is owed and every step was bound to be made: a run that comes back to one of
