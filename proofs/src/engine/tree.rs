@@ -22,17 +22,18 @@ mod forecast;
 mod lane;
 mod search;
 mod share;
+mod waves;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::fmt;
 use std::ops::ControlFlow;
 
-use serde::{Deserialize, Serialize};
-
 pub use self::certificate::AllRuns;
+pub use self::count::Level;
 pub use self::deal::Deal;
-pub use self::search::{Position, Tree, Waves, search};
+pub use self::search::{Position, Tree};
+pub use self::waves::{Waves, search};
 use super::Until;
 use super::world::{Turn, World};
 use crate::plural::counted;
@@ -108,16 +109,6 @@ pub struct Findings<D, F> {
     pub complete: bool,
     /// The smallest for each demand broken, by demand.
     pub counterexamples: Vec<Counterexample<D, F>>,
-}
-
-/// The runs that meet one number of walls.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Level {
-    /// Leaves of the tree.
-    pub runs: u64,
-    /// Edges of the tree that have so many walls on the way to their end.
-    pub moves: u64,
 }
 
 /// A run that breaks a demand in its last move, or by having ended, or by never ending. It may have broken others

@@ -5,8 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tautline_certificates::{Counts, Refusal, put};
 
-use super::search::Waves;
-use super::{Findings, Level};
+use super::{Findings, Level, Waves};
 use crate::engine::states::{AnySystem, Limits, NoCertificate};
 
 /// All runs of a tree, of which one thing is demanded.

@@ -2,11 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Level;
 use super::share::Share;
 
 /// More than any search lives to count, with room for more.
 const COUNTABLE: u128 = 1 << 63;
+
+/// The runs that meet one number of walls.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// Leaves of the tree.
+    pub runs: u64,
+    /// Edges of the tree that have so many walls on the way to their end.
+    pub moves: u64,
+}
 
 /// A run that breaks something: its answers.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]

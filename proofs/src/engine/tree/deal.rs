@@ -11,13 +11,10 @@ use serde::{Deserialize, Serialize};
 use super::count::Count;
 use super::forecast::{self, Forecast};
 use super::lane::{Lane, Place};
-use super::search::{Position, Tree};
+use super::search::{Position, Tree, Ways};
 use super::share::Share;
-use super::{Game, Level, Unsearchable, Waves};
+use super::{Game, Level, Unsearchable};
 use crate::engine::watchdog::Steps;
-
-/// For each number of walls, from none on, the places where a search begins.
-pub(super) type Ways = Vec<Vec<Place>>;
 
 /// A part is at most so small a share of what a shard has, so that what is not foreseen of one is made up for by
 /// others.
@@ -73,7 +70,7 @@ impl<G: Game> Tree<G> {
             let worth = if levels.len() < forecast::TELLING { WORTH_TELLING } else { WORTH_DEALING };
             forecast::next(levels, edges).is_none_or(|moves| moves < worth)
         };
-        while is_small(&self.levels) && self.wave() {}
+        while is_small(&self.levels) && self.goes_on() {}
         let mut deal = Deal {
             levels: self.levels.clone(),
             begun: Vec::new(),

@@ -1,7 +1,7 @@
 //! About how many team moves are left below a place in the tree of runs, by what the levels before this one had. It
 //! decides how a level is shared out, and nothing of what is found.
 
-use super::Level;
+use super::count::Level;
 
 /// Parts of a run of usual length. Walls make runs longer, so that the last part, and not nothing, is left near its
 /// end.
