@@ -9,14 +9,7 @@ pub mod spread;
 
 use tautline_kernel::notice::{Condition, Conditions, Count, Rule, Scheme};
 
-/// The senders or packets that k counts where a packet comes twice.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum CountOf {
-    /// The senders that a node hears besides the first.
-    Senders,
-    /// The packets after the first one.
-    Packets,
-}
+pub use self::spread::CountOf;
 
 /// How nodes take k, as a mutant does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -13,8 +13,8 @@ use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::EveryAnswer;
 use crate::floor::plans::Area;
 use crate::floor::series::Deception::CountsNothing;
-use crate::floor::series::FloorProperty::{Dark, UncountedStart};
 use crate::floor::series::{Floors, HOW_OFTEN, MISSED, Subject};
+use crate::floor::team::FloorProperty::{Dark, UncountedStart};
 use crate::floor::team::{Demand, Series};
 
 const PUBLISHED: NamedRule<Subject<Rule>> = NamedRule::new("published", Subject::of(Rule::PUBLISHED));

@@ -20,9 +20,9 @@ use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
 use crate::clause::{Check, Clause, NamedRule, Reading, holding};
 use crate::decide::EveryAnswer;
-use crate::floor::series::FloorProperty::Dark;
 use crate::floor::series::{Deception, Floors, HOW_OFTEN, MISSED, Subject};
 use crate::floor::team::Demand::{Connected, Ends, Explores, Knowing};
+use crate::floor::team::FloorProperty::Dark;
 use crate::floor::team::{Demand, Demands};
 use crate::step_checks;
 

@@ -1,13 +1,12 @@
 //! The checks of agents on small floors, whatever their scheme: which plans, how many agents, what they miss, whether
 //! they fail, and what is demanded of every state.
 
-use tautline_kernel::conditions;
 use tautline_kernel::ground::{Area as Rect, Cell};
 
 use super::plans::{Area, FloorPlan};
 use super::search::Report;
 use super::small::StateOf;
-use super::team::{Demand, Demands, Series, Team, Turns};
+use super::team::{Conditions, Demand, Demands, FloorProperty, Series, Team, Turns};
 use crate::ambiguity::Charity::{Charitable, Literal};
 use crate::ambiguity::{Ambiguity, Interpretation};
 use crate::decide::{
@@ -47,16 +46,6 @@ pub(crate) const HOW_OFTEN: Ambiguity = Ambiguity {
         Interpretation::new("in the dark", "every scan misses those of the same cells", Literal),
     ],
 };
-
-conditions! {
-    /// A property of the floor by another reading than the published one; agents know nothing of it.
-    pub enum FloorProperty {
-        /// The cell in which an agent starts counts nothing until the agent enters it.
-        UncountedStart,
-        /// In some cells, as many as sensors may be missed, sensors are always missed.
-        Dark,
-    }
-}
 
 /// How far sensors count crossings where some are always missed.
 const IN_THE_DARK: u32 = 8;

@@ -6,12 +6,12 @@ use std::fmt;
 use std::slice;
 
 use tautline_kernel::choice::Oracle;
+use tautline_kernel::conditions;
 use tautline_kernel::floor::{Mark, Ring, Scan};
 use tautline_kernel::ground::{Cell, Step};
 
 use super::crew::{BodyOf, Scheme, SensorData, Sight, View};
 use super::plans::{Area, FloorPlan};
-use super::series::{Conditions, FloorProperty};
 use super::small::{Misses, PartOf, Small, StateOf};
 use crate::engine::states::{Bits, Places, Run, Step as Made, System};
 use crate::engine::world::{self, World, any_of, picked};
@@ -28,6 +28,16 @@ pub(crate) enum Turns {
     Overlapping,
     /// Scanning and writing are two steps.
     Free,
+}
+
+conditions! {
+    /// A property of the floor by another reading than the published one; agents know nothing of it.
+    pub enum FloorProperty {
+        /// The cell in which an agent starts counts nothing until the agent enters it.
+        UncountedStart,
+        /// In some cells, as many as sensors may be missed, sensors are always missed.
+        Dark,
+    }
 }
 
 /// Teams to look at: all plans of an area, how many agents start in any of their cells, and what may go wrong.

@@ -6,8 +6,9 @@ use std::fmt::Write;
 
 use tautline_kernel::ground::Cell;
 
-use super::invariant::{Tuple, is_within, offsets, promised};
-use super::{Act, Far, Invariant, NumberedRule, Robot};
+use super::invariant::{Invariant, Tuple, is_within, offsets, promised};
+use super::numbers::{ByNumber, NumberedRule};
+use super::rule::{Act, Far, Local, Robot};
 use crate::decide::MethodError;
 
 /// A set of offsets for each sequence of kinds of robots.
@@ -154,6 +155,16 @@ impl Tables<'_> {
 
 /// The most entries of the table of plans.
 const MOST_ENTRIES: usize = 2_000_000;
+
+impl Invariant {
+    /// A file that Rocq checks, with the theorem that this set shows that `rule` keeps its promise.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the file would be too large, or if an act of the rule ends in none of its states.
+    pub fn certificate<R: Local>(&self, rule: &R) -> Result<String, MethodError> {
+        terms(&ByNumber::new(rule), self)
+    }
+}
 
 /// The rule, the invariant, and the theorem that it is one, in Rocq's words.
 pub(super) fn terms(rule: &dyn NumberedRule, invariant: &Invariant) -> Result<String, MethodError> {

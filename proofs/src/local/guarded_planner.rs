@@ -3,7 +3,7 @@
 
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use super::{ActOf, Far, Local, Plan, RobotOf};
+use super::rule::{ActOf, Far, Local, Plan, RobotOf, as_its_rule};
 
 /// A planner, and the rule to which it is kept. It returns an act for each robot.
 #[derive(Clone, Copy, Debug)]

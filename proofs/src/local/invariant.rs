@@ -6,8 +6,8 @@ use std::iter;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tautline_kernel::ground::{Cell, Step};
 
-use super::certificate::terms;
-use super::{Act, ByNumber, Far, Local, NumberedRule, Plan, Robot};
+use super::numbers::{ByNumber, NumberedRule};
+use super::rule::{Act, Far, Local, Plan, Robot};
 use crate::decide::{Answer, MethodError, Verdict};
 use crate::engine::watchdog;
 use crate::plural::counted;
@@ -73,14 +73,6 @@ impl Invariant {
             found = Self::within(rule, window)?;
         }
         Ok(found)
-    }
-
-    /// A file that Rocq checks, with the theorem that this set shows that `rule` keeps its promise.
-    ///
-    /// # Errors
-    /// [`MethodError`] if the file would be too large, or if an act of the rule ends in none of its states.
-    pub fn certificate<R: Local>(&self, rule: &R) -> Result<String, MethodError> {
-        terms(&ByNumber::new(rule), self)
     }
 
     /// Whether the promise holds of every number of robots.

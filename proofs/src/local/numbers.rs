@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::{Act, ActOf, Far, Local, Plan, Robot, RobotOf};
+use super::rule::{Act, ActOf, Far, Local, Plan, Robot, RobotOf, as_its_rule};
 
 /// A rule by numbers. The words of a number are those of the state or the act that has it.
 pub(super) trait NumberedRule: Local<State = u32, Act = u32> {

@@ -6,8 +6,9 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Step};
 
 use super::invariant::{agree, promised, words};
+use super::numbers::NumberedRule;
+use super::rule::{Act, Robot};
 use super::wider::seen;
-use super::{Act, NumberedRule, Robot};
 use crate::decide::{Depiction, MethodError};
 use crate::engine::states::{Run, System};
 use crate::engine::world::{Turn, World, any_of, picked};

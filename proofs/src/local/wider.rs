@@ -4,7 +4,8 @@
 use std::collections::BTreeSet;
 
 use super::invariant::{promised, relative};
-use super::{Act, Far, Local, NumberedRule, Plan, Robot, all_tuples};
+use super::numbers::NumberedRule;
+use super::rule::{Act, Far, Local, Plan, Robot, all_tuples, as_its_rule};
 
 /// One robot more than `rule` speaks of.
 pub(super) struct Wider<'r> {

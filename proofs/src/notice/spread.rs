@@ -7,8 +7,16 @@ use core::num::NonZeroU32;
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Count, Node, Reaction, Rule, Stage, Surroundings};
 
-use super::CountOf;
 use crate::engine::{Stop, Tape, require};
+
+/// The senders or packets that k counts where a packet comes twice.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum CountOf {
+    /// The senders that a node hears besides the first.
+    Senders,
+    /// The packets after the first one.
+    Packets,
+}
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]

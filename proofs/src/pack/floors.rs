@@ -333,6 +333,6 @@ impl Method<Subject> for Floors {
         let subject = self.bounds.subject(subject).ok()?;
         let moves = played.until(self.demand, self.bounds.range_cells);
         let moves = moves.map(|cells| cells.iter().copied().map(place).collect()).collect();
-        Some(Box::new(judge::Run { clause, moves, ..subject.written(&floor) }))
+        Some(Box::new(judge::Run { clause, moves, ..floor.written(&subject) }))
     }
 }

@@ -3,12 +3,9 @@
 
 use tautline_kernel::pack::Rule;
 
-use super::run::Floor;
 use crate::ambiguity::Charity::{Literal, Probable};
 use crate::ambiguity::{Ambiguity, Interpretation, Paper};
-use crate::judge::Floor as Written;
-use crate::judge::pack::{Metric, Run};
-use crate::run::place;
+use crate::judge::pack::Metric;
 
 /// A pack as a check looks at it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,21 +33,6 @@ pub(super) enum Flaw {
 impl Subject {
     pub(super) const fn of(rule: Rule) -> Self {
         Self { rule, metric: Metric::CellsBySteps, flaw: None }
-    }
-
-    /// A run on `floor`, written down for the judge; no team moves yet.
-    pub(super) fn written(&self, floor: &Floor) -> Run {
-        let area = floor.area;
-        let barred = area.cells().filter(|&cell| !floor.is_free(cell)).map(place).collect();
-        Run {
-            clause: "",
-            floor: Written { columns: area.width() as i32, rows: area.height() as i32, barred },
-            sight: self.rule.sight().radius_cells().into(),
-            range: self.rule.range_cells().into(),
-            metric: self.metric,
-            starts: floor.starts.iter().copied().map(place).collect(),
-            moves: Vec::new(),
-        }
     }
 }
 

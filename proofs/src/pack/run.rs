@@ -8,9 +8,10 @@ use tautline_kernel::pack::{Chart, MAX_ROBOTS, MoveKind, Past, Rule, Scratch, Te
 
 use super::gains::{Gains, Outlook};
 use super::readings::{Flaw, Subject};
-use crate::judge::Place;
-use crate::judge::pack::Metric;
+use crate::judge::pack::{self as judge, Metric};
+use crate::judge::{Floor as Written, Place};
 use crate::plural::{counted, listed};
+use crate::run::place;
 
 /// Team moves at which a run on a small floor counts as endless.
 pub(super) const MOST_MOVES: usize = 1000;
@@ -84,6 +85,21 @@ impl Floor {
             }
         }
         reached
+    }
+
+    /// A run of `subject` on it, written down for the judge; no team moves yet.
+    pub(super) fn written(&self, subject: &Subject) -> judge::Run {
+        let Self { area, ref starts, .. } = *self;
+        let barred = area.cells().filter(|&cell| !self.is_free(cell)).map(place).collect();
+        judge::Run {
+            clause: "",
+            floor: Written { columns: area.width() as i32, rows: area.height() as i32, barred },
+            sight: subject.rule.sight().radius_cells().into(),
+            range: subject.rule.range_cells().into(),
+            metric: subject.metric,
+            starts: starts.iter().copied().map(place).collect(),
+            moves: Vec::new(),
+        }
     }
 
     /// The floor with its starts, a line for each row.
@@ -274,7 +290,7 @@ pub(super) fn play(subject: &Subject, floor: &Floor, choices: Gains) -> Option<R
 
 /// Runs a pack under another reading than the published one, as the judge does.
 fn play_plainly(subject: &Subject, floor: &Floor) -> RunOutcome {
-    let (moves, left) = subject.written(floor).played(MOST_MOVES);
+    let (moves, left) = floor.written(subject).played(MOST_MOVES);
     let cell = |(x, y): Place| Cell::new(x as i16, y as i16);
     let mut played = RunOutcome::default();
     for cells in moves {
