@@ -23,13 +23,11 @@ use tautline_kernel::ground::Cell;
 pub use self::check::Keeps;
 pub use self::graph::{Crew, Deployment, Graph, Graphs, Kind, KnownGraph, Task, Teams, conflicts};
 pub use self::ground::{Assumption, Ground, Map, Which};
-pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, TeamState, TeamStep, View};
+use self::rule::When;
+pub use self::rule::{Act, Body, Cover, Demand, Rule, Scene, Senses, TeamState, TeamStep, View};
 pub use self::world::{Event, Part, TeamWorld};
 use crate::decide::MethodError;
-use crate::engine::Until;
 use crate::engine::states::Bits;
-use crate::engine::tree::{Limits, Tree};
-use crate::plural::counted;
 use crate::protocol::arrangements;
 
 /// Where robots start, or where they are to go.
@@ -43,39 +41,6 @@ pub enum Places<R> {
     Any,
     /// In any free cells, no two in one.
     Distinct,
-}
-
-/// How far robots see, in steps as if nothing stood between; 0 is not at all, and [`u16::MAX`] everything.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Senses {
-    /// Walls and blocked cells. A robot that does not see them finds out by going.
-    pub ground: u16,
-    /// Other robots.
-    pub robots: u16,
-}
-
-impl Senses {
-    /// A robot sees nothing, and feels what is in its way.
-    pub const BUMP: Self = Self { ground: 0, robots: 0 };
-    /// A robot feels what is in its way, and knows where the others are.
-    pub const TEAM: Self = Self { ground: 0, robots: u16::MAX };
-    /// A robot sees everything.
-    pub const ALL: Self = Self { ground: u16::MAX, robots: u16::MAX };
-}
-
-impl fmt::Display for Senses {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seen = |far: u16, what: &str| match far {
-            0 => None,
-            u16::MAX => Some(format!("all {what}")),
-            _ => Some(format!("{what} within {}", counted(far, "step"))),
-        };
-        match (seen(self.ground, "walls"), seen(self.robots, "robots")) {
-            (None, None) => f.write_str("sight of nothing"),
-            (Some(seen), None) | (None, Some(seen)) => write!(f, "sight of {seen}"),
-            (Some(ground), Some(robots)) => write!(f, "sight of {ground} and {robots}"),
-        }
-    }
 }
 
 /// Which robots act in a step.
@@ -158,7 +123,7 @@ pub enum Strategy {
 /// Most robots of a team.
 const MOST_ROBOTS: usize = 16;
 
-impl<'a, R: Rule> Setting<'a, R> {
+impl<R: Rule> Setting<'_, R> {
     /// Robots that feel their way over this ground from these cells, all together, without faults; nothing is demanded
     /// of them yet.
     pub const fn new(scheme: &'static str, ground: Ground, robots: usize, starts: Places<R>) -> Self {
@@ -196,7 +161,7 @@ impl<'a, R: Rule> Setting<'a, R> {
     const fn has_eventually(&self) -> bool {
         let mut number = 0;
         while number < self.demands.len() {
-            if matches!(self.demands[number].when, rule::When::Eventually(_) | rule::When::AgainAndAgain(_)) {
+            if matches!(self.demands[number].when, When::Eventually(_) | When::AgainAndAgain(_)) {
                 return true;
             }
             number += 1;
@@ -267,69 +232,5 @@ impl<'a, R: Rule> Setting<'a, R> {
         let body = |(robot, &cell)| Body::new(cell, rule.start(robot, starts));
         let bodies = starts.iter().enumerate().map(body).collect();
         TeamState { bodies, goals, map: map.copied(), losses: 0, deaths: 0 }
-    }
-
-    /// The search for teams that follow `rule`, as a tree, at its start: it can be made wave by wave, left and taken up
-    /// again. It is for the demands that are `wanted`, or for all if none is said to be; each is decided as if it stood
-    /// alone, so a run goes on until it has broken all of them.
-    ///
-    /// # Errors
-    /// [`MethodError`] if the setting is not one for a [tree](Strategy::Tree), or the limits are beyond what can be
-    /// searched.
-    pub fn search(
-        &'a self,
-        rule: &R,
-        until: Until,
-        wanted: &[Promise],
-    ) -> Result<Tree<TeamWorld<'a, R>>, MethodError> {
-        if self.strategy() != Strategy::Tree {
-            let why = "a tree of runs is of one start in one layout, in which robots move together and lose nothing: \
-                       decide by `Keeps`, which searches the states of all else";
-            return Err(MethodError::new(why));
-        }
-        let playing = self.playing(rule, wanted)?;
-        let max_walls = self.ground.walls.most_met() + self.ground.obstacles.most_met();
-        Tree::new(playing, &Limits { max_walls, budget_moves: None, until }).map_err(MethodError::new)
-    }
-
-    /// A team that follows `rule` in it; of its demands those are looked at that are `wanted`, or all if none is.
-    ///
-    /// # Errors
-    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand, or if states would be
-    /// searched for several demands on endless runs.
-    pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
-        let starts = self.starts(rule)?;
-        let start =
-            starts.into_iter().next().ok_or_else(|| MethodError::new("there is no layout to start in"))?;
-        self.playing_from(rule, wanted, start)
-    }
-
-    /// A team as of [`Self::playing`] that begins so.
-    fn playing_from(
-        &'a self,
-        rule: &R,
-        wanted: &[Promise],
-        start: Scene<R>,
-    ) -> Result<TeamWorld<'a, R>, MethodError> {
-        let demands = self.demands.len();
-        if let Some(Promise(none)) = wanted.iter().find(|promise| promise.0 >= demands) {
-            return Err(MethodError::new(format_args!(
-                "there is no demand {none}: the setting has {demands}"
-            )));
-        }
-        let wanted = if wanted.is_empty() { (0..demands).map(Promise).collect() } else { wanted.to_vec() };
-        let is_endless = |promise: &&Promise| self.demands[promise.0].is_broken_by_endless_runs();
-        if self.strategy() == Strategy::States && wanted.iter().filter(is_endless).count() > 1 {
-            let why = "states are searched for one demand on endless runs at a time: name it";
-            return Err(MethodError::new(why));
-        }
-        Ok(TeamWorld { setting: self, rule: rule.clone(), wanted, start })
-    }
-
-    /// A team that follows `rule` from these cells, to these goals if there are any, in a layout of any size that
-    /// answers for itself. All its demands are looked at.
-    pub fn in_layout(&'a self, rule: &R, starts: &[Cell], goals: Vec<Cell>) -> TeamWorld<'a, R> {
-        let wanted = (0..self.demands.len()).map(Promise).collect();
-        TeamWorld { setting: self, rule: rule.clone(), wanted, start: Self::scene(rule, starts, goals, None) }
     }
 }

@@ -335,3 +335,17 @@ impl Map {
         })
     }
 }
+
+/// Whether robots can go from a cell through a side, which is decided now if it was not before.
+pub(super) fn passes(
+    ground: &Ground,
+    map: &mut Option<Map>,
+    (cell, side): (Cell, Side),
+    world: &mut dyn Oracle,
+) -> bool {
+    let (edge, beyond) = (Edge::new(cell, side), cell.beyond(side));
+    match map {
+        Some(map) => map.meet_edge(ground, edge, world) && map.meet_cell(ground, beyond, world),
+        None => world.is_open(edge) && world.is_free(beyond),
+    }
+}

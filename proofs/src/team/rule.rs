@@ -1,14 +1,14 @@
 //! The face of a robot's rule: what it sees, what it does, and what is demanded of the team.
 
-use std::fmt::Debug;
+use std::fmt::{self, Debug};
 use std::hash::Hash;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Side};
 
-use super::Setting;
-use super::ground::Map;
+use super::ground::{Ground, Map, passes};
 use crate::engine::states::Bits;
+use crate::plural::counted;
 
 /// A robot's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -134,9 +134,43 @@ impl<M, T> TeamState<M, T> {
     }
 }
 
+/// How far robots see, in steps as if nothing stood between; 0 is not at all, and [`u16::MAX`] everything.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Senses {
+    /// Walls and blocked cells. A robot that does not see them finds out by going.
+    pub ground: u16,
+    /// Other robots.
+    pub robots: u16,
+}
+
+impl Senses {
+    /// A robot sees nothing, and feels what is in its way.
+    pub const BUMP: Self = Self { ground: 0, robots: 0 };
+    /// A robot feels what is in its way, and knows where the others are.
+    pub const TEAM: Self = Self { ground: 0, robots: u16::MAX };
+    /// A robot sees everything.
+    pub const ALL: Self = Self { ground: u16::MAX, robots: u16::MAX };
+}
+
+impl fmt::Display for Senses {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seen = |far: u16, what: &str| match far {
+            0 => None,
+            u16::MAX => Some(format!("all {what}")),
+            _ => Some(format!("{what} within {}", counted(far, "step"))),
+        };
+        match (seen(self.ground, "walls"), seen(self.robots, "robots")) {
+            (None, None) => f.write_str("sight of nothing"),
+            (Some(seen), None) | (None, Some(seen)) => write!(f, "sight of {seen}"),
+            (Some(ground), Some(robots)) => write!(f, "sight of {ground} and {robots}"),
+        }
+    }
+}
+
 /// A robot's view when it acts.
 pub struct View<'a, R: Rule> {
-    pub(super) setting: &'a Setting<'a, R>,
+    pub(super) senses: Senses,
+    pub(super) ground: &'a Ground,
     pub(super) robot: usize,
     pub(super) scene: &'a Scene<R>,
     /// The layout as far as it is decided by now.
@@ -174,7 +208,7 @@ impl<R: Rule> View<'_, R> {
     /// The cell of another robot, if it is in sight.
     pub fn sees(&self, robot: usize) -> Option<Cell> {
         let cell = self.scene.bodies.get(robot)?.cell;
-        self.is_within(cell, self.setting.senses.robots).then_some(cell)
+        self.is_within(cell, self.senses.robots).then_some(cell)
     }
 
     /// Whether a robot that is in sight has met something in its way.
@@ -185,8 +219,8 @@ impl<R: Rule> View<'_, R> {
     /// Whether robots can go from `cell` through `side`: no wall is between, and the next cell is free. `None` if it is
     /// out of sight.
     pub fn is_open(&mut self, cell: Cell, side: Side) -> Option<bool> {
-        let is_seen = self.is_within(cell, self.setting.senses.ground);
-        is_seen.then(|| passes(self.setting, self.map, (cell, side), self.world))
+        let is_seen = self.is_within(cell, self.senses.ground);
+        is_seen.then(|| passes(self.ground, self.map, (cell, side), self.world))
     }
 
     /// The messages that have come since this robot last acted, each with the number of its sender.
@@ -209,20 +243,6 @@ impl<R: Rule> View<'_, R> {
         most > 0 && u32::from(columns) + u32::from(rows) <= u32::from(most)
             || most == u16::MAX
             || cell == self.cell() && most > 0
-    }
-}
-
-/// Whether robots can go from a cell through a side, which is decided now if it was not before.
-pub(super) fn passes<R: Rule>(
-    setting: &Setting<'_, R>,
-    map: &mut Option<Map>,
-    (cell, side): (Cell, Side),
-    world: &mut dyn Oracle,
-) -> bool {
-    let (edge, beyond, ground) = (Edge::new(cell, side), cell.beyond(side), &setting.ground);
-    match map {
-        Some(map) => map.meet_edge(ground, edge, world) && map.meet_cell(ground, beyond, world),
-        None => world.is_open(edge) && world.is_free(beyond),
     }
 }
 

@@ -6,13 +6,14 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Step};
 
-use super::ground::Map;
-use super::rule::{Act, Body, Demand, Rule, Scene, TeamState, TeamStep, View, passes};
-use super::{Moves, Promise, Setting};
-use crate::engine::SeededOracle;
+use super::ground::{Map, passes};
+use super::rule::{Act, Body, Demand, Rule, Scene, TeamState, TeamStep, View};
+use super::{Moves, Promise, Setting, Strategy};
+use crate::decide::MethodError;
 use crate::engine::states::{self, Bits, Places, System};
-use crate::engine::tree::Game;
+use crate::engine::tree::{Game, Limits, Tree};
 use crate::engine::world::{Turn, World};
+use crate::engine::{SeededOracle, Until};
 use crate::run::Frame;
 
 /// A team that follows a rule in its setting.
@@ -23,6 +24,73 @@ pub struct TeamWorld<'a, R: Rule> {
     pub(super) wanted: Vec<Promise>,
     /// The first scene.
     pub(super) start: Scene<R>,
+}
+
+/// Teams in a setting.
+impl<'a, R: Rule> Setting<'a, R> {
+    /// The search for teams that follow `rule`, as a tree, at its start: it can be made wave by wave, left and taken up
+    /// again. It is for the demands that are `wanted`, or for all if none is said to be; each is decided as if it stood
+    /// alone, so a run goes on until it has broken all of them.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the setting is not one for a [tree](Strategy::Tree), or the limits are beyond what can be
+    /// searched.
+    pub fn search(
+        &'a self,
+        rule: &R,
+        until: Until,
+        wanted: &[Promise],
+    ) -> Result<Tree<TeamWorld<'a, R>>, MethodError> {
+        if self.strategy() != Strategy::Tree {
+            let why = "a tree of runs is of one start in one layout, in which robots move together and lose nothing: \
+                       decide by `Keeps`, which searches the states of all else";
+            return Err(MethodError::new(why));
+        }
+        let playing = self.playing(rule, wanted)?;
+        let max_walls = self.ground.walls.most_met() + self.ground.obstacles.most_met();
+        Tree::new(playing, &Limits { max_walls, budget_moves: None, until }).map_err(MethodError::new)
+    }
+
+    /// A team that follows `rule` in it; of its demands those are looked at that are `wanted`, or all if none is.
+    ///
+    /// # Errors
+    /// [`MethodError`] as of [`Self::starts`], or if there is no start, or no such demand, or if states would be
+    /// searched for several demands on endless runs.
+    pub fn playing(&'a self, rule: &R, wanted: &[Promise]) -> Result<TeamWorld<'a, R>, MethodError> {
+        let starts = self.starts(rule)?;
+        let start =
+            starts.into_iter().next().ok_or_else(|| MethodError::new("there is no layout to start in"))?;
+        self.playing_from(rule, wanted, start)
+    }
+
+    /// A team as of [`Self::playing`] that begins so.
+    pub(super) fn playing_from(
+        &'a self,
+        rule: &R,
+        wanted: &[Promise],
+        start: Scene<R>,
+    ) -> Result<TeamWorld<'a, R>, MethodError> {
+        let demands = self.demands.len();
+        if let Some(Promise(none)) = wanted.iter().find(|promise| promise.0 >= demands) {
+            return Err(MethodError::new(format_args!(
+                "there is no demand {none}: the setting has {demands}"
+            )));
+        }
+        let wanted = if wanted.is_empty() { (0..demands).map(Promise).collect() } else { wanted.to_vec() };
+        let is_endless = |promise: &&Promise| self.demands[promise.0].is_broken_by_endless_runs();
+        if self.strategy() == Strategy::States && wanted.iter().filter(is_endless).count() > 1 {
+            let why = "states are searched for one demand on endless runs at a time: name it";
+            return Err(MethodError::new(why));
+        }
+        Ok(TeamWorld { setting: self, rule: rule.clone(), wanted, start })
+    }
+
+    /// A team that follows `rule` from these cells, to these goals if there are any, in a layout of any size that
+    /// answers for itself. All its demands are looked at.
+    pub fn in_layout(&'a self, rule: &R, starts: &[Cell], goals: Vec<Cell>) -> TeamWorld<'a, R> {
+        let wanted = (0..self.demands.len()).map(Promise).collect();
+        TeamWorld { setting: self, rule: rule.clone(), wanted, start: Self::scene(rule, starts, goals, None) }
+    }
 }
 
 /// The event of a step.
@@ -206,8 +274,8 @@ impl<R: Rule> World for TeamWorld<'_, R> {
             } else {
                 event.looked |= 1 << robot;
                 let map = &mut scene.map;
-                let mut view =
-                    View { setting: self.setting, robot, scene: &before, map, world, sent: &mut sent };
+                let (Setting { senses, ground, .. }, sent) = (self.setting, &mut sent);
+                let mut view = View { senses: *senses, ground, robot, scene: &before, map, world, sent };
                 let body = &mut scene.bodies[robot];
                 let act = self.rule.act(&mut view, &mut body.memory);
                 body.heard.clear();
@@ -227,7 +295,7 @@ impl<R: Rule> World for TeamWorld<'_, R> {
                 body.is_blocked = false;
             }
             let Step::Cross(side) = step else { continue };
-            body.is_blocked = !passes(self.setting, &mut scene.map, (cell, side), world);
+            body.is_blocked = !passes(&self.setting.ground, &mut scene.map, (cell, side), world);
             event.blocked[robot] = body.is_blocked;
             if !body.is_blocked {
                 body.cell = cell.after(step);
