@@ -2,14 +2,12 @@
 //! and what refutes the clause. What is here knows engines and no scheme.
 
 mod bodies;
-mod portion;
 mod reasons;
 
 use std::any::Any;
 use std::fmt;
 
-pub use self::bodies::{Body, EveryAnswer, RandomAnswers, Range};
-pub use self::portion::Portion;
+pub use self::bodies::{Body, EveryAnswer, RandomAnswers};
 use crate::engine::model::StatesModel;
 use crate::engine::smallest::Certificate;
 use crate::engine::states::{self, AnySystem, Limits, Memory, Step, System};
@@ -129,6 +127,29 @@ impl Answer {
     pub const fn open() -> Self {
         Self { verdict: Verdict::Open, cases: 0, given_up: 0, counterexample: None, note: None }
     }
+
+    /// The answer of those to all portions of a check, with the shortest counterexample, of which the first. A portion
+    /// in which there was nothing to look at says nothing.
+    pub fn merged(answers: impl IntoIterator<Item = Self>) -> Self {
+        let key = |answer: &Self| {
+            let choices = answer.counterexample.as_ref().map(|found| &found.choices);
+            let length = choices
+                .map(|choices| (choices.once.len() + choices.again.len(), choices.once.first().copied()));
+            let rank = match answer.verdict {
+                Verdict::Refuted => 0,
+                Verdict::Open if answer.cases + answer.given_up > 0 => 1,
+                Verdict::Holds | Verdict::Unrefuted => 2,
+                Verdict::Open => 3,
+            };
+            (rank, length)
+        };
+        let mut answers: Vec<Self> = answers.into_iter().collect();
+        answers.sort_by_key(key);
+        let (cases, given_up) =
+            answers.iter().fold((0, 0), |sum, one| (sum.0 + one.cases, sum.1 + one.given_up));
+        let first = answers.into_iter().next().unwrap_or_else(Self::open);
+        Self { cases, given_up, ..first }
+    }
 }
 
 /// Why a method cannot begin.
@@ -203,6 +224,25 @@ pub struct Context<'a, 'w> {
     pub watch: Watch<'w>,
     /// The memory that searches over states may take. Where it does not suffice, the check is left open.
     pub memory: Memory<'a>,
+}
+
+/// A portion of a check that is divided: every so many-th part of it, from this one on.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Portion {
+    /// The number of its first part.
+    pub number: usize,
+    /// How many portions there are.
+    pub of: usize,
+}
+
+impl Portion {
+    /// All of a check.
+    pub const WHOLE: Self = Self { number: 0, of: 1 };
+
+    /// Those of these that it has.
+    pub fn of<T>(self, all: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
+        all.into_iter().skip(self.number).step_by(self.of)
+    }
 }
 
 /// Random runs of a rule.
@@ -328,6 +368,9 @@ pub trait Method<R>: Sync {
 
 /// Systems whose states or runs are all searched.
 pub type Systems = Vec<Box<dyn AnySystem>>;
+
+/// The bound of a body in words, made from the numbers that its choices range over.
+pub type Range = fn() -> String;
 
 /// The class of a counterexample, in words, and its moves.
 pub type Size = (String, usize);

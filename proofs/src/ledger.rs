@@ -8,12 +8,12 @@ mod readings;
 use std::fmt::{self, Write};
 use std::iter;
 
-use crate::clause::{AnyCheck, Clause, Decision};
+use crate::clause::{AnyCheck, Clause, Decision, Variant};
 use crate::decide::Verdict;
 
 pub use certificates::{Examination, Misfit, certificate, examine};
 pub use composition::{Theorem, theorems};
-pub use jobs::{Hear, Indecision, Limits, News, PATIENCE_S, decide, decide_all, hunt};
+pub use jobs::{Hear, Limits, News, PATIENCE_S, decide, decide_all, hunt};
 
 /// Clauses of our own that stand together, and a name for what they are about.
 #[derive(Debug)]
@@ -84,6 +84,41 @@ pub fn register(rooms: &[&'static [Clause]]) -> Result<Vec<&'static Clause>, Dup
         }
     }
     Ok(clauses)
+}
+
+/// Why nothing came of a check, or of one of its variants.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Indecision {
+    /// One of its steps did not end.
+    Unended {
+        /// The variant whose step it was; none if it was a step of the rule.
+        variant: Option<Variant>,
+        /// How long the step was waited for.
+        seconds: u32,
+    },
+    /// A step of another check did not end, and no thread was left to go on.
+    Behind,
+    /// The work was ended before.
+    Ended,
+}
+
+impl fmt::Display for Indecision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unended { variant: None, seconds } => {
+                write!(f, "a step of the rule did not end within {seconds} s")
+            }
+            Self::Unended { variant: Some(variant), seconds } => {
+                let what = match variant {
+                    Variant::Mutant(_) => "mutant",
+                    Variant::Reading { .. } => "reading",
+                };
+                write!(f, "a step of the {what} {:?} did not end within {seconds} s", variant.name())
+            }
+            Self::Behind => f.write_str("not decided, since a step of another check did not end"),
+            Self::Ended => f.write_str("not decided, since the work was ended before"),
+        }
+    }
 }
 
 /// A check that was decided.

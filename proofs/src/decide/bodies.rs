@@ -2,14 +2,11 @@
 
 use tautline_kernel::choice::Oracle;
 
-use super::{Answer, Context, Depiction, Evidence, Method, MethodResult, RefutationPlay, Verdict};
+use super::{Answer, Context, Depiction, Evidence, Method, MethodResult, Range, RefutationPlay, Verdict};
 use crate::engine::{self, Choices, Outcome, Replay, ScriptError, Stop, Until};
 
 /// A body: one case of a clause about `rule`, made by the choices that the oracle answers.
 pub type Body<R> = fn(rule: &R, oracle: &mut dyn Oracle) -> Outcome;
-
-/// The bound of a body in words, made from the numbers that its choices range over.
-pub type Range = fn() -> String;
 
 /// Every answer to every choice of a body.
 pub struct EveryAnswer<R> {

@@ -4,7 +4,6 @@
 
 use std::any::Any;
 use std::cmp::Reverse;
-use std::fmt;
 use std::ops::ControlFlow;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
@@ -14,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use rayon::Yield;
 
-use super::{Row, checks};
+use super::{Indecision, Row, checks};
 use crate::clause::{Clause, Decision, Variant};
 use crate::decide::{Answer, Cache, Context, MethodError, MethodResult, RandomRuns};
 use crate::engine::Until;
@@ -64,41 +63,6 @@ pub const PATIENCE_S: u32 = 60;
 impl Default for Limits {
     fn default() -> Self {
         Self { memory: Arc::new(MemoryLimit::unbounded()), patience_s: PATIENCE_S }
-    }
-}
-
-/// Why nothing came of a check, or of one of its variants.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Indecision {
-    /// One of its steps did not end.
-    Unended {
-        /// The variant whose step it was; none if it was a step of the rule.
-        variant: Option<Variant>,
-        /// How long the step was waited for.
-        seconds: u32,
-    },
-    /// A step of another check did not end, and no thread was left to go on.
-    Behind,
-    /// The work was ended before.
-    Ended,
-}
-
-impl fmt::Display for Indecision {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unended { variant: None, seconds } => {
-                write!(f, "a step of the rule did not end within {seconds} s")
-            }
-            Self::Unended { variant: Some(variant), seconds } => {
-                let what = match variant {
-                    Variant::Mutant(_) => "mutant",
-                    Variant::Reading { .. } => "reading",
-                };
-                write!(f, "a step of the {what} {:?} did not end within {seconds} s", variant.name())
-            }
-            Self::Behind => f.write_str("not decided, since a step of another check did not end"),
-            Self::Ended => f.write_str("not decided, since the work was ended before"),
-        }
     }
 }
 
