@@ -16,9 +16,8 @@ use tautline_proofs::engine::{Stop, exhaust, require};
 
 /// The area of the paper for so many robots, and its base.
 fn area(robots: i16) -> (Area, Cell) {
-    let last = 2 * robots - 2;
-    let area = Area::new(Cell::new(0, 0), Cell::new(last, last)).expect("cells");
-    (area, Cell::new(robots - 1, robots - 1))
+    let Bounds { area, base, .. } = Bounds::new(Subject::PUBLISHED, robots as usize, 0);
+    (area, base)
 }
 
 /// The published chain of so many robots in the paper's area, under these readings.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use tautline_kernel::chain::Rule;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, Cell, Side, Step};
+use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::areas::smallest_run;
 use tautline_proofs::chain::invariant::Invariant;
@@ -159,9 +159,7 @@ fn what_holds_holds_in_other_orders() {
 
 /// The chain of so many robots in the paper's area.
 fn chain(subject: Subject, robots: usize) -> PlainChain {
-    let last = 2 * robots as i16 - 2;
-    let area = Area::new(Cell::new(0, 0), Cell::new(last, last)).expect("cells");
-    let base = Cell::new(last / 2, last / 2);
+    let Bounds { area, base, .. } = Bounds::new(subject, robots, 0);
     PlainChain::of(&subject, robots, base, area).expect("all start in the base").that_floods_once()
 }
 

@@ -133,15 +133,6 @@ impl<P: Clone + Eq + Hash> Queue<P> {
         self.states.push(QueueEntry { hash, end: self.bytes.len(), node: None, has_new });
     }
 
-    /// Gives the next new parts their numbers in the table.
-    fn renumber(&mut self, count: usize, table: &mut Parts<P>) {
-        for part in &self.new.parts[self.numbers.len()..][..count] {
-            let number = table.number(hash_of_part(part), part);
-            self.is_renumbered |= number as usize != self.had + self.numbers.len();
-            self.numbers.push(number);
-        }
-    }
-
     /// The next state, whose new parts have their numbers: its hash, its code in a table of numbers of so many bytes,
     /// and its own number if it was found.
     fn next(&mut self, width: usize) -> (HashOfState, &[u8], Option<u32>) {
@@ -216,9 +207,13 @@ impl<P: Clone + Eq + Hash> StateTable<P> {
         disk.look_up(queues.flat_map(Queue::unknown).collect(), workers)
     }
 
-    /// Takes the next new parts of the states of a queue.
+    /// Takes the next new parts of the states of a queue, and gives them their numbers.
     pub(super) fn take_parts(&mut self, queue: &mut Queue<P>, count: usize) {
-        queue.renumber(count, &mut self.parts);
+        for part in &queue.new.parts[queue.numbers.len()..][..count] {
+            let number = self.parts.number(hash_of_part(part), part);
+            queue.is_renumbered |= number as usize != queue.had + queue.numbers.len();
+            queue.numbers.push(number);
+        }
         self.widen(width_of(self.parts.parts.len() as u32));
     }
 
