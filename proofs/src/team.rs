@@ -176,12 +176,8 @@ impl<R: Rule> Setting<'_, R> {
             Places::None => vec![Vec::new()],
             Places::At(cells) => {
                 let cells = cells(rule);
-                if cells.len() != robots {
-                    return Err(MethodError::new(format_args!(
-                        "{robots} robots are placed in {} cells",
-                        cells.len()
-                    )));
-                }
+                let why = format_args!("{robots} robots are placed in {} cells", cells.len());
+                MethodError::unless(cells.len() == robots, why)?;
                 if let Some(outside) = cells.iter().find(|&&cell| map.cell(cell) == Some(false)) {
                     let why = if map.area().contains(*outside) {
                         "which is blocked"
@@ -207,12 +203,8 @@ impl<R: Rule> Setting<'_, R> {
     /// [`MethodError`] if the area, the number of robots or the number of layouts
     /// is too large, or a robot starts outside.
     pub fn starts(&self, rule: &R) -> Result<Vec<Scene<R>>, MethodError> {
-        if !(1..=MOST_ROBOTS).contains(&self.robots) {
-            return Err(MethodError::new(format_args!(
-                "a team has 1 to {MOST_ROBOTS} robots, not {}",
-                self.robots
-            )));
-        }
+        let why = format_args!("a team has 1 to {MOST_ROBOTS} robots, not {}", self.robots);
+        MethodError::unless((1..=MOST_ROBOTS).contains(&self.robots), why)?;
         let mut scenes = Vec::new();
         for map in self.ground.maps()? {
             for starts in self.placed(&self.starts, rule, &map)? {

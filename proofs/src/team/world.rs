@@ -72,9 +72,8 @@ impl<'a, R: Rule> Setting<'a, R> {
     ) -> Result<TeamWorld<'a, R>, MethodError> {
         let demands = self.demands.len();
         if let Some(Promise(none)) = wanted.iter().find(|promise| promise.0 >= demands) {
-            return Err(MethodError::new(format_args!(
-                "there is no demand {none}: the setting has {demands}"
-            )));
+            let why = format_args!("there is no demand {none}: the setting has {demands}");
+            return Err(MethodError::new(why));
         }
         let wanted = if wanted.is_empty() { (0..demands).map(Promise).collect() } else { wanted.to_vec() };
         let is_endless = |promise: &&Promise| self.demands[promise.0].is_broken_by_endless_runs();
