@@ -10,29 +10,27 @@
 //! ```
 
 mod foreign;
+mod line;
 mod summary;
 mod team_move;
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use tautline_io::atomic_file::{AtomicFile, Replaceable};
 use tautline_io::diagnostic::{Diagnostic, Halt};
 use tautline_io::json_lines::{Lines, MAX_FILE_BYTES, line_of};
-use tautline_kernel::ground::Cell;
 
 use crate::explore::{
-    Catalogue, ClauseId, Limits, Look, OnViolation, Play, Report, RuleId, Scheme, Setup, StopReason,
-    TeamMove, Violation, Watcher, explore,
+    Catalogue, ClauseId, Limits, Look, OnViolation, Play, Report, RuleId, Setup, TeamMove, Watcher, explore,
 };
 use crate::options::Options;
-use tautline_grids::chance::Probability;
-use tautline_grids::layout::Layout;
 
 pub use foreign::ForeignRun;
 pub(crate) use foreign::Player;
+pub use line::StoredViolation;
+use line::{Header, Line, drawn};
 pub use summary::Summary;
 use team_move::one_line;
 pub use team_move::{StoredMove, blocked_numbers, letter, numbered_from, step, steps};
@@ -202,106 +200,6 @@ const VERSION: u32 = 1;
 /// How to make such a file again.
 const AGAIN: &str = "store the run again with `tautline explore `trace`` or `tautline hunt`";
 
-/// The first line. What the limits say is known only of the schemes of this program.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Header<L> {
-    format: String,
-    version: u32,
-    scheme: String,
-    rule: String,
-    robots: u16,
-    seed: u64,
-    base: Cell,
-    /// Where each agent starts, if not all start at the base.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    starts: Option<Vec<Cell>>,
-    /// How likely it is that a sensor is missed, if that happens at all.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    miss: Option<Probability>,
-    /// Which sensors are missed besides.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    missed: Vec<u32>,
-    /// The options that the run is told, if it is told any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    options: Option<Options>,
-    /// The choices that make the run, where a search has found it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    choices: Vec<u32>,
-    limits: L,
-    /// The clause that the last move breaks, in a counterexample.
-    clause: Option<String>,
-    /// The demand of a rule of one's own that is broken, in words.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    demand: Option<String>,
-    /// The number of the first robot, which is 0 of a rule of one's own; without it robots count from 1, and team moves
-    /// have no titles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    numbered_from: Option<usize>,
-    /// The drawing, with the base.
-    layout: String,
-}
-
-impl<L> Header<L> {
-    /// The number of the first robot.
-    fn first_number(&self) -> usize {
-        self.numbered_from.unwrap_or(1)
-    }
-
-    /// The run that it makes, without limits.
-    fn setup(self, scheme: Scheme, rule: RuleId, layout: Layout) -> Setup {
-        let Self { robots, seed, base, starts, miss, missed, options, choices, .. } = self;
-        let (miss, options) = (miss.unwrap_or_default(), options.unwrap_or_default());
-        let limits = Limits::default();
-        Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, options, choices, limits }
-    }
-}
-
-/// A later line.
-#[derive(PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Line {
-    Move(StoredMove),
-    End(StoredEnd),
-}
-
-/// The last line.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StoredEnd {
-    stopped: StopReason,
-    steps: u32,
-    explored: u32,
-    cells: u32,
-    violations: Vec<StoredViolation>,
-}
-
-/// A clause that was broken, and in which team move.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StoredViolation {
-    clause: String,
-    step: u32,
-}
-
-impl From<&Violation> for StoredViolation {
-    fn from(violation: &Violation) -> Self {
-        Self { clause: violation.clause.to_string(), step: violation.step }
-    }
-}
-
-impl From<&Report> for StoredEnd {
-    fn from(report: &Report) -> Self {
-        Self {
-            stopped: report.stopped,
-            steps: report.steps,
-            explored: report.explored,
-            cells: report.cells,
-            violations: report.violations.iter().map(StoredViolation::from).collect(),
-        }
-    }
-}
-
 /// A trace in the making.
 #[derive(Debug)]
 pub struct Writer {
@@ -388,16 +286,6 @@ pub fn text(setup: &Setup, clause: Option<ClauseId>) -> Result<String, Halt> {
         Ok(())
     })?;
     Ok(text + &line_of(&Line::End((&report).into())))
-}
-
-/// The layout of a header, with the base where the header has it.
-fn drawn(lines: &Lines, text: &str, layout: &str, base: Cell, again: &str) -> Result<Layout, Diagnostic> {
-    let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "layout", problem, again))?;
-    if layout.base() != Some(base) {
-        let what = format!("the base {base} is not where the layout draws it");
-        return Err(lines.fault(text, "base", what, again));
-    }
-    Ok(layout)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use tautline_io::json_lines::{Lines, MAX_LINE_BYTES};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Frame;
 
-use super::{Header, Line, StoredEnd, StoredViolation, drawn};
+use super::line::{Header, Line, StoredEnd, StoredViolation, drawn};
 use crate::explore::{
     ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, StopReason, Surroundings, Survey, Team,
     Violation, Watcher, run,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_io::svg::{Panel, text_width};
 use tautline_kernel::ground::{Area, Cell, Side};
 
-use super::{CELL, Frame, lines, stripes};
+use super::marks::{CELL, Frame, lines, stripes};
 use crate::explore::{Play, Report, Setup};
 use crate::objects::{ObjectEstimate, ObjectReport};
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tautline_io::svg::{Panel, escaped};
 use tautline_kernel::ground::Cell;
 
-use super::{CELL, Frame, ground, name, panel, unseen, walls};
+use super::marks::{CELL, Frame, ground, name, panel, unseen, walls};
 use tautline_grids::layout::Layout;
 
 /// Robots in cells from the corner of a layout, each with its name; `broken` are those that break a clause, with a line
