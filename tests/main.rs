@@ -1,5 +1,6 @@
 //! The program as users run it, and the documents beside it.
 
+mod circles;
 mod cli;
 mod commands;
 mod conform;

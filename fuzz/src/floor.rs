@@ -10,7 +10,7 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::floor::crew::{Body, BodyOf, Scheme, SensorData, Sight};
 
-use super::numbers;
+use super::parts::numbers;
 
 /// The longest side, in cells.
 const SIDE: u32 = 6;

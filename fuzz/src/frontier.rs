@@ -8,7 +8,7 @@ use tautline_proofs::engine::{Stop, Tape};
 use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Demand, Setting};
 
-use super::numbers;
+use super::parts::numbers;
 
 /// Steps after which a run is left: the bytes may let one robot act alone for ever.
 const MOST_STEPS: u32 = 1_000;

@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, SmallGrid,
 use tautline_kernel::kit::{Condition, Kit, Message, Next, Reach, Rule, Sight, Stance, touch};
 use tautline_proofs::engine::Tape;
 
-use super::numbers;
+use super::parts::numbers;
 
 /// A team of at most four.
 type Team = Kit<SmallGrid, 4, 256>;

@@ -8,6 +8,7 @@ mod floor;
 mod frontier;
 mod kit;
 mod network;
+mod parts;
 mod position;
 #[path = "../../src/report.rs"]
 #[allow(dead_code, reason = "a fuzzer has no terminal")]
@@ -44,6 +45,7 @@ pub use floor::floor;
 pub use frontier::frontier;
 pub use kit::kit;
 pub use network::network;
+use parts::{numbers, told};
 pub use position::position;
 pub use rescue::{rescue, rescue_trace};
 
@@ -70,11 +72,6 @@ pub const TARGETS: [(&str, Body); 17] = [
     ("rescue_trace", rescue_trace),
     ("trace", trace),
 ];
-
-/// The bytes as the numbers of a tape.
-fn numbers(bytes: &[u8]) -> Vec<u32> {
-    bytes.iter().copied().map(u32::from).collect()
-}
 
 /// A chain of any size in any area, every edge decided by the bytes, from its start to its end: the repaired
 /// rule keeps all safety sentences, the published one that of coverage, and a small chain's run is not long.
@@ -413,10 +410,4 @@ fn read_back(oracle: &str, layout: Result<Layout, Misread>) {
             told(&Diagnostic::at(Path::new("layout"), oracle, at, problem.what(), remedy));
         }
     }
-}
-
-fn told(fault: &Diagnostic) {
-    let line = fault.to_string();
-    assert!(!line.is_empty() && !line.contains('\n'), "{line}");
-    assert!(!report::render(fault, report::Colour::Plain).is_empty());
 }

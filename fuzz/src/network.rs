@@ -10,7 +10,7 @@ use tautline_kernel::notice::{
 };
 use tautline_proofs::engine::Tape;
 
-use super::numbers;
+use super::parts::numbers;
 
 /// The most nodes.
 const NODES: u32 = 12;

@@ -9,7 +9,7 @@ use tautline_kernel::position::{
 };
 use tautline_proofs::engine::Tape;
 
-use super::numbers;
+use super::parts::numbers;
 
 /// A coordinate or a distance: small, large, or none.
 fn metres(bytes: &mut Tape<'_>) -> f64 {

@@ -12,7 +12,7 @@ use tautline_proofs::engine::Tape;
 use tautline_proofs::mrc::Demand;
 use tautline_sim::explore::RuleName;
 
-use super::{numbers, told};
+use super::parts::{numbers, told};
 
 /// A rescue, and its seed.
 fn setting(bytes: &mut Tape<'_>) -> (Setting, u64) {

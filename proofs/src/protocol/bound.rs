@@ -56,14 +56,3 @@ macro_rules! bound {
         }
     };
 }
-
-/// Makes the demands of a [`Protocol`](crate::protocol::Protocol), in its block, each by the name of a function of
-/// [`Demand`](crate::protocol::Demand): `demands! { eventually "all are there", |rule, here, state| state.0; }`. The
-/// last `;` may be left out.
-#[macro_export]
-macro_rules! demands {
-    ($($when:ident $words:expr, $asked:expr);+ $(;)?) => {
-        const DEMANDS: &'static [$crate::protocol::Demand<Self>] =
-            &[$($crate::protocol::Demand::<Self>::$when($words, $asked)),+];
-    };
-}
