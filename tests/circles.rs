@@ -42,6 +42,8 @@ struct Names<'a> {
     paths: Vec<Vec<&'a str>>,
     /// The words behind the imports.
     words: BTreeSet<&'a str>,
+    /// The modules that it declares.
+    modules: BTreeSet<&'a str>,
 }
 
 /// The files of a crate, by their modules.
@@ -182,6 +184,7 @@ fn names(code: &str) -> Names<'_> {
         // So stand variants and fields in a list, which may be called as anything is.
         let is_listed =
             matches!(before, Some(&"{" | &"," | &"]")) && matches!(tokens.get(place + 1), Some(&"," | &"}"));
+        names.modules.extend(Some(token).filter(|_| before == Some(&"mod")));
         if is_word(token) && !is_part {
             names.words.extend(Some(token).filter(|_| !is_listed));
             names.paths.extend(Some(outward(path, within)).filter(|path| path.len() > 1));
@@ -219,6 +222,8 @@ fn home<'a>(modules: &Modules<'a>, path: &[&'a str]) -> Option<Vec<&'a str>> {
             let passed = [absolute(modules, module, &import.path)?, rest.to_vec()].concat();
             if passed == path { Some(module.to_vec()) } else { home(modules, &passed) }
         }
+        // That module is the file of another crate.
+        None if modules[module].modules.contains(name) => None,
         None => Some(module.to_vec()),
     }
 }
