@@ -19,8 +19,8 @@ pub use self::density::{Density, Line};
 pub use self::world::Sample;
 use self::world::World;
 use super::notice_fig5::{NODES, RANGE_M, SIDE_M};
-pub use super::paper::Verdict;
 use super::prelude::*;
+pub use super::sentences::Verdict;
 use tautline_field::radio::{Lake, SHAPES};
 use tautline_field::tan::Scans;
 

@@ -10,7 +10,7 @@ use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
-use super::sentences::{at_least, within};
+use super::sentences::{NEAR, at_least, within};
 use tautline_field::radio::{
     Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
@@ -27,9 +27,6 @@ pub const RANGE_M: f64 = 25.0;
 /// The k of the paper's figure, and what it has k-FNF reach there: “near 100 %”, at every density. All else it draws
 /// only.
 const PAPER: (Count, f64) = (Count::ONE, 1.0);
-
-/// The share that is “near 100 %”. The paper gives no number.
-pub(super) const NEAR: f64 = 0.95;
 
 /// The name of the scalable broadcast algorithm.
 const SBA: &str = "sba";

@@ -1,4 +1,4 @@
-//! The numbers and sentences of papers, beside what is measured.
+//! The numbers of papers, beside what is measured.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -51,64 +51,4 @@ pub(super) fn text(
         .estimate("ours", ours, 1, |line| line.ours)
         .right("difference", difference, |line| format!("{:+.1}", line.difference))
         .text()
-}
-
-/// The verdict on a sentence of a paper.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// It is so, and where there is an interval, its whole says so.
-    Holds,
-    /// The contrary is so.
-    Fails,
-    /// The runs do not tell.
-    Open,
-}
-
-impl Verdict {
-    /// Whether it is so, where the runs tell.
-    pub(super) const fn of(is_so: bool) -> Self {
-        Self::decided(is_so, !is_so)
-    }
-
-    /// Whether the runs say so, or else the contrary.
-    pub(super) const fn decided(is_so: bool, is_not: bool) -> Self {
-        match (is_so, is_not) {
-            (true, _) => Self::Holds,
-            (false, true) => Self::Fails,
-            (false, false) => Self::Open,
-        }
-    }
-
-    /// Whether the contrary is so.
-    pub(super) const fn contrary(self) -> Self {
-        match self {
-            Self::Holds => Self::Fails,
-            Self::Fails => Self::Holds,
-            Self::Open => Self::Open,
-        }
-    }
-
-    /// Whether either is so.
-    pub(super) const fn or(self, other: Self) -> Self {
-        self.contrary().and(other.contrary()).contrary()
-    }
-
-    /// Whether both are so.
-    pub(super) const fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Fails, _) | (_, Self::Fails) => Self::Fails,
-            (Self::Holds, Self::Holds) => Self::Holds,
-            (Self::Open, _) | (_, Self::Open) => Self::Open,
-        }
-    }
-
-    /// In a word.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "fails",
-            Self::Open => "open",
-        }
-    }
 }

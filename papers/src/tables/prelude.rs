@@ -6,13 +6,13 @@ pub(super) use tautline_proofs::plural::counted;
 
 pub(super) use super::columns::Columns;
 pub(super) use super::estimates::{count, mean, percent, plain, ratio, seconds, share, text};
-pub(super) use super::paper::{PrintedFigure, Verdict};
+pub(super) use super::paper::PrintedFigure;
 pub(super) use super::parameter::{
     Senders, flag, from_to, joined, layout_name, list, nested, one, renamed, repeated, settings, thousandths,
     word,
 };
 pub(super) use super::runs::{Run, at, of_teams, pairs, runs};
-pub(super) use super::sentences::Judgement;
+pub(super) use super::sentences::{Judgement, Verdict};
 pub(super) use super::{Description, Observer, Results, Table, Threads, based, generated, usage};
 pub(super) use crate::chart::{Axis, LineChart, Point, Series};
 pub(super) use tautline_field::stats::{Estimate, decimals, hundredths, rounded};

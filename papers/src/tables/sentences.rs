@@ -5,9 +5,6 @@ use serde::Serialize;
 use tautline_field::stats::Estimate;
 use tautline_io::text_table::{Column, TextTable, Width};
 
-use super::notice_fig5::NEAR;
-use super::paper::Verdict;
-
 /// A sentence of a paper, and what is so.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Judgement {
@@ -33,8 +30,71 @@ impl Judgement {
     }
 }
 
+/// The verdict on a sentence of a paper.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It is so, and where there is an interval, its whole says so.
+    Holds,
+    /// The contrary is so.
+    Fails,
+    /// The runs do not tell.
+    Open,
+}
+
+impl Verdict {
+    /// Whether it is so, where the runs tell.
+    pub(super) const fn of(is_so: bool) -> Self {
+        Self::decided(is_so, !is_so)
+    }
+
+    /// Whether the runs say so, or else the contrary.
+    pub(super) const fn decided(is_so: bool, is_not: bool) -> Self {
+        match (is_so, is_not) {
+            (true, _) => Self::Holds,
+            (false, true) => Self::Fails,
+            (false, false) => Self::Open,
+        }
+    }
+
+    /// Whether the contrary is so.
+    pub(super) const fn contrary(self) -> Self {
+        match self {
+            Self::Holds => Self::Fails,
+            Self::Fails => Self::Holds,
+            Self::Open => Self::Open,
+        }
+    }
+
+    /// Whether either is so.
+    pub(super) const fn or(self, other: Self) -> Self {
+        self.contrary().and(other.contrary()).contrary()
+    }
+
+    /// Whether both are so.
+    pub(super) const fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Fails, _) | (_, Self::Fails) => Self::Fails,
+            (Self::Holds, Self::Holds) => Self::Holds,
+            (Self::Open, _) | (_, Self::Open) => Self::Open,
+        }
+    }
+
+    /// In a word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "fails",
+            Self::Open => "open",
+        }
+    }
+}
+
 /// How far from a figure of a paper ours may be to be the same: a tenth of it. No paper gives a number.
 const SAME: f64 = 0.1;
+
+/// The share that is “near 100 %”. No paper gives a number.
+pub(super) const NEAR: f64 = 0.95;
 
 /// Whether a figure is between two others, by its whole 95 % interval; without one that is open.
 pub(super) fn within([least, most]: [f64; 2], ours: Option<[f64; 2]>) -> Verdict {
