@@ -9,7 +9,7 @@ mod table1;
 
 use std::num::NonZeroU32;
 
-use self::parameters::RivalSettings;
+use self::parameters::{ROBOTS, RivalSettings};
 use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};
@@ -20,9 +20,6 @@ use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, 
 
 pub use fig3::ChainFig3;
 pub use table1::ChainTable1;
-
-/// The team of the paper.
-const ROBOTS: u16 = 8;
 
 /// Its area without walls, (2N−1)² cells.
 const OPEN: &str = "open:15x15";

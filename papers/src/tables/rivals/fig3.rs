@@ -2,8 +2,8 @@
 
 use super::super::prelude::*;
 use super::claims::Race;
-use super::parameters::RivalSettings;
-use super::{Contender, MAX_MOVES, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
+use super::parameters::{ROBOTS, RivalSettings};
+use super::{Contender, MAX_MOVES, OPEN, Outcome, ROOMS, Times, stopping};
 use crate::rivals::{Links, Search};
 use tautline_sim::explore::{Limits, Milestone, RuleName};
 

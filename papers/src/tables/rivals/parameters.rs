@@ -6,6 +6,9 @@ use crate::rivals::fault;
 use crate::rivals::parameters::POOL;
 use crate::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 
+/// The team of the paper.
+pub(super) const ROBOTS: u16 = 8;
+
 settings! {
     /// The parameters of the rivals, but for what the tables vary.
     #[derive(Copy)]
@@ -38,7 +41,7 @@ impl RivalSettings {
     /// Refuses what no team can be told.
     pub(super) fn check(&self) -> Result<(), Halt> {
         let parameters = self.parameters(Search::Pool(self.pool), Links::Safe, Cells::Distinct);
-        Ok(parameters.check(super::ROBOTS.into()).map_err(|unfit| fault(&unfit))?)
+        Ok(parameters.check(ROBOTS.into()).map_err(|unfit| fault(&unfit))?)
     }
 }
 
@@ -55,13 +58,13 @@ fn both() -> Vec<Parameter<Weights>> {
 fn weight(text: &str) -> Result<f64, String> {
     let weight = real(text)?;
     let weights = Weights { distance: weight, new_cell: 0.0 };
-    let checked = Parameters { weights, ..Parameters::POOL }.check(super::ROBOTS.into());
+    let checked = Parameters { weights, ..Parameters::POOL }.check(ROBOTS.into());
     checked.map(|()| weight).map_err(|unfit| unfit.remedy())
 }
 
 fn pool(text: &str) -> Result<u32, String> {
     let pool = number(text)?;
-    let checked = Parameters { search: Search::Pool(pool), ..Parameters::POOL }.check(super::ROBOTS.into());
+    let checked = Parameters { search: Search::Pool(pool), ..Parameters::POOL }.check(ROBOTS.into());
     checked.map(|()| pool).map_err(|unfit| format!("{unfit}: {}", unfit.remedy()))
 }
 

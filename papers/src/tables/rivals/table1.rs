@@ -4,8 +4,8 @@
 use super::super::prelude::*;
 use super::super::sentences::{always, below};
 use super::claims::{about, alike, or_never};
-use super::parameters::RivalSettings;
-use super::{Contender, MAX_MOVES, OPEN, Outcome, ROBOTS, ROOMS, Times, stopping};
+use super::parameters::{ROBOTS, RivalSettings};
+use super::{Contender, MAX_MOVES, OPEN, Outcome, ROOMS, Times, stopping};
 use crate::rivals::{Cells, Links, Search};
 use tautline_sim::explore::{Milestone, RuleName};
 
