@@ -7,12 +7,10 @@
 mod area;
 mod sums;
 
-use serde::Serializer;
-
 use self::area::{Area, WallSet, solve};
 use self::sums::Sums;
+pub use self::sums::{Line, Worst};
 use super::prelude::*;
-use tautline_grids::layout::Layout;
 use tautline_io::text_blocks::{Block, beside};
 use tautline_sim::draw;
 use tautline_sim::explore::{RuleName, Setup, Survey, explore};
@@ -64,52 +62,6 @@ const ORBITS: usize = 16;
 pub struct Summary {
     /// Field by field, each under every rule.
     pub lines: Vec<Line>,
-}
-
-/// One rule in the layouts of one team with some numbers of walls.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub struct Line {
-    /// Robots, base included.
-    pub robots: u16,
-    /// The fewest walls and the most.
-    pub walls: [u32; 2],
-    /// As published or repaired.
-    pub rule: RuleName,
-    /// How many layouts.
-    pub layouts: u64,
-    /// Those in which no cell but the base can be reached: there is nothing to compare.
-    pub walled_in: u64,
-    /// Those in which the chain leaves a chain-reachable cell unexplored: they are not compared.
-    pub missed: u64,
-    /// Those in which the chain explores a cell that is not chain-reachable.
-    pub beyond: u64,
-    /// Those that are compared.
-    pub compared: u64,
-    /// Of those compared: the chain takes fewer team moves than the optimum. There must be none.
-    pub below: u64,
-    /// Of those compared: the chain takes as few.
-    pub optimal: u64,
-    /// The mean of the chain's team moves by the optimum, over those compared.
-    pub mean: Option<f64>,
-    /// The layout in which it is largest: of several, one with the fewest walls.
-    pub worst: Option<Worst>,
-}
-
-/// The layout in which the chain is farthest from the optimum.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-pub struct Worst {
-    /// The chain's team moves.
-    pub chain: u32,
-    /// The optimum.
-    pub optimum: u32,
-    /// The layout, with the base.
-    #[serde(serialize_with = "as_drawing")]
-    #[schemars(with = "String")]
-    pub layout: Layout,
-}
-
-fn as_drawing<S: Serializer>(layout: &Layout, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_str(layout)
 }
 
 impl Settings {
@@ -233,17 +185,6 @@ fn drawing(line: &Line, worst: &Worst) -> Result<String, Halt> {
         titles.into_iter().zip(lines).map(|(title, lines)| Block { title, lines }).collect();
     let title = format!("The worst for {} robots ({}): when each cell is explored", line.robots, line.rule);
     Ok(format!("\n{title}\n\n{}", beside(blocks)))
-}
-
-impl Worst {
-    const fn is_worse(&self, than: &Self) -> bool {
-        self.chain * than.optimum > than.chain * self.optimum
-    }
-
-    fn ratio(&self) -> String {
-        let Self { chain, optimum, layout: _ } = self;
-        format!("{chain}/{optimum} = {:.2}", f64::from(*chain) / f64::from(*optimum))
-    }
 }
 
 /// The run of the chain in the layout of `worst`, and when each cell is explored in it and in the optimum.

@@ -1,14 +1,72 @@
-//! Layouts counted by what the chain and the optimum take in them.
+//! Layouts counted by what the chain and the optimum take in them, and the lines that come of it.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use serde::{Deserializer, Serializer};
 use tautline_proofs::chain::reach::CellSet;
 
 use super::super::prelude::*;
 use super::area::{Area, WallSet, solve};
-use super::{Line, Worst};
+use tautline_grids::layout::Layout;
 use tautline_sim::explore::{RuleName, Survey, explore};
+
+/// One rule in the layouts of one team with some numbers of walls.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Line {
+    /// Robots, base included.
+    pub robots: u16,
+    /// The fewest walls and the most.
+    pub walls: [u32; 2],
+    /// As published or repaired.
+    pub rule: RuleName,
+    /// How many layouts.
+    pub layouts: u64,
+    /// Those in which no cell but the base can be reached: there is nothing to compare.
+    pub walled_in: u64,
+    /// Those in which the chain leaves a chain-reachable cell unexplored: they are not compared.
+    pub missed: u64,
+    /// Those in which the chain explores a cell that is not chain-reachable.
+    pub beyond: u64,
+    /// Those that are compared.
+    pub compared: u64,
+    /// Of those compared: the chain takes fewer team moves than the optimum. There must be none.
+    pub below: u64,
+    /// Of those compared: the chain takes as few.
+    pub optimal: u64,
+    /// The mean of the chain's team moves by the optimum, over those compared.
+    pub mean: Option<f64>,
+    /// The layout in which it is largest: of several, one with the fewest walls.
+    pub worst: Option<Worst>,
+}
+
+/// The layout in which the chain is farthest from the optimum.
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+pub struct Worst {
+    /// The chain's team moves.
+    pub chain: u32,
+    /// The optimum.
+    pub optimum: u32,
+    /// The layout, with the base.
+    #[serde(serialize_with = "as_drawing")]
+    #[schemars(with = "String")]
+    pub layout: Layout,
+}
+
+fn as_drawing<S: Serializer>(layout: &Layout, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(layout)
+}
+
+impl Worst {
+    pub(super) const fn is_worse(&self, than: &Self) -> bool {
+        self.chain * than.optimum > than.chain * self.optimum
+    }
+
+    pub(super) fn ratio(&self) -> String {
+        let Self { chain, optimum, layout: _ } = self;
+        format!("{chain}/{optimum} = {:.2}", f64::from(*chain) / f64::from(*optimum))
+    }
+}
 
 /// Sums over layouts.
 #[derive(Clone, Default, Debug, Serialize, Deserialize)]
@@ -17,7 +75,7 @@ pub struct Sums {
     walled_in: u64,
     missed: u64,
     beyond: u64,
-    #[serde(with = "as_list")]
+    #[serde(serialize_with = "as_list", deserialize_with = "of_list")]
     compared: Comparison,
 }
 
@@ -25,18 +83,12 @@ pub struct Sums {
 type Comparison = BTreeMap<(u32, u32), (u64, (u32, WallSet))>;
 
 /// Maps in JSON have words for keys; these are numbers.
-mod as_list {
-    use serde::{Deserialize, Deserializer, Serializer};
+fn as_list<S: Serializer>(map: &Comparison, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(map)
+}
 
-    use super::Comparison;
-
-    pub(super) fn serialize<S: Serializer>(map: &Comparison, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(map)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Comparison, D::Error> {
-        Ok(Vec::deserialize(deserializer)?.into_iter().collect())
-    }
+fn of_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Comparison, D::Error> {
+    Ok(Vec::deserialize(deserializer)?.into_iter().collect())
 }
 
 impl Sums {
