@@ -1,7 +1,8 @@
 //! The figures of agents as charts.
 
 use super::super::prelude::*;
-use super::{Figure, Line, TEAMS, Team};
+use super::figure::{Figure, Line};
+use super::team::{TEAMS, Team};
 
 /// The figure, with the numbers that the paper prints.
 pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {

@@ -3,7 +3,8 @@
 use super::super::paper;
 use super::super::prelude::*;
 use super::super::sentences::{always, below};
-use super::{Duration, Figure, Line, READINGS, Summary, TEAMS, Team};
+use super::figure::{Duration, Figure, Line, Summary};
+use super::team::{READINGS, TEAMS, Team};
 
 /// The numbers that the paper prints: of Brick&Mortar in Fig. 11.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<PrintedFigure> {
