@@ -1,7 +1,9 @@
 //! The figures of KIT as charts.
 
 use super::super::prelude::*;
-use super::{EXPLORED, Figure, Line, PATHS};
+use super::drive::EXPLORED;
+use super::figure::{Figure, Line};
+use super::lattice::PATHS;
 
 /// The figure in the first family, with the paper's point.
 pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {

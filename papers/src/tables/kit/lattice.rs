@@ -3,9 +3,11 @@
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 
-use super::PATHS;
 use tautline_grids::chance::Dice;
 use tautline_grids::layout::Layout;
+
+/// Paths of every layout.
+pub const PATHS: usize = 26;
 
 /// Lattices of one size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -5,8 +5,9 @@
 use tautline_kernel::kit::{Reach, Rule};
 
 use super::super::prelude::*;
-use super::lattice::FAMILIES;
-use super::{EXPLORED, Outcome, PATHS, Settings, driven, in_percent, is_any, until};
+use super::drive::{EXPLORED, Outcome, driven, in_percent, is_any, until};
+use super::figure::Settings;
+use super::lattice::{FAMILIES, PATHS};
 use tautline_sim::kit::{Pace, starts};
 
 /// Ranges in paths, of 3 m each; `None` is the paper's 10 m.

@@ -3,7 +3,9 @@
 use super::super::paper;
 use super::super::prelude::*;
 use super::super::sentences::below;
-use super::{EXPLORED, Figure, Line, PATHS, Race, Settings, Summary, Team, TeamRule};
+use super::drive::EXPLORED;
+use super::figure::{Figure, Line, Race, Settings, Summary, Team, TeamRule};
+use super::lattice::PATHS;
 
 /// The paper's numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot and
 /// two.
