@@ -16,9 +16,9 @@ mod world;
 
 pub use self::claims::{Claim, Decision};
 pub use self::density::{Density, Line};
-pub use self::world::Sample;
 use self::world::World;
-use super::notice_fig5::{NODES, RANGE_M, SIDE_M};
+pub use self::world::{Sample, Settings, Way};
+use super::notice_fig5::{NODES, SIDE_M};
 use super::prelude::*;
 pub use super::sentences::Verdict;
 use tautline_field::radio::{Lake, SHAPES};
@@ -162,70 +162,6 @@ impl Figure {
             Self::OneObstacle | Self::FourObstacles | Self::Shapes => &[Way::Tan],
         }
     }
-}
-
-/// A way to find to the WFR.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Way {
-    /// By the navigation tree of k-FNF.
-    Tan,
-    /// By the credit field.
-    Verma,
-    /// By the gradient.
-    Reich,
-    /// Back and forth.
-    Sheu,
-}
-
-impl Way {
-    /// All, in the order of every table.
-    pub const ALL: [Self; 4] = [Self::Tan, Self::Verma, Self::Reich, Self::Sheu];
-
-    /// Its name.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Tan => "TAN",
-            Self::Verma => "Verma",
-            Self::Reich => "Reich",
-            Self::Sheu => "Sheu",
-        }
-    }
-}
-
-settings! {
-    /// The settings of the figure; an empty list stands for what the figure has.
-    pub struct Settings {
-        /// Numbers of nodes [default: 300,500,700,900,1100 for figure 7, else 700]
-        pub nodes: Vec<usize> = Vec::new(), list("nodes", whole);
-        /// The side of the square, in metres
-        pub side_m: f64 = SIDE_M, one("side", "METRES", real);
-        /// The radio range, in metres
-        pub range_m: f64 = RANGE_M, one("range", "METRES", real);
-        /// An obstacle by its sides, and its shape: l, u, c, spiral, ring, or rows of # and . with / between them; may
-        /// be given again [default: those of the figure]
-        pub obstacles_m: Vec<Lake> = Vec::new(),
-            repeated("obstacle", "[SHAPE:]W,N,E,S", |lake| format!("{lake:?}"), str::parse::<Lake>);
-        /// The k of k-FNF, whose tree TAN uses
-        pub k: Senders = Senders::ONE, one("k", "K", Senders::read);
-        /// The standard deviation of the strengths that robots measure, in dB
-        pub noise_db: f64 = 0.0, one("noise-db", "DB", real);
-        /// When a robot turns its antenna once round
-        pub scan: Scans = Scans::Again, word("scan", "WHEN");
-        /// How near it comes to a node before it asks for the next, in percent of the range
-        pub near_percent: f64 = 1.0, one("near", "PERCENT", percent_of_range);
-        /// Topologies for each number of nodes
-        pub topologies: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
-        /// The seed of all topologies
-        pub seed: u64 = 0, one("seed", "SEED", number);
-    }
-}
-
-fn percent_of_range(text: &str) -> Result<f64, &'static str> {
-    text.parse()
-        .ok()
-        .filter(|percent| (0.01..=100.0).contains(percent))
-        .ok_or("write a number from 0.01 to 100")
 }
 
 /// One topology, by the place of the number of nodes, or of nodes and shape.

@@ -1,7 +1,7 @@
 //! The paper's claims about TAN and its rivals, and what is so.
 
 use super::super::prelude::*;
-use super::{Density, Way};
+use super::world::Way;
 
 /// A claim of the paper about RD.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
@@ -45,48 +45,11 @@ impl Claim {
     }
 
     /// Whether it is so if it is so in one case.
-    const fn is_of_some(self) -> bool {
+    pub(super) const fn is_of_some(self) -> bool {
         match self {
             Self::SmallerThanReich => true,
             Self::CloseToVerma | Self::ShorterThanVerma | Self::LikeReich => false,
         }
-    }
-
-    /// The verdicts on it at all densities, or whether it is so at one of them, or in one topology.
-    pub(super) fn judged(self, densities: &[Density]) -> Vec<Judgement> {
-        let decisions = densities.iter().filter_map(|density| {
-            let decision = density.claims.iter().find(|decision| decision.paper == self);
-            decision.map(|decision| (density, decision))
-        });
-        let less = |decision: &Decision| {
-            format!("TAN less {} {}", self.rival().word(), text(decision.difference, 2))
-        };
-        let of = |density: &Density| counted(density.nodes as u32, "node");
-        if !self.is_of_some() {
-            let judged = |(density, decision): (&Density, &Decision)| {
-                Judgement::new(self.words(), of(density), less(decision), decision.verdict)
-            };
-            return decisions.map(judged).collect();
-        }
-        let in_mean =
-            decisions.clone().map(|(_, decision)| decision.verdict).fold(Verdict::Fails, Verdict::or);
-        let mean = |decision: &Decision| decision.difference.map_or(f64::INFINITY, |less| less.mean);
-        let least = decisions.min_by(|(_, one), (_, other)| mean(one).total_cmp(&mean(other)));
-        let least = least.map_or_else(String::new, |(density, decision)| {
-            format!("{} at {}, the least", less(decision), of(density))
-        });
-        let shares = densities.iter().filter_map(|density| density.shorter_than_reich);
-        let most = shares.max_by(|one, other| one.mean.total_cmp(&other.mean));
-        let is_any = most.is_some_and(|share| share.mean > 0.0);
-        vec![
-            Judgement::new(self.words(), "in the mean, at some number of nodes", least, in_mean),
-            Judgement::new(
-                self.words(),
-                "in some topology",
-                format!("so in at most {} % of them", percent(most, 1)),
-                Verdict::decided(is_any, false),
-            ),
-        ]
     }
 
     /// In words, with the section.

@@ -3,9 +3,8 @@
 use super::super::estimates;
 use super::super::prelude::*;
 use super::super::sentences::always;
-use super::Way;
 use super::claims::{Claim, Decision};
-use super::world::{Sample, Walk};
+use super::world::{Sample, Walk, Way};
 
 /// All ways at one number of nodes.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -114,6 +113,45 @@ impl Density {
     fn arrivals(&self) -> String {
         let [told, arrive] = [self.told, self.told_arrive].map(|share| percent(share, 1));
         format!("{told} % hear the call, {arrive} % of these arrive")
+    }
+}
+
+impl Claim {
+    /// The verdicts on it at all densities, or whether it is so at one of them, or in one topology.
+    pub(super) fn judged(self, densities: &[Density]) -> Vec<Judgement> {
+        let decisions = densities.iter().filter_map(|density| {
+            let decision = density.claims.iter().find(|decision| decision.paper == self);
+            decision.map(|decision| (density, decision))
+        });
+        let less = |decision: &Decision| {
+            format!("TAN less {} {}", self.rival().word(), text(decision.difference, 2))
+        };
+        let of = |density: &Density| counted(density.nodes as u32, "node");
+        if !self.is_of_some() {
+            let judged = |(density, decision): (&Density, &Decision)| {
+                Judgement::new(self.words(), of(density), less(decision), decision.verdict)
+            };
+            return decisions.map(judged).collect();
+        }
+        let in_mean =
+            decisions.clone().map(|(_, decision)| decision.verdict).fold(Verdict::Fails, Verdict::or);
+        let mean = |decision: &Decision| decision.difference.map_or(f64::INFINITY, |less| less.mean);
+        let least = decisions.min_by(|(_, one), (_, other)| mean(one).total_cmp(&mean(other)));
+        let least = least.map_or_else(String::new, |(density, decision)| {
+            format!("{} at {}, the least", less(decision), of(density))
+        });
+        let shares = densities.iter().filter_map(|density| density.shorter_than_reich);
+        let most = shares.max_by(|one, other| one.mean.total_cmp(&other.mean));
+        let is_any = most.is_some_and(|share| share.mean > 0.0);
+        vec![
+            Judgement::new(self.words(), "in the mean, at some number of nodes", least, in_mean),
+            Judgement::new(
+                self.words(),
+                "in some topology",
+                format!("so in at most {} % of them", percent(most, 1)),
+                Verdict::decided(is_any, false),
+            ),
+        ]
     }
 }
 

@@ -4,8 +4,7 @@ use tautline_kernel::net::NodeId;
 
 use super::super::prelude::*;
 use super::density::Density;
-use super::world::World;
-use super::{Settings, Way};
+use super::world::{Settings, Way, World};
 use tautline_field::draw::field::{self, Map, Terminus, Trail};
 use tautline_field::tan::End;
 

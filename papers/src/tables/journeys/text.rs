@@ -3,7 +3,7 @@
 use super::super::prelude::*;
 use super::claims::CLOSE;
 use super::density::Density;
-use super::{Settings, Way};
+use super::world::{Settings, Way};
 use tautline_field::tan::Scans;
 
 /// The figure for people.
