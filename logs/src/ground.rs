@@ -1,8 +1,8 @@
 //! Logs against a map: positions where no robot can be, steps through walls, and the cells that were visited.
 
 use std::collections::BTreeSet;
+use std::fmt;
 
-use super::judge::{MOST_COMPARISONS, TooMuch};
 use super::{Limits, Tracks};
 
 /// The grid of cells under the positions. Columns are counted along the first axis, rows along the second one.
@@ -99,6 +99,28 @@ pub fn misplaced(tracks: &Tracks, limits: &Limits, grid: Grid, ground: &dyn Grou
     found.is_milli = is_off && milli * 2 > all && cells.len() > 1;
     found
 }
+
+/// More comparisons of robots than a judge makes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TooMuch {
+    /// So many.
+    pub comparisons: u128,
+}
+
+/// The comparisons of robots that a judge makes for a clause.
+pub const MOST_COMPARISONS: u128 = 1 << 32;
+
+impl fmt::Display for TooMuch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { comparisons } = self;
+        write!(
+            f,
+            "the judge would compare robots {comparisons} times, and does so at most {MOST_COMPARISONS} times"
+        )
+    }
+}
+
+impl std::error::Error for TooMuch {}
 
 /// Those of `cells` that were visited without doubt, and those that may have been.
 ///

@@ -3,9 +3,8 @@
 //! what a clause asks for: whether a robot has ever left its start.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 
-use super::ground::{Grid, visits};
+use super::ground::{Grid, MOST_COMPARISONS, TooMuch, visits};
 use super::{Limits, Silence, Tracks};
 
 /// The demand of a clause, with its lengths.
@@ -114,28 +113,6 @@ pub enum Doubt {
     /// its last one.
     Ending(i64, Vec<u32>),
 }
-
-/// More comparisons of robots than a judge makes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct TooMuch {
-    /// So many.
-    pub comparisons: u128,
-}
-
-/// The comparisons of robots that a judge makes for a clause.
-pub const MOST_COMPARISONS: u128 = 1 << 32;
-
-impl fmt::Display for TooMuch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { comparisons } = self;
-        write!(
-            f,
-            "the judge would compare robots {comparisons} times, and does so at most {MOST_COMPARISONS} times"
-        )
-    }
-}
-
-impl std::error::Error for TooMuch {}
 
 /// A moment in which a clause is broken.
 struct Finding {

@@ -28,8 +28,8 @@ mod reader;
 mod track;
 
 pub use clause::{CLAUSES, Kind, not_judged};
-pub use ground::{Grid, Ground, Strays, misplaced, visits};
-pub use judge::{Breach, Demand, Doubt, Group, MOST_COMPARISONS, TooMuch, Verdict, judge};
+pub use ground::{Grid, Ground, MOST_COMPARISONS, Strays, TooMuch, misplaced, visits};
+pub use judge::{Breach, Demand, Doubt, Group, Verdict, judge};
 pub use numbers::{NamesError, Numbers};
 pub use reader::{Fault, FaultPlace, Form, Log, MOST_SAMPLES, Sample, read};
 pub use track::{Limits, Refusals, Silence, Tracks};

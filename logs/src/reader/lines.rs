@@ -4,7 +4,7 @@
 use serde_json::{Map, Value};
 
 use super::columns::{Part, part};
-use super::{Fault, FaultPlace, Form, Log, MOST_US, Pose, Reading, micros};
+use super::log::{Fault, FaultPlace, Form, Log, MOST_US, Pose, Reading, micros};
 
 const REMEDY: &str = "write lines as {\"time\": 12.5, \"robot\": \"a\", \"x\": 1.0, \"y\": 2.0}, or as the \
                       messages of ROS, with header.stamp and pose";

@@ -9,7 +9,8 @@ use mcap::{McapError, MessageStream};
 use serde_json::{Map, Value};
 
 use super::cdr::Cdr;
-use super::{Fault, Form, Log, Pose, Reading, lines, micros};
+use super::lines;
+use super::log::{Fault, Form, Log, Pose, Reading, micros};
 
 /// The messages of ROS 2 that have positions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

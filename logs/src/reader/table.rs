@@ -3,7 +3,7 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::columns::{Part, part};
-use super::{Fault, FaultPlace, Form, Log, MOST_US, Pose, Reading};
+use super::log::{Fault, FaultPlace, Form, Log, MOST_US, Pose, Reading};
 
 /// The columns of the parts, each with its unit.
 struct Columns {
