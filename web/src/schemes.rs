@@ -1,12 +1,11 @@
 //! The schemes as data: what a page needs to offer each of them.
 
 use serde_json::{Value, json};
-use tautline_kernel::conditions::Conditional;
 use tautline_sim::explore::hunt::{Bound, Hunt};
 use tautline_sim::explore::{Rule, Scheme, Senses, Starts};
 use tautline_sim::options::{Extra, Takes};
 
-use crate::by_hand::WORLDS;
+use crate::by_hand::{WORLDS, switched};
 use crate::own::{self, OwnPage};
 use crate::settings::Settings;
 
@@ -48,12 +47,6 @@ fn scheme(scheme: Scheme) -> Value {
     })
 }
 
-/// The row of a rule of a world, of which every order is hunted through.
-pub(crate) fn of_world<R: Conditional>(name: &str, about: &str, rule: &R) -> Value {
-    let conditions = switched(R::CONDITIONS, rule.in_force());
-    json!({ "name": name, "about": about, "conditions": conditions, "hunt": [] })
-}
-
 /// The names of the conditions of the rule of these settings, and those that are its own, a bit for each.
 pub(crate) fn conditions(settings: &Settings) -> Option<(Vec<String>, u16)> {
     let list = list();
@@ -63,15 +56,6 @@ pub(crate) fn conditions(settings: &Settings) -> Option<(Vec<String>, u16)> {
     let in_force =
         (0..).zip(all).filter(|(_, one)| one["on"] == true).fold(0, |bits, (bit, _)| bits | 1 << bit);
     Some((all.iter().filter_map(|one| Some(one["name"].as_str()?.to_owned())).collect(), in_force))
-}
-
-/// The conditions of a rule, each by its name, its sentence, and whether it is in force.
-fn switched(conditions: &[(&str, &str)], in_force: u16) -> Value {
-    let row = |(bit, (name, sentence)): (u32, &(&str, &str))| {
-        let is_on = in_force >> bit & 1 == 1;
-        json!({ "name": name, "sentence": sentence.trim(), "on": is_on })
-    };
-    (0..).zip(conditions).map(row).collect()
 }
 
 fn option(extra: &Extra) -> Value {

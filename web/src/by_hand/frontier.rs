@@ -7,7 +7,8 @@ use tautline_proofs::frontier::areas::{setting, words};
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor, World};
 use tautline_sim::explore::{Ink, Layer, Place, Shape, Value};
 
-use super::{ByHand, Picture, Scene, SceneWorld, WorldRun, chosen, small_team, too_large};
+use super::scene::{Picture, Scene, SceneWorld, WorldRun};
+use super::setup::{ByHand, chosen, small_team, too_large};
 use crate::play::Play;
 use crate::settings::Settings;
 

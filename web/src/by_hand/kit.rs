@@ -7,7 +7,8 @@ use tautline_proofs::kit::counterexample::words;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Successor, World};
 use tautline_sim::explore::{Ink, Joins, Layer, Place, Shape, Value, Zone};
 
-use super::{ByHand, Picture, Scene, SceneWorld, WorldRun, chosen, small_team, too_large};
+use super::scene::{Picture, Scene, SceneWorld, WorldRun};
+use super::setup::{ByHand, chosen, small_team, too_large};
 use crate::play::Play;
 use crate::settings::Settings;
 

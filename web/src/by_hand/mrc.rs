@@ -10,9 +10,9 @@ use tautline_proofs::mrc::{
 };
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, HuntFindings, Picture, Scene, SceneWorld, WorldRun, chosen, number, search};
+use super::scene::{Picture, Scene, SceneWorld, WorldRun};
+use super::setup::{ByHand, HuntFindings, chosen, number, of_world, search};
 use crate::play::Play;
-use crate::schemes::of_world;
 use crate::settings::Settings;
 
 pub(super) const MRC: ByHand = ByHand { name: "mrc", start, row: Some((row, hunt)) };

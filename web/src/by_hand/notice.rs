@@ -12,9 +12,9 @@ use tautline_proofs::notice::networks::{Case, SMALL};
 use tautline_proofs::notice::spread::{Demand, Event, Spread};
 use tautline_sim::explore::{Ink, Kind, Layer, Place, Shape, Value};
 
-use super::{ByHand, HuntFindings, Picture, Scene, SceneWorld, WorldRun, chosen, number, search, starts};
+use super::scene::{Picture, Scene, SceneWorld, WorldRun};
+use super::setup::{ByHand, HuntFindings, chosen, number, of_world, search, starts};
 use crate::play::Play;
-use crate::schemes::of_world;
 use crate::settings::Settings;
 
 pub(super) const NOTICE: ByHand = ByHand { name: "notice", start, row: Some((row, hunt)) };
