@@ -10,8 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyString};
 use tautline_kernel::ground::Cell;
 
-use crate::diagnostic::{Kind, error};
-use crate::script::shown;
+use crate::diagnostic::{Kind, error, shown};
 
 /// The most entries of a list, and the most runs of a sweep.
 pub(crate) const MAX_ENTRIES: usize = 1 << 24;

@@ -42,6 +42,16 @@ pub(crate) fn error(py: Python<'_>, kind: Kind, what: impl Display, remedy: impl
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
+/// A value as a person sees it, not too long.
+pub(crate) fn shown(value: &Bound<'_, PyAny>) -> String {
+    let text =
+        value.repr().map_or_else(|_| "something that cannot be shown".to_owned(), |text| text.to_string());
+    match text.char_indices().nth(80) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}
+
 /// Fields and commands of the program that have other names here, in the words of faults.
 const NAMES: [(&str, &str); 6] = [
     ("`range`", "message_range"),

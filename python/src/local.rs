@@ -15,9 +15,9 @@ use tautline_proofs::local::{Act, EveryNumber, Far, Local, Plan, Robot, all_tupl
 use tautline_sim::trace::step;
 
 use crate::arguments::{At, List};
-use crate::diagnostic::{Kind, error};
+use crate::diagnostic::{Kind, error, shown};
 use crate::hunt::verdict;
-use crate::script::{Script, attribute, kept, number, shown, word, wrong_answer};
+use crate::script::{Script, attribute, kept, number, word, wrong_answer};
 
 /// The most states of a robot, whose words are kept as long as the process.
 const MAX_STATES: usize = 256;

@@ -17,7 +17,7 @@ use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::set;
 
 use crate::arguments::{Int, entries};
-use crate::diagnostic::{Kind, error};
+use crate::diagnostic::{Kind, error, shown};
 use crate::wait::wait;
 
 /// Letters of a name.
@@ -112,16 +112,6 @@ fn raised(py: Python<'_>, what: &str, raised: PyErr) -> PyErr {
 /// The exception of an answer of a function that is not what the function is to return.
 pub(crate) fn wrong_answer(what: &str, answer: &Bound<'_, PyAny>, remedy: &str) -> PyErr {
     error(answer.py(), Kind::WrongType, format_args!("{what} returned {}", shown(answer)), remedy)
-}
-
-/// A value as a person sees it, not too long.
-pub(crate) fn shown(value: &Bound<'_, PyAny>) -> String {
-    let text =
-        value.repr().map_or_else(|_| "something that cannot be shown".to_owned(), |text| text.to_string());
-    match text.char_indices().nth(80) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text,
-    }
 }
 
 /// The states that Python has answered, each once, by their numbers.

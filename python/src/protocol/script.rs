@@ -12,8 +12,8 @@ use tautline_proofs::engine::states::Bits;
 use tautline_proofs::protocol::{Bound as StateBound, Move, Protocol, set};
 
 use crate::arguments::List;
-use crate::diagnostic::{Kind, error};
-use crate::script::{Script, attribute, attribute_of, distinct, held, kept, shown, word, wrong_answer};
+use crate::diagnostic::{Kind, error, shown};
+use crate::script::{Script, attribute, attribute_of, distinct, held, kept, word, wrong_answer};
 
 /// Different words of moves that a rule may have, which are kept as long as the process.
 const MAX_WORDS: usize = 256;

@@ -13,10 +13,8 @@ use tautline_sim::trace::{self, letter};
 
 use super::team_move::TeamMove;
 use crate::arguments::{At, Int, List};
-use crate::diagnostic::{Kind, error};
-use crate::script::{
-    Script, attribute, attribute_of, distinct, held, kept, number, shown, word, wrong_answer,
-};
+use crate::diagnostic::{Kind, error, shown};
+use crate::script::{Script, attribute, attribute_of, distinct, held, kept, number, word, wrong_answer};
 
 /// The most robots of a rule written in Python.
 pub(super) const MAX_ROBOTS: usize = 8;
