@@ -19,6 +19,7 @@ const REMEDY: &str = "name columns time, robot, x and y in the first line, with 
 impl Columns {
     fn of(names: &StringRecord, delimiter: &str) -> Result<Self, Fault> {
         let fault = |bytes, what: String| fault(1, names, delimiter, bytes, what, REMEDY);
+        let named = |slot: usize| ["the time", "the robot", "x", "y"][slot];
         let mut found = [None; 4];
         for (column, (part, scale)) in names.iter().enumerate().filter_map(|(c, name)| Some((c, part(name)?)))
         {
@@ -28,17 +29,11 @@ impl Columns {
                 Part::Along(axis) => 2 + axis,
             };
             if found[slot].replace((column, scale)).is_some() {
-                return Err(fault(
-                    Some(column),
-                    format!("a second column for {}", ["the time", "the robot", "x", "y"][slot]),
-                ));
+                return Err(fault(Some(column), format!("a second column for {}", named(slot))));
             }
         }
-        let missing = |slot: usize| {
-            found[slot].ok_or_else(|| {
-                fault(None, format!("no column for {}", ["the time", "the robot", "x", "y"][slot]))
-            })
-        };
+        let missing =
+            |slot: usize| found[slot].ok_or_else(|| fault(None, format!("no column for {}", named(slot))));
         Ok(Self {
             time: missing(0)?,
             robot: missing(1)?.0,

@@ -54,22 +54,16 @@ fn begin<const ROBOTS: usize>(settings: &Settings) -> Result<Box<dyn Play>, Diag
 
 impl<const ROBOTS: usize> SceneWorld for Setting<ROBOTS> {
     fn scene(&self) -> Scene {
+        let heard = "robots that hear each other at the nodes where they go";
+        let driven = "what the followed robot has driven and seen blocked itself";
         Scene {
             area: self.area,
             actor: "robot",
             squares: 0,
             names: Vec::new(),
             layers: vec![
-                Layer::new(
-                    "links",
-                    "robots that hear each other at the nodes where they go",
-                    Shape::Links(Joins::All, &[REACH]),
-                ),
-                Layer::new(
-                    "records",
-                    "what the followed robot has driven and seen blocked itself",
-                    Shape::SidesOfEach(RECORD),
-                ),
+                Layer::new("links", heard, Shape::Links(Joins::All, &[REACH])),
+                Layer::new("records", driven, Shape::SidesOfEach(RECORD)),
             ],
         }
     }
@@ -94,9 +88,8 @@ impl<const ROBOTS: usize> SceneWorld for Setting<ROBOTS> {
             }
         }
         let known = self.area.edges().filter_map(|edge| {
-            let is_open = world.team.records().iter().any(|record| record.edge_has(EdgeMark::Open, edge));
-            let is_wall = world.team.records().iter().any(|record| record.edge_has(EdgeMark::Wall, edge));
-            (is_open || is_wall).then_some((edge, is_open))
+            let is = |mark| world.team.records().iter().any(|record| record.edge_has(mark, edge));
+            (is(EdgeMark::Open) || is(EdgeMark::Wall)).then(|| (edge, is(EdgeMark::Open)))
         });
         Picture {
             cells: world.team.stances().map(Stance::to).collect(),

@@ -75,7 +75,7 @@ impl<W: SceneWorld> WorldRun<W> {
     fn delta(&self, picture: Picture) -> Delta {
         let Scene { area, layers, .. } = self.world.scene();
         let Picture { cells, explored, known, put, say, failed } = picture;
-        let at = |at| number_of(area, at);
+        let placed = |(layer, robot, spot, value)| Some((layer, robot, number_of(area, spot)?, value));
         Delta {
             step: self.step,
             tried: ".".repeat(cells.len()),
@@ -83,10 +83,7 @@ impl<W: SceneWorld> WorldRun<W> {
             cells: cells.into_iter().map(|cell| place_of(area, cell)).collect(),
             known: known.into_iter().filter_map(|(edge, is)| Some((side_of(area, edge)?, is))).collect(),
             clear: (0..layers.len()).collect(),
-            put: put
-                .into_iter()
-                .filter_map(|(layer, robot, spot, value)| Some((layer, robot, at(spot)?, value)))
-                .collect(),
+            put: put.into_iter().filter_map(placed).collect(),
             say: say.into_iter().map(|(layer, kind, from, to)| (layer, kind, from, Some(vec![to]))).collect(),
             failed,
             ..Delta::default()
@@ -96,12 +93,8 @@ impl<W: SceneWorld> WorldRun<W> {
     fn broken(&self, demands: Vec<W::Demand>) -> Vec<BrokenClause> {
         let broken = |demand| {
             let (clause, told) = self.world.clause(demand);
-            BrokenClause {
-                clause: clause.to_owned(),
-                sentence: sentence(clause),
-                told: vec![told],
-                cells: Vec::new(),
-            }
+            let (sentence, told) = (sentence(clause), vec![told]);
+            BrokenClause { clause: clause.to_owned(), sentence, told, cells: Vec::new() }
         };
         demands.into_iter().map(broken).collect()
     }
@@ -130,11 +123,8 @@ impl<W: SceneWorld> Play for WorldRun<W> {
         let Self { world, state, log, dice, .. } = self;
         let before = state.clone();
         let Some(plan) = world.plan(state, log) else {
-            let broken = world.broken_at_end(state, log);
-            return Step::Over(Over {
-                words: "nothing can happen any more".to_owned(),
-                broken: self.broken(broken),
-            });
+            let (words, broken) = ("nothing can happen any more".to_owned(), world.broken_at_end(state, log));
+            return Step::Over(Over { words, broken: self.broken(broken) });
         };
         let options = world.options(state, &plan);
         let (planned, sent) = (state.clone(), log.len());
