@@ -15,7 +15,6 @@ use self::figure::Figure;
 pub use self::figure::{Duration, Line, Summary};
 pub(super) use self::team::Crew;
 pub use self::team::{Outcome, TEAMS, Team};
-use super::paper;
 use super::prelude::*;
 
 /// The description that all figures of agents share.
@@ -23,6 +22,7 @@ const ABOUT: Description = Description {
     examples: &["bricks-fig11 --svg fig11.svg", "bricks-ideal --runs 20 --format json"],
     doing: "exploring",
     pictures: &[("svg", "Store a chart")],
+    takes: "a minute",
     ..Description::NOTHING
 };
 
@@ -34,7 +34,6 @@ pub const BRICKS_FIG11: Agents = Agents {
         shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they \
             explore and mark as visited, by the number of agents",
         help: "What agents explore by their number, with missed sensors",
-        takes: "a minute",
         ..ABOUT
     },
 };
@@ -47,7 +46,6 @@ pub const BRICKS_FIG12: Agents = Agents {
         shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 \
             agents explore and mark as visited, by the area",
         help: "What agents explore by the area, with missed sensors",
-        takes: "a minute",
         ..ABOUT
     },
 };

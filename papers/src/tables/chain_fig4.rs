@@ -8,7 +8,6 @@ use tautline_kernel::ground::{Area, Cell};
 use super::prelude::*;
 use crate::nxt::{CELL_MM, DRIFT_PER_MILLE, Odometer, SPEED_MM};
 use tautline_grids::layout::ColumnRow;
-use tautline_grids::layout::Layout;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore, team};

@@ -12,10 +12,8 @@ use tautline_kernel::chain::{Message, Outcome};
 use tautline_kernel::ground::Circle;
 
 use super::prelude::*;
-use super::sentences::at_least;
 use crate::nxt::Odometer;
 use tautline_grids::chance::Dice;
-use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore};
 

@@ -9,7 +9,7 @@ use tautline_kernel::ground::Cell;
 use super::agents::{Outcome, TEAMS, Team};
 use super::prelude::*;
 use tautline_grids::chance::{Dice, Probability};
-use tautline_grids::layout::{self, Layout};
+use tautline_grids::layout;
 
 /// The price of a floor.
 #[derive(Clone, Copy, Debug)]

@@ -10,9 +10,7 @@ use std::num::NonZeroU32;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
-use super::sentences::{always, below};
 use tautline_grids::chance::Dice;
-use tautline_grids::layout::Layout;
 use tautline_sim::explore::frontier::{ALONE, FRONTIER};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
 

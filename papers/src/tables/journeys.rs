@@ -38,6 +38,7 @@ const ABOUT: Description = Description {
         "svg",
         "Store a picture: of figure 7 a chart, else the ways in the topology in which the shortest is the longest",
     )],
+    takes: "a second",
     ..Description::NOTHING
 };
 
@@ -49,7 +50,6 @@ pub const RESCUE_FIG6: Journeys = Journeys {
         shows: "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, \
             as a picture",
         help: "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
-        takes: "a second",
         ..ABOUT
     },
 };
@@ -74,7 +74,6 @@ pub const RESCUE_FIG9: Journeys = Journeys {
         id: "rescue-fig9",
         shows: "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
         help: "How far a robot walks round a large obstacle",
-        takes: "a second",
         ..ABOUT
     },
 };
@@ -86,7 +85,6 @@ pub const RESCUE_FIG10: Journeys = Journeys {
         id: "rescue-fig10",
         shows: "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
         help: "How far a robot walks round four large obstacles",
-        takes: "a second",
         ..ABOUT
     },
 };

@@ -26,9 +26,7 @@ pub use self::figure::{Line, Race, Settings, Summary, TEAMS, Team, TeamRule};
 use self::lattice::FAMILIES;
 pub use self::lattice::PATHS;
 pub use self::range::KitRange;
-use super::paper;
 use super::prelude::*;
-use tautline_grids::layout::Layout;
 use tautline_sim::kit::{self, Pace};
 
 /// Places in [`TEAMS`] of a team and the one that is to be sooner: two robots against one by each rule, as the paper
@@ -40,6 +38,7 @@ const ABOUT: Description = Description {
     examples: &["kit-fig14 --svg overlap.svg", "kit-fig9 --runs 100 --format json"],
     doing: "driving",
     pictures: &[("svg", "Store a chart")],
+    takes: "some seconds",
     ..Description::NOTHING
 };
 
@@ -50,7 +49,6 @@ pub const KIT_FIG9: Kit = Kit {
         id: "kit-fig9",
         shows: "KIT: how long one robot and two take to find the nodes of random lattices",
         help: "How long robots that keep in touch take to find the nodes",
-        takes: "some seconds",
         ..ABOUT
     },
 };
@@ -63,7 +61,6 @@ pub const KIT_FIG14: Kit = Kit {
         shows: "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and \
             how long all take",
         help: "How much robots that keep in touch overlap",
-        takes: "some seconds",
         ..ABOUT
     },
 };

@@ -10,7 +10,6 @@ use tautline_kernel::position::{
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
-use super::sentences::below;
 use crate::chart;
 use tautline_field::position::{Anchors, PARTICLES, distances, refused};
 use tautline_field::stats::quantile;

@@ -8,7 +8,6 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
-use super::sentences::{always, below};
 use tautline_field::stats::quantile;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::{RuleId, Setup, has_double};

@@ -10,7 +10,7 @@ use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::SeededOracle;
 
 use super::prelude::*;
-use super::sentences::{NEAR, at_least, within};
+use super::sentences::NEAR;
 use tautline_field::radio::{
     Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };

@@ -5,7 +5,6 @@
 
 use super::notice_fig5::{RANGE_M, SIDE_M};
 use super::prelude::*;
-use super::sentences::always;
 use tautline_field::draw::field::picture;
 use tautline_field::draw::rescue::map;
 use tautline_field::radio::{ChannelName, FREE_SPACE, Point};

@@ -6,7 +6,7 @@ use super::journeys::{self, Claim, RESCUE_FIG7, Way};
 use super::notice_fig5::{self, NoticeFig5};
 use super::prelude::*;
 use super::rescue_fig8::{self, RescueFig8};
-use super::sentences::{NEAR, at_least, below};
+use super::sentences::NEAR;
 use tautline_sim::explore::RuleName;
 
 /// Table 2.

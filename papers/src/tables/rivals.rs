@@ -14,7 +14,6 @@ use super::prelude::*;
 use crate::rivals::rival;
 use crate::rivals::{Cells, Links, Search};
 use tautline_field::stats::quantile;
-use tautline_grids::layout::Layout;
 use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::{Limits, Milestone, Report, RuleId, RuleName, Setup, StopReason, explore, run};
 

@@ -11,7 +11,6 @@ use tautline_proofs::floor::crew::Scheme;
 
 use super::super::prelude::*;
 use tautline_grids::chance::Probability;
-use tautline_grids::layout::Layout;
 use tautline_sim::explore::agents as explore;
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};

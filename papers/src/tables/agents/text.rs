@@ -1,8 +1,6 @@
 //! The figures of agents as text, with what the paper prints beside it.
 
-use super::super::paper;
 use super::super::prelude::*;
-use super::super::sentences::{always, below};
 use super::figure::{Duration, Figure, Line, Summary};
 use super::team::{READINGS, TEAMS, Team};
 
@@ -42,12 +40,8 @@ pub(super) fn judged(figure: Figure, merged: &Summary) -> Vec<Judgement> {
             );
             let ants = [ants, ants_published, beside, in_count].map(|team| {
                 let verdict = of(team).map(always_whole).fold(Verdict::Holds, Verdict::and);
-                Judgement::new(
-                    "“Ants always manage to explore 100% of the area's cells”",
-                    team.name(),
-                    fewest(team),
-                    verdict,
-                )
+                let sentence = "“Ants always manage to explore 100% of the area's cells”";
+                Judgement::new(sentence, team.name(), fewest(team), verdict)
             });
             [below_all].into_iter().chain(ants).collect()
         }

@@ -2,7 +2,6 @@
 
 use super::super::estimates;
 use super::super::prelude::*;
-use super::super::sentences::always;
 use super::claims::{Claim, Decision};
 use super::world::{Sample, Walk, Way};
 
@@ -143,14 +142,10 @@ impl Claim {
         let shares = densities.iter().filter_map(|density| density.shorter_than_reich);
         let most = shares.max_by(|one, other| one.mean.total_cmp(&other.mean));
         let is_any = most.is_some_and(|share| share.mean > 0.0);
+        let most = format!("so in at most {} % of them", percent(most, 1));
         vec![
             Judgement::new(self.words(), "in the mean, at some number of nodes", least, in_mean),
-            Judgement::new(
-                self.words(),
-                "in some topology",
-                format!("so in at most {} % of them", percent(most, 1)),
-                Verdict::decided(is_any, false),
-            ),
+            Judgement::new(self.words(), "in some topology", most, Verdict::decided(is_any, false)),
         ]
     }
 }

@@ -5,7 +5,6 @@ use tautline_kernel::kit::Rule;
 
 use super::super::prelude::*;
 use super::lattice::PATHS;
-use tautline_grids::layout::Layout;
 use tautline_sim::kit::{self, Pace};
 
 /// The paths that are explored at the paper's 88 %.
@@ -68,12 +67,7 @@ impl Outcome {
         self.nodes.get(nodes.checked_sub(1)?).copied()
     }
 
-    /// The directions that are explored at nodes when all of so many nodes are found, two for each path.
-    pub(super) fn directions(&self, nodes: usize) -> Option<f64> {
-        Some(self.directions_by(self.found(nodes)?))
-    }
-
-    /// The directions that are explored at nodes by this time, in milliseconds.
+    /// The directions that are explored at nodes by this time, in milliseconds: two for each path.
     pub(super) fn directions_by(&self, end: u64) -> f64 {
         2.0 * f64::from(self.paths.iter().filter(|&&driven| driven <= end).count() as u32)
     }
@@ -83,11 +77,6 @@ impl Outcome {
         let shared = f64::from(*self.overlaps.get(explored.checked_sub(1)?)?);
         let explored = explored as u32;
         Some(100.0 * (1.0 - shared / f64::from(explored)))
-    }
-
-    /// The paths that were explored when the run ended, in percent.
-    pub(super) fn explored(&self) -> f64 {
-        100.0 * f64::from(self.paths.len() as u32) / f64::from(PATHS as u32)
     }
 }
 

@@ -127,12 +127,14 @@ pub struct Race {
 
 impl Line {
     pub(super) fn of(family: Family, team: Team, outcomes: &[&Outcome]) -> Self {
-        let is_team = team.robots > 1;
+        let (is_team, all_nodes) = (team.robots > 1, family.nodes());
         let efficiency = |explored| mean(outcomes.iter().filter_map(|outcome| outcome.efficiency(explored)));
         let node = |number: usize| {
-            let found = outcomes.iter().filter(|outcome| outcome.found(family.nodes()).is_some());
+            let found = outcomes.iter().filter(|outcome| outcome.found(all_nodes).is_some());
             mean(found.filter_map(|outcome| outcome.nodes.get(number)).map(|&end| seconds(end)))
         };
+        let explored = |one: &&Outcome| 100.0 * f64::from(one.paths.len() as u32) / f64::from(PATHS as u32);
+        let directions = |outcome: &&Outcome| Some(outcome.directions_by(outcome.found(all_nodes)?));
         Self {
             family: family.name,
             team,
@@ -141,11 +143,11 @@ impl Line {
             all: until(PATHS, outcomes),
             cut: in_percent(outcomes, |outcome| outcome.is_cut).filter(|_| is_team),
             reached: in_percent(outcomes, |outcome| outcome.paths.len() >= EXPLORED),
-            explored: mean(outcomes.iter().map(|outcome| outcome.explored())),
+            explored: mean(outcomes.iter().map(explored)),
             ended: in_percent(outcomes, |outcome| !outcome.is_whole()),
-            lost: in_percent(outcomes, |outcome| outcome.found(family.nodes()).is_none()),
-            nodes: (0..family.nodes()).filter_map(node).collect(),
-            directions: mean(outcomes.iter().filter_map(|outcome| outcome.directions(family.nodes()))),
+            lost: in_percent(outcomes, |outcome| outcome.found(all_nodes).is_none()),
+            nodes: (0..all_nodes).filter_map(node).collect(),
+            directions: mean(outcomes.iter().filter_map(directions)),
             efficiencies: if is_team { (1..=PATHS).filter_map(efficiency).collect() } else { Vec::new() },
         }
     }

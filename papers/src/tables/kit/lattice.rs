@@ -1,10 +1,9 @@
 //! Random lattices of 26 paths, all within reach of each other.
 
-use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Cell, Edge};
 
+use super::super::prelude::*;
 use tautline_grids::chance::Dice;
-use tautline_grids::layout::Layout;
 
 /// Paths of every layout.
 pub const PATHS: usize = 26;

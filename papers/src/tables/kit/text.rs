@@ -1,8 +1,6 @@
 //! The figures of KIT as text, with what the paper prints beside it.
 
-use super::super::paper;
 use super::super::prelude::*;
-use super::super::sentences::below;
 use super::drive::EXPLORED;
 use super::figure::{Figure, Line, Race, Settings, Summary, Team, TeamRule};
 use super::lattice::PATHS;

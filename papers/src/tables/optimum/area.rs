@@ -6,7 +6,7 @@ use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::chain::reach::{CellSet, Ground};
 
 use super::super::prelude::*;
-use tautline_grids::layout::{Layout, Size};
+use tautline_grids::layout::Size;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup};
 

@@ -8,7 +8,6 @@ use tautline_proofs::chain::reach::CellSet;
 
 use super::super::prelude::*;
 use super::area::{Area, WallSet, solve};
-use tautline_grids::layout::Layout;
 use tautline_sim::explore::{RuleName, Survey, explore};
 
 /// One rule in the layouts of one team with some numbers of walls.

@@ -1,7 +1,6 @@
 //! The paper's claims about the chain and its rivals, and what is so.
 
 use super::super::prelude::*;
-use super::super::sentences::within;
 use tautline_field::stats::quantile;
 
 /// How far from a figure “about” is: a quarter of it. The paper gives no number.

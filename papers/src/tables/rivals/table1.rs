@@ -2,7 +2,6 @@
 //! far the rivals' figures depend on what the paper does not say.
 
 use super::super::prelude::*;
-use super::super::sentences::{always, below};
 use super::claims::{about, alike, or_never};
 use super::parameters::{ROBOTS, RivalSettings};
 use super::{Contender, MAX_MOVES, OPEN, Outcome, ROOMS, Times, stopping};
