@@ -12,7 +12,7 @@ use tautline_io::schema;
 use super::csv::csv;
 use super::parameter::TableOption;
 use super::sentences::{self, Judgement};
-use super::{Description, Observer, Table, measure};
+use super::table::{Description, Observer, Table, measure};
 
 /// A table of any types.
 pub trait Entry: fmt::Debug + Sync {

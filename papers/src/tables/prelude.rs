@@ -13,7 +13,7 @@ pub(super) use super::parameter::{
 };
 pub(super) use super::runs::{Run, at, of_teams, pairs, runs};
 pub(super) use super::sentences::{Judgement, Verdict, always, at_least, below, within};
-pub(super) use super::{Description, Observer, Results, Table, Threads, based, generated, usage};
+pub(super) use super::table::{Description, Observer, Results, Table, Threads, based, generated, usage};
 pub(super) use crate::chart::{Axis, LineChart, Point, Series};
 pub(super) use tautline_field::stats::{Estimate, decimals, hundredths, rounded};
 pub(super) use tautline_grids::layout::Layout;
