@@ -28,9 +28,8 @@ pub use message::{Damage, Message, Outcome};
 pub use plan::{Kind, Plan};
 pub use reform::{Parts, ReformError, Reformation};
 pub use rule::{Budget, Condition, Conditions, High, Move, Pursuit, Role, Rule};
-pub use settle::Walls;
-pub use team::{Chain, End, Intent, MoveOutcome, SetupError, area};
-pub use unfold::goes_on;
+pub use team::{Chain, End, Intent, MoveOutcome, SetupError, Walls, area};
+pub use walk::goes_on;
 
 /// The longest chain, base included: its area is 511×511 cells.
 pub const MAX_ROBOTS: usize = 256;

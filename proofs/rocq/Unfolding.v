@@ -8,7 +8,7 @@ From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
 Import ListNotations.
 
-(** Whether a follower goes on: [goes_on] of kernel/src/chain/unfold.rs, compared with its answers in ChainTie.v. *)
+(** Whether a follower goes on: [goes_on] of kernel/src/chain/walk.rs, compared with its answers in ChainTie.v. *)
 Definition goes_on (own last ahead : nat) : bool := (own <? last) && (own + 2 <=? ahead).
 
 Section Unfolding.

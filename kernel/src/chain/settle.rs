@@ -4,18 +4,8 @@
 
 use super::message::{Damage, Message, Outcome};
 use super::plan::{Kind, Plan};
-use super::team::{Chain, MoveOutcome, Stage};
+use super::team::{Chain, MoveOutcome, Stage, Walls};
 use crate::ground::{CellMark, Edge, EdgeMark, Grid, Step};
-
-/// Whether walls stand for ever.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Walls {
-    /// A side that was crossed stays open: the paper's.
-    Lasting,
-    /// A wall may appear where a robot has crossed.
-    Changing,
-}
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// This chain among such walls. Among changing ones the world is asked for every side that a robot crosses, also in

@@ -8,7 +8,6 @@ use super::plan::{Kind, Plan, mark_occupied, unmark_occupied};
 use super::planner::{Looks, Planner};
 use super::reel::{Next, Reel, Task, Winder};
 use super::rule::{Condition, Pursuit, Rule};
-use super::settle::Walls;
 use super::unfold::unfold;
 use crate::error::sentences;
 use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
@@ -82,6 +81,16 @@ pub(super) enum Stage {
     Seeking,
     /// It has.
     Gained,
+}
+
+/// Whether walls stand for ever.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Walls {
+    /// A side that was crossed stays open: the paper's.
+    Lasting,
+    /// A wall may appear where a robot has crossed.
+    Changing,
 }
 
 /// The part of `whole` that a chain of `robots` can explore from `base`: no cell farther than N−1 columns or rows;

@@ -5,12 +5,6 @@
 use super::walk::{Lookup, Walk};
 use crate::ground::{Cell, Grid, Step};
 
-/// Whether a follower goes on along the walk: it is `own` cells along it and stops after `last`, while the robot
-/// ahead is planned to be `ahead` cells along it. It follows one cell behind, up to where it stops.
-pub const fn goes_on(own: usize, last: usize, ahead: usize) -> bool {
-    own < last && own + 2 <= ahead
-}
-
 /// The steps of the robots in `team`, base first, that unfold the chain further; `None` if no unexplored cell is
 /// within reach, or some robot is not on the walk to the nearest.
 pub(super) fn unfold<G: Grid, const ROBOTS: usize>(grid: &mut G, team: &[Cell]) -> Option<[Step; ROBOTS]> {

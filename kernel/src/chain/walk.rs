@@ -1,7 +1,6 @@
 //! The walk that a chain is drawn in and let out along: its own, over the cells of its robots one after the other, and
 //! from one of them on to an unexplored cell, by links.
 
-use super::unfold::goes_on;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link, steps_to};
 
 /// A walk with the robots on it. Robots are counted from 0, the base.
@@ -129,6 +128,12 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         }
         Some(steps)
     }
+}
+
+/// Whether a follower goes on along the walk: it is `own` cells along it and stops after `last`, while the robot
+/// ahead is planned to be `ahead` cells along it. It follows one cell behind, up to where it stops.
+pub const fn goes_on(own: usize, last: usize, ahead: usize) -> bool {
+    own < last && own + 2 <= ahead
 }
 
 /// Where the place of a robot on a walk is looked for that may visit a cell twice.

@@ -1,6 +1,5 @@
 //! The map that the robots of a pack share: two bits a cell, row by row in machine words.
 
-use super::sight::{Sight, Window};
 use crate::ground::{Area, Cell, Side};
 
 /// A pack's knowledge of a cell.
@@ -64,24 +63,6 @@ impl<W: AsRef<[[u64; 2]]> + AsMut<[[u64; 2]]>> Chart<W> {
         if let Some(word) = self.words.as_mut().get_mut(place) {
             word[UNKNOWN] &= !bit;
             word[OBSTACLE] = if is_obstacle { word[OBSTACLE] | bit } else { word[OBSTACLE] & !bit };
-        }
-    }
-
-    /// A robot in `from` looks round: `is_obstacle` answers for unknown cells, and `tell` hears of each that is seen,
-    /// and whether it is an obstacle.
-    pub fn look(
-        &mut self,
-        sight: &Sight,
-        from: Cell,
-        is_obstacle: impl FnMut(Cell) -> bool,
-        mut tell: impl FnMut(Cell, bool),
-    ) {
-        let mut window = Window::new(self, sight, from);
-        if window.most() > 0 {
-            window.look(is_obstacle, |cell, is_obstacle| {
-                self.put(cell, is_obstacle);
-                tell(cell, is_obstacle);
-            });
         }
     }
 }

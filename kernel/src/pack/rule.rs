@@ -64,7 +64,7 @@ impl Rule {
     /// its step would cut a link by midpoints or lead into another robot's cell.
     pub const PUBLISHED: Self = Self {
         conditions: Conditions::of(&[Condition::Connect, Condition::Single]),
-        sight: Sight::USUAL,
+        sight: Sight::of(Self::SIGHT_CELLS),
         range_cells: Self::RANGE_CELLS,
     };
 

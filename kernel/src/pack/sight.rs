@@ -20,9 +20,6 @@ impl Sight {
     /// The most cells: a row of the disc fits in a machine word.
     pub const MOST_CELLS: u16 = 31;
 
-    /// R_s of [`Rule::PUBLISHED`](super::Rule::PUBLISHED).
-    pub(super) const USUAL: Self = Self::of(super::Rule::SIGHT_CELLS);
-
     /// A robot that sees so far; `None` if that is not from 1 to [`Sight::MOST_CELLS`].
     pub const fn new(radius_cells: u16) -> Option<Self> {
         if radius_cells == 0 || radius_cells > Self::MOST_CELLS {
@@ -32,7 +29,8 @@ impl Sight {
         }
     }
 
-    const fn of(radius_cells: u8) -> Self {
+    /// A robot that sees so far, from 1 to [`Sight::MOST_CELLS`].
+    pub(super) const fn of(radius_cells: u8) -> Self {
         let radius = radius_cells as u32;
         let (mut half, mut cells, mut row) = ([0; Self::MOST_CELLS as usize + 1], 0, 0);
         while row <= radius && (row as usize) < half.len() {
@@ -60,6 +58,26 @@ impl Sight {
             return None;
         }
         self.half.get(rows as usize).map(|&columns| columns.into())
+    }
+}
+
+impl<W: AsRef<[[u64; 2]]> + AsMut<[[u64; 2]]>> Chart<W> {
+    /// A robot in `from` looks round: `is_obstacle` answers for unknown cells, and `tell` hears of each that is seen,
+    /// and whether it is an obstacle.
+    pub fn look(
+        &mut self,
+        sight: &Sight,
+        from: Cell,
+        is_obstacle: impl FnMut(Cell) -> bool,
+        mut tell: impl FnMut(Cell, bool),
+    ) {
+        let mut window = Window::new(self, sight, from);
+        if window.most() > 0 {
+            window.look(is_obstacle, |cell, is_obstacle| {
+                self.put(cell, is_obstacle);
+                tell(cell, is_obstacle);
+            });
+        }
     }
 }
 

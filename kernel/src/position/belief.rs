@@ -1,9 +1,8 @@
 //! Where a robot takes itself to be: place and heading with their covariance, by an extended Kalman filter of its
 //! wheels and of fixes. It is ours: Rajesh et al. 2024 take each fix for the truth (POSITION-7).
 
-use super::locate::check_residual;
 use super::normal::Normal;
-use super::range::is_told;
+use super::range::{check_residual, is_told};
 use super::{Point, Range, Refusal, Residual, Signal, SymmetricMatrix, bound};
 
 /// How far wheels err: each drive by a share of its way, each turn by an angle, as standard deviations.

@@ -3,18 +3,8 @@
 
 use super::bound::{Precision, precision};
 use super::descent::{Descent, Landing};
-use super::range::{LEAST_M, check, count, is_told};
-use super::{Area, Layout, Point, Range, Refusal, Signal};
-
-/// The residual whose squares are minimised.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Residual {
-    /// The error of a distance, in metres.
-    Metres,
-    /// The error of a level, in decibels: for noise in decibels this is the most likely position.
-    Decibels,
-}
+use super::range::{LEAST_M, check_residual, count, is_told};
+use super::{Area, Layout, Point, Range, Refusal, Residual, Signal};
 
 /// Warnings about an estimate.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
@@ -178,17 +168,6 @@ pub fn locate_from(
     let descent = Descent { ranges, residual, area, last_m: LAST_STEP * Layout::of(ranges).spread_m[0] };
     let landing = descent.from(from, descent.normal(from), |_| false);
     Ok(landing.estimate(ranges, residual, signal))
-}
-
-/// Whether these residuals can be had of `ranges`.
-pub(super) fn check_residual(ranges: &[Range], residual: Residual) -> Result<(), Refusal> {
-    check(ranges)?;
-    if residual == Residual::Decibels
-        && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
-    {
-        return Err(Refusal::Zero(anchor));
-    }
-    Ok(())
 }
 
 /// The better one of the places on both sides of the anchors' line.

@@ -20,6 +20,16 @@ impl Range {
     }
 }
 
+/// The residual whose squares are minimised.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Residual {
+    /// The error of a distance, in metres.
+    Metres,
+    /// The error of a level, in decibels: for noise in decibels this is the most likely position.
+    Decibels,
+}
+
 /// Coordinates and distances beyond this are refused, so that none of their squares overflows.
 const MOST_M: f64 = 1e9;
 
@@ -125,6 +135,17 @@ pub fn check(ranges: &[Range]) -> Result<(), Refusal> {
     }
     let (first, second) = coincident(ranges);
     Err(Refusal::Coincident { first, second })
+}
+
+/// Whether these residuals can be had of `ranges`.
+pub(super) fn check_residual(ranges: &[Range], residual: Residual) -> Result<(), Refusal> {
+    check(ranges)?;
+    if residual == Residual::Decibels
+        && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
+    {
+        return Err(Refusal::Zero(anchor));
+    }
+    Ok(())
 }
 
 /// Whether a coordinate or a distance is a number whose square is one, too.
