@@ -5,34 +5,31 @@
 
 mod coarse;
 mod file;
+mod form;
 pub mod generate;
 mod image;
+mod load;
 pub mod movingai;
-mod problem;
 pub mod ros;
 mod size;
 pub mod text;
 mod yaml;
 
 use std::collections::VecDeque;
-use std::ffi::OsString;
+use std::iter;
 use std::num::NonZeroU16;
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
-use std::{fmt, iter};
-
-use tautline_kernel::ground::{Cell, Edge, Side};
-
-use file::{at, read_text};
-use generate::Form;
-use size::Bitmap;
 
 use tautline_io::diagnostic::Diagnostic;
+use tautline_kernel::chain::MAX_ROBOTS;
+use tautline_kernel::ground::{Cell, Edge, Side};
+
+use size::Bitmap;
 
 pub use coarse::Coarse;
+pub use file::Misread;
 pub use generate::Generator;
-pub use problem::{Misread, no_free_cell, of_size, outside};
-pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
+pub use load::{inputs, is_ros, load, load_coarse};
+pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size, of_size, outside};
 
 /// A cell, as it is written: column and row.
 pub type ColumnRow = [i16; 2];
@@ -104,6 +101,11 @@ impl Layout {
     /// How many cells are free.
     pub fn free_cells(&self) -> usize {
         self.size.cells() - self.blocked.count()
+    }
+
+    /// This layout, in which a robot can stand somewhere.
+    fn with_free_cell(self) -> Result<Self, Diagnostic> {
+        if self.free_cells() == 0 { Err(no_free_cell()) } else { Ok(self) }
     }
 
     /// Whether a robot can cross `edge`: both cells are free and no wall stands between them.
@@ -216,7 +218,7 @@ impl Layout {
     /// [`Diagnostic`] when all cells are blocked.
     pub fn default_base(&self) -> Result<Cell, Diagnostic> {
         let centre = (i64::from(self.width()) - 1, i64::from(self.height()) - 1);
-        self.nearest_free(centre).ok_or_else(problem::no_free_cell)
+        self.nearest_free(centre).ok_or_else(no_free_cell)
     }
 
     /// Puts the base in `cell`.
@@ -248,13 +250,13 @@ impl Layout {
     /// Checks that `cell`, which is to be `what`, is free.
     fn check_free(&self, cell: Cell, what: &str, remedy: &str) -> Result<(), Diagnostic> {
         if !self.contains(cell) {
-            return Err(problem::outside(what, cell, self.size));
+            return Err(outside(what, cell, self.size));
         }
         if self.is_free(cell) {
             return Ok(());
         }
         let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
-        Err(nearest.map_or_else(problem::no_free_cell, |nearest| {
+        Err(nearest.map_or_else(no_free_cell, |nearest| {
             let what = format!("the {what} {cell} is on a blocked cell; the nearest free cell is {nearest}");
             Diagnostic::usage(what, format!("{remedy} {nearest}"))
         }))
@@ -270,7 +272,7 @@ impl Layout {
     /// # Errors
     /// [`Diagnostic`] if they are more than any team has.
     pub fn set_robots(&mut self, robots: NonZeroU16) -> Result<(), Diagnostic> {
-        self.robots = Some(text::robots_of(&robots.to_string())?);
+        self.robots = Some(robots_of(&robots.to_string())?);
         Ok(())
     }
 
@@ -312,113 +314,16 @@ const fn both(edge: Edge) -> (Cell, Cell) {
     (edge.cell(), edge.cell().beyond(edge.side()))
 }
 
-/// The drawing that [`text::read`] reads.
-impl fmt::Display for Layout {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        text::write(self, f)
-    }
+/// Every cell is blocked.
+pub fn no_free_cell() -> Diagnostic {
+    Diagnostic::usage("no cell is free", "leave at least one cell free for the base")
 }
 
-impl fmt::Debug for Layout {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "\n{self}")
-    }
-}
-
-impl FromStr for Layout {
-    type Err = Misread;
-
-    fn from_str(source: &str) -> Result<Self, Misread> {
-        text::read(source)
-    }
-}
-
-/// The layout that `description` names: a generator's, for `seed`, or else that of a file: a `MovingAI` map
-/// (`.map`), a ROS map (`.yaml`, `.yml`), or a drawing of ours. `image` takes the place of the image that a
-/// ROS map names. A yaw of a ROS map is logged as a warning, as the cells are those of the image.
-///
-/// # Errors
-/// A [`Diagnostic`] that names the file, the line and the column, or what is wrong with the description.
-pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
-    load_coarse(description, seed, image, Coarse::default())
-}
-
-/// As [`load`], a ROS map in cells of this size.
-///
-/// # Errors
-/// As of [`load`], or if this is no ROS map, or has no such cells.
-pub fn load_coarse(
-    description: &str,
-    seed: u64,
-    image: Option<&Path>,
-    coarse: Coarse,
-) -> Result<Layout, Diagnostic> {
-    let layout = make(description, seed, image, coarse)?;
-    let (size, free, walls) = (layout.size(), layout.free_cells(), layout.walls().count());
-    tracing::info!("layout {description}: {size} cells, {free} free; walls between them: {walls}");
-    Ok(layout)
-}
-
-fn make(description: &str, seed: u64, image: Option<&Path>, coarse: Coarse) -> Result<Layout, Diagnostic> {
-    let file = Path::new(description);
-    match description.parse::<Generator>() {
-        Ok(_) if image.is_some() => Err(problem::needless_image()),
-        Ok(_) if !coarse.is_plain() => Err(problem::needless_size()),
-        Ok(generator) => generator.generate(seed),
-        Err(problem) if means_generator(description) && !file.exists() => Err(problem),
-        Err(_) => load_file(file, image, coarse),
-    }
-}
-
-/// The files that [`load`] reads for these arguments.
-pub fn inputs(description: &str, image: Option<&Path>) -> Vec<PathBuf> {
-    let file = PathBuf::from(description);
-    if description.parse::<Generator>().is_ok() {
-        return Vec::new();
-    }
-    let image = image.map(Path::to_owned).or_else(|| is_ros(&file).then(|| ros::image(&file)).flatten());
-    iter::once(file).chain(image).collect()
-}
-
-/// The end of a file's name, in small letters.
-fn extension(file: &Path) -> OsString {
-    file.extension().unwrap_or_default().to_ascii_lowercase()
-}
-
-/// Whether the name is that of a ROS map.
-pub fn is_ros(file: &Path) -> bool {
-    matches!(extension(file).to_str(), Some("yaml" | "yml"))
-}
-
-/// Whether a description that is no generator was meant as one: it names one, or looks like none of the
-/// paths.
-fn means_generator(description: &str) -> bool {
-    Form::of(description).is_some() || description.contains(':') && !description.contains(['/', '\\'])
-}
-
-fn load_file(file: &Path, image: Option<&Path>, coarse: Coarse) -> Result<Layout, Diagnostic> {
-    if is_ros(file) {
-        let (layout, frame) = ros::load(file, image)?;
-        if frame.yaw_rad != 0.0 {
-            let name = file.display();
-            tracing::warn!("{name} is turned by {} rad; cells are those of its image", frame.yaw_rad);
-        }
-        return if coarse.is_plain() { Ok(layout) } else { coarse.of(&layout, frame.resolution_m) };
-    }
-    let read: fn(&str) -> Result<Layout, Misread> = match extension(file).to_str() {
-        Some("pgm" | "png") => {
-            let (what, remedy) = ("this is an image alone", "name the .yaml file that describes it");
-            return Err(Diagnostic::in_file(file, what, remedy));
-        }
-        Some("map") => movingai::read,
-        Some(_) | None => text::read,
-    };
-    if image.is_some() {
-        return Err(problem::needless_image());
-    }
-    if !coarse.is_plain() {
-        return Err(problem::needless_size());
-    }
-    let source = read_text(file)?;
-    read(&source).map_err(|misread| at(file, &source, &misread))
+/// The number of robots that a layout can be meant for.
+fn robots_of(count: &str) -> Result<NonZeroU16, Diagnostic> {
+    let robots = count.parse().ok().filter(|robots: &NonZeroU16| usize::from(robots.get()) <= MAX_ROBOTS);
+    robots.ok_or_else(|| {
+        let remedy = format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out");
+        Diagnostic::usage(format!("{count:?} is no number of robots"), remedy)
+    })
 }

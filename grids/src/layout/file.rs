@@ -1,6 +1,7 @@
 //! The part that the readers of all formats share: a file as text or bytes, the lines of a text with their places, and
 //! the faults of what is wrong there.
 
+use std::fmt;
 use std::fs::{self, File};
 use std::io::Read;
 use std::ops::Range;
@@ -9,8 +10,25 @@ use std::path::Path;
 use tautline_io::diagnostic::{BOM, Diagnostic, unreadable};
 use tautline_io::json_lines::MAX_FILE_BYTES;
 
-use super::problem::sizes;
-use super::{Misread, problem};
+use super::form::examples;
+use super::size::sizes;
+
+/// A problem in the bytes `at` of a text.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Misread {
+    /// The bytes of the text.
+    pub at: Range<usize>,
+    /// The fault in them.
+    pub problem: Diagnostic,
+}
+
+impl fmt::Display for Misread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "byte {}: {}", self.at.start, self.problem.what())
+    }
+}
+
+impl std::error::Error for Misread {}
 
 /// The text of `file`.
 pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
@@ -24,10 +42,10 @@ pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
 
 /// The bytes of `file`, at least one and at most [`MAX_FILE_BYTES`].
 pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Diagnostic> {
-    let unread = |error| problem::no_file(&unreadable(&error));
+    let unread = |error| no_file(&unreadable(&error));
     let about = fs::metadata(file).map_err(unread)?;
     if about.is_dir() {
-        return Err(problem::no_file("this is a folder"));
+        return Err(no_file("this is a folder"));
     }
     if about.len() > MAX_FILE_BYTES {
         return Err(too_large());
@@ -43,6 +61,11 @@ pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Diagnostic> {
         }
         _ => Err(too_large()),
     }
+}
+
+/// There is no such file.
+fn no_file(what: &str) -> Diagnostic {
+    Diagnostic::usage(what, format_args!("name a layout file or one of the generators {}", examples()))
 }
 
 fn too_large() -> Diagnostic {

@@ -10,9 +10,11 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use super::problem::examples;
-use super::{Layout, Size, problem, text};
+use super::form::examples;
+use super::{Layout, Size, text};
 use crate::chance::{Dice, Probability};
+
+pub use super::form::{FORMS, Form};
 
 const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
 const ROOMS_B: &str = include_str!("generate/rooms-b.txt");
@@ -49,34 +51,6 @@ pub enum Generator {
 pub struct Rooms {
     across: i16,
     down: i16,
-}
-
-/// How a generator is described.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Form {
-    name: &'static str,
-    /// The description with its parts named.
-    pub pattern: &'static str,
-    /// A description that is right.
-    pub example: &'static str,
-}
-
-/// All generators.
-pub const FORMS: [Form; 6] = [
-    Form { name: "open", pattern: "open:WIDTHxHEIGHT", example: "open:15x15" },
-    Form { name: "walls", pattern: "walls:WIDTHxHEIGHT:PROBABILITY", example: "walls:15x15:0.1" },
-    Form { name: "rooms-a", pattern: "rooms-a", example: "rooms-a" },
-    Form { name: "rooms-b", pattern: "rooms-b", example: "rooms-b" },
-    Form { name: "office", pattern: "office:WIDTHxHEIGHT:ACROSSxDOWN", example: "office:30x30:4x4" },
-    Form { name: "cells", pattern: "cells:WIDTHxHEIGHT:PROBABILITY", example: "cells:32x32:0.2" },
-];
-
-impl Form {
-    /// The generator that the part of `description` before the first colon names.
-    pub(super) fn of(description: &str) -> Option<Self> {
-        let name = description.split_once(':').map_or(description, |(name, _)| name);
-        FORMS.into_iter().find(|form| form.name == name)
-    }
 }
 
 impl Generator {
@@ -133,7 +107,7 @@ fn cells(size: Size, probability: Probability, dice: &mut Dice) -> Result<Layout
             layout.block(cell);
         }
     }
-    if layout.free_cells() == 0 { Err(problem::no_free_cell()) } else { Ok(layout) }
+    layout.with_free_cell()
 }
 
 fn office(size: Size, rooms: Rooms, dice: &mut Dice) -> Layout {

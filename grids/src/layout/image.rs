@@ -1,14 +1,20 @@
 //! The images of ROS maps: PGM and its relatives, as map savers write them, and PNG.
 
+use std::fmt;
 use std::io::Cursor;
 
 use png::{BitDepth, Decoder, Limits, Transformations};
 use tautline_io::diagnostic::Diagnostic;
 
-use super::{Layout, MAX_CELLS, problem};
+use super::{Layout, MAX_CELLS};
 
 /// Red, green, blue, and how opaque it is.
 pub(super) type Pixel = [u8; 4];
+
+/// The image of a ROS map cannot be read or decoded.
+pub(super) fn unread_image(message: impl fmt::Display) -> Diagnostic {
+    Diagnostic::usage(format_args!("the image cannot be read: {message}"), "give a whole PGM or PNG file")
+}
 
 /// Decodes the `bytes` of an image: an open layout of its width and height, which are checked before any pixel is
 /// decoded, and its pixels row by row.
@@ -19,18 +25,18 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
     match bytes {
         [b'P', b'2' | b'3' | b'5' | b'6', ..] => decode_pnm(bytes),
         [0x89, b'P', b'N', b'G', ..] => decode_png(bytes),
-        _ => Err(problem::unread_image("it is neither PGM nor PNG")),
+        _ => Err(unread_image("it is neither PGM nor PNG")),
     }
 }
 
 fn decode_png(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
-    let undecoded = |error: png::DecodingError| problem::unread_image(error);
+    let undecoded = |error: png::DecodingError| unread_image(error);
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: 16 * MAX_CELLS as usize });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(undecoded)?;
     let (width, height) = reader.info().size();
     let layout = Layout::open(width.into(), height.into())?;
-    let size = reader.output_buffer_size().ok_or_else(|| problem::unread_image("it is too large"))?;
+    let size = reader.output_buffer_size().ok_or_else(|| unread_image("it is too large"))?;
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(undecoded)?;
     samples.truncate(frame.buffer_size());
@@ -62,7 +68,7 @@ fn scaled(sample: u32, most: u16) -> Option<u8> {
 
 /// Decodes the formats P2, P3, P5 and P6: grey or coloured, in decimal numbers or bytes.
 fn decode_pnm(bytes: &[u8]) -> Result<(Layout, Vec<Pixel>), Diagnostic> {
-    let wrong = |what: &str| problem::unread_image(what);
+    let wrong = |what: &str| unread_image(what);
     let mut numbers = Numbers(&bytes[2..]);
     let mut positive = |what: &str| numbers.next().filter(|&number| number > 0).ok_or_else(|| wrong(what));
     let (width, height) = (

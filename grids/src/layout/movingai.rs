@@ -8,8 +8,8 @@
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 
-use super::file::{Line, end, lines};
-use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
+use super::file::{Line, Misread, end, lines};
+use super::{Layout, MAX_SIDE_CELLS};
 
 const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)";
 
@@ -52,8 +52,7 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
             let what = format!("this is row {}, but `height` is {height}", height + 1);
             Err(line.misread(Diagnostic::usage(what, ROWS)))
         }
-        None if layout.free_cells() == 0 => Err(first.misread(problem::no_free_cell())),
-        None => Ok(layout),
+        None => layout.with_free_cell().map_err(|problem| first.misread(problem)),
     }
 }
 

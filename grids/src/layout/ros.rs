@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::Cell;
 
-use super::file::{at, read_bytes, read_text};
-use super::image::{Pixel, decode};
+use super::Layout;
+use super::file::{Misread, at, read_bytes, read_text};
+use super::image::{Pixel, decode, unread_image};
 use super::yaml::{FIELDS, Mapping, no_map};
-use super::{Layout, Misread, problem};
 
 /// Where the cells of a map lie in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -90,7 +90,7 @@ pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Diagno
                 None => at(file, &source, &Misread { at: description.image_at.clone(), problem }),
             }
         }
-        (problem, _) => problem::unread_image(problem.what()).found_in(path),
+        (problem, _) => unread_image(problem.what()).found_in(path),
     })?;
     let layout = read(&description, &bytes).map_err(|problem| problem.found_in(path))?;
     Ok((layout, description.frame))
@@ -177,7 +177,7 @@ pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Diagnosti
             layout.block(Cell::new((place % width) as i16, (place / width) as i16));
         }
     }
-    if layout.free_cells() == 0 { Err(problem::no_free_cell()) } else { Ok(layout) }
+    layout.with_free_cell()
 }
 
 impl Description {

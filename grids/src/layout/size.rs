@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::problem;
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::ground::{Area, Cell};
 
@@ -28,7 +27,7 @@ impl Size {
         if sides_fit && width * height <= MAX_CELLS {
             Ok(Self { width: width as i16, height: height as i16 })
         } else {
-            Err(problem::of_size(width, height))
+            Err(of_size(width, height))
         }
     }
 
@@ -71,6 +70,23 @@ impl fmt::Display for Size {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}x{}", self.width, self.height)
     }
+}
+
+/// A side or the area is out of bounds.
+pub fn of_size(width: u64, height: u64) -> Diagnostic {
+    Diagnostic::usage(format_args!("the size {width}x{height} is out of bounds"), sizes())
+}
+
+/// The base, or what else is called so, is not inside the rim.
+pub fn outside(what: &str, cell: Cell, size: Size) -> Diagnostic {
+    let (width, height) = (size.width() - 1, size.height() - 1);
+    let remedy = format!("columns go from 0 to {width}, rows from 0 to {height}");
+    Diagnostic::usage(format_args!("the {what} {cell} is outside the {size} cells"), remedy)
+}
+
+/// How large a layout can be.
+pub(super) fn sizes() -> String {
+    format!("a layout has 1 to {MAX_SIDE_CELLS} cells on a side and at most {MAX_CELLS} in all")
 }
 
 /// One bit for each cell of a layout.

@@ -14,14 +14,13 @@
 //! ```
 
 use std::fmt;
-use std::num::NonZeroU16;
+use std::str::FromStr;
 
 use tautline_io::diagnostic::Diagnostic;
-use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use super::file::{Line, end, lines};
-use super::{Layout, MAX_SIDE_CELLS, Misread, problem};
+use super::file::{Line, Misread, end, lines};
+use super::{Layout, MAX_SIDE_CELLS, robots_of};
 
 const MAGIC: &str = "tautline layout ";
 const VERSION: u32 = 1;
@@ -71,26 +70,14 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
             read_walls_below(below, y, if y == last { Below::Rim } else { Below::Row }, &mut layout)?;
         }
     }
-    if layout.free_cells() == 0 {
-        return Err(rim.misread(problem::no_free_cell()));
-    }
     layout.robots = robots;
-    Ok(layout)
+    layout.with_free_cell().map_err(|problem| rim.misread(problem))
 }
 
 /// The drawing ends too early.
 fn cut_short() -> Diagnostic {
     let remedy = "a drawing is a line of walls, then for each row a line of cells and a line of walls";
     Diagnostic::usage("the drawing ends before its southern rim", remedy)
-}
-
-/// The number of robots that a layout can be meant for.
-pub(super) fn robots_of(count: &str) -> Result<NonZeroU16, Diagnostic> {
-    let robots = count.parse().ok().filter(|robots: &NonZeroU16| usize::from(robots.get()) <= MAX_ROBOTS);
-    robots.ok_or_else(|| {
-        let remedy = format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out");
-        Diagnostic::usage(format!("{count:?} is no number of robots"), remedy)
-    })
 }
 
 fn open_rim() -> Diagnostic {
@@ -175,27 +162,43 @@ fn read_walls_below(line: &Line<'_>, y: i16, below: Below, layout: &mut Layout) 
     Ok(())
 }
 
-/// Writes the drawing of `layout`, its last newline included.
-pub(super) fn write(layout: &Layout, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    writeln!(f, "{MAGIC}{VERSION}")?;
-    if let Some(robots) = layout.robots() {
-        writeln!(f, "robots {robots}")?;
-    }
-    for y in 0..layout.height() {
-        write_walls_above(layout, y, f)?;
-        for x in 0..layout.width() {
-            let cell = Cell::new(x, y);
-            let wall = if layout.has_wall(Edge::new(cell, Side::West)) { "|" } else { " " };
-            let inside = match (layout.is_free(cell), layout.base()) {
-                (false, _) => BLOCKED,
-                (true, Some(base)) if base == cell => BASE,
-                (true, Some(_) | None) => FREE,
-            };
-            write!(f, "{wall}{inside}")?;
+/// The drawing that [`read`] reads.
+impl fmt::Display for Layout {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{MAGIC}{VERSION}")?;
+        if let Some(robots) = self.robots() {
+            writeln!(f, "robots {robots}")?;
         }
-        writeln!(f, "|")?;
+        for y in 0..self.height() {
+            write_walls_above(self, y, f)?;
+            for x in 0..self.width() {
+                let cell = Cell::new(x, y);
+                let wall = if self.has_wall(Edge::new(cell, Side::West)) { "|" } else { " " };
+                let inside = match (self.is_free(cell), self.base()) {
+                    (false, _) => BLOCKED,
+                    (true, Some(base)) if base == cell => BASE,
+                    (true, Some(_) | None) => FREE,
+                };
+                write!(f, "{wall}{inside}")?;
+            }
+            writeln!(f, "|")?;
+        }
+        write_walls_above(self, self.height(), f)
     }
-    write_walls_above(layout, layout.height(), f)
+}
+
+impl fmt::Debug for Layout {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}")
+    }
+}
+
+impl FromStr for Layout {
+    type Err = Misread;
+
+    fn from_str(source: &str) -> Result<Self, Misread> {
+        read(source)
+    }
 }
 
 fn write_walls_above(layout: &Layout, y: i16, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -7,8 +7,7 @@ use std::ops::Range;
 
 use tautline_io::diagnostic::Diagnostic;
 
-use super::Misread;
-use super::file::{Line, lines};
+use super::file::{Line, Misread, lines};
 
 /// The keys that a map has; others are passed over.
 const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
