@@ -18,9 +18,9 @@ mod queue;
 
 pub use air::{Air, Channel, Faults, Protocol, SharedChannel, run};
 pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
-pub use field::{Area, Field, MAX_NODES, Obstacle, Point};
+pub use field::{Area, Field, Obstacle, Point};
 pub use lake::{Lake, SHAPES};
 pub use names::ChannelName;
-pub use network::{FREE_SPACE, Link, MAX_RANGE_M, Model, Network, Radio};
-pub use problem::Problem;
+pub use network::{FREE_SPACE, Link, Model, Network, Radio};
 pub(crate) use problem::checked_deviation;
+pub use problem::{MAX_NODES, MAX_RANGE_M, Problem};

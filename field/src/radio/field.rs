@@ -4,11 +4,7 @@
 
 use tautline_kernel::choice::Oracle;
 
-use super::Problem;
-use super::problem::MAX_SIDE_M;
-
-/// The most nodes of a field.
-pub const MAX_NODES: usize = 1_000_000;
+use super::problem::{MAX_NODES, MAX_SIDE_M, Problem};
 
 /// A place, in metres, `x_m` eastwards and `y_m` southwards from the north-western corner.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -12,14 +12,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation};
 
 use super::grid::Grid;
-use super::problem::checked_deviation;
-use super::{Field, Point, Problem};
-
-/// The longest range: distances have to fit into 32 bits of micrometres.
-pub const MAX_RANGE_M: f64 = 4_000.0;
-
-/// The shortest range: a thousand micrometres.
-const MIN_RANGE_M: f64 = 0.001;
+use super::problem::{MAX_RANGE_M, MIN_RANGE_M, Problem, checked_deviation};
+use super::{Field, Point};
 
 /// The most pairs that are looked at: their links fit into a gibibyte.
 const MAX_PAIRS: u64 = 1 << 28;

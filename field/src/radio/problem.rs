@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use super::{MAX_NODES, MAX_RANGE_M};
-
 /// A fault of a radio field.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(missing_docs, reason = "the fields are the numbers that the sentence of each problem shows")]
@@ -43,6 +41,15 @@ pub(crate) fn checked_deviation(deviation_db: f64) -> Result<f64, Problem> {
 /// The longest side of an area.
 pub(super) const MAX_SIDE_M: f64 = 1e6;
 
+/// The most nodes of a field.
+pub const MAX_NODES: usize = 1_000_000;
+
+/// The longest range: distances have to fit into 32 bits of micrometres.
+pub const MAX_RANGE_M: f64 = 4_000.0;
+
+/// The shortest range: a thousand micrometres.
+pub(super) const MIN_RANGE_M: f64 = 0.001;
+
 /// The largest standard deviation of a shadow.
 const MAX_DEVIATION_DB: f64 = 20.0;
 
@@ -60,7 +67,7 @@ impl Problem {
                 "give finite numbers of metres, west not beyond east and north not beyond south".to_owned()
             }
             Self::NoRoom => "leave more of the area free of obstacles".to_owned(),
-            Self::Range { .. } => format!("give a range from 0.001 to {MAX_RANGE_M} m"),
+            Self::Range { .. } => format!("give a range from {MIN_RANGE_M} to {MAX_RANGE_M} m"),
             Self::Exponent { .. } => "give an exponent from 2 to 5".to_owned(),
             Self::Deviation { .. } => format!("give a standard deviation from 0 to {MAX_DEVIATION_DB} dB"),
             Self::Probability { .. } => "give a probability from 0 to 1".to_owned(),

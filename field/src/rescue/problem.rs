@@ -6,8 +6,8 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_io::named_values::NamedValues;
 use tautline_proofs::plural::counted;
 
-use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName};
-use crate::radio;
+use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
+use crate::radio::{self, checked_deviation};
 
 /// The most nodes, each counted once for each WFR: what they know of the calls fits into half a gibibyte.
 pub(super) const MAX_STATES: usize = 4_000_000;
@@ -80,6 +80,37 @@ impl Problem {
             Self::TooLarge { wfrs, .. } => {
                 format!("take at most {} nodes, or let fewer of them call", MAX_STATES / wfrs.max(1))
             }
+        }
+    }
+
+    /// The field of `setting` that makes it.
+    pub(super) fn culprit(&self, setting: &Setting) -> &'static str {
+        match self {
+            Self::Field(problem) => match problem {
+                radio::Problem::Side { .. } => "area_m",
+                radio::Problem::Nodes { .. }
+                | radio::Problem::Outside { .. }
+                | radio::Problem::Blocked { .. }
+                | radio::Problem::TooDense { .. } => "nodes",
+                radio::Problem::Obstacle { .. } | radio::Problem::NoRoom => "obstacles_m",
+                radio::Problem::Range { .. } => "range_m",
+                radio::Problem::Exponent { .. } => "exponent",
+                radio::Problem::Deviation { .. } if checked_deviation(setting.shadowing_db).is_err() => {
+                    "shadowing_db"
+                }
+                radio::Problem::Deviation { .. } => "noise_db",
+                radio::Problem::Probability { .. } => "loss",
+                radio::Problem::NoNode { .. } => "wfrs_at",
+            },
+            Self::K { .. } => "k",
+            Self::Wfrs { .. } | Self::WfrsOfNodes { .. } => "wfrs",
+            Self::WfrTwice { .. } | Self::WfrPlaces { .. } => "wfrs_at",
+            Self::Events { .. } => "events_per_wfr",
+            Self::Robots { .. } => "robots",
+            Self::RobotPlaces { .. } | Self::RobotOutside { .. } | Self::RobotBlocked { .. } => "robots_at_m",
+            Self::Failing { .. } => "failing",
+            Self::FailingNodes { .. } => "failing_nodes",
+            Self::TooLarge { .. } => "nodes",
         }
     }
 }

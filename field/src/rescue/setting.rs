@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Problem;
-use crate::radio::{self, ChannelName, FREE_SPACE, Model, checked_deviation};
+use crate::radio::{ChannelName, FREE_SPACE, Model};
 use tautline_io::named_values::NamedValues;
 use tautline_sim::explore::RuleName;
 
@@ -123,43 +122,6 @@ impl Setting {
         let Self { exponent, shadowing_db: deviation_db, .. } = *self;
         let is_plain = [exponent, deviation_db] == [FREE_SPACE, 0.0];
         if is_plain { Model::Disc } else { Model::Shadowed { exponent, deviation_db } }
-    }
-
-    /// The field that makes a problem.
-    pub(super) fn culprit(&self, problem: Problem) -> &'static str {
-        match problem {
-            Problem::Field(problem) => self.culprit_of_field(problem),
-            Problem::K { .. } => "k",
-            Problem::Wfrs { .. } | Problem::WfrsOfNodes { .. } => "wfrs",
-            Problem::WfrTwice { .. } | Problem::WfrPlaces { .. } => "wfrs_at",
-            Problem::Events { .. } => "events_per_wfr",
-            Problem::Robots { .. } => "robots",
-            Problem::RobotPlaces { .. } | Problem::RobotOutside { .. } | Problem::RobotBlocked { .. } => {
-                "robots_at_m"
-            }
-            Problem::Failing { .. } => "failing",
-            Problem::FailingNodes { .. } => "failing_nodes",
-            Problem::TooLarge { .. } => "nodes",
-        }
-    }
-
-    fn culprit_of_field(&self, problem: radio::Problem) -> &'static str {
-        match problem {
-            radio::Problem::Side { .. } => "area_m",
-            radio::Problem::Nodes { .. }
-            | radio::Problem::Outside { .. }
-            | radio::Problem::Blocked { .. }
-            | radio::Problem::TooDense { .. } => "nodes",
-            radio::Problem::Obstacle { .. } | radio::Problem::NoRoom => "obstacles_m",
-            radio::Problem::Range { .. } => "range_m",
-            radio::Problem::Exponent { .. } => "exponent",
-            radio::Problem::Deviation { .. } if checked_deviation(self.shadowing_db).is_err() => {
-                "shadowing_db"
-            }
-            radio::Problem::Deviation { .. } => "noise_db",
-            radio::Problem::Probability { .. } => "loss",
-            radio::Problem::NoNode { .. } => "wfrs_at",
-        }
     }
 }
 

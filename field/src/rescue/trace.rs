@@ -82,7 +82,7 @@ pub fn replay(path: &Path) -> Result<(Setting, u64, Report), Diagnostic> {
     let text = lines.header(FORMAT, VERSION, MAX_HEADER_BYTES)?;
     let Header { seed, setting, .. } = lines.parse(&text, AGAIN)?;
     let report = rescue(&setting, seed)
-        .map_err(|problem| lines.fault_in(&text, setting.culprit(problem), problem, problem.remedy()))?;
+        .map_err(|problem| lines.fault_in(&text, problem.culprit(&setting), problem, problem.remedy()))?;
     for logged in &report.log {
         lines.expect(logged)?;
     }
