@@ -26,8 +26,7 @@ pub use judge::Violation;
 pub use problem::Problem;
 pub use report::{Fate, Fix, Journey, Packets, Report, Spread};
 pub use setting::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
-pub use summary::seconds;
-pub use summary::{Assignments, ClauseViolation, RobotFailures, Summary};
+pub use summary::{Assignments, ClauseViolation, RobotFailures, Summary, seconds};
 pub use world::rescue;
 
 #[cfg(test)]

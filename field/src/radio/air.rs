@@ -9,8 +9,7 @@ use std::collections::VecDeque;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation, Reception};
 
-use tautline_grids::chance::Probability;
-use tautline_grids::chance::deviation;
+use tautline_grids::chance::{Probability, deviation};
 
 use super::network::Link;
 use super::problem::checked_deviation;

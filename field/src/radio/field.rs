@@ -3,6 +3,7 @@
 //! layout are obstacles, too, and whether a link meets one is decided by products and signs alone.
 
 use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::NodeId;
 
 use super::problem::{MAX_NODES, MAX_SIDE_M, Problem};
 
@@ -191,6 +192,11 @@ impl Field {
     /// The obstacles that stop links.
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
+    }
+
+    /// Where a node is.
+    pub(crate) fn at(&self, node: NodeId) -> Point {
+        self.nodes[node.0 as usize]
     }
 
     /// Where the nodes are.

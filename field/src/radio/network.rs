@@ -168,11 +168,7 @@ impl Network {
     /// [`Problem::NoNode`] if there is none.
     pub fn node(&self, number: u32) -> Result<NodeId, Problem> {
         let nodes = self.nodes();
-        if (number as usize) < nodes {
-            Ok(NodeId(number))
-        } else {
-            Err(Problem::NoNode { node: number, nodes })
-        }
+        ((number as usize) < nodes).then_some(NodeId(number)).ok_or(Problem::NoNode { node: number, nodes })
     }
 
     fn range(&self, node: NodeId) -> std::ops::Range<usize> {

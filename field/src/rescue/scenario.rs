@@ -8,11 +8,10 @@ use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{self, Count, Scheme};
 
 use super::problem::MAX_STATES;
-use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
+use super::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::radio::{
     self, Area, Channel, Faults, Field, LONGEST_WAIT_NS, Link, Model, Network, Obstacle, Point, Radio,
 };
-use crate::rescue::setting::CallTimes;
 use crate::tan::{Equipment, Signal, hops};
 use tautline_grids::chance::Probability;
 use tautline_sim::explore::RuleName;
@@ -247,9 +246,7 @@ impl Scenario {
     pub(super) fn signal(&self, node: NodeId, place: Option<NodeId>) -> Signal {
         match (self.radio.model(), place) {
             (Model::Shadowed { .. }, Some(place)) => Signal::near(&self.field, &self.network, node, place),
-            (Model::Disc, _) | (Model::Shadowed { .. }, None) => {
-                Signal::plain(self.field.nodes()[node.0 as usize])
-            }
+            (Model::Disc, _) | (Model::Shadowed { .. }, None) => Signal::plain(self.field.at(node)),
         }
     }
 

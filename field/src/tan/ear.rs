@@ -36,10 +36,10 @@ impl Signal {
 
     /// `node` as it is heard near `place`: with the shadow between the two, if they are linked.
     pub fn near(field: &Field, network: &Network, node: NodeId, place: NodeId) -> Self {
-        let at = |node: NodeId| field.nodes()[node.0 as usize];
-        let apart_m = apart_m(at(node), at(place));
+        let at = field.at(node);
+        let apart_m = apart_m(at, field.at(place));
         let seems_um = network.distance_um(place, node).filter(|_| apart_m > 0.0);
-        Self { at: at(node), stretch: seems_um.map_or(1.0, |seems_um| f64::from(seems_um) / 1e6 / apart_m) }
+        Self { at, stretch: seems_um.map_or(1.0, |seems_um| f64::from(seems_um) / 1e6 / apart_m) }
     }
 
     /// How far off it seems to be, in metres.

@@ -56,11 +56,7 @@ impl Site<'_> {
 
     /// Where it begins.
     pub fn start(&self) -> Point {
-        self.point(self.robot())
-    }
-
-    pub(super) fn point(&self, node: NodeId) -> Point {
-        self.field.nodes()[node.0 as usize]
+        self.field.at(self.robot())
     }
 
     /// The signal of `node` as it is heard near `place`.

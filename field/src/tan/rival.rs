@@ -9,13 +9,13 @@
 //! - Sheu's robot follows the guide nodes from the first neighbour of least hops on, each the least neighbour one hop
 //!   nearer of the one before, with an antenna that hears the same all round.
 
-use super::back_and_forth::{BackAndForth, Walk};
-use super::gradient::{Gradient, Position, Station, reich, verma};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, RobotId};
 use tautline_kernel::tan::{Heading, Nav};
 
+use super::back_and_forth::{BackAndForth, Walk};
 use super::ear::apart_m;
+use super::gradient::{Gradient, Position, Station, reich, verma};
 use super::journey::MOST_ACTS;
 use super::walker::{Trail, ahead, is_open};
 use super::{Antenna, End, Journey, Signal, Site, Walker, hops};
@@ -77,27 +77,27 @@ impl Site<'_> {
             let at = trail.end();
             let has_gained = neighbours.first().is_some_and(|&(least, _)| least < fewest);
             let nearest = neighbours.iter().filter(|&&(hops, _)| hops <= fewest).min_by(|one, other| {
-                let apart_m = |&(_, node): &Neighbour| apart_m(self.point(node), at);
+                let apart_m = |&(_, node): &Neighbour| apart_m(self.field.at(node), at);
                 one.0.cmp(&other.0).then(apart_m(one).total_cmp(&apart_m(other)))
             });
             (fewest, guide) = nearest.copied().unwrap_or((fewest, guide));
             let stations =
-                neighbours.iter().map(|&(hops, node)| Station { at: position(self.point(node)), hops });
+                neighbours.iter().map(|&(hops, node)| Station { at: position(self.field.at(node)), hops });
             let middle = verma(stations).map(point);
             match middle.filter(|&middle| has_gained && is_open(self.field, at, middle)) {
                 Some(middle) => {
                     trail.go_straight(middle);
                     neighbours = self.heard(middle, &hops);
                 }
-                None if self.point(guide) == at || !is_open(self.field, at, self.point(guide)) => {
+                None if self.field.at(guide) == at || !is_open(self.field, at, self.field.at(guide)) => {
                     break End::Lost;
                 }
                 None => {
-                    trail.go_straight(self.point(guide));
+                    trail.go_straight(self.field.at(guide));
                     neighbours = self.linked(guide, &hops);
                 }
             }
-            if trail.end() == self.point(goal) {
+            if trail.end() == self.field.at(goal) {
                 break End::Arrived;
             }
         };
@@ -152,14 +152,10 @@ impl Site<'_> {
     /// The journey by Sheu's back-and-forth.
     pub fn sheu(&self, goal: NodeId, chance: &mut dyn Oracle) -> Journey {
         let hops = self.hops(goal);
-        let least = |node: NodeId| {
-            let neighbours = self.network.neighbours(node).iter().filter(|&&next| next != self.robot());
-            neighbours.filter_map(|&next| Some((hops[next.0 as usize]?, next))).min()
-        };
         let mut trail = Trail::new(self.start());
         let mut place = self.robot();
         let end = loop {
-            let Some((hops, guide)) = least(place) else { break End::Unaware };
+            let Some(&(hops, guide)) = self.linked(place, &hops).first() else { break End::Unaware };
             match self.back_and_forth(self.signal(guide, place), &mut trail, chance) {
                 End::Arrived if hops == 0 => break End::Arrived,
                 End::Arrived => place = guide,

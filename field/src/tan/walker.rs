@@ -44,10 +44,6 @@ impl Gait {
     fn walk_ns(self, length_m: f64) -> u64 {
         (length_m * 1e12 / f64::from(self.speed_mm_s.max(1))) as u64
     }
-
-    fn step_m(self) -> f64 {
-        f64::from(self.step_mm) / 1_000.0
-    }
 }
 
 /// When a robot turns its antenna once round [Jiang 2011, 3.4, step 3].
@@ -119,7 +115,7 @@ impl Equipment {
 
     /// How far to walk towards a node that is heard so strong on the axis of `antenna`: a step, or half the way.
     pub(super) fn stride_m(&self, antenna: &Antenna, strength: Strength) -> f64 {
-        self.gait.step_m().min(self.ear.distance_m(antenna, strength) / 2.0)
+        (f64::from(self.gait.step_mm) / 1_000.0).min(self.ear.distance_m(antenna, strength) / 2.0)
     }
 }
 

@@ -33,12 +33,7 @@ impl World<'_> {
             log: self.log,
             paths: self.rovers.into_iter().map(|rover| rover.path).collect(),
             field: self.scenario.field.clone(),
-            wfrs: self
-                .scenario
-                .wfrs
-                .iter()
-                .map(|wfr| self.scenario.field.nodes()[wfr.node.0 as usize])
-                .collect(),
+            wfrs: self.scenario.wfrs.iter().map(|wfr| self.scenario.field.at(wfr.node)).collect(),
             air,
             packets: self.packets,
         }

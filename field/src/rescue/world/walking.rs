@@ -127,7 +127,7 @@ impl World<'_> {
         let Some(way) = &mut rover.way else { return };
         way.has_come = true;
         let (wfr, call, id, at) = (way.wfr, way.call, rover.machine.id(), rover.at);
-        let goal = self.scenario.field.nodes()[self.scenario.wfrs[wfr].node.0 as usize];
+        let goal = self.scenario.field.at(call.wfr);
         let event = self.happenings[wfr].len() - 1;
         let happening = &mut self.happenings[wfr][event];
         happening.visits += 1;
