@@ -23,11 +23,10 @@ pub struct Violation {
 pub(super) struct Judge {
     /// The latest event of each WFR.
     event: Vec<usize>,
-    /// The best MOVE of each WFR's latest call that arrived while its window was open.
-    best: Vec<Option<Bid>>,
+    /// Whether the window of each WFR's latest call is open.
     is_open: Vec<bool>,
-    /// The robots whose MOVE of each WFR's latest call arrived while its window was open.
-    heard: Vec<Vec<RobotId>>,
+    /// The MOVEs of each WFR's latest call that arrived while its window was open.
+    heard: Vec<Vec<Bid>>,
     /// The latest epoch of each WFR whose lease each robot has taken, robot by robot.
     taken: Vec<Vec<Option<Epoch>>>,
     pub(super) violations: Vec<Violation>,
@@ -53,7 +52,6 @@ impl Judge {
     pub(super) fn new(robots: usize, wfrs: usize) -> Self {
         Self {
             event: vec![0; wfrs],
-            best: vec![None; wfrs],
             is_open: vec![false; wfrs],
             heard: vec![vec![]; wfrs],
             taken: vec![vec![None; wfrs]; robots],
@@ -75,17 +73,14 @@ impl Judge {
 
     /// A WFR calls.
     pub(super) fn calls(&mut self, wfr: usize) {
-        (self.best[wfr], self.is_open[wfr]) = (None, true);
+        self.is_open[wfr] = true;
         self.heard[wfr].clear();
     }
 
     /// A MOVE of the present call arrives.
     pub(super) fn bids(&mut self, wfr: usize, bid: Bid) {
         if self.is_open[wfr] {
-            // The least (MHC, MID), said here anew: the judge does not ask the kernel which bid is the better.
-            let bids = self.best[wfr].into_iter().chain([bid]);
-            self.best[wfr] = bids.min_by_key(|&Bid { hops, robot: RobotId(id) }| (hops, id));
-            self.heard[wfr].push(bid.robot);
+            self.heard[wfr].push(bid);
         }
     }
 
@@ -146,19 +141,14 @@ impl Judge {
         told: &[Resb],
         at_ns: u64,
     ) {
-        let choice = |phase: Phase| match phase {
-            Phase::Offered { choice, .. } | Phase::Leased { choice } => Some(choice.robot),
-            Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => None,
-        };
-        let chosen = choice(after.phase());
+        let robot = |phase: Phase| choice(phase).map(|choice| choice.robot);
+        let chosen = robot(after.phase());
         let has_decided = chosen.is_some() || matches!(after.phase(), Phase::Rescued { .. });
-        let heard: &[RobotId] =
-            if chosen.is_some() && chosen != choice(before) { &self.heard[wfr] } else { &[] };
-        let mut due = heard.iter().copied().chain(bidder.filter(|_| has_decided));
+        let heard = || self.heard[wfr].iter().map(|bid| bid.robot);
+        let is_new = chosen.is_some() && chosen != robot(before);
+        let mut due = heard().filter(|_| is_new).chain(bidder.filter(|_| has_decided));
         let is_told = |robot: RobotId| told.iter().any(|resb| resb.robot == robot);
-        let may_be_told = |robot: RobotId| {
-            self.heard[wfr].contains(&robot) || bidder == Some(robot) || chosen == Some(robot)
-        };
+        let may_be_told = |robot: RobotId| heard().chain(bidder).chain(chosen).any(|known| known == robot);
         let is_right =
             |resb: &Resb| (resb.call, resb.chosen) == (after.call(), chosen) && may_be_told(resb.robot);
         if !due.all(is_told) || !told.iter().all(is_right) {
@@ -187,25 +177,30 @@ impl Judge {
             {
                 self.tell(Demand::OneCallForARobot, wfr, at_ns);
             }
-            let taken = |robot: RobotId| self.taken[usize::from(robot.0)][wfr];
-            let (has_best, has_consent) = match machine.phase() {
-                Phase::Offered { choice, .. } => (self.is_best(wfr, choice), true),
-                Phase::Leased { choice } => {
-                    (self.is_best(wfr, choice), taken(choice.robot) == Some(machine.call().epoch))
-                }
-                Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => (true, true),
-            };
-            if !has_best {
+            if choice(machine.phase()).is_some_and(|choice| !self.is_best(wfr, choice)) {
                 self.tell(Demand::BestOfTheWindow, wfr, at_ns);
             }
-            if !has_consent {
+            let has_taken =
+                |robot: RobotId| self.taken[usize::from(robot.0)][wfr] == Some(machine.call().epoch);
+            if counts_on(machine).is_some_and(|robot| !has_taken(robot)) {
                 self.tell(Demand::CountsOnConsent, wfr, at_ns);
             }
         }
     }
 
+    /// Whether the choice is the least (MHC, MID), said here anew: the judge does not ask the kernel which bid is the
+    /// better.
     fn is_best(&self, wfr: usize, choice: Bid) -> bool {
-        self.best[wfr].is_some_and(|best| best.robot == choice.robot)
+        let best = self.heard[wfr].iter().min_by_key(|&&Bid { hops, robot: RobotId(id) }| (hops, id));
+        best.is_some_and(|best| best.robot == choice.robot)
+    }
+}
+
+/// The robot that a WFR has chosen and not yet seen.
+pub(super) const fn choice(phase: Phase) -> Option<Bid> {
+    match phase {
+        Phase::Offered { choice, .. } | Phase::Leased { choice } => Some(choice),
+        Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => None,
     }
 }
 

@@ -258,15 +258,13 @@ impl<'a> World<'a> {
                     sensor.guide = sensor.guide.expire();
                 }
             }
-            (Duty::Wfr(wfr, timer), _) => {
-                if self.wfrs[wfr].timer() == Some(timer) {
-                    if let (WfrTimer::Window(_), Phase::Collecting { best: Some(_) }) =
-                        (timer, self.wfrs[wfr].phase())
-                    {
-                        self.judge.closes(wfr);
-                    }
-                    self.turn_wfr(wfr, now_ns, None, |machine| machine.expire(timer));
+            (Duty::Wfr(wfr, timer), _) if self.wfrs[wfr].timer() == Some(timer) => {
+                if let (WfrTimer::Window(_), Phase::Collecting { best: Some(_) }) =
+                    (timer, self.wfrs[wfr].phase())
+                {
+                    self.judge.closes(wfr);
                 }
+                self.turn_wfr(wfr, now_ns, None, |machine| machine.expire(timer));
             }
             (Duty::Robot(timer), Some(robot)) => {
                 self.turn_robot(robot, now_ns, None, |machine| machine.expire(timer));
@@ -286,29 +284,26 @@ impl<'a> World<'a> {
                     self.begin_leg(robot, now_ns);
                 }
             }
-            (Duty::AskOn(leg), Some(robot)) => {
-                if self.way_in(robot, leg).is_some() {
-                    self.ask_on(robot, now_ns, chance);
-                }
+            (Duty::AskOn(leg), Some(robot)) if self.way_in(robot, leg).is_some() => {
+                self.ask_on(robot, now_ns, chance);
             }
-            (Duty::GoOn(leg), Some(robot)) => {
-                if self.way_in(robot, leg).is_some() {
-                    self.go_on(robot, now_ns, chance);
-                }
+            (Duty::GoOn(leg), Some(robot)) if self.way_in(robot, leg).is_some() => {
+                self.go_on(robot, now_ns, chance);
             }
-            (Duty::Served(call), Some(robot)) => {
-                if self.rovers[robot].machine.task() == (Task::Leased { call }) {
-                    self.turn_robot(robot, now_ns, None, Robot::arrive);
-                }
+            (Duty::Served(call), Some(robot))
+                if self.rovers[robot].machine.task() == (Task::Leased { call }) =>
+            {
+                self.turn_robot(robot, now_ns, None, Robot::arrive);
             }
             (
-                Duty::Robot(_)
+                Duty::Wfr(..)
+                | Duty::Robot(_)
                 | Duty::Lease(..)
                 | Duty::NoSignal(_)
                 | Duty::AskOn(_)
                 | Duty::GoOn(_)
                 | Duty::Served(_),
-                None,
+                _,
             ) => {}
         }
     }

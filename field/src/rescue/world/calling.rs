@@ -8,6 +8,7 @@ use tautline_kernel::tan::Stage as Leg;
 use super::{Duty, Happening, Message, World};
 use crate::radio::Reach;
 use crate::rescue::acks::Content;
+use crate::rescue::judge::choice;
 use crate::rescue::rover::Rover;
 use crate::rescue::{Event, LogEntry, MAX_ROBOTS, MAX_WFRS, Ordinal, Spread};
 
@@ -82,21 +83,16 @@ impl World<'_> {
                 }
             }
         }
+        let robot = |choice: Bid| Ordinal(choice.robot.0.into());
         if choice(after.phase()) != choice(before.phase())
             && let Some(choice) = choice(after.phase())
         {
-            self.tell(
-                now_ns,
-                Event::Chooses { wfr: Ordinal(wfr), epoch, robot: Ordinal(choice.robot.0.into()) },
-            );
+            self.tell(now_ns, Event::Chooses { wfr: Ordinal(wfr), epoch, robot: robot(choice) });
         }
         if let Phase::Leased { choice } = after.phase()
             && after.phase() != before.phase()
         {
-            self.tell(
-                now_ns,
-                Event::CountsOn { wfr: Ordinal(wfr), epoch, robot: Ordinal(choice.robot.0.into()) },
-            );
+            self.tell(now_ns, Event::CountsOn { wfr: Ordinal(wfr), epoch, robot: robot(choice) });
         }
         if after.timer() != before.timer()
             && let Some(timer) = after.timer()
@@ -202,13 +198,5 @@ impl World<'_> {
                 self.put(self.station(robot), now_ns + self.timers[wfr].robot_lease_ns(hops), lapse);
             }
         }
-    }
-}
-
-/// The robot that a WFR has chosen and not yet seen.
-const fn choice(phase: Phase) -> Option<Bid> {
-    match phase {
-        Phase::Offered { choice, .. } | Phase::Leased { choice } => Some(choice),
-        Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => None,
     }
 }

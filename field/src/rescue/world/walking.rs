@@ -23,15 +23,8 @@ impl World<'_> {
         let (start, id) = (rover.at, rover.machine.id());
         let walker = Walker::new(self.scenario.equipment, start, id, call.wfr, (parent, hops));
         self.rovers[robot].way = Some(Way { call, wfr, walker, leg: 0, passed: None, has_come: false });
-        self.tell(
-            now_ns,
-            Event::SetsOut {
-                robot: Ordinal(robot),
-                wfr: Ordinal(wfr),
-                epoch: call.epoch.0,
-                at: millimetres(start),
-            },
-        );
+        let (epoch, at) = (call.epoch.0, millimetres(start));
+        self.tell(now_ns, Event::SetsOut { robot: Ordinal(robot), wfr: Ordinal(wfr), epoch, at });
         self.begin_leg(robot, now_ns);
     }
 
@@ -41,11 +34,8 @@ impl World<'_> {
         let Some(Way { call, wfr, walker, has_come, .. }) = rover.way.take() else { return };
         if !has_come {
             rover.moved_m += walker.walked_m();
-            let at = millimetres(rover.at);
-            self.tell(
-                now_ns,
-                Event::LetsGo { robot: Ordinal(robot), wfr: Ordinal(wfr), epoch: call.epoch.0, at },
-            );
+            let (epoch, at) = (call.epoch.0, millimetres(rover.at));
+            self.tell(now_ns, Event::LetsGo { robot: Ordinal(robot), wfr: Ordinal(wfr), epoch, at });
         }
     }
 
