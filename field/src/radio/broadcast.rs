@@ -3,6 +3,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{Epoch, NodeId, Notice, Reception};
 use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Stage, Surroundings, words};
+use tautline_kernel::tan::Nav;
 
 use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
 
@@ -108,6 +109,14 @@ impl<'a> Broadcast<'a> {
         let aware = || self.nodes.iter().filter(|node| node.event() == Some(event));
         let forwarded = aware().filter(|node| node.stage() == Stage::Forwarded).count() as u32;
         Reach { reached: aware().count() as u32, rebroadcasts: forwarded.saturating_sub(1) }
+    }
+
+    /// A node's place in the tree of an event, if it is one of its path nodes, or the source.
+    pub(crate) fn nav(&self, node: NodeId, event: Epoch) -> Option<Nav> {
+        let state = self.nodes[node.0 as usize];
+        let is_path_node = state.stage() == Stage::Forwarded && state.event() == Some(event);
+        let hops = state.hops().filter(|_| is_path_node)?;
+        Some(Nav { wfr: self.source, node, hops, parent: state.parent().unwrap_or(node) })
     }
 
     /// The nodes' states.

@@ -110,14 +110,8 @@ impl Site<'_> {
                     time_ns += walker.act(self.field, signal, chance);
                 }
                 Order::Stop => {
-                    let end = match walker.stage() {
-                        Stage::Arrived => End::Arrived,
-                        Stage::Asking { .. }
-                        | Stage::Scanning { .. }
-                        | Stage::Walking { .. }
-                        | Stage::Lost => End::Lost,
-                    };
-                    return (end, time_ns);
+                    let has_arrived = walker.stage() == Stage::Arrived;
+                    return (if has_arrived { End::Arrived } else { End::Lost }, time_ns);
                 }
             }
         }

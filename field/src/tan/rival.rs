@@ -111,7 +111,7 @@ impl Site<'_> {
         let mut visited = vec![false; self.field.nodes().len()];
         let mut place = self.robot();
         let mut journey = Journey { time_ns: Some(0), ..Journey::none(start) };
-        loop {
+        journey.end = loop {
             let at = journey.trail.last().copied().unwrap_or(start);
             let neighbours = self.network.neighbours(place).iter().filter(|&&node| {
                 let signal = self.signal(node, place);
@@ -123,8 +123,7 @@ impl Site<'_> {
             };
             let Some(next) = reich(neighbours.filter_map(gradient)) else {
                 let has_set_out = place != self.robot() || visited.contains(&true);
-                journey.end = if has_set_out { End::Lost } else { End::Unaware };
-                return journey;
+                break if has_set_out { End::Lost } else { End::Unaware };
             };
             visited[next.0 as usize] = true;
             // One node is a tree of its own, one hop away.
@@ -135,18 +134,13 @@ impl Site<'_> {
             journey.length_m += walker.walked_m();
             journey.time_ns = journey.time_ns.map(|so_far| so_far + time_ns);
             match end {
-                End::Arrived if next == goal => {
-                    journey.end = End::Arrived;
-                    return journey;
-                }
+                End::Arrived if next == goal => break end,
                 End::Arrived => place = next,
                 End::Lost | End::Unaware => {}
-                End::Astray => {
-                    journey.end = End::Astray;
-                    return journey;
-                }
+                End::Astray => break end,
             }
-        }
+        };
+        journey
     }
 
     /// The journey by Sheu's back-and-forth.

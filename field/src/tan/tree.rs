@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::{NodeId, Notice, Reception};
-use tautline_kernel::notice::{Rule, Stage};
+use tautline_kernel::net::{Epoch, NodeId, Notice, Reception};
+use tautline_kernel::notice::Rule;
 use tautline_kernel::tan::Nav;
 
 use crate::radio::{Broadcast, Channel, Faults, Network, Problem, Protocol, run};
@@ -32,11 +32,8 @@ impl Tree {
         let broadcast = Broadcast::new(network, rule, wfr);
         let mut listening = Listener { broadcast, robot, least: None };
         run(network, Channel::Ideal, &Faults::NONE, &mut listening, &[(wfr, 0)], chance)?;
-        let nodes = (0..).map(NodeId).zip(listening.broadcast.nodes());
-        let nav = |(id, node): (NodeId, &tautline_kernel::notice::Node)| {
-            let hops = node.hops().filter(|_| node.stage() == Stage::Forwarded)?;
-            Some(Nav { wfr, node: id, hops, parent: node.parent().unwrap_or(id) })
-        };
+        let nodes = (0..network.nodes() as u32).map(NodeId);
+        let nav = |node: NodeId| listening.broadcast.nav(node, Epoch::FIRST);
         let entry = listening.least.map(|(hops, sender)| (sender, hops));
         Ok(Self { navs: nodes.map(nav).collect(), entry })
     }

@@ -3,9 +3,8 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Bid, Condition, Hop, Relay, Resb, Upward, Word};
-use tautline_kernel::net::{Epoch, NodeId, Reception};
-use tautline_kernel::notice::Stage;
-use tautline_kernel::tan::{Guide, Nav, ReqNav};
+use tautline_kernel::net::{NodeId, Reception};
+use tautline_kernel::tan::{Guide, ReqNav};
 
 use super::{Duty, Message, World};
 use crate::radio::Protocol;
@@ -44,7 +43,7 @@ impl World<'_> {
         let parent = if is_goal {
             Some(at)
         } else {
-            self.place_in_tree(at, wfr, message.call.epoch).map(|nav| nav.parent)
+            self.broadcasts[wfr].nav(at, message.call.epoch).map(|nav| nav.parent)
         };
         let Some(parent) = parent else { return };
         let relay = &mut self.sensors[at.0 as usize].relay;
@@ -92,14 +91,6 @@ impl World<'_> {
         }
     }
 
-    /// A node's place in the tree of a call, if it is one of its path nodes, or the WFR.
-    fn place_in_tree(&self, at: NodeId, wfr: usize, epoch: Epoch) -> Option<Nav> {
-        let node = self.broadcasts[wfr].nodes()[at.0 as usize];
-        let is_path_node = node.stage() == Stage::Forwarded && node.event() == Some(epoch);
-        let hops = node.hops().filter(|_| is_path_node)?;
-        Some(Nav { wfr: self.scenario.wfrs[wfr].node, node: at, hops, parent: node.parent().unwrap_or(at) })
-    }
-
     pub(super) fn send_down(&mut self, at: NodeId, resb: Resb, now_ns: u64) {
         let relay = self.sensors[at.0 as usize].relay.as_deref();
         if let Some(to) = relay.and_then(|relay| relay.down(resb)) {
@@ -109,13 +100,14 @@ impl World<'_> {
 
     pub(super) fn guide(&mut self, at: NodeId, request: ReqNav, now_ns: u64) {
         let Some(wfr) = self.scenario.wfr(request.wfr) else { return };
-        let epoch = self.broadcasts[wfr].nodes()[at.0 as usize].event();
+        let broadcast = &self.broadcasts[wfr];
+        let event = broadcast.nodes()[at.0 as usize].event();
         // Whoever comes to a WFR that is rescued comes in vain: it answers a MOVE with nobody's name, and a REQNAV not
         // at all.
         let is_over = self.wfrs[wfr].call().wfr == at
             && !self.wfrs[wfr].is_waiting()
             && self.scenario.rule.has(Condition::AnswersAgain);
-        let own = epoch.filter(|_| !is_over).and_then(|epoch| self.place_in_tree(at, wfr, epoch));
+        let own = event.filter(|_| !is_over).and_then(|event| broadcast.nav(at, event));
         let guide = self.sensors[at.0 as usize].guide.request(request, at, own);
         match guide {
             Guide::Signals(nav) if request.node == at => {
