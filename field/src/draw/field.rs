@@ -204,16 +204,11 @@ fn numbered(place: &str, number: Ordinal) -> String {
 /// The area with obstacles, links and nodes.
 fn ground(map: &Map<'_>, scale: Scale) -> String {
     let (mut obstacles, mut links, mut nodes) = (String::new(), String::new(), String::new());
-    for obstacle in map.field.obstacles() {
-        let corner = |x_m, y_m| scale.place(Point { x_m, y_m });
-        let _ = write!(
-            obstacles,
-            "M{}L{}L{}L{}z",
-            corner(obstacle.west_m, obstacle.north_m),
-            corner(obstacle.east_m, obstacle.north_m),
-            corner(obstacle.east_m, obstacle.south_m),
-            corner(obstacle.west_m, obstacle.south_m)
-        );
+    for &obstacle in map.field.obstacles() {
+        let [west, north, east, south] = obstacle.into();
+        let [one, two, three, four] = [[west, north], [east, north], [east, south], [west, south]]
+            .map(|[x_m, y_m]| scale.place(Point { x_m, y_m }));
+        let _ = write!(obstacles, "M{one}L{two}L{three}L{four}z");
     }
     for &[from, to] in &map.links {
         let _ = write!(links, "M{}L{}", scale.place(from), scale.place(to));

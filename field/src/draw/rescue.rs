@@ -65,7 +65,7 @@ pub fn page(
 }
 
 fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Report) -> Film {
-    let events = report.fates.len() as u32;
+    let (field, events) = (&report.field, report.fates.len() as u32);
     let messages = Layer::new(
         "messages",
         "who calls, asks, chooses and declines; from node to node in between",
@@ -91,17 +91,9 @@ fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Repo
         of: report.log.len() as u32,
         share: Share { of: events, what: "events served" },
         board: Board::Metres {
-            size: {
-                let area = report.field.area();
-                [area.width_m(), area.height_m()].map(metres)
-            },
-            obstacles: report
-                .field
-                .obstacles()
-                .iter()
-                .map(|of| [of.west_m, of.north_m, of.east_m, of.south_m].map(metres))
-                .collect(),
-            nodes: report.field.nodes().iter().map(|&node| millimetres(node)).collect(),
+            size: [field.area().width_m(), field.area().height_m()].map(metres),
+            obstacles: field.obstacles().iter().map(|&of| <[f64; 4]>::from(of).map(metres)).collect(),
+            nodes: field.nodes().iter().map(|&node| millimetres(node)).collect(),
             caller: "WFR",
             callers: report.wfrs.iter().map(|&wfr| millimetres(wfr)).collect(),
             paths: report.paths.iter().map(|path| way(path)).collect(),

@@ -8,6 +8,15 @@ use tautline_kernel::position::{Point, Signal, SymmetricMatrix};
 
 use crate::stats::decimals;
 
+/// Numbers are told to a hundredth of a millimetre.
+pub(super) const PARTS: f64 = 1e5;
+
+/// The least and the greatest of some numbers.
+pub(super) fn span(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    let far = [f64::INFINITY, f64::NEG_INFINITY];
+    numbers.fold(far, |[least, most], number| [least.min(number), most.max(number)])
+}
+
 /// An ellipse about a place.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Ellipse {
@@ -23,7 +32,7 @@ impl Ellipse {
     /// This ellipse, rounded to a hundredth of a millimetre and of a degree.
     #[must_use]
     pub(super) fn rounded(self) -> Self {
-        let metres = |pair: [f64; 2]| pair.map(|metres| decimals(metres, 1e5));
+        let metres = |pair: [f64; 2]| pair.map(|metres| decimals(metres, PARTS));
         Self {
             middle_m: metres(self.middle_m),
             half_axes_m: metres(self.half_axes_m),

@@ -15,7 +15,7 @@ use tautline_proofs::engine::SeededOracle;
 use tautline_proofs::plural::counted;
 
 use super::Solver;
-use super::analysis::{Ellipse, ellipse, matrix};
+use super::analysis::{Ellipse, PARTS, ellipse, matrix};
 use super::meeting::check_meeting;
 use crate::stats::decimals;
 use tautline_sim::explore::RuleName;
@@ -94,9 +94,6 @@ pub struct Place {
     pub flags: Vec<&'static str>,
 }
 
-/// Numbers are told to a hundredth of a millimetre.
-const PARTS: f64 = 1e5;
-
 impl Measurements {
     /// Reads a file of distances, or of levels where `power` says what these are at one metre; `signal` says how fast
     /// they fall.
@@ -117,8 +114,7 @@ impl Measurements {
         if text.len() as u64 > MAX_BYTES {
             let most = MAX_BYTES >> 20;
             let what = format_args!("the file has more than {most} MiB");
-            let remedy = "split it";
-            return Err(Diagnostic::in_file(file, what, remedy));
+            return Err(Diagnostic::in_file(file, what, "split it"));
         }
         let mut measured = Self { file: file.to_owned(), text: String::new(), fixes: Vec::new() };
         measured.take(&text, signal, power)?;

@@ -3,6 +3,8 @@
 
 use tautline_kernel::position::{Point, Range, Refusal, Signal, check, do_meet, most_error};
 
+use super::analysis::span;
+
 /// Circles of a box that is not divided.
 const FEW: usize = 8;
 
@@ -43,12 +45,9 @@ enum Inner {
 impl Circles {
     fn of(ranges: &[Range], order: &mut [usize]) -> Self {
         let all = || order.iter().map(|&number| &ranges[number]);
-        let span = |of: fn(&Range) -> f64| {
-            let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            all().map(of).fold(ends, |(least, most), number| (least.min(number), most.max(number)))
-        };
-        let [(west, east), (north, south), (near, far)] =
-            [span(|range| range.anchor.x_m), span(|range| range.anchor.y_m), span(|range| range.distance_m)];
+        let [west, east] = span(all().map(|range| range.anchor.x_m));
+        let [north, south] = span(all().map(|range| range.anchor.y_m));
+        let [near, far] = span(all().map(|range| range.distance_m));
         let first = order.iter().copied().min().unwrap_or(0);
         let inner = if order.len() <= FEW {
             Inner::Few(order.to_vec())
@@ -84,16 +83,11 @@ impl Circles {
 
     /// Whether the bounds leave it open that a circle here does not meet `other`.
     fn may_have_foe(&self, other: &Range, most_error: f64) -> bool {
-        let (at, distance_m, [near, far]) = (other.anchor, other.distance_m, self.distances_m);
-        let nearest = Point::new(
-            at.x_m.clamp(self.least.x_m, self.most.x_m),
-            at.y_m.clamp(self.least.y_m, self.most.y_m),
-        );
+        let Self { least, most, distances_m: [near, far], .. } = *self;
+        let (at, distance_m) = (other.anchor, other.distance_m);
+        let nearest = Point::new(at.x_m.clamp(least.x_m, most.x_m), at.y_m.clamp(least.y_m, most.y_m));
         let farther = |at: f64, one: f64, other: f64| if at - one > other - at { one } else { other };
-        let farthest = Point::new(
-            farther(at.x_m, self.least.x_m, self.most.x_m),
-            farther(at.y_m, self.least.y_m, self.most.y_m),
-        );
+        let farthest = Point::new(farther(at.x_m, least.x_m, most.x_m), farther(at.y_m, least.y_m, most.y_m));
         let (least_m, most_m) = (at.distance_m(nearest), at.distance_m(farthest));
         let is_outside = (distance_m + near) * most_error < most_m * SLACK;
         let is_around = distance_m / most_error * SLACK > least_m + near * most_error;

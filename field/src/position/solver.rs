@@ -74,8 +74,8 @@ impl Solver {
                 let swarm = Swarm::start(ranges, around, parameters(rule), &mut particles, oracle)?;
                 Ok((swarm.run(oracle), None))
             }
-            Self::LeastSquares => fixed(locate(ranges, Residual::Metres, signal, area)?),
-            Self::Decibel => fixed(locate(ranges, Residual::Decibels, signal, area)?),
+            Self::LeastSquares => locate(ranges, Residual::Metres, signal, area).map(fixed),
+            Self::Decibel => locate(ranges, Residual::Decibels, signal, area).map(fixed),
         }
     }
 
@@ -85,9 +85,8 @@ impl Solver {
     }
 }
 
-#[expect(clippy::unnecessary_wraps, reason = "as the other ways are")]
-fn fixed(fix: Fix) -> Result<Solution, Refusal> {
-    Ok((fix.best().at, Some(fix)))
+const fn fixed(fix: Fix) -> Solution {
+    (fix.best().at, Some(fix))
 }
 
 /// The constants of the paper's swarm, with the updates in the printed order or in the corrected one.

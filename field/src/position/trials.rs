@@ -10,7 +10,7 @@ use tautline_kernel::position::{
 use tautline_proofs::engine::SeededOracle;
 
 use super::Solver;
-use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
+use super::analysis::{Ellipse, PARTS, bound, ellipse, scatter, span, spread_m};
 use super::solver::Solution;
 use crate::campaign;
 use crate::stats::{Estimate, decimals, quantile};
@@ -32,13 +32,8 @@ impl Anchors {
     pub fn new(places: Vec<Point>) -> Result<Self, Refusal> {
         let ranges: Vec<Range> = places.iter().map(|&anchor| Range::new(anchor, 1.0)).collect();
         linear(&ranges)?;
-        let ends = |of: fn(&Point) -> f64| {
-            places
-                .iter()
-                .map(of)
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], at| [least.min(at), most.max(at)])
-        };
-        let ([west, east], [south, north]) = (ends(|place| place.x_m), ends(|place| place.y_m));
+        let [west, east] = span(places.iter().map(|place| place.x_m));
+        let [south, north] = span(places.iter().map(|place| place.y_m));
         // Anchors that are on no line span a rectangle.
         let area = Area::new(Point::new(west, south), Point::new(east, north)).ok_or(Refusal::Collinear)?;
         Ok(Self { places, area })
@@ -59,9 +54,7 @@ impl Anchors {
         let (least, greatest) = (self.area.least(), self.area.greatest());
         [greatest.x_m - least.x_m, greatest.y_m - least.y_m]
     }
-}
 
-impl Anchors {
     /// A random place in that rectangle.
     pub fn somewhere(&self, oracle: &mut dyn Oracle) -> Point {
         let (least, [width_m, height_m]) = (self.area.least(), self.sides_m());
@@ -184,9 +177,6 @@ struct Trial {
     optimum_m: f64,
     fix: Option<Fix>,
 }
-
-/// Numbers are told to a hundredth of a millimetre.
-const PARTS: f64 = 1e5;
 
 /// Trials between two signs of life.
 const PART: u32 = 500;
