@@ -8,7 +8,7 @@ mod sensor;
 
 pub use ring::Ring;
 pub use scan::Scan;
-pub use sensor::{Claim, Mark, Sensor};
+pub use sensor::{Claim, Mark, Sensor, SensorFate};
 
 use crate::ground::{Cell, Edge, Side};
 
@@ -28,19 +28,6 @@ pub trait Floor<S = Sensor> {
     fn unpack(&mut self, cell: Cell) -> u16;
     /// Whether no wall stands on `edge`, which is between two cells that have sensors.
     fn is_open(&self, edge: Edge) -> bool;
-}
-
-/// The fate of a sensor that an agent has missed, when the agent places a new one in its cell [Ferranti 2009, V.A]. The
-/// paper says no more than that the agent "marks it with the state 1". Sensors of one cell are seen or missed together.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum SensorFate {
-    /// Whatever it stored is lost.
-    Lost,
-    /// It stays beside the new one: agents read the higher state and the higher count of the two.
-    Beside,
-    /// The new one takes its state over, and counts on from its count.
-    Counted,
 }
 
 /// The sensor that an agent expects in the cell that it enters.

@@ -2,7 +2,6 @@
 
 use core::hash::{Hash, Hasher};
 
-use super::SensorFate;
 use crate::ground::Steps;
 
 /// The state of a cell [Ferranti 2009, II.A]. Walls have no sensor.
@@ -47,6 +46,19 @@ pub struct Sensor {
     /// The sensor's own identifier; 0 where there is none yet. See [`Floor::unpack`](super::Floor::unpack) for what it
     /// tells.
     pub serial: u16,
+}
+
+/// The fate of a sensor that an agent has missed, when the agent places a new one in its cell [Ferranti 2009, V.A]. The
+/// paper says no more than that the agent "marks it with the state 1". Sensors of one cell are seen or missed together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SensorFate {
+    /// Whatever it stored is lost.
+    Lost,
+    /// It stays beside the new one: agents read the higher state and the higher count of the two.
+    Beside,
+    /// The new one takes its state over, and counts on from its count.
+    Counted,
 }
 
 impl Sensor {
