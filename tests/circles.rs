@@ -150,7 +150,7 @@ fn leaves<'a>(
 }
 
 /// A path that stands so many modules within its file, as the file itself would write it.
-fn outward<'a>(path: Vec<&'a str>, within: usize) -> Vec<&'a str> {
+fn outward(path: Vec<&str>, within: usize) -> Vec<&str> {
     let inner = path.iter().take(within).filter(|&&segment| segment == "super").count();
     if inner == 0 { path } else { [&["self"], &path[inner..]].concat() }
 }
