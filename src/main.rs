@@ -90,19 +90,22 @@ const LAYOUTS: &str = "\
 LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
 rooms-a · rooms-b · office:30x30:4x4 · cells:32x32:0.2";
 
+/// The heading of the options that every command has.
+const EVERYWHERE: &str = "Options of every command";
+
 /// Verified multi-robot coordination: bounded proofs, counterexamples and simulation.
 #[derive(Debug, Parser)]
 #[command(name = "tautline", version, about, max_term_width = 100)]
 #[command(after_help = format!("Exit codes: {EXIT_CODES}\n\n{FILES}\n\n{LAYOUTS}"))]
 struct Cli {
     /// Tell more on stderr; twice for everything.
-    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    #[arg(short, long, global = true, help_heading = EVERYWHERE, action = clap::ArgAction::Count)]
     verbose: u8,
     /// End with 0 where a violation was found, for engines that try again what fails.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, help_heading = EVERYWHERE)]
     exit_zero: bool,
     /// Print ASCII alone: drawings, text and JSON. Files are stored as ever.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, help_heading = EVERYWHERE)]
     ascii: bool,
     #[command(subcommand)]
     command: Option<Command>,
