@@ -80,32 +80,36 @@ impl Small {
         };
         Err(Diagnostic::of_field("robots", what, format_args!("give `robots` a number {remedy}")))
     }
-}
 
-/// The report of a hunt for `robots` in layouts up to a size, within these other bounds.
-pub(super) fn report(
-    (size, robots, within): (Size, u64, &str),
-    facts: Facts,
-    (done, covered): (CoveredBound, Option<String>),
-    count: &Count,
-    found: Vec<Finding>,
-) -> HuntReport {
-    let (states, steps) = (counted(count.states, "state"), counted(count.steps, "step"));
-    let outcome = outcome(&found, count.is_complete, covered);
-    let not_minimised = count.not_minimised.clone();
-    HuntReport {
-        robots,
-        facts,
-        is_complete: count.is_complete,
-        done,
-        title: format!("{}, layouts up to {size}{within}: {states}, {steps}", counted(robots, "robot")),
-        through: format!("{states} and {steps}"),
-        outcome: match &not_minimised[..] {
-            [] => outcome,
-            clauses => format!("Not minimised, since the hunt was ended: {}. {outcome}", clauses.join(", ")),
-        },
-        not_minimised,
-        found,
+    /// The report of a hunt for `robots` in layouts up to a size, within these other bounds.
+    pub(super) fn report(
+        &self,
+        (size, robots, within): (Size, u64, &str),
+        facts: Facts,
+        done: CoveredBound,
+        count: Count,
+        found: Vec<Finding>,
+    ) -> HuntReport {
+        let Count { is_complete, not_minimised, .. } = count;
+        let (states, steps) = (counted(count.states, "state"), counted(count.steps, "step"));
+        let covered = count.cells.map(|cells| format!("of at most {}", counted(cells, self.cell)));
+        let outcome = outcome(&found, is_complete, covered);
+        HuntReport {
+            robots,
+            facts,
+            is_complete,
+            done,
+            title: format!("{}, layouts up to {size}{within}: {states}, {steps}", counted(robots, "robot")),
+            through: format!("{states} and {steps}"),
+            outcome: match &not_minimised[..] {
+                [] => outcome,
+                clauses => {
+                    format!("Not minimised, since the hunt was ended: {}. {outcome}", clauses.join(", "))
+                }
+            },
+            not_minimised,
+            found,
+        }
     }
 }
 
@@ -134,54 +138,58 @@ impl Count {
     }
 }
 
-/// Searches a system as far as the budget goes, unless the work is ended before.
-pub(super) fn watched<S: System>(
-    system: &S,
-    starts: Vec<S::State>,
-    what: &str,
-    asked: &HuntRequest<'_>,
-    count: &mut Count,
-    hunter: &mut dyn Hunter,
-) -> Findings<S::Demand> {
-    let found = looked(system, starts, what, asked, count, hunter);
-    count.states += found.states;
-    count.steps += found.steps;
-    found
+/// A hunt under way, through the states of one system after the other.
+pub(super) struct Search<'a> {
+    pub(super) asked: &'a HuntRequest<'a>,
+    hunter: &'a mut dyn Hunter,
+    pub(super) count: Count,
 }
 
-/// Searches a system again, for a run with fewer walls. Breaks off where the budget or the work is at its end before.
-pub(super) fn minimised<S: System>(
-    system: &S,
-    starts: Vec<S::State>,
-    asked: &HuntRequest<'_>,
-    count: &mut Count,
-    hunter: &mut dyn Hunter,
-) -> ControlFlow<(), Findings<S::Demand>> {
-    let what = "the fewest walls of what is broken";
-    hunter.hears(Far::Words(what.to_owned()))?;
-    let found = looked(system, starts, what, asked, count, hunter);
-    count.steps_to_minimise += found.steps;
-    if found.is_whole { ControlFlow::Continue(found) } else { ControlFlow::Break(()) }
-}
+impl<'a> Search<'a> {
+    /// Nothing is searched yet.
+    pub(super) fn new(asked: &'a HuntRequest<'a>, hunter: &'a mut dyn Hunter) -> Self {
+        Self { asked, hunter, count: Count { is_complete: true, ..Count::default() } }
+    }
 
-fn looked<S: System>(
-    system: &S,
-    starts: Vec<S::State>,
-    what: &str,
-    asked: &HuntRequest<'_>,
-    count: &Count,
-    hunter: &mut dyn Hunter,
-) -> Findings<S::Demand> {
-    let made = count.steps + count.steps_to_minimise;
-    let most_steps = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(made));
-    let mut watch = |looked_at: u64| {
-        let states = count.states + looked_at;
-        if states.is_multiple_of(BETWEEN) {
-            return hunter.hears(Far::Words(format!("{what}, states {states}")));
-        }
-        ControlFlow::Continue(())
-    };
-    states::watched(system, starts, Limits { most_steps, ..Limits::NONE }, &mut watch)
+    /// Searches a system as far as the budget goes, unless the work is ended before.
+    pub(super) fn all<S: System>(
+        &mut self,
+        system: &S,
+        starts: Vec<S::State>,
+        what: &str,
+    ) -> Findings<S::Demand> {
+        let found = self.looked(system, starts, what);
+        self.count.states += found.states;
+        self.count.steps += found.steps;
+        found
+    }
+
+    /// Searches a system again, for a run with fewer walls. Breaks off where the budget or the work is at its end
+    /// before.
+    pub(super) fn minimised<S: System>(
+        &mut self,
+        system: &S,
+        starts: Vec<S::State>,
+    ) -> ControlFlow<(), Findings<S::Demand>> {
+        let what = "the fewest walls of what is broken";
+        self.hunter.hears(Far::Words(what.to_owned()))?;
+        let found = self.looked(system, starts, what);
+        self.count.steps_to_minimise += found.steps;
+        if found.is_whole { ControlFlow::Continue(found) } else { ControlFlow::Break(()) }
+    }
+
+    fn looked<S: System>(&mut self, system: &S, starts: Vec<S::State>, what: &str) -> Findings<S::Demand> {
+        let made = self.count.steps + self.count.steps_to_minimise;
+        let most_steps = self.asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(made));
+        let mut watch = |looked_at: u64| {
+            let states = self.count.states + looked_at;
+            if states.is_multiple_of(BETWEEN) {
+                return self.hunter.hears(Far::Words(format!("{what}, states {states}")));
+            }
+            ControlFlow::Continue(())
+        };
+        states::watched(system, starts, Limits { most_steps, ..Limits::NONE }, &mut watch)
+    }
 }
 
 #[cfg(test)]

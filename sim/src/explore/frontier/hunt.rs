@@ -19,7 +19,7 @@ pub(super) use self::rivals::RivalHunt;
 use crate::explore::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
-use crate::explore::states::{self, Count, Small, minimised, watched};
+use crate::explore::states::{Count, Search, Small};
 use crate::explore::{ClauseId, Setup};
 use tautline_grids::layout::{Layout, Size};
 
@@ -67,49 +67,42 @@ impl Hunt for KernelHunt {
 
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked, MOST_ROBOTS)?;
-        let max_wrong = match error(asked)? {
-            Off::Never => 0,
-            Off::OneCell => 1,
-            Off::Parts(_) if robots > 1 => {
-                let what = "an error of a part of a cell is searched of one robot alone";
-                return Err(Diagnostic::of_field("error", what, "give `robots` 1, or `error` 1"));
-            }
-            Off::Parts(parts) => return drifting(self.0, size, parts, asked, hunter),
-        };
-        let hunt = match robots {
-            1 => searched::<1>,
-            2 => searched::<2>,
-            _ => searched::<3>,
-        };
-        let (count, found) = hunt(self.0, size, max_wrong, asked, hunter)?;
-        Ok(report(asked, (size, robots), &count, found))
-    }
-}
-
-/// How far fixes are off.
-enum Off {
-    Never,
-    /// One of them, by one cell.
-    OneCell,
-    /// Each, by at most so many sixteenths of a cell.
-    Parts(u8),
-}
-
-fn error(asked: &HuntRequest<'_>) -> Result<Off, Diagnostic> {
-    let parts = asked.error_cells.unwrap_or(0.0) * f64::from(PARTS);
-    let whole =
-        (0..=PARTS as u8).find(|&whole| f64::from(whole).partial_cmp(&parts).is_some_and(Ordering::is_eq));
-    match whole {
-        Some(0) => Ok(Off::Never),
-        Some(parts) if i32::from(parts) == PARTS => Ok(Off::OneCell),
-        Some(parts) => Ok(Off::Parts(parts)),
-        None => {
-            let what = format!("an error of {} cells is not searched", asked.error_cells.unwrap_or(0.0));
-            let remedy =
-                "give `error` a number of sixteenths from 0 to 1, such as 0.25; 1 is one fix off by one cell";
-            Err(Diagnostic::of_field("error", what, remedy))
+        let error = error_parts(asked)?;
+        let is_part = (1..WHOLE).contains(&error);
+        if is_part && robots > 1 {
+            let what = "an error of a part of a cell is searched of one robot alone";
+            return Err(Diagnostic::of_field("error", what, "give `robots` 1, or `error` 1"));
         }
+        let mut search = Search::new(asked, hunter);
+        let found = match robots {
+            1 if is_part => drifting(self.0, size, error, &mut search),
+            1 => searched::<1>(self.0, size, error / WHOLE, &mut search),
+            2 => searched::<2>(self.0, size, error / WHOLE, &mut search),
+            _ => searched::<3>(self.0, size, error / WHOLE, &mut search),
+        }?;
+        Ok(report(asked, (size, robots), search.count, found))
     }
+}
+
+/// The sixteenths of a whole cell.
+const WHOLE: u8 = PARTS as u8;
+
+/// How far fixes are off at most, in sixteenths of a cell; a fix that is off by a whole one is the only one.
+fn error_parts(asked: &HuntRequest<'_>) -> Result<u8, Diagnostic> {
+    let cells = asked.error_cells.unwrap_or(0.0);
+    let parts = cells * f64::from(PARTS);
+    let is_all = |whole: &u8| f64::from(*whole).partial_cmp(&parts).is_some_and(Ordering::is_eq);
+    (0..=WHOLE).find(is_all).ok_or_else(|| {
+        let what = format!("an error of {cells} cells is not searched");
+        let remedy =
+            "give `error` a number of sixteenths from 0 to 1, such as 0.25; 1 is one fix off by one cell";
+        Diagnostic::of_field("error", what, remedy)
+    })
+}
+
+/// The search that the hunter hears of.
+fn words((width, height): (i16, i16)) -> String {
+    format!("areas up to {width}×{height}")
 }
 
 /// The hunt of one robot each of whose fixes is off by a part of a cell.
@@ -117,41 +110,29 @@ fn drifting(
     rule: Frontier,
     size: Size,
     error: u8,
-    asked: &HuntRequest<'_>,
-    hunter: &mut dyn Hunter,
-) -> Result<HuntReport, Diagnostic> {
-    let max_obstacles = most_obstacles(asked);
-    let system = Drift { rule, error, max_obstacles };
-    let mut count = Count { is_complete: true, ..Count::default() };
-    let mut found = Vec::new();
+    search: &mut Search<'_>,
+) -> Result<Vec<Finding>, Diagnostic> {
+    let asked = search.asked;
+    let system = Drift { rule, error, max_obstacles: most_obstacles(asked) };
     let areas = areas(size);
     for &area in &areas {
-        let what = format!("areas up to {}×{}", area.0, area.1);
-        let looked = watched(&system, system.starts(&[area]), &what, asked, &mut count, hunter);
+        let looked = search.all(&system, system.starts(&[area]), &words(area));
+        search.count.is_complete = looked.is_whole;
         if let Some(run) = looked.broken.first() {
             let layout = Layout::open(area.0 as u64, area.1 as u64)?;
             let start = layout.default_base()?;
-            let size = [area.0 as usize, area.1 as usize];
             let (story, walls) = system.story(area, run);
+            let (facts, title) = sized([area.0 as usize, area.1 as usize], walls, run.steps.len());
+            let setup = asked.setup(layout, vec![start], None)?;
             let clause = Demand::Marks.clause();
-            found.push(Finding {
-                clause,
-                facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: run.steps.len() },
-                title: title(size, walls, run.steps.len()),
-                setup: asked.setup(layout, vec![start], None)?,
-                shown: Exhibit::Told(story),
-            });
+            return Ok(vec![Finding { clause, facts, title, setup, shown: Exhibit::Told(story) }]);
         }
         if !looked.is_whole {
-            count.is_complete = false;
             break;
         }
-        if !found.is_empty() {
-            break;
-        }
-        count.covers(area, &areas);
+        search.count.covers(area, &areas);
     }
-    Ok(report(asked, (size, 1), &count, found))
+    Ok(Vec::new())
 }
 
 /// Most obstacles that one run meets.
@@ -163,45 +144,39 @@ fn searched<const ROBOTS: usize>(
     rule: Frontier,
     size: Size,
     max_wrong: u8,
-    asked: &HuntRequest<'_>,
-    hunter: &mut dyn Hunter,
-) -> Result<(Count, Vec<Finding>), Diagnostic> {
+    search: &mut Search<'_>,
+) -> Result<Vec<Finding>, Diagnostic> {
+    let asked = search.asked;
     let max_losses = asked.max_losses.unwrap_or(0);
     let mut found: Vec<(Demand, Counterexample<ROBOTS>)> = Vec::new();
-    let mut count = Count { is_complete: true, ..Count::default() };
     let areas = areas(size);
     for &area in &areas {
         let Some(all) = setting::<ROBOTS>(rule, area) else { continue };
         let all = Setting { max_obstacles: most_obstacles(asked), max_losses, max_wrong, ..all };
-        let what = format!("areas up to {}×{}", area.0, area.1);
-        let looked = watched(&all, all.starts(), &what, asked, &mut count, hunter);
-        let mut is_ended = !looked.is_whole;
+        let looked = search.all(&all, all.starts(), &words(area));
+        search.count.is_complete = looked.is_whole;
         for run in looked.broken {
-            if found.iter().all(|(known, _)| *known != run.demand) {
-                let look = |setting: &Setting<ROBOTS>| {
-                    minimised(setting, setting.starts(), asked, &mut count, hunter)
-                };
-                let demand = run.demand;
+            let demand = run.demand;
+            if found.iter().all(|(known, _)| *known != demand) {
+                let look = |setting: &Setting<ROBOTS>| search.minimised(setting, setting.starts());
                 let counterexample = match fewest(all, run, look) {
                     ControlFlow::Continue(fewest) => fewest,
                     ControlFlow::Break(run) => {
-                        count.not_minimised.push(demand.clause());
-                        is_ended = true;
+                        search.count.not_minimised.push(demand.clause());
+                        search.count.is_complete = false;
                         Counterexample { setting: all, run }
                     }
                 };
                 found.push((demand, counterexample));
             }
         }
-        if is_ended {
-            count.is_complete = false;
+        if !search.count.is_complete {
             break;
         }
-        count.covers(area, &areas);
+        search.count.covers(area, &areas);
     }
     found.sort_by_key(|(demand, _)| demand.clause());
-    let findings = found.iter().map(|(demand, found)| finding(asked, *demand, found));
-    Ok((count, findings.collect::<Result<_, _>>()?))
+    found.iter().map(|(demand, found)| finding(asked, *demand, found)).collect()
 }
 
 /// A counterexample of a search as one that can be stored, unless its run goes on for ever.
@@ -224,38 +199,31 @@ fn finding<const ROBOTS: usize>(
     };
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
     let story = found.story();
-    let (columns, rows) = (area.width(), area.height());
-    Ok(Finding {
-        clause: demand.clause(),
-        facts: RunSize::Area { columns, rows, walls, steps: moves },
-        title: title([columns, rows], walls, moves),
-        shown: if is_stored { Exhibit::Story(clause, story) } else { Exhibit::Told(story) },
-        setup,
-    })
+    let shown = if is_stored { Exhibit::Story(clause, story) } else { Exhibit::Told(story) };
+    let (facts, title) = sized([area.width(), area.height()], walls, moves);
+    Ok(Finding { clause: demand.clause(), facts, title, setup, shown })
 }
 
-fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
-    format!("{columns}x{rows} cells, {} blocked, {}", walls, counted(moves, "move"))
+/// How large a run is, for JSON and for people.
+fn sized([columns, rows]: [usize; 2], walls: usize, steps: usize) -> (RunSize, String) {
+    let title = format!("{columns}x{rows} cells, {walls} blocked, {}", counted(steps, "move"));
+    (RunSize::Area { columns, rows, walls, steps }, title)
 }
 
 /// The report of a hunt.
 fn report(
     asked: &HuntRequest<'_>,
     (size, robots): (Size, u64),
-    count: &Count,
+    count: Count,
     found: Vec<Finding>,
 ) -> HuntReport {
-    let &Count { states, steps, cells, .. } = count;
+    let Count { states, steps, cells, .. } = count;
     let &HuntRequest { max_walls, error_cells: error, .. } = asked;
     let max_losses = asked.max_losses.unwrap_or(0);
     let lost = if max_losses == 0 { String::new() } else { format!(", at most {max_losses} lost") };
     let walls = max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
-    let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
-    states::report(
-        (size, robots, &(walls + &lost)),
-        Facts::StatesWithLosses { size: size.to_string(), states, steps, max_walls, max_losses, error },
-        (CoveredBound::CellsDone(cells.map(|cells| cells as u32)), covered),
-        count,
-        found,
-    )
+    let facts =
+        Facts::StatesWithLosses { size: size.to_string(), states, steps, max_walls, max_losses, error };
+    let done = CoveredBound::CellsDone(cells.map(|cells| cells as u32));
+    SMALL.report((size, robots, &(walls + &lost)), facts, done, count, found)
 }

@@ -7,10 +7,10 @@ use std::ops::ControlFlow;
 
 use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::kit::Rule as Kit;
-use tautline_proofs::engine::states::{Findings, Run};
+use tautline_proofs::engine::states::{Run, System};
 use tautline_proofs::kit::counterexample::{Counterexample, fewest};
 use tautline_proofs::kit::symmetry::SymmetricLattice;
-use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
+use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts, World};
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::ScriptedRun;
 
@@ -18,7 +18,7 @@ use super::team::{EQUAL, reach};
 use crate::explore::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
-use crate::explore::states::{Count, Small, minimised, report, watched};
+use crate::explore::states::{Count, Search, Small};
 use crate::explore::{ClauseId, Setup};
 use tautline_grids::layout::Size;
 
@@ -82,45 +82,17 @@ struct BrokenClause<const ROBOTS: usize> {
     found: Counterexample<ROBOTS>,
 }
 
-/// How all states of a lattice are searched.
-type SearchAll<const ROBOTS: usize> =
-    fn(Setting<ROBOTS>, &HuntRequest<'_>, &mut Count, &mut dyn Hunter) -> Findings<Demand>;
-
-/// A run on a lattice, by one of how it is searched.
-type Unfold<const ROBOTS: usize> = fn(Setting<ROBOTS>, &Run<Demand>) -> Option<Counterexample<ROBOTS>>;
-
-/// How a lattice is searched: all its states, and what each of the runs is that are found so.
-type How<const ROBOTS: usize> = (SearchAll<ROBOTS>, Unfold<ROBOTS>);
+/// How a lattice is searched: the system whose states are, and the run of the lattice that a run of the system is.
+type How<S, const ROBOTS: usize> =
+    (fn(Setting<ROBOTS>) -> S, fn(Setting<ROBOTS>, &Run<Demand>) -> Option<Counterexample<ROBOTS>>);
 
 /// A lattice itself, whose runs are what they are.
-fn itself<const ROBOTS: usize>() -> How<ROBOTS> {
-    (as_it_is, |setting, run| Some(Counterexample { setting, run: run.clone() }))
+fn itself<const ROBOTS: usize>() -> How<Setting<ROBOTS>, ROBOTS> {
+    (|setting| setting, |setting, run| Some(Counterexample { setting, run: run.clone() }))
 }
 
 /// One image of all lattices that are alike, whose runs are unfolded.
-const IN_ONE_IMAGE: How<2> = (in_one_image, Counterexample::of_image);
-
-fn as_it_is<const ROBOTS: usize>(
-    setting: Setting<ROBOTS>,
-    asked: &HuntRequest<'_>,
-    count: &mut Count,
-    hunter: &mut dyn Hunter,
-) -> Findings<Demand> {
-    watched(&setting, setting.starts(), &what(&setting), asked, count, hunter)
-}
-
-fn in_one_image(
-    setting: Setting<2>,
-    asked: &HuntRequest<'_>,
-    count: &mut Count,
-    hunter: &mut dyn Hunter,
-) -> Findings<Demand> {
-    watched(&SymmetricLattice::new(setting), setting.starts(), &what(&setting), asked, count, hunter)
-}
-
-fn what<const ROBOTS: usize>(setting: &Setting<ROBOTS>) -> String {
-    format!("lattices up to {}×{}", setting.area.width(), setting.area.height())
-}
+const IN_ONE_IMAGE: How<SymmetricLattice, 2> = (SymmetricLattice::new, Counterexample::of_image);
 
 impl Hunt for KernelHunt {
     fn takes(&self) -> &'static [Bound] {
@@ -134,25 +106,21 @@ impl Hunt for KernelHunt {
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
         let rule = Kit { reach: reach(asked.range_cells)?, ..self.0 };
-        let mut count = Count { is_complete: true, ..Count::default() };
+        let mut search = Search::new(asked, hunter);
         let found = match robots {
-            1 => searched::<1>(rule, &[Pass::ALL], itself(), size, asked, &mut count, hunter),
-            2 => searched(rule, &[Pass::ALL, Pass::EQUAL], IN_ONE_IMAGE, size, asked, &mut count, hunter),
-            _ => searched::<3>(rule, &[Pass::ALL, Pass::WHOLE], itself(), size, asked, &mut count, hunter),
+            1 => searched(rule, &[Pass::ALL], itself::<1>(), size, &mut search),
+            2 => searched(rule, &[Pass::ALL, Pass::EQUAL], IN_ONE_IMAGE, size, &mut search),
+            _ => searched(rule, &[Pass::ALL, Pass::WHOLE], itself::<3>(), size, &mut search),
         }?;
-        let Count { states, steps, cells, .. } = count;
+        let Count { states, steps, cells, .. } = search.count;
         let max_walls = asked.max_walls;
         let within = max_walls.map(|walls| format!(", at most {}", counted(walls, "wall")));
         let range = asked.range_cells.map(|cells| format!(", a range of {}", counted(cells, "cell")));
         let within = within.unwrap_or_default() + &range.unwrap_or_default();
-        let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
-        Ok(report(
-            (size, robots, &within),
-            Facts::States { size: size.to_string(), states, steps, max_walls, range: asked.range_cells },
-            (CoveredBound::NodesDone(cells), covered),
-            &count,
-            found,
-        ))
+        let facts =
+            Facts::States { size: size.to_string(), states, steps, max_walls, range: asked.range_cells };
+        let done = CoveredBound::NodesDone(cells);
+        Ok(SMALL.report((size, robots, &within), facts, done, search.count, found))
     }
 }
 
@@ -179,14 +147,12 @@ fn bounds(asked: &HuntRequest<'_>) -> Result<(Size, u64), Diagnostic> {
 }
 
 /// The smallest counterexample of each clause, on all lattices up to a size.
-fn searched<const ROBOTS: usize>(
+fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usize>(
     rule: Kit,
     passes: &[Pass],
-    (search_all, unfold): How<ROBOTS>,
+    (system, unfold): How<S, ROBOTS>,
     size: Size,
-    asked: &HuntRequest<'_>,
-    count: &mut Count,
-    hunter: &mut dyn Hunter,
+    search: &mut Search<'_>,
 ) -> Result<Vec<Finding>, Diagnostic> {
     let mut all: Vec<BrokenClause<ROBOTS>> = Vec::new();
     let lattices = lattices(size);
@@ -197,40 +163,41 @@ fn searched<const ROBOTS: usize>(
             if pass.speeds == Speeds::Equal && is_kept {
                 continue;
             }
-            let Some(setting) = pass.setting(rule, lattice, asked) else { continue };
-            let is_known =
-                |clause: ClauseId| all.iter().any(|broken: &BrokenClause<ROBOTS>| broken.clause == clause);
-            if pass.demand.is_some_and(|demand| is_known(pass.clause(demand, ROBOTS))) {
+            let Some(setting) = pass.setting(rule, lattice, search.asked) else { continue };
+            let is_known = |all: &[BrokenClause<ROBOTS>], demand| {
+                let clause = pass.clause(demand, ROBOTS);
+                all.iter().any(|broken| broken.clause == clause)
+            };
+            if pass.demand.is_some_and(|demand| is_known(&all, demand)) {
                 continue;
             }
-            let looked = search_all(setting, asked, count, hunter);
-            let mut is_ended = !looked.is_whole;
+            let what = format!("lattices up to {}×{}", lattice.0, lattice.1);
+            let looked = search.all(&system(setting), setting.starts(), &what);
+            search.count.is_complete = looked.is_whole;
             for run in &looked.broken {
-                let (demand, clause) = (run.demand, pass.clause(run.demand, ROBOTS));
-                if all.iter().any(|broken| broken.clause == clause) {
+                if is_known(&all, run.demand) {
                     continue;
                 }
-                let look =
-                    |setting: &Setting<ROBOTS>| minimised(setting, setting.starts(), asked, count, hunter);
+                let (demand, clause) = (run.demand, pass.clause(run.demand, ROBOTS));
+                let look = |setting: &Setting<ROBOTS>| search.minimised(setting, setting.starts());
                 let found = match fewest(setting, demand, look) {
                     ControlFlow::Continue(found) => found,
                     ControlFlow::Break(()) => {
-                        count.not_minimised.push(clause.as_str());
-                        is_ended = true;
+                        search.count.not_minimised.push(clause.as_str());
+                        search.count.is_complete = false;
                         unfold(setting, run)
                     }
                 };
                 all.extend(found.map(|found| BrokenClause { clause, demand, found }));
             }
-            if is_ended {
-                count.is_complete = false;
+            if !search.count.is_complete {
                 break 'lattices;
             }
         }
-        count.covers(lattice, &lattices);
+        search.count.covers(lattice, &lattices);
     }
     all.sort_by_key(|broken| broken.clause);
-    all.iter().map(|broken| finding(asked, broken)).collect()
+    all.iter().map(|broken| finding(search.asked, broken)).collect()
 }
 
 /// A counterexample of a search as one that can be stored.
@@ -246,14 +213,12 @@ fn finding<const ROBOTS: usize>(
         return Err(Diagnostic::usage("a run was found that cannot be made again", remedy));
     };
     let (layout, starts) = layout(&run)?;
-    let setup = asked.setup(layout, starts, Some(*clause))?;
-    let story = found.story();
-    let (drives, walls) = (found.drives(), run.walls.len());
+    let (steps, walls) = (found.drives(), run.walls.len());
     Ok(Finding {
         clause: clause.as_str(),
-        facts: RunSize::Area { columns, rows, walls, steps: drives },
-        title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
-        shown: Exhibit::Story(*clause, story),
-        setup: Setup { choices, ..setup },
+        facts: RunSize::Area { columns, rows, walls, steps },
+        title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(steps, "drive")),
+        shown: Exhibit::Story(*clause, found.story()),
+        setup: Setup { choices, ..asked.setup(layout, starts, Some(*clause))? },
     })
 }

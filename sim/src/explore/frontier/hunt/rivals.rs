@@ -7,9 +7,9 @@ use tautline_proofs::engine::cases::{self, Cases};
 use tautline_proofs::protocol::arrangements;
 
 use super::super::team::ENDS;
-use super::{SMALL, areas, bounds, report, title};
+use super::{SMALL, areas, bounds, report, sized};
 use crate::explore::by_layout::{Each, FoundBy};
-use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, RunSize};
+use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest};
 use crate::explore::states::Count;
 use crate::explore::{ClauseId, Limits, RuleId, Scheme, Setup, run, team};
 use tautline_grids::layout::Layout;
@@ -49,7 +49,7 @@ impl Each for RivalHunt {
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
         found.sort_by_key(|finding| finding.clause);
-        Ok(report(asked, bounds(asked, SMALL.most_cells as u64)?, &Count { is_complete, ..count }, found))
+        Ok(report(asked, bounds(asked, SMALL.most_cells as u64)?, Count { is_complete, ..count }, found))
     }
 }
 
@@ -225,12 +225,8 @@ fn finding(setup: Setup, clause: ClauseId, steps: u32) -> Finding {
     let layout = &setup.layout;
     let size = [layout.width() as usize, layout.height() as usize];
     let walls = layout.size().cells() - layout.free_cells();
-    let limits = Limits::stopping_at(Some(clause));
-    Finding {
-        clause: clause.as_str(),
-        facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: steps as usize },
-        title: title(size, walls, steps as usize),
-        shown: if clause == ENDS { Exhibit::Told(endless(&setup)) } else { Exhibit::Run(clause) },
-        setup: Setup { limits, ..setup },
-    }
+    let (facts, title) = sized(size, walls, steps as usize);
+    let shown = if clause == ENDS { Exhibit::Told(endless(&setup)) } else { Exhibit::Run(clause) };
+    let setup = Setup { limits: Limits::stopping_at(Some(clause)), ..setup };
+    Finding { clause: clause.as_str(), facts, title, setup, shown }
 }
