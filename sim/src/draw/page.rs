@@ -65,7 +65,8 @@ struct Page<'a> {
     report: &'a Report,
     moves: RangeInclusive<u32>,
     bytes: usize,
-    layers: Vec<Layer>,
+    /// The layers of the team, once one of its team moves is known.
+    layers: Option<Vec<Layer>>,
     line: Line,
     /// Where the robots were before the first of the team moves, once that is known.
     start: Option<Vec<Cell>>,
@@ -90,7 +91,7 @@ impl<'a> Page<'a> {
             report,
             moves: moves.clone(),
             bytes: 0,
-            layers: Vec::new(),
+            layers: None,
             line: Line::new(report.chart.area()),
             start: None,
             broken: Vec::new(),
@@ -116,9 +117,7 @@ impl<'a> Page<'a> {
 
     /// Adds a team move; those before the first are shown as what the team knows by then.
     fn add(&mut self, made: &TeamMove<'_>) {
-        if self.line.is_new() {
-            self.layers = made.team.layers();
-        }
+        self.layers.get_or_insert_with(|| made.team.layers());
         let mut scene = Scene::default();
         made.team.show(made.before, &mut scene);
         if made.step <= self.first() {
@@ -179,7 +178,7 @@ impl<'a> Page<'a> {
             of: report.steps,
             share: Share::of(report, &setup.layout),
             board: Board::cells(&setup.layout, area, &start, scheme.knowledge.is_some()),
-            layers: self.layers.iter().map(film::layer).collect(),
+            layers: self.layers.iter().flatten().map(film::layer).collect(),
             clauses: self.clauses.iter().map(|(&id, &says)| (id, says.to_owned())).collect(),
             ends,
             notes: notes(report),
@@ -251,7 +250,6 @@ struct Line {
     /// By layer and number, where a thing is.
     marks: BTreeMap<(usize, usize), Mark>,
     milliseconds: u64,
-    is_new: bool,
 }
 
 impl Line {
@@ -262,20 +260,20 @@ impl Line {
             values: BTreeMap::new(),
             marks: BTreeMap::new(),
             milliseconds: 0,
-            is_new: true,
         }
     }
 
-    /// Whether no team move was told yet.
-    const fn is_new(&self) -> bool {
-        self.is_new
+    /// The places of these cells, in order.
+    fn places(&self, cells: &[Cell]) -> Vec<u32> {
+        let mut places: Vec<u32> = cells.iter().filter_map(|&cell| place_of(self.area, cell)).collect();
+        places.sort_unstable();
+        places
     }
 
     /// Takes in a team move that is not shown.
     fn take(&mut self, made: &TeamMove<'_>, scene: &Scene) {
         self.changes(scene);
         self.milliseconds = made.team.milliseconds().unwrap_or(0);
-        self.is_new = false;
         for (robot, &from) in made.before.iter().enumerate() {
             if let Step::Cross(side) = made.frame.steps[robot]
                 && let Some(place) = side_of(self.area, Edge::new(from, side))
@@ -315,15 +313,9 @@ impl Line {
             let _ = write!(text, " +{later}");
             self.milliseconds = milliseconds;
         }
-        let mut unseen: Vec<u32> = made.unseen.iter().filter_map(|&cell| place_of(self.area, cell)).collect();
-        unseen.sort_unstable();
-        text += &listed("u", &unseen);
-        let mut seen: Vec<u32> =
-            made.team.seen().iter().filter_map(|&cell| place_of(self.area, cell)).collect();
-        seen.sort_unstable();
-        text += &listed("x", &seen);
+        text += &listed("u", &self.places(made.unseen));
+        text += &listed("x", &self.places(made.team.seen()));
         text += &listed("l", &look.lost(made.before, &made.frame.cells));
-        self.is_new = false;
         text + &self.changes(scene)
     }
 
@@ -408,27 +400,13 @@ pub fn number_of(area: Area, place: Place) -> Option<u32> {
 /// The steps that robots tried: a letter each, small where a wall was met; a number before a point is how many robots
 /// in a row stay.
 fn steps(frame: &Frame) -> String {
-    let (mut text, mut resting) = (String::new(), 0);
-    for (step, blocked) in frame.steps.iter().zip(&frame.blocked).map(Some).chain([None]).map(Option::unzip) {
-        let letter = match step {
-            Some(Step::Stay) => {
-                resting += 1;
-                continue;
-            }
-            Some(&step) => Some(letter(step)),
-            None => None,
-        };
-        match resting {
-            0 => {}
-            1 => text.push('.'),
-            many => {
-                let _ = write!(text, "{many}.");
-            }
+    let (mut text, tried) = (String::new(), frame.steps.iter().zip(&frame.blocked).collect::<Vec<_>>());
+    for alike in tried.chunk_by(|(one, _), (other, _)| **one == Step::Stay && one == other) {
+        let (letter, is_blocked) = (letter(*alike[0].0), *alike[0].1);
+        if alike.len() > 1 {
+            let _ = write!(text, "{}", alike.len());
         }
-        resting = 0;
-        text.extend(
-            letter.map(|letter| if blocked == Some(&true) { letter.to_ascii_lowercase() } else { letter }),
-        );
+        text.push(if is_blocked { letter.to_ascii_lowercase() } else { letter });
     }
     text
 }
