@@ -117,20 +117,16 @@ fn begin<G: Grid + Clone + 'static, const ROBOTS: usize>(
 
 /// The neighbours in the chain that are out of contact.
 fn far_apart(made: &TeamMove<'_>) -> Vec<String> {
-    let told = |(robot, pair): (usize, [Cell; 2])| {
-        let apart = apart(pair);
-        format!("So R_{} is {apart} from R_{robot}: outside E_C, its cell is not wholly covered.", robot + 1)
-    };
-    pairs(Breach::Contact, made).map(told).collect()
+    pairs(Breach::Contact, made, |behind, ahead, apart| {
+        format!("So R_{ahead} is {apart} from R_{behind}: outside E_C, its cell is not wholly covered.")
+    })
 }
 
 /// The neighbours in the chain that may have left each other's range.
 fn out_of_range(made: &TeamMove<'_>) -> Vec<String> {
-    let told = |(robot, pair): (usize, [Cell; 2])| {
-        let apart = apart(pair);
-        format!("So the centres of R_{robot} and R_{}, {apart} apart in the end, may leave r_cov.", robot + 1)
-    };
-    pairs(Breach::Coverage, made).map(told).collect()
+    pairs(Breach::Coverage, made, |behind, ahead, apart| {
+        format!("So the centres of R_{behind} and R_{ahead}, {apart} apart in the end, may leave r_cov.")
+    })
 }
 
 /// The robots that are too many in one cell.
@@ -148,16 +144,14 @@ fn crowded(team: &[Cell]) -> Vec<String> {
         .collect()
 }
 
-/// The neighbours in the chain that commit `breach` by themselves: the number of the one behind, and where they are.
-fn pairs<'a>(breach: Breach, made: &TeamMove<'a>) -> impl Iterator<Item = (usize, [Cell; 2])> + use<'a> {
-    let TeamMove { before, frame, .. } = *made;
-    (1..)
-        .zip(before.windows(2).zip(frame.cells.windows(2)))
-        .filter(move |(_, (from, to))| breach.is_in(from, to))
-        .map(|(robot, (_, to))| (robot, [to[0], to[1]]))
-}
-
-fn apart([one, other]: [Cell; 2]) -> String {
-    let (columns, rows) = one.apart(other);
-    format!("{} and {}", counted(columns, "column"), counted(rows, "row"))
+/// The neighbours in the chain that commit `breach` by themselves, in the words of `told`: by the number of the one
+/// behind, that of the one ahead, and how far apart they are in the end.
+fn pairs(breach: Breach, made: &TeamMove<'_>, told: impl Fn(usize, usize, &str) -> String) -> Vec<String> {
+    let pairs = (1..).zip(made.before.windows(2).zip(made.frame.cells.windows(2)));
+    let broken = pairs.filter(|(_, (from, to))| breach.is_in(from, to));
+    let line = |(robot, (_, to)): (usize, (&[Cell], &[Cell]))| {
+        let (columns, rows) = to[0].apart(to[1]);
+        told(robot, robot + 1, &format!("{} and {}", counted(columns, "column"), counted(rows, "row")))
+    };
+    broken.map(line).collect()
 }

@@ -217,15 +217,8 @@ impl Team for PackTeam {
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
-        match end {
-            End::Endless | End::Idle => Vec::new(),
-            End::Explored | End::Exhausted | End::Silent | End::Refused
-                if self.missed(layout, chart).is_empty() =>
-            {
-                Vec::new()
-            }
-            End::Explored | End::Exhausted | End::Silent | End::Refused => vec![self.covers],
-        }
+        let is_over = end != End::Endless && end != End::Idle;
+        broken([(is_over && !self.missed(layout, chart).is_empty(), self.covers)])
     }
 
     fn layers(&self) -> Vec<Layer> {

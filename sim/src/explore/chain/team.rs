@@ -15,12 +15,13 @@ use tautline_proofs::chain::links::{reach_by_robots, within_reach};
 use tautline_proofs::run::Frame;
 
 use super::layers;
+use crate::explore::clause::broken;
 use crate::explore::{
     Change, ClauseId, End, Hearers, Layer, Reach, Refusal, Scene, Setup, Surroundings, Survey, Team,
 };
-use crate::failures::{Failure, Failures, MoveOrder, WallAppearance};
+use crate::failures::{Failures, MoveOrder};
 use crate::options::Options;
-use tautline_grids::chance::{Dice, Probability};
+use tautline_grids::chance::Dice;
 use tautline_grids::layout::Layout;
 
 /// A message of the team is refused by it.
@@ -46,16 +47,6 @@ fn planned<G: Grid, const ROBOTS: usize>(
         Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),
         Err(_) => Err(End::Refused),
     }
-}
-
-/// Whether the last plan of a chain looked at more candidates than its budget.
-fn is_costly<G: Grid, const ROBOTS: usize>(chain: &Chain<G, ROBOTS>) -> bool {
-    chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
-}
-
-/// The cells within reach of so many robots from `base` that are unexplored.
-fn left_out(layout: &Layout, chart: &Survey, base: Cell, robots: usize) -> Vec<Cell> {
-    chart.unexplored(within_reach(chart.area(), base, robots, |edge| layout.is_open(edge)))
 }
 
 /// The state of the robots that are left.
@@ -86,10 +77,8 @@ pub(super) struct ChainTeam<G, const ROBOTS: usize> {
     cells: Vec<Cell>,
     /// The places in `cells` of those that are left.
     left: Vec<usize>,
-    failure: Option<Failure>,
-    wall: Option<WallAppearance>,
-    loss: Probability,
-    going: MoveOrder,
+    /// The failures that are told, but for a death that has come.
+    told: Options,
     chance: Dice,
     barriers: Vec<Barrier<ROBOTS>>,
     failures: Failures,
@@ -105,22 +94,22 @@ pub(super) struct ChainTeam<G, const ROBOTS: usize> {
 impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     pub(super) fn new(setup: &Setup, chain: Chain<G, ROBOTS>) -> Self {
         let cells = chain.cells().to_vec();
-        let Options { loss, fail, wall, going, .. } = setup.options;
+        let told = setup.options.clone();
         // Where no wall appears, known sides need not be tried again.
-        let chain = if wall.is_some() { chain.among(Walls::Changing) } else { chain };
+        let chain = if told.wall.is_some() { chain.among(Walls::Changing) } else { chain };
         let left: Vec<usize> = (0..cells.len()).collect();
         let mut team = Self {
-            is_faulty: !loss.is_never() || fail.is_some() || wall.is_some() || !going.is_usual(),
+            is_faulty: !told.loss.is_never()
+                || told.fail.is_some()
+                || told.wall.is_some()
+                || !told.going.is_usual(),
             whole: Some(Whole::Chain(Box::new(chain))),
             seed: setup.seed,
             log: Vec::new(),
             before: None,
             cells,
             left,
-            failure: fail,
-            wall,
-            loss,
-            going,
+            told,
             chance: Dice::new(setup.seed, *b"faults  "),
             barriers: Vec::new(),
             failures: Failures::default(),
@@ -146,9 +135,9 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
         plan: &Plan<ROBOTS>,
         is_open: &mut dyn FnMut(Edge) -> bool,
     ) -> Frame {
-        let due = self.failure.take_if(|failure| failure.step.get() <= self.moves);
+        let due = self.told.fail.take_if(|failure| failure.step.get() <= self.moves);
         let mute = due.map(|failure| usize::from(failure.robot));
-        let wall = self.wall.filter(|wall| wall.step.get() <= self.moves).map(|wall| wall.edge());
+        let wall = self.told.wall.filter(|wall| wall.step.get() <= self.moves).map(|wall| wall.edge());
         let is_open = |edge: Edge| wall != Some(edge) && is_open(edge);
         let settled = chain.settle(&mute.map_or(*plan, |mute| plan.without(mute)), is_open);
         self.log.extend_from_slice(settled.messages());
@@ -208,7 +197,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
 
     /// The robots say their bytes at the barrier until all have heard all.
     fn exchange(&mut self, messages: &[u8]) {
-        if self.loss.is_never() {
+        if self.told.loss.is_never() {
             return;
         }
         let turn = self.barriers.first().map_or(0, Barrier::turn);
@@ -218,7 +207,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
         let mut unheard: Vec<Vec<usize>> = vec![Vec::new(); self.barriers.len()];
         for _ in 0..PATIENCE {
             if self.barriers.iter().all(|barrier| barrier.turn() > turn) {
-                self.unheard = self.told(unheard);
+                self.unheard = self.by_robot(unheard);
                 return;
             }
             self.failures.rounds += 1;
@@ -229,12 +218,8 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
                 let Some(byte) = *byte else { continue };
                 let mut answers = Vec::new();
                 for to in (0..self.barriers.len()).filter(|&to| to != from) {
-                    match self.carry(from, to, byte, &mut unheard[from]) {
-                        Some(ByteEffect::Late(answer)) => answers.push((to, answer)),
-                        Some(
-                            ByteEffect::New | ByteEffect::Again | ByteEffect::Early | ByteEffect::Foreign,
-                        )
-                        | None => {}
+                    if let Some(ByteEffect::Late(answer)) = self.carry(from, to, byte, &mut unheard[from]) {
+                        answers.push((to, answer));
                     }
                 }
                 for (other, answer) in answers {
@@ -252,12 +237,12 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
             }
         }
         self.is_silent = true;
-        self.unheard = self.told(unheard);
+        self.unheard = self.by_robot(unheard);
     }
 
     /// A byte from one robot to another, both counted from R_2, unless it is lost.
     fn carry(&mut self, from: usize, to: usize, byte: u8, unheard: &mut Vec<usize>) -> Option<ByteEffect> {
-        if self.loss.happens(&mut self.chance) {
+        if self.told.loss.happens(&mut self.chance) {
             self.failures.lost_bytes += 1;
             if !unheard.contains(&to) {
                 unheard.push(to);
@@ -269,7 +254,7 @@ impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     }
 
     /// Those robots in numbers of all robots, the base being 0.
-    fn told(&self, unheard: Vec<Vec<usize>>) -> Vec<(usize, Vec<usize>)> {
+    fn by_robot(&self, unheard: Vec<Vec<usize>>) -> Vec<(usize, Vec<usize>)> {
         let robot = |mover: usize| self.left[mover + 1];
         let spoken = unheard.into_iter().enumerate().filter(|(_, to)| !to.is_empty());
         spoken.map(|(from, to)| (robot(from), to.into_iter().map(robot).collect())).collect()
@@ -372,7 +357,8 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     }
 
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        left_out(layout, chart, self.cells[0], self.left.len())
+        let robots = self.left.len();
+        chart.unexplored(within_reach(chart.area(), self.cells[0], robots, |edge| layout.is_open(edge)))
     }
 
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
@@ -384,11 +370,11 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
             broken.push(DEATH);
         }
         if let Some(Whole::Chain(chain)) = &self.whole
-            && is_costly(chain)
+            && chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
         {
             broken.push(Breach::Costly.into());
         }
-        if self.going == MoveOrder::OneByOne && !self.holds_one_by_one(before, &frame.cells) {
+        if self.told.going == MoveOrder::OneByOne && !self.holds_one_by_one(before, &frame.cells) {
             broken.push(ANY_ORDER);
         }
         broken
@@ -398,13 +384,12 @@ impl<G: Grid + Clone, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         match end {
             End::Silent | End::Idle => Vec::new(),
             End::Refused => vec![HEARD],
-            // A wall that appears may cut robots off: CHAIN-13 is not promised.
-            End::Explored | End::Exhausted | End::Endless if self.wall.is_some() => Vec::new(),
-            End::Explored | End::Exhausted | End::Endless if self.missed(layout, chart).is_empty() => {
-                Vec::new()
+            End::Explored | End::Exhausted | End::Endless => {
+                // A wall that appears may cut robots off: CHAIN-13 is not promised.
+                let is_short = self.told.wall.is_none() && !self.missed(layout, chart).is_empty();
+                let has_died = self.failures.died.is_some();
+                broken([(is_short, if has_died { DEATH } else { Breach::Completeness.into() })])
             }
-            End::Explored | End::Exhausted | End::Endless if self.failures.died.is_some() => vec![DEATH],
-            End::Explored | End::Exhausted | End::Endless => vec![Breach::Completeness.into()],
         }
     }
 
