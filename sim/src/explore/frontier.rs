@@ -12,7 +12,7 @@ use tautline_kernel::position::Odometry;
 use self::hunt::{KernelHunt, RivalHunt};
 pub use self::team::{ALONE, COVERS, ENDS, KNOWS, MARKS};
 use self::team::{Who, team};
-use super::switches::SwitchableRule;
+use super::switches::searched;
 use super::{By, Clause, Look, Profile, RandomPart, Rule, RuleId, Setup, Starts, Team};
 use crate::frontier::{Allowance, AssignedTeam, Assignment, Explorers};
 use crate::options::{Extra, Options};
@@ -28,15 +28,6 @@ const WANDERS: RuleId = RuleId::new("wanders");
 const MAX_ROBOTS: usize = 64;
 
 const MISSED: &str = "Within reach and unexplored";
-
-/// A rule of the kernel, hunted through all states.
-macro_rules! searched {
-    ($name:expr, $about:expr, $rule:expr) => {
-        Rule::new($name, $about, |setup| start(setup, $rule)).hunted(&KernelHunt($rule)).switched(
-            &SwitchableRule { rule: $rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) },
-        )
-    };
-}
 
 /// A rival, of which every layout is tried.
 macro_rules! assigned {

@@ -16,8 +16,8 @@ pub use self::team::{
     AHEAD, ANY_SHORTEST, APART, CONNECTED, CONTACT, COVERS, ENDS, EQUAL, MARKS, MOVES, SHORTENS, WHOLE,
 };
 use self::team::{KitTeam, reach};
-use super::switches::SwitchableRule;
-use super::{By, Clause, Profile, RandomPart, Rule, Setup, Starts, Team};
+use super::switches::searched;
+use super::{By, Clause, Profile, RandomPart, RuleId, Setup, Starts, Team};
 use crate::kit::{MOST_ROBOTS, Pace, course, paths};
 use crate::options::Extra;
 
@@ -27,15 +27,9 @@ const MISSED: &str = "Within reach and not driven to";
 pub static KIT: Profile = Profile {
     about: "Keep In Touch: robots that drive every path between two cells, and keep in radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, Kit::PUBLISHED), &KernelHunt(Kit::PUBLISHED))
-            .switched(&switched(Kit::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, Kit::REPAIRED), &KernelHunt(Kit::REPAIRED))
-            .switched(&switched(Kit::REPAIRED)),
-        Rule::new(AHEAD, "As published, KIT only where the way ahead is blocked", |setup| {
-            start(setup, Kit::AHEAD)
-        })
-        .hunted(&KernelHunt(Kit::AHEAD))
-        .switched(&switched(Kit::AHEAD)),
+        searched!(RuleId::PUBLISHED, "As the paper publishes it", Kit::PUBLISHED),
+        searched!(RuleId::REPAIRED, "With the repairs of its refuted claims", Kit::REPAIRED),
+        searched!(AHEAD, "As published, KIT only where the way ahead is blocked", Kit::AHEAD),
     ],
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
@@ -60,11 +54,6 @@ pub static KIT: Profile = Profile {
     case: |setup, clause, _| scripted::case(setup, clause),
     ..Profile::named("kit")
 };
-
-/// A rule whose conditions can be switched.
-const fn switched(rule: Kit) -> SwitchableRule<Kit> {
-    SwitchableRule { rule, start, hunt: |rule, _| Some(Box::new(KernelHunt(rule))) }
-}
 
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {

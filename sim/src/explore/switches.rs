@@ -8,6 +8,21 @@ use tautline_kernel::conditions::Conditional;
 use super::scheme::{Hunt, Setup, Switches};
 use super::team::Team;
 
+/// The row of a rule of the kernel that is hunted through all states: where it stands, `start` makes its team and
+/// `KernelHunt` hunts it.
+macro_rules! searched {
+    ($name:expr, $about:expr, $rule:expr) => {
+        $crate::explore::Rule::new($name, $about, |setup| start(setup, $rule))
+            .hunted(&KernelHunt($rule))
+            .switched(&$crate::explore::switches::SwitchableRule {
+                rule: $rule,
+                start,
+                hunt: |rule, _| Some(Box::new(KernelHunt(rule))),
+            })
+    };
+}
+pub(super) use searched;
+
 /// The team of a setup that follows a rule of the kernel, at its start.
 pub(super) type StartBy<R> = fn(&Setup, R) -> Result<Box<dyn Team>, Diagnostic>;
 
