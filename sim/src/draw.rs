@@ -367,31 +367,28 @@ impl Environment {
     /// All three, the smallest first.
     pub const ALL: [Self; 3] = [Self::Neighbours, Self::Safe, Self::Covered];
 
+    /// Its symbol in the paper, its name in words, and the circle that decides it, if one does.
+    const fn row(self) -> (&'static str, &'static str, Option<Circle>) {
+        match self {
+            Self::Neighbours => ("E_N", "one step or none", None),
+            Self::Safe => ("E_S", "wholly within r_safe", Some(Circle::SAFE)),
+            Self::Covered => ("E_C", "wholly within r_cov", Some(Circle::COVERED)),
+        }
+    }
+
     /// Its symbol in the paper.
     pub const fn symbol(self) -> &'static str {
-        match self {
-            Self::Neighbours => "E_N",
-            Self::Safe => "E_S",
-            Self::Covered => "E_C",
-        }
+        self.row().0
     }
 
     /// Its name in words.
     pub const fn words(self) -> &'static str {
-        match self {
-            Self::Neighbours => "one step or none",
-            Self::Safe => "wholly within r_safe",
-            Self::Covered => "wholly within r_cov",
-        }
+        self.row().1
     }
 
     /// The circle that decides it, if one does.
     pub const fn circle(self) -> Option<Circle> {
-        match self {
-            Self::Neighbours => None,
-            Self::Safe => Some(Circle::SAFE),
-            Self::Covered => Some(Circle::COVERED),
-        }
+        self.row().2
     }
 
     /// The radius of that circle in sides of a cell.

@@ -68,13 +68,11 @@ pub enum Compass {
 }
 
 impl Compass {
+    /// All, by their letters and in the order of [`Side::ALL`].
+    const ALL: [(&'static str, Self); 4] = [("E", Self::E), ("S", Self::S), ("W", Self::W), ("N", Self::N)];
+
     const fn side(self) -> Side {
-        match self {
-            Self::E => Side::East,
-            Self::S => Side::South,
-            Self::W => Side::West,
-            Self::N => Side::North,
-        }
+        Side::ALL[self as usize]
     }
 }
 
@@ -99,13 +97,8 @@ impl FromStr for WallAppearance {
             let (place, step) = text.split_once('@')?;
             let mut parts = place.split(',');
             let cell = Cell::new(parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
-            let side = match parts.next()? {
-                "E" => Compass::E,
-                "S" => Compass::S,
-                "W" => Compass::W,
-                "N" => Compass::N,
-                _ => return None,
-            };
+            let letter = parts.next()?;
+            let (_, side) = Compass::ALL.into_iter().find(|(name, _)| *name == letter)?;
             let is_over = parts.next().is_none();
             is_over.then_some(Self { cell, side, step: step.parse().ok()? })
         };
