@@ -170,33 +170,27 @@ pub fn replay_by<'a>(path: &Path, known: &[Meant<'a>]) -> Result<Refutation<'a>,
     let mut seal = crc32fast::Hasher::new();
     seal.update(format!("{first}\n").as_bytes());
     let (mut choices, mut of) = (Choices::default(), Vec::new());
-    let end = loop {
+    let (end, text) = loop {
         let Some(text) = lines.next(MAX_LINE_BYTES)? else {
             let what = format_args!("the file ends after line {}", 1 + of.len());
             return Err(Diagnostic::in_file(path, what, AGAIN));
         };
-        let choice = match lines.parse(&text, AGAIN)? {
+        let (kept, choice) = match lines.parse(&text, AGAIN)? {
             Line::Choice(_) if !choices.again.is_empty() => {
                 let what = "what comes only once stands before what comes again";
                 return Err(lines.fault(&text, "choice", what, AGAIN));
             }
-            Line::Choice(choice) => {
-                choices.once.push(choice.taken);
-                choice
-            }
-            Line::Again(choice) => {
-                choices.again.push(choice.taken);
-                choice
-            }
+            Line::Choice(choice) => (&mut choices.once, choice),
+            Line::Again(choice) => (&mut choices.again, choice),
             Line::End(end) => break (end, text),
         };
         seal.update(format!("{text}\n").as_bytes());
+        kept.push(choice.taken);
         of.push(choice.of);
         if of.len() > MAX_CHOICES {
             return Err(lines.whole(&text, format_args!("more than {MAX_CHOICES} choices"), AGAIN));
         }
     };
-    let (end, text) = end;
     lines.end()?;
     let (clause, check, evidence) = play(path, &checks, &choices, &of)?;
     if evidence.demand != header.demand {

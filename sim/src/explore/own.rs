@@ -114,22 +114,18 @@ impl<'a, R: Rule> Own<'a, R> {
     /// A team at its start. What no layout knows, such as who acts next, is drawn by `seed`.
     pub fn new(playing: TeamWorld<'a, R>, seed: u64) -> Self {
         let scene = playing.start();
-        let (cells, dice) = (scene.cells().collect(), SeededOracle::new(seed, 0));
-        let met = playing.met(&scene);
-        let (script, been, owed) = (VecDeque::new(), HashMap::new(), Vec::new());
-        let (title, is_exploring) = (String::new(), true);
         Self {
-            playing,
             before: scene.clone(),
+            cells: scene.cells().collect(),
+            script: VecDeque::new(),
+            dice: SeededOracle::new(seed, 0),
+            title: String::new(),
+            is_exploring: true,
+            been: HashMap::new(),
+            owed: Vec::new(),
+            met: playing.met(&scene),
+            playing,
             scene,
-            cells,
-            script,
-            dice,
-            title,
-            is_exploring,
-            been,
-            owed,
-            met,
         }
     }
 

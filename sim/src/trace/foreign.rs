@@ -97,7 +97,7 @@ impl ForeignRun {
 
     /// Checks that the end follows from the team moves.
     fn check(&self, lines: &Lines, text: &str) -> Result<(), Diagnostic> {
-        let report = self.run(&mut |_| Ok(()));
+        let report = self.play(&mut |_| Ok(()));
         let made = report.map_or_else(|_| self.end.clone(), |report| StoredEnd::from(&report));
         if made != self.end {
             return Err(lines.differs(text, &Line::End(made), "the team moves do not make this end, but"));
@@ -116,8 +116,14 @@ impl ForeignRun {
         let is_found = self.end.stopped != StopReason::Violation && Some(broken.clause) == self.clause;
         broken.step as usize == self.frames.len() && (is_found || broken.step == 0)
     }
+}
 
-    fn run(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
+impl Play for ForeignRun {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
         let (at_end, in_moves): (Vec<Violation>, Vec<Violation>) =
             self.violations.iter().partition(|broken| self.is_of_the_end(broken));
         let mut player = Player {
@@ -133,16 +139,6 @@ impl ForeignRun {
         };
         let report = run(&mut player, &self.setup.layout, Limits::default(), watch)?;
         Ok(Report { stopped: self.end.stopped, ..report })
-    }
-}
-
-impl Play for ForeignRun {
-    fn setup(&self) -> &Setup {
-        &self.setup
-    }
-
-    fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
-        self.run(watch)
     }
 
     fn sentence(&self, clause: ClauseId) -> Option<&str> {
