@@ -5,9 +5,9 @@ use tautline_proofs::chain::Subject;
 use tautline_proofs::chain::areas::{Areas, Findings, Smallest, most_edges, search};
 use tautline_proofs::plural::counted;
 
-use super::bounds::{bounds, exhibit, fault, team};
+use super::bounds::{bounds, fault, finding, team};
 use crate::explore::hunt::{
-    CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome, setup,
+    CoveredBound, Facts, Far, Finding, HuntReport, HuntRequest, Hunter, RunSize, outcome,
 };
 
 /// Searches all areas of at most so many cells.
@@ -67,7 +67,12 @@ fn areas(observed: Subject, asked: &HuntRequest<'_>, max_cells: u32) -> Result<A
 
 /// The report of a search.
 fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<HuntReport, Diagnostic> {
-    let findings = found.broken.iter().map(|smallest| finding(asked, smallest));
+    let findings = found.broken.iter().map(|Smallest { bounds, found }| {
+        let (columns, rows) = (bounds.area.width(), bounds.area.height());
+        finding(asked, bounds, found, |walls, steps, size| {
+            (RunSize::Area { columns, rows, walls, steps }, format!("{columns}x{rows} cells, {size}"))
+        })
+    });
     let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     let &Areas { max_cells, max_walls, robots, .. } = areas;
     let (robots, runs, moves) = (robots as u64, found.runs(), found.moves());
@@ -91,19 +96,5 @@ fn report(asked: &HuntRequest<'_>, areas: &Areas, found: &Findings) -> Result<Hu
         outcome: outcome(&findings, found.is_complete, covered),
         not_minimised: Vec::new(),
         found: findings,
-    })
-}
-
-fn finding(asked: &HuntRequest<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {
-    let run = bounds.run(found);
-    let setup = setup(asked.scheme, asked.rule, &run)?;
-    let (columns, rows) = (bounds.area.width(), bounds.area.height());
-    let (walls, steps) = (run.walls.len(), found.frames.len());
-    Ok(Finding {
-        clause: found.broken.clause(),
-        facts: RunSize::Area { columns, rows, walls, steps },
-        title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
-        shown: exhibit(found, &setup.layout),
-        setup,
     })
 }

@@ -10,8 +10,8 @@ use tautline_proofs::engine::tree;
 use tautline_proofs::plural::counted;
 
 use crate::explore::ClauseId;
-use crate::explore::hunt::{Exhibit, HuntRequest};
-use tautline_grids::layout::{Layout, Size};
+use crate::explore::hunt::{Exhibit, Finding, HuntRequest, RunSize, setup};
+use tautline_grids::layout::Size;
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;
@@ -57,20 +57,29 @@ pub fn bounds(
     Ok(bounds)
 }
 
-/// How a run that was found is shown: one that a file can tell by its last team move, one without end by its layout,
-/// and one that breaks what no file tells by its layout and the sentence that is not so.
-pub(super) fn exhibit(found: &Counterexample, layout: &Layout) -> Exhibit {
-    match (found.broken.breach(), found.broken) {
+/// A run that was found within `bounds`, as a hunt tells it; `size` says how large it is, of its walls and team moves
+/// and of their words.
+pub(super) fn finding(
+    asked: &HuntRequest<'_>,
+    bounds: &Bounds,
+    found: &Counterexample,
+    size: impl FnOnce(usize, usize, String) -> (RunSize, String),
+) -> Result<Finding, Diagnostic> {
+    let run = bounds.run(found);
+    let setup = setup(asked.scheme, asked.rule, &run)?;
+    let (walls, steps) = (run.walls.len(), found.frames.len());
+    let moves = counted(steps, "team move");
+    let (facts, title) = size(walls, steps, format!("{}, {moves}", counted(walls, "wall")));
+    // A run that no file tells is shown by its layout, and by the sentence that is not so if it has an end.
+    let shown = match (found.broken.breach(), found.broken) {
         (Some(breach), _) => Exhibit::Run(ClauseId::from(breach)),
         (None, Invariant::Ends) => Exhibit::Endless,
         (None, _) => {
-            let moves = counted(found.frames.len(), "team move");
-            Exhibit::Told(format!(
-                "Not so: {}. The run of {moves} is in this layout:\n\n{layout}",
-                found.demand
-            ))
+            let (demand, layout) = (found.demand, &setup.layout);
+            Exhibit::Told(format!("Not so: {demand}. The run of {moves} is in this layout:\n\n{layout}"))
         }
-    }
+    };
+    Ok(Finding { clause: found.broken.clause(), facts, title, setup, shown })
 }
 
 /// The fault of a search that is refused to so many robots.
@@ -79,40 +88,32 @@ pub(super) fn fault(refused: Unsearchable, robots: usize) -> Diagnostic {
         Unsearchable::Team(refused) => return team_fault(refused),
         Unsearchable::Search(refused) => refused,
     };
-    match refused {
+    let (field, remedy) = match refused {
         tree::Unsearchable::TooManyWalls { edges, .. } => {
             // No size gives a team of N robots more than the (2N−1)x(2N−1) cells in its reach.
             let side = (2 * robots as u32).saturating_sub(1);
             let is_smaller = edges < 2 * side * side.saturating_sub(1);
             let more = if is_smaller { "a larger `size`" } else { "more `robots`" };
-            let remedy = format_args!("give `max-walls` a number up to {edges}, or {more}");
-            Diagnostic::of_field("max-walls", refused, remedy)
+            ("max-walls", format!("give `max-walls` a number up to {edges}, or {more}"))
         }
-        tree::Unsearchable::TooLarge { .. } => {
-            Diagnostic::of_field("size", refused, "give fewer `robots` or a smaller `size`")
+        tree::Unsearchable::TooLarge { .. } => ("size", "give fewer `robots` or a smaller `size`".to_owned()),
+        tree::Unsearchable::Beyond { walls } => {
+            ("max-walls", format!("give `max-walls` {walls} or more, or another `resume` file"))
         }
-        tree::Unsearchable::Beyond { walls } => Diagnostic::of_field(
-            "max-walls",
-            refused,
-            format_args!("give `max-walls` {walls} or more, or another `resume` file"),
-        ),
-        tree::Unsearchable::Foreign | tree::Unsearchable::Short => {
-            Diagnostic::of_field("resume", refused, AGAIN)
-        }
-    }
+        tree::Unsearchable::Foreign | tree::Unsearchable::Short => ("resume", AGAIN.to_owned()),
+    };
+    Diagnostic::of_field(field, refused, remedy)
 }
 
 /// The fault of a chain that is refused.
 pub(super) fn team_fault(refused: SetupError) -> Diagnostic {
-    match refused {
+    let (field, remedy) = match refused {
         SetupError::TooFewRobots(_) | SetupError::TooManyRobots { .. } => {
-            let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
-            Diagnostic::of_field("robots", refused, remedy)
+            ("robots", format!("give `robots` a number from 2 to {MAX_ROBOTS}"))
         }
-        SetupError::BaseOutside(_) => {
-            Diagnostic::of_field("base", refused, "give `base` a free cell of the layout")
-        }
-    }
+        SetupError::BaseOutside(_) => ("base", "give `base` a free cell of the layout".to_owned()),
+    };
+    Diagnostic::of_field(field, refused, remedy)
 }
 
 /// The remedy for a file that is no hunt of ours.

@@ -14,11 +14,11 @@ use tautline_proofs::plural::counted;
 
 use super::areas;
 pub use super::bounds::bounds;
-use super::bounds::{AGAIN, exhibit, fault, team};
+use super::bounds::{AGAIN, fault, finding, team};
 use crate::explore::Catalogue;
 use crate::explore::hunt::{
     Bound, CoveredBound, Deal, Deals, Dealt, Facts, Far, Finding, Hunt, HuntReport, HuntRequest, Hunter,
-    OngoingHunt, RUN_AGAIN, RunSize, outcome, setup,
+    OngoingHunt, RUN_AGAIN, RunSize, outcome,
 };
 
 /// The chain that is hunted.
@@ -159,21 +159,10 @@ impl Part for Waves {
 
 /// The report of a search, and of each run that it found.
 fn report(asked: &HuntRequest<'_>, bounds: &Bounds, found: &Findings) -> Result<HuntReport, Diagnostic> {
-    let findings = found.counterexamples.iter().map(|counterexample| {
-        let run = bounds.run(counterexample);
-        let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
-        let setup = setup(asked.scheme, asked.rule, &run)?;
-        Ok(Finding {
-            clause: counterexample.broken.clause(),
-            facts: RunSize::Runs { runs, walls, steps },
-            title: format!(
-                "{}, {}; broken in {}",
-                counted(walls, "wall"),
-                counted(steps, "team move"),
-                counted(runs, "run")
-            ),
-            shown: exhibit(counterexample, &setup.layout),
-            setup,
+    let findings = found.counterexamples.iter().map(|found| {
+        let runs = found.runs;
+        finding(asked, bounds, found, |walls, steps, size| {
+            (RunSize::Runs { runs, walls, steps }, format!("{size}; broken in {}", counted(runs, "run")))
         })
     });
     let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
