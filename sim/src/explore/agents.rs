@@ -251,7 +251,7 @@ impl<S: Scheme> Agents<S> {
     }
 
     fn sum(&self, number: impl Fn(&Component) -> u32) -> u32 {
-        self.floor.components().iter().map(number).sum()
+        self.floor.components.iter().map(number).sum()
     }
 
     /// Whether the run is over: every agent is done or, where some may never know that they are, everything is
@@ -325,7 +325,7 @@ impl<S: Scheme> Team for Patrol<S> {
     }
 
     fn marked(&self) -> &[(Cell, Mark)] {
-        self.team.floor.marked()
+        &self.team.floor.marked
     }
 
     fn unseen(&self) -> &[Cell] {
@@ -333,7 +333,7 @@ impl<S: Scheme> Team for Patrol<S> {
     }
 
     fn components(&self) -> &[Component] {
-        self.team.floor.components()
+        &self.team.floor.components
     }
 
     fn milliseconds(&self) -> Option<u64> {
@@ -364,8 +364,8 @@ impl<S: Scheme> Watch<S> {
     fn new(team: &Agents<S>) -> Self {
         Self {
             bodies: team.bodies.clone(),
-            claims: team.floor.claims().to_vec(),
-            gains: team.floor.gains(),
+            claims: team.floor.claims.clone(),
+            gains: team.floor.gains,
             moves: 0,
             due: 1,
         }
@@ -373,11 +373,11 @@ impl<S: Scheme> Watch<S> {
 
     /// Whether the team, which has made a team move since the last call, is where it was.
     fn has_come_round(&mut self, team: &Agents<S>) -> bool {
-        if self.gains != team.floor.gains() || !team.misses.is_over() {
+        if self.gains != team.floor.gains || !team.misses.is_over() {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;
         }
-        if self.moves > 0 && self.bodies == team.bodies && self.claims == team.floor.claims() {
+        if self.moves > 0 && self.bodies == team.bodies && self.claims == team.floor.claims {
             return true;
         }
         if self.moves == self.due {

@@ -110,12 +110,14 @@ pub(super) struct SensorFloor<D> {
     size: Size,
     /// Row by row, with a rim of one cell all round.
     places: Vec<Place<D>>,
-    components: Vec<Component>,
-    /// By place, in order.
-    claims: Vec<(usize, Claim)>,
+    /// The parts of the layout in which agents start, in the order of the first agent of each.
+    pub(super) components: Vec<Component>,
+    /// The claims on cells, by place, in order.
+    pub(super) claims: Vec<(usize, Claim)>,
     /// Marks and shut sides that have changed since the start.
-    gains: u64,
-    marked: Vec<(Cell, Mark)>,
+    pub(super) gains: u64,
+    /// The marks that have changed since changes were last forgotten, in order.
+    pub(super) marked: Vec<(Cell, Mark)>,
     /// The cells whose sensors store another side, or none any more, since changes were last forgotten.
     turned: Vec<Cell>,
 }
@@ -177,11 +179,6 @@ impl<D: SensorData> SensorFloor<D> {
         self.place(cell).is_some_and(|place| place.open & 1 << side as u8 != 0)
     }
 
-    /// The parts of the layout in which agents start, in the order of the first agent of each.
-    pub(super) fn components(&self) -> &[Component] {
-        &self.components
-    }
-
     /// The place in [`SensorFloor::components`] of that of `cell`, if agents can get there.
     fn component(&self, cell: Cell) -> Option<usize> {
         self.place(cell).and_then(|place| usize::from(place.component).checked_sub(1))
@@ -198,21 +195,6 @@ impl<D: SensorData> SensorFloor<D> {
             index != here && usize::from(place.component) == number + 1 && is_left(place.sensor.mark())
         };
         component.explored < component.cells || self.places.iter().enumerate().any(is_other_left)
-    }
-
-    /// Marks and shut sides that have changed since the start.
-    pub(super) const fn gains(&self) -> u64 {
-        self.gains
-    }
-
-    /// The claims on cells, in order.
-    pub(super) fn claims(&self) -> &[(usize, Claim)] {
-        &self.claims
-    }
-
-    /// The marks that have changed since changes were last forgotten, in order.
-    pub(super) fn marked(&self) -> &[(Cell, Mark)] {
-        &self.marked
     }
 
     pub(super) fn forget_changes(&mut self) {

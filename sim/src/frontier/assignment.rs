@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use pathfinding::kuhn_munkres::kuhn_munkres_min;
 use pathfinding::matrix::Matrix;
 use tautline_kernel::frontier::{Map, Status};
-use tautline_kernel::ground::{Area, Cell, Side};
+use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::run::Frame;
 
 use super::chart::Chart;
@@ -39,7 +39,6 @@ type Ways = BTreeMap<Cell, u32>;
 pub struct AssignedTeam {
     assignment: Assignment,
     layout: Layout,
-    area: Area,
     chart: Chart,
     /// How much the repository knew before the last team move.
     known: usize,
@@ -54,13 +53,12 @@ const BY_NUMBER: [Side; 4] = [Side::North, Side::West, Side::East, Side::South];
 impl AssignedTeam {
     /// A team in these starts.
     pub fn new(assignment: Assignment, layout: &Layout, starts: &[Cell]) -> Self {
-        let area = layout.size().area();
-        let mut chart = Chart::new(area);
+        let mut chart = Chart::new(layout.size().area());
         for &start in starts {
             chart.explore(start);
         }
         let (layout, cells, aims) = (layout.clone(), starts.to_vec(), vec![None; starts.len()]);
-        Self { assignment, layout, area, chart, known: 0, cells, aims, idle: 0 }
+        Self { assignment, layout, chart, known: 0, cells, aims, idle: 0 }
     }
 
     /// Where the robots are.
@@ -123,7 +121,7 @@ impl AssignedTeam {
         if waits {
             return Err(TeamEnd::Endless);
         }
-        if self.idle > PATIENCE * self.area.width() * self.area.height() {
+        if self.idle > PATIENCE * self.layout.size().cells() {
             return Err(TeamEnd::Idle);
         }
         Ok(moves.frame(&self.cells))

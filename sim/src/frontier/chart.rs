@@ -9,22 +9,25 @@ use tautline_kernel::ground::{Area, Cell, Side};
 pub(super) struct Chart {
     area: Area,
     /// By place: row by row, with a rim of obstacles around the area, so that every cell has four neighbours.
-    cells: Vec<Status>,
+    pub(super) statuses: Vec<Status>,
     /// The cells that it has learned, in order.
     learned: Vec<(Cell, Status)>,
     /// Unexplored cells beside explored ones.
     frontier: usize,
-    explored: usize,
-    has_erred: bool,
+    /// How many cells are explored.
+    pub(super) explored: usize,
+    /// Whether a cell was explored that was noted as an obstacle before.
+    pub(super) has_erred: bool,
 }
 
 impl Chart {
     /// Nothing known of `area`.
     pub(super) fn new(area: Area) -> Self {
-        let cells = vec![Status::Obstacle; (area.width() + 2) * (area.height() + 2)];
-        let mut chart = Self { area, cells, learned: Vec::new(), frontier: 0, explored: 0, has_erred: false };
+        let statuses = vec![Status::Obstacle; (area.width() + 2) * (area.height() + 2)];
+        let mut chart =
+            Self { area, statuses, learned: Vec::new(), frontier: 0, explored: 0, has_erred: false };
         for place in area.cells().filter_map(|cell| chart.place(cell)).collect::<Vec<_>>() {
-            chart.cells[place] = Status::Unexplored;
+            chart.statuses[place] = Status::Unexplored;
         }
         chart
     }
@@ -37,21 +40,6 @@ impl Chart {
     /// How much it has learned.
     pub(super) const fn len(&self) -> usize {
         self.learned.len()
-    }
-
-    /// How many cells are explored.
-    pub(super) const fn explored(&self) -> usize {
-        self.explored
-    }
-
-    /// Whether a cell was explored that was noted as an obstacle before.
-    pub(super) const fn has_erred(&self) -> bool {
-        self.has_erred
-    }
-
-    /// By place the status of each cell, and of a rim of obstacles around the area.
-    pub(super) fn statuses(&self) -> &[Status] {
-        &self.cells
     }
 
     /// How far the place of a neighbour is from that of a cell: in the order of the numbers of the cells beyond the
@@ -86,9 +74,9 @@ impl Chart {
         };
         let before = around(self);
         if let Some(place) = self.place(cell) {
-            self.has_erred |= self.cells[place] == Status::Obstacle;
+            self.has_erred |= self.statuses[place] == Status::Obstacle;
             self.explored += usize::from(status == Status::Explored);
-            self.cells[place] = status;
+            self.statuses[place] = status;
             self.learned.push((cell, status));
         }
         self.frontier = self.frontier + around(self) - before;
@@ -101,7 +89,7 @@ impl Map for Chart {
     }
 
     fn status(&self, cell: Cell) -> Status {
-        self.place(cell).map_or(Status::Obstacle, |place| self.cells[place])
+        self.place(cell).map_or(Status::Obstacle, |place| self.statuses[place])
     }
 
     fn frontier(&self) -> usize {

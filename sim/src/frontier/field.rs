@@ -21,7 +21,7 @@ pub(super) struct Field {
     least: Vec<u32>,
     queue: Vec<usize>,
     /// How many cells waves have looked at.
-    spent: usize,
+    pub(super) spent: usize,
 }
 
 impl Field {
@@ -35,17 +35,12 @@ impl Field {
         self.least(place) == CLOSED
     }
 
-    /// Waves have looked at so many cells.
-    pub(super) const fn spend(&mut self, cells: usize) {
-        self.spent += cells;
-    }
-
     /// Computes the distances anew if it pays. Where a cell became explored that was taken for an obstacle, distances
     /// may have fallen, and nothing is known of them any more.
     pub(super) fn renew(&mut self, chart: &Chart) {
-        if chart.has_erred() {
+        if chart.has_erred {
             self.least.clear();
-        } else if self.spent > PATIENCE * chart.explored() {
+        } else if self.spent > PATIENCE * chart.explored {
             self.spent = 0;
             self.flood(chart);
         }
@@ -54,7 +49,7 @@ impl Field {
     /// Floods the explored cells from all unexplored ones at once.
     fn flood(&mut self, chart: &Chart) {
         let Self { least, queue, .. } = self;
-        let (statuses, steps) = (chart.statuses(), chart.steps().map(|(step, _)| step));
+        let (statuses, steps) = (&chart.statuses, chart.steps().map(|(step, _)| step));
         let is_explored = |place: usize| statuses[place] == Status::Explored;
         least.clear();
         least.extend((0..statuses.len()).map(|place| if is_explored(place) { CLOSED } else { 0 }));

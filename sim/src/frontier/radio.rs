@@ -47,7 +47,8 @@ pub(super) struct Radio {
     signal: Option<Signal>,
     /// Of the mean of all that are heard at a stop; none if none is heard.
     averaged: Option<Signal>,
-    odometry: Odometry,
+    /// How far wheels err.
+    pub(super) odometry: Odometry,
 }
 
 impl Radio {
@@ -76,11 +77,6 @@ impl Radio {
     /// Whether positions have an error.
     pub(super) fn is_noisy(&self) -> bool {
         self.signal.is_some() || self.odometry != Odometry::EXACT
-    }
-
-    /// How far wheels err.
-    pub(super) const fn odometry(&self) -> &Odometry {
-        &self.odometry
     }
 
     /// Whether a robot in one cell hears what one in another says now.

@@ -226,8 +226,7 @@ impl Explorers {
             does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
             let Next::Tries { side, aim } = next else { continue };
             let to = self.robots[robot].at().beyond(side);
-            if self.radio.is_noisy()
-                && !self.rule.may_go(&self.poses[robot].belief, to, self.radio.odometry())
+            if self.radio.is_noisy() && !self.rule.may_go(&self.poses[robot].belief, to, &self.radio.odometry)
             {
                 stands[robot] = true;
                 continue;
@@ -283,7 +282,7 @@ impl Explorers {
         self.slot = (self.slot + 1) % robots.max(1);
         let after: usize = self.robots.iter().map(|robot| robot.map.len()).sum();
         self.idle = if after == before { self.idle + 1 } else { 0 };
-        if self.idle > PATIENCE * self.area.width() * self.area.height() {
+        if self.idle > PATIENCE * self.layout.size().cells() {
             return Err(TeamEnd::Idle);
         }
         Ok(moves.frame(&self.cells))

@@ -80,7 +80,7 @@ impl Wave {
         for place in self.queue.drain(..).map(|(place, _)| place as usize).chain(found) {
             self.reached[place / 64] = 0;
         }
-        self.reached.resize(chart.statuses().len().div_ceil(64), 0);
+        self.reached.resize(chart.statuses.len().div_ceil(64), 0);
         (self.told, self.level, self.left, self.is_cut) = (0, 0, chart.frontier(), false);
         if let Some(place) = self.origin.and_then(|origin| chart.place(origin.cell)) {
             self.bound = field.least(place).saturating_add(self.slack);
@@ -112,7 +112,7 @@ impl Wave {
             return 0;
         }
         self.level += 1;
-        let (statuses, steps) = (chart.statuses(), chart.steps());
+        let (statuses, steps) = (&chart.statuses, chart.steps());
         let (from, to) = (self.told, self.queue.len());
         while self.told < to && self.left > 0 {
             let (place, first) = self.queue[self.told];
@@ -189,8 +189,7 @@ impl Waves {
             };
             let behind = free.iter().copied().filter(|&robot| is_behind(robot));
             if let Some(robot) = behind.min_by_key(|&robot| self.by_robot[robot].level) {
-                let looked_at = self.by_robot[robot].extend(chart, &self.field);
-                self.field.spend(looked_at);
+                self.field.spent += self.by_robot[robot].extend(chart, &self.field);
                 continue;
             }
             let mut pairs: Vec<(Pair, usize)> = Vec::new();
@@ -231,7 +230,7 @@ impl Waves {
         let (whose, known) = match self.knowledge {
             Knowledge::Common => {
                 self.field.renew(chart);
-                (None, chart.explored())
+                (None, chart.explored)
             }
             Knowledge::Own => (Some(own), chart.len()),
         };
