@@ -53,34 +53,24 @@ fn grid(
 ) -> Vec<String> {
     let is_closed =
         |edge: Edge| layout.has_wall(edge) || !area.contains(edge.cell()) || !area.contains(beyond(edge));
+    let sign = |edge: Edge, wall: char| match (is_marked(edge), is_closed(edge)) {
+        (true, _) => 'x',
+        (false, true) => wall,
+        (false, false) => ' ',
+    };
     let (first, last) = (area.first(), area.last());
     let mut lines = Vec::with_capacity(2 * area.height() + 1);
     for y in first.y..=last.y.saturating_add(1) {
-        let mut walls = String::new();
-        for x in first.x..=last.x {
-            let edge = Edge::new(Cell::new(x, y), Side::North);
-            walls.push('+');
-            let side = match (is_marked(edge), is_closed(edge)) {
-                (true, _) => "x",
-                (false, true) => "-",
-                (false, false) => " ",
-            };
-            walls.push_str(&side.repeat(width));
-        }
-        walls.push('+');
-        lines.push(walls);
+        let walls = (first.x..=last.x).map(|x| sign(Edge::new(Cell::new(x, y), Side::North), '-'));
+        let walls: Vec<String> = walls.map(|wall| wall.to_string().repeat(width)).collect();
+        lines.push(format!("+{}+", walls.join("+")));
         if y > last.y {
             break;
         }
         let mut cells = String::new();
         for x in first.x..=last.x.saturating_add(1) {
             let cell = Cell::new(x, y);
-            let edge = Edge::new(cell, Side::West);
-            cells.push(match (is_marked(edge), is_closed(edge)) {
-                (true, _) => 'x',
-                (false, true) => '|',
-                (false, false) => ' ',
-            });
+            cells.push(sign(Edge::new(cell, Side::West), '|'));
             if x <= last.x {
                 let inside = if layout.is_free(cell) { label(cell) } else { "#".repeat(width) };
                 // Writing to a string cannot fail.
