@@ -28,13 +28,7 @@ impl Catalogue {
 
     /// The rules of all schemes, each name once.
     pub fn rules(self) -> Vec<&'static Rule> {
-        let mut rules: Vec<&Rule> = Vec::new();
-        for rule in self.schemes().flat_map(|scheme| scheme.rules) {
-            if rules.iter().all(|known| known.name != rule.name) {
-                rules.push(rule);
-            }
-        }
-        rules
+        once(self.schemes().flat_map(|scheme| scheme.rules), |rule| rule.name)
     }
 
     /// The rule with this name, if a scheme has one.
@@ -60,23 +54,30 @@ impl Catalogue {
     /// # Errors
     /// A [`Diagnostic`] that names those they can break.
     pub fn clause(self, id: &str) -> Result<ClauseId, Diagnostic> {
-        let mut known: Vec<&str> = Vec::new();
-        for clause in self.schemes().flat_map(|scheme| scheme.clauses) {
-            if clause.id.as_str() == id {
-                return Ok(clause.id);
-            }
-            if !known.contains(&clause.id.as_str()) {
-                known.push(clause.id.as_str());
-            }
-        }
-        let remedy = format!("the clauses are {}", known.join(", "));
-        Err(Diagnostic::usage(format_args!("no run can break the clause {id:?}"), remedy))
+        let known = once(self.schemes().flat_map(|scheme| scheme.clauses), |clause| clause.id);
+        let found = known.iter().find(|clause| clause.id.as_str() == id).map(|clause| clause.id);
+        found.ok_or_else(|| {
+            let known: Vec<&str> = known.iter().map(|clause| clause.id.as_str()).collect();
+            let remedy = format!("the clauses are {}", known.join(", "));
+            Diagnostic::usage(format_args!("no run can break the clause {id:?}"), remedy)
+        })
     }
 
     /// The names of the schemes that are so.
     pub fn names(self, is: impl Fn(&Profile) -> bool) -> Vec<&'static str> {
         self.schemes().filter(|scheme| is(scheme)).map(|scheme| scheme.name).collect()
     }
+}
+
+/// All of these, but of those with the same key only the first.
+fn once<T, K: PartialEq>(all: impl Iterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<T> {
+    let mut kept: Vec<T> = Vec::new();
+    all.for_each(|one| {
+        if kept.iter().all(|known| key(known) != key(&one)) {
+            kept.push(one);
+        }
+    });
+    kept
 }
 
 /// The fault of a name that is none of these.
@@ -178,12 +179,6 @@ impl PartialEq for Scheme {
 }
 
 impl Eq for Scheme {}
-
-impl Serialize for Scheme {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.row.serialize(serializer)
-    }
-}
 
 impl Profile {
     /// The rule with this name, if the scheme offers it.

@@ -5,6 +5,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
+use serde::Serialize;
 use serde_json::value::RawValue;
 use tautline_io::checkpoint::Part;
 use tautline_io::diagnostic::Diagnostic;
@@ -58,10 +59,12 @@ pub struct Setup {
 pub struct Catalogue(pub &'static [&'static [&'static Profile]]);
 
 /// A scheme, and the catalogue that it is chosen from.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize)]
+#[serde(transparent)]
 pub struct Scheme {
     pub(super) row: &'static Profile,
     /// That catalogue.
+    #[serde(skip)]
     pub among: Catalogue,
 }
 
@@ -213,8 +216,7 @@ pub trait Hunt: fmt::Debug + Sync {
     fn hunt(&self, asked: &HuntRequest<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
     /// The request `asked`, with the bounds within which the choices of the run of `setup` were found.
-    fn again<'a>(&self, setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
-        let _ = setup;
+    fn again<'a>(&self, _setup: &Setup, asked: HuntRequest<'a>) -> HuntRequest<'a> {
         asked
     }
 
@@ -227,8 +229,7 @@ pub trait Hunt: fmt::Debug + Sync {
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be searched so.
-    fn begin(&self, asked: &HuntRequest<'_>) -> Result<Option<Box<dyn OngoingHunt>>, Diagnostic> {
-        let _ = asked;
+    fn begin(&self, _asked: &HuntRequest<'_>) -> Result<Option<Box<dyn OngoingHunt>>, Diagnostic> {
         Ok(None)
     }
 }
