@@ -27,17 +27,13 @@ fn deals(asked: &HuntRequest<'_>) -> Result<&'static dyn Deals, Diagnostic> {
 /// # Errors
 /// A [`Diagnostic`] if it is a plan of something else.
 pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<HuntRequest<'static>, Diagnostic> {
-    let known = |scheme: &str, rule: &str| {
-        let scheme = catalogue.scheme(scheme)?;
-        Some(HuntRequest::new(scheme, scheme.rules.iter().find(|row| row.name.as_str() == rule)?.name))
-    };
-    let found = match &plan.of {
-        Work::Hunt { scheme, rule } => known(scheme, rule),
-        Work::Table { .. } | Work::Library { .. } => None,
-    };
-    found.ok_or_else(|| {
-        Diagnostic::usage("this plan is none of a hunt", "run it with the command that planned it")
-    })
+    if let Work::Hunt { scheme, rule } = &plan.of
+        && let Some(scheme) = catalogue.scheme(scheme)
+        && let Some(rule) = scheme.rules.iter().find(|row| row.name.as_str() == rule)
+    {
+        return Ok(HuntRequest::new(scheme, rule.name));
+    }
+    Err(Diagnostic::usage("this plan is none of a hunt", "run it with the command that planned it"))
 }
 
 /// Deals a hunt out among so many shards.

@@ -6,11 +6,11 @@ use tautline_proofs::floor::crew::Scheme as Crew;
 use tautline_proofs::floor::trap::{Bounds, End, MAX_AGENTS, MAX_CELLS, Trap, TrapReport};
 use tautline_proofs::plural::counted;
 
+use super::Setup;
 use super::agents::{self, PREMATURE};
 use super::by_layout::Each;
 use super::hunt::{Bound, CoveredBound, Exhibit, Facts, Finding, HuntReport, HuntRequest, RunSize};
 use super::switches::SwitchableRule;
-use super::{RuleId, Scheme, Setup};
 use tautline_grids::layout::{Layout, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.
@@ -152,26 +152,18 @@ impl<C: Crew> Each for Traps<C> {
     }
 }
 
-/// The run that `trap` is, as a hunt tells it.
+/// The run that `trap` is, as a hunt tells it; it stops at the violation.
 fn finding(asked: &HuntRequest<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
+    let layout = Layout::open(width as u64, height as u64)?.with_blocked(trap.blocked.iter().copied());
+    let setup = HuntRequest::new(asked.scheme, asked.rule).setup(layout, trap.starts.clone(), None)?;
+    let setup = Setup { missed: trap.missed.clone(), ..setup };
     let (clause, shown) = match trap.end {
         End::Done => (PREMATURE.as_str(), Exhibit::Run(PREMATURE)),
         End::Endless => (ENDLESS, Exhibit::Endless),
     };
     let facts = RunSize::Misses { misses, columns: width, rows: height, steps: moves };
     let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));
-    Ok(Finding { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
-}
-
-/// The run that `trap` is; it stops at the violation.
-///
-/// # Errors
-/// [`Diagnostic`] if the trap does not fit into a layout.
-fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Diagnostic> {
-    let layout = Layout::open(trap.width as u64, trap.height as u64)?;
-    let layout = layout.with_blocked(trap.blocked.iter().copied());
-    let setup = HuntRequest::new(scheme, rule).setup(layout, trap.starts.clone(), None)?;
-    Ok(Setup { missed: trap.missed.clone(), ..setup })
+    Ok(Finding { clause, facts, title, setup, shown })
 }

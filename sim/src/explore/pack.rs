@@ -126,12 +126,11 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
 }
 
 fn unfit(unfit: RangeError) -> Diagnostic {
-    match unfit {
-        RangeError::Sight => {
-            Diagnostic::of_field("sight", unfit, "give `sight` a number of cells from 1 to 31")
-        }
-        RangeError::Range => Diagnostic::of_field("range", unfit, "give `range` a number of cells from 3 on"),
-    }
+    let (field, remedy) = match unfit {
+        RangeError::Sight => ("sight", "give `sight` a number of cells from 1 to 31"),
+        RangeError::Range => ("range", "give `range` a number of cells from 3 on"),
+    };
+    Diagnostic::of_field(field, unfit, remedy)
 }
 
 fn refused(refused: SetupError) -> Diagnostic {

@@ -82,12 +82,8 @@ struct Part {
 
 impl MarkSummary {
     fn of(knowledge: Knowledge, component: &Component) -> Option<Self> {
-        match knowledge {
-            Knowledge::None => None,
-            Knowledge::Visited => {
-                Some(Self { visited: component.visited, terminated: component.active == 0 })
-            }
-        }
+        let is_known = knowledge == Knowledge::Visited;
+        is_known.then_some(Self { visited: component.visited, terminated: component.active == 0 })
     }
 }
 

@@ -295,15 +295,11 @@ pub(super) fn outcome(scheme: Scheme, report: &Report) -> String {
         0 => String::new(),
         cells => format!(" {} of {} explored;", report.explored, counted(cells, "cell")),
     };
-    let (moves, broken) = (counted(report.steps, "team move"), broken(scheme, report));
-    format!("{moves}: {}.{explored} {broken}.", report.stop_words())
-}
-
-fn broken(scheme: Scheme, report: &Report) -> String {
-    match report.violations.as_slice() {
-        [] => scheme.unbroken().to_owned(),
-        [first, ..] => format!("{} is broken in team move {}", first.clause, first.step),
-    }
+    let broken = report.violations.first().map_or_else(
+        || scheme.unbroken().to_owned(),
+        |first| format!("{} is broken in team move {}", first.clause, first.step),
+    );
+    format!("{}: {}.{explored} {broken}.", counted(report.steps, "team move"), report.stop_words())
 }
 
 /// The notes beside violations: the milestones and the end.
