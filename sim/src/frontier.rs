@@ -29,29 +29,29 @@ const PATIENCE: usize = 100;
 
 /// The deeds of each robot in a team move.
 #[derive(Clone, Debug)]
-struct Moves {
+pub(crate) struct Moves {
     steps: Vec<Step>,
     blocked: Vec<bool>,
 }
 
 impl Moves {
     /// Every robot stays.
-    fn none(robots: usize) -> Self {
+    pub(crate) fn none(robots: usize) -> Self {
         Self { steps: vec![Step::Stay; robots], blocked: vec![false; robots] }
     }
 
     /// A robot goes through a side.
-    fn goes(&mut self, robot: usize, side: Side) {
+    pub(crate) fn goes(&mut self, robot: usize, side: Side) {
         self.steps[robot] = Step::Cross(side);
     }
 
     /// A robot has tried a side in vain.
-    fn bumps(&mut self, robot: usize, side: Side) {
+    pub(crate) fn bumps(&mut self, robot: usize, side: Side) {
         self.goes(robot, side);
         self.blocked[robot] = true;
     }
 
-    fn frame(self, cells: &[Cell]) -> Frame {
+    pub(crate) fn frame(self, cells: &[Cell]) -> Frame {
         Frame { kind: Kind::Advance, steps: self.steps, blocked: self.blocked, cells: cells.to_vec() }
     }
 }

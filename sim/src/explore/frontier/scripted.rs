@@ -4,9 +4,8 @@
 //! then.
 
 use tautline_io::diagnostic::Diagnostic;
-use tautline_kernel::chain::Kind;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
-use tautline_kernel::ground::{Cell, Step};
+use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Demand, Event, Setting, Successor};
@@ -17,6 +16,7 @@ use crate::explore::clause::broken;
 use crate::explore::script::Script;
 use crate::explore::setup::of_choices;
 use crate::explore::{ClauseId, End, Setup, Surroundings, Survey, Team};
+use crate::frontier::Moves;
 use tautline_grids::layout::Layout;
 
 /// The team of `setup`, which has choices.
@@ -79,14 +79,14 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         let look = self.script.choose(is_look).map(|turned| turned.event);
         let Some(Event::Looks(robot, side, sight, ..)) = look else { return Err(End::Exhausted) };
         self.go_on();
-        let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
+        let mut moves = Moves::none(ROBOTS);
         match sight {
-            Sight::Open => steps[robot] = Step::Cross(side),
-            Sight::Obstacle => (steps[robot], blocked[robot]) = (Step::Cross(side), true),
+            Sight::Open => moves.goes(robot, side),
+            Sight::Obstacle => moves.bumps(robot, side),
             Sight::Robot | Sight::Small => {}
         }
         self.cells = self.script.state.cells().to_vec();
-        Ok(Frame { kind: Kind::Advance, steps, blocked, cells: self.cells.clone() })
+        Ok(moves.frame(&self.cells))
     }
 
     fn due(&self, _: &Layout) -> u32 {

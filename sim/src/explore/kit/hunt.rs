@@ -14,7 +14,7 @@ use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts, World};
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::ScriptedRun;
 
-use super::team::{EQUAL, reach};
+use super::team::{clause_of, reach};
 use crate::explore::hunt::{
     Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
 };
@@ -64,14 +64,6 @@ impl Pass {
         let walls = u32::from(setting.max_walls);
         let max_walls = asked.max_walls.map_or(walls, |most| most.min(walls)) as u8;
         Some(Setting { max_walls, speeds, starts, demand, ..setting })
-    }
-
-    /// The clause that a run of so many robots breaks with this demand.
-    fn clause(self, demand: Demand, robots: usize) -> ClauseId {
-        match self.speeds {
-            Speeds::Equal => EQUAL,
-            Speeds::Any | Speeds::OneByOne => ClauseId::new(demand.clause(robots)),
-        }
     }
 }
 
@@ -165,7 +157,7 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
             }
             let Some(setting) = pass.setting(rule, lattice, search.asked) else { continue };
             let is_known = |all: &[BrokenClause<ROBOTS>], demand| {
-                let clause = pass.clause(demand, ROBOTS);
+                let clause = clause_of(demand, pass.speeds, ROBOTS);
                 all.iter().any(|broken| broken.clause == clause)
             };
             if pass.demand.is_some_and(|demand| is_known(&all, demand)) {
@@ -178,7 +170,7 @@ fn searched<S: System<State = World<ROBOTS>, Demand = Demand>, const ROBOTS: usi
                 if is_known(&all, run.demand) {
                     continue;
                 }
-                let (demand, clause) = (run.demand, pass.clause(run.demand, ROBOTS));
+                let (demand, clause) = (run.demand, clause_of(run.demand, pass.speeds, ROBOTS));
                 let look = |setting: &Setting<ROBOTS>| search.minimised(setting, setting.starts());
                 let found = match fewest(setting, demand, look) {
                     ControlFlow::Continue(found) => found,

@@ -2,9 +2,10 @@
 //! and the arrivals after it; whoever drives is drawn where it arrives. The first choice says whether robots drive at
 //! equal speeds.
 
+use std::collections::BTreeSet;
+
 use tautline_io::diagnostic::Diagnostic;
-use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
 use tautline_proofs::engine::world::World as _;
 use tautline_proofs::judge::Case;
@@ -12,10 +13,11 @@ use tautline_proofs::kit::counterexample::{self, ANY_SPEEDS, EQUAL_SPEEDS};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, Successor};
 use tautline_proofs::run::Frame;
 
-use super::team::{AHEAD, COVERS, ENDS, EQUAL, MOVES, WHOLE, missed, nodes, reach};
+use super::team::{AHEAD, COVERS, ENDS, MOVES, WHOLE, clause_of, missed, nodes, reach};
 use crate::explore::script::Script;
 use crate::explore::setup::of_choices;
 use crate::explore::{ClauseId, End, RuleId, Setup, Surroundings, Survey, Team};
+use crate::frontier::Moves;
 use crate::kit::paths;
 use tautline_grids::layout::Layout;
 
@@ -90,13 +92,6 @@ struct ScriptedTeam<const ROBOTS: usize> {
     due: Vec<Edge>,
 }
 
-impl<const ROBOTS: usize> ScriptedTeam<ROBOTS> {
-    fn clause(&self, demand: Demand) -> ClauseId {
-        let is_at_equal_speeds = self.script.system.speeds == Speeds::Equal && demand == Demand::Contact;
-        if is_at_equal_speeds { EQUAL } else { ClauseId::new(demand.clause(ROBOTS)) }
-    }
-}
-
 impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
@@ -111,18 +106,16 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
         };
         let arrives = |turned: &Successor<ROBOTS>| matches!(turned.events.first(), Some(Event::Arrives(..)));
         while self.script.choose(arrives).is_some() {}
-        let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
+        let mut moves = Moves::none(ROBOTS);
         match (next, looks.last()) {
             (Next::Drives(to), Some(&(side, _))) => {
-                steps[robot] = Step::Cross(side);
+                moves.goes(robot, side);
                 self.cells[robot] = to;
             }
-            (_, Some(&(side, Sight::Obstacle))) => {
-                (steps[robot], blocked[robot]) = (Step::Cross(side), true);
-            }
+            (_, Some(&(side, Sight::Obstacle))) => moves.bumps(robot, side),
             (_, Some((_, Sight::Free | Sight::Robot)) | None) => {}
         }
-        Ok(Frame { kind: Kind::Advance, steps, blocked, cells: self.cells.clone() })
+        Ok(moves.frame(&self.cells))
     }
 
     fn due(&self, _: &Layout) -> u32 {
@@ -134,11 +127,9 @@ impl<const ROBOTS: usize> Team for ScriptedTeam<ROBOTS> {
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        let mut broken: Vec<ClauseId> =
-            self.script.broken.iter().map(|&demand| self.clause(demand)).collect();
-        broken.sort_unstable();
-        broken.dedup();
-        broken
+        let speeds = self.script.system.speeds;
+        let broken = self.script.broken.iter().map(|&demand| clause_of(demand, speeds, ROBOTS));
+        broken.collect::<BTreeSet<ClauseId>>().into_iter().collect()
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {

@@ -10,6 +10,7 @@ use tautline_io::diagnostic::Diagnostic;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::kit::{Reach, Stance};
+use tautline_proofs::kit::world::{Demand, Speeds};
 use tautline_proofs::run::Frame;
 
 use super::layers;
@@ -148,6 +149,12 @@ impl Team for KitTeam {
             layers::show(&*self.course, drive, self.cells.len(), scene);
         }
     }
+}
+
+/// The clause that a run of so many robots breaks with this demand, at these speeds.
+pub(super) fn clause_of(demand: Demand, speeds: Speeds, robots: usize) -> ClauseId {
+    let is_at_equal_speeds = speeds == Speeds::Equal && demand == Demand::Contact;
+    if is_at_equal_speeds { EQUAL } else { ClauseId::new(demand.clause(robots)) }
 }
 
 /// The nodes of these paths, and those where robots are.
