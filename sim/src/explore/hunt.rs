@@ -156,6 +156,14 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
     }
 }
 
+/// All areas up to a size, fewest cells first.
+pub(crate) fn areas(size: Size) -> Vec<(i16, i16)> {
+    let mut areas: Vec<(i16, i16)> =
+        (1..=size.height()).flat_map(|height| (1..=size.width()).map(move |width| (width, height))).collect();
+    areas.sort_by_key(|&(width, height)| (width * height, height));
+    areas
+}
+
 /// The run of `scheme` that `found` is, in the area of its search; it stops at the violation of what it was found for,
 /// and may break other clauses before.
 ///

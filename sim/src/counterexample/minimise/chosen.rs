@@ -7,7 +7,7 @@ use tautline_io::diagnostic::{Diagnostic, Halt};
 
 use super::minimal::{Failure, Minimal, Refusal, first_violation};
 use super::shrink::{Case, Extent, Progress};
-use crate::explore::hunt::{Bound, Exhibit, Far, Finding, HuntRequest, Hunter};
+use crate::explore::hunt::{Bound, Exhibit, Far, Finding, HuntRequest, Hunter, areas};
 use crate::explore::{ClauseId, Setup, explore};
 use tautline_grids::layout::Size;
 
@@ -46,15 +46,12 @@ pub(super) fn minimise(
     let violation = first_violation(&report, asked)?;
     let before = extent(setup, violation.step);
     let hunt = setup.scheme.find_rule(setup.rule).map_err(Halt::from)?.hunt.ok_or(Refusal::Chosen)?;
-    let mut sizes: Vec<(i16, i16)> =
-        (1..=before.rows).flat_map(|rows| (1..=before.columns).map(move |columns| (columns, rows))).collect();
-    sizes.sort_by_key(|&(columns, rows)| (columns * rows, rows));
     let max_walls = hunt.takes().contains(&Bound::Walls).then_some((before.walls + before.blocked) as u32);
     let mut watcher = Watcher { watch, progress: Progress { runs: 0, smallest: before }, ended: None };
     let mut refused = None;
     let least = *setup.scheme.robots.start() as u16;
     for robots in least..=setup.robots {
-        for &(columns, rows) in &sizes {
+        for (columns, rows) in areas(setup.layout.size()) {
             let size = Some(Size::new(columns as u64, rows as u64).map_err(Halt::from)?);
             let asked = HuntRequest {
                 robots: Some(robots.into()),

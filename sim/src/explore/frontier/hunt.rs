@@ -17,7 +17,8 @@ use tautline_proofs::run::ScriptedRun;
 
 pub(super) use self::rivals::RivalHunt;
 use crate::explore::hunt::{
-    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, layout,
+    Bound, CoveredBound, Exhibit, Facts, Finding, Hunt, HuntReport, HuntRequest, Hunter, RunSize, areas,
+    layout,
 };
 use crate::explore::states::{Count, Search, Small};
 use crate::explore::{ClauseId, Setup};
@@ -39,14 +40,6 @@ const SMALL: Small = Small {
 /// The kernel's robots, whose states are searched.
 #[derive(Debug)]
 pub(super) struct KernelHunt(pub(super) Frontier);
-
-/// All areas up to a size, fewest cells first.
-fn areas(size: Size) -> Vec<(i16, i16)> {
-    let mut areas: Vec<(i16, i16)> =
-        (1..=size.height()).flat_map(|height| (1..=size.width()).map(move |width| (width, height))).collect();
-    areas.sort_by_key(|&(width, height)| (width * height, height));
-    areas
-}
 
 /// The size and the number of robots that are asked for.
 fn bounds(asked: &HuntRequest<'_>, most: u64) -> Result<(Size, u64), Diagnostic> {

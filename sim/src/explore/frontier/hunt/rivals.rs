@@ -7,9 +7,9 @@ use tautline_proofs::engine::cases::{self, Cases};
 use tautline_proofs::protocol::arrangements;
 
 use super::super::team::ENDS;
-use super::{SMALL, areas, bounds, report, sized};
+use super::{SMALL, bounds, report, sized};
 use crate::explore::by_layout::{Each, FoundBy};
-use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest};
+use crate::explore::hunt::{Bound, Exhibit, Finding, HuntReport, HuntRequest, areas};
 use crate::explore::states::Count;
 use crate::explore::{ClauseId, Limits, RuleId, Scheme, Setup, run, team};
 use tautline_grids::layout::Layout;
