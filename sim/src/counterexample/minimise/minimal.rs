@@ -41,32 +41,36 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// What is wrong, and the remedy.
+    fn words(&self) -> (String, String) {
+        let (what, remedy) = match self {
+            Self::Unbroken => (
+                "this run breaks no clause: there is nothing to minimise",
+                "name a counterexample of `tautline hunt`, or a trace of a run that ended `tautline explore` with \
+                 exit code 1",
+            ),
+            Self::Chosen => (
+                "a search has found this run, and nothing searches for a smaller one",
+                "draw it with `tautline replay`",
+            ),
+            Self::Otherwise { asked, broken } => {
+                let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
+                let what = format!("this run does not break {asked}: there is nothing to minimise");
+                return (what, format!("it breaks {}", broken.join(", ")));
+            }
+        };
+        (what.to_owned(), remedy.to_owned())
+    }
+
     /// The remedy.
     pub fn remedy(&self) -> String {
-        match self {
-            Self::Unbroken => "name a counterexample of `tautline hunt`, or a trace of a run that ended \
-                               `tautline explore` with exit code 1"
-                .to_owned(),
-            Self::Chosen => "draw it with `tautline replay`".to_owned(),
-            Self::Otherwise { broken, .. } => {
-                let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
-                format!("it breaks {}", broken.join(", "))
-            }
-        }
+        self.words().1
     }
 }
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
-            Self::Chosen => {
-                f.write_str("a search has found this run, and nothing searches for a smaller one")
-            }
-            Self::Otherwise { asked, .. } => {
-                write!(f, "this run does not break {asked}: there is nothing to minimise")
-            }
-        }
+        f.write_str(&self.words().0)
     }
 }
 

@@ -23,8 +23,7 @@ pub struct Extent {
     /// Blocked cells.
     pub blocked: usize,
     /// Missed sensors, of those that are named.
-    #[serde(skip_serializing_if = "is_none")]
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_none")]
     pub missed: usize,
     /// Team moves up to the one that breaks the clause.
     pub steps: u32,
@@ -158,14 +157,10 @@ impl Part {
     /// The cases that `case` can become without those in `range`, the first choice first.
     fn without(self, case: &Case, range: &Range<usize>) -> Result<Vec<Case>, Diagnostic> {
         let whole = &case.layout;
-        let mut layout = whole.clone();
+        let (mut layout, columns, rows) = (whole.clone(), whole.width(), whole.height());
         match self {
-            Self::Columns => {
-                return with_lines(case, &outside(range, whole.width()), &outside(&(0..0), whole.height()));
-            }
-            Self::Rows => {
-                return with_lines(case, &outside(&(0..0), whole.width()), &outside(range, whole.height()));
-            }
+            Self::Columns => return with_lines(case, &outside(range, columns), &outside(&(0..0), rows)),
+            Self::Rows => return with_lines(case, &outside(&(0..0), columns), &outside(range, rows)),
             Self::Blocked => {
                 let blocked = whole.cells().filter(|&cell| !whole.is_free(cell));
                 blocked.skip(range.start).take(range.len()).for_each(|cell| layout.unblock(cell));
